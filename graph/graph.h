@@ -1,0 +1,114 @@
+// The document: a graph as a person wrote it. A value; copying it is how undo works.
+//
+// Nothing here is checked against the node library (check.h does that) and nothing is compiled (compile.h).
+// Keys the program does not know are kept as JSON in `extra` and written back where they stood.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace fw {
+
+/// JSON that keeps the order of keys, so that a saved file differs from the loaded one only where it was edited.
+using Json = nlohmann::ordered_json;
+
+inline constexpr int kFormatVersion = 1;
+inline constexpr std::size_t kMaxFileBytes = 16u << 20;
+inline constexpr std::size_t kMaxNodes = 10'000;
+inline constexpr int kMaxNesting = 64;
+
+/// 1-based place in the text of the file; 0 for a document that was not read from text.
+struct TextPosition {
+    int line = 0, column = 0;
+    bool operator==(const TextPosition&) const { return true; }  // where a value stood is not part of the value
+};
+
+/// An input's source: the named output of another node; the first output if `output` is empty.
+struct Link {
+    std::string node, output;
+    bool operator==(const Link&) const = default;
+};
+
+struct InputValue {
+    /// number, boolean, string, numbers (vectors; points as x,y pairs), or link
+    std::variant<double, bool, std::string, std::vector<double>, Link> value;
+    TextPosition at;
+    bool pairs = false;  ///< numbers written as a list of pairs: [[x, y], …]
+    bool operator==(const InputValue&) const = default;
+};
+
+struct Node {
+    std::string id, type;
+    std::optional<std::array<double, 2>> at;  ///< canvas position
+    std::string label;
+    bool muted = false, collapsed = false;
+    std::string code;   ///< of an expression node
+    std::string group;  ///< of a group node: the id of the group it instances
+    std::vector<std::pair<std::string, InputValue>> inputs;
+    Json extra = Json::object();
+    TextPosition place, codePlace;
+    bool operator==(const Node&) const = default;
+
+    const InputValue* input(std::string_view name) const;
+    void set(std::string_view name, InputValue value);
+};
+
+/// An input of a group, seen inside as an output of its `group_input` node.
+struct GroupInput {
+    std::string name, type;  ///< type as in files: "float", "vec3", "surface", …
+    std::optional<InputValue> value;
+    bool operator==(const GroupInput&) const = default;
+};
+
+/// An output of a group, seen inside as an input of its `group_output` node.
+struct GroupOutput {
+    std::string name, type;
+    bool operator==(const GroupOutput&) const = default;
+};
+
+/// A reusable subgraph. Its node of type group_input has the group's inputs as outputs; the inputs of its node of
+/// type group_output are the group's outputs.
+struct Group {
+    std::string id;
+    std::vector<GroupInput> inputs;
+    std::vector<GroupOutput> outputs;
+    std::vector<Node> nodes;
+    Json extra = Json::object();
+    TextPosition place;
+    bool operator==(const Group&) const = default;
+};
+
+/// A parameter shown to whoever plays the graph: it drives one component or the whole of a node's input.
+struct ExposedParameter {
+    std::string name;
+    std::string node, input;
+    std::optional<double> min, max;
+    Json extra = Json::object();
+    TextPosition place;
+    bool operator==(const ExposedParameter&) const = default;
+};
+
+struct Graph {
+    int version = kFormatVersion;
+    std::vector<Node> nodes;
+    std::vector<Group> groups;
+    std::vector<ExposedParameter> parameters;
+    Json scene, timeline, frames;  ///< kept as written; null if absent
+    Json extra = Json::object();   ///< unknown top-level keys
+    std::string path;              ///< file it was read from; empty if none
+    bool operator==(const Graph&) const = default;
+
+    const Node* node(std::string_view id) const;
+    Node* node(std::string_view id);
+    const Group* group(std::string_view id) const;
+};
+
+/// The entry of `nodes` with this id, or nullptr.
+const Node* findNode(const std::vector<Node>& nodes, std::string_view id);
+
+}  // namespace fw

@@ -1,0 +1,67 @@
+// The types of sockets and of values in the field language, and the class of a distance ("exactness").
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace fw {
+
+/// What flows through a socket. All but the last rows are functions of position.
+enum class Type : unsigned char {
+    boolean,
+    integer,
+    scalar,  ///< "float" in files and code
+    vec2,
+    vec3,
+    surface,  ///< distance and material: nine scalars, in the order of `SurfaceComponent`
+    string,   ///< an enum choice, a path or a text; known when the graph is compiled
+    points,   ///< a list of vec2, known when the graph is compiled
+    mesh,     ///< triangles: the result of a stage
+};
+
+/// Number of scalars that represent a value of this type in the IR; 0 for string, points and mesh.
+constexpr int componentCount(Type type) {
+    switch (type) {
+        case Type::boolean:
+        case Type::integer:
+        case Type::scalar: return 1;
+        case Type::vec2: return 2;
+        case Type::vec3: return 3;
+        case Type::surface: return 9;
+        default: return 0;
+    }
+}
+
+/// "float", "vec3", "surface", …: as written in files and in code.
+std::string_view typeName(Type type);
+
+/// Order of a surface's scalars.
+enum SurfaceComponent { distanceComponent = 0, baseColorComponent = 1, roughnessComponent = 4, metallicComponent = 5, emissionComponent = 6 };
+
+/// The material of a surface that no material node touched: base colour, roughness, metallic, emission.
+inline constexpr std::array<double, 8> kDefaultMaterial = {0.8, 0.8, 0.8, 0.5, 0.0, 0.0, 0.0, 0.0};
+
+/// How a field's value relates to the distance to its zero set (definitions: sdf.md's "exact", "bound", "distorted").
+///
+/// exact outside/inside: |f| is the distance there. Bound: 1-Lipschitz, so |f| never exceeds the distance.
+/// Distorted: the Lipschitz constant is above 1 (infinite where no constant is known).
+struct Exactness {
+    bool outside = true;     ///< exact where f > 0
+    bool inside = true;      ///< exact where f < 0
+    double lipschitz = 1.0;  ///< |f(p) - f(q)| <= lipschitz |p - q|
+
+    bool exact() const { return outside && inside && lipschitz <= 1.0; }
+    bool bound() const { return lipschitz <= 1.0; }
+    bool operator==(const Exactness&) const = default;
+};
+
+inline constexpr double kUnknownLipschitz = std::numeric_limits<double>::infinity();
+inline constexpr Exactness kExact{};
+inline constexpr Exactness kExactOutside{true, false, 1.0};
+inline constexpr Exactness kExactInside{false, true, 1.0};
+inline constexpr Exactness kBound{false, false, 1.0};
+constexpr Exactness distorted(double lipschitz = kUnknownLipschitz) { return {false, false, lipschitz}; }
+
+}  // namespace fw
