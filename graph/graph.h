@@ -1,9 +1,12 @@
 // The document: a graph as a person wrote it. A value; copying it is how undo works.
 //
 // Nothing here is checked against the node library (check.h does that) and nothing is compiled (compile.h).
-// Keys the program does not know are kept as JSON in `extra` and written back where they stood.
+// Keys the program does not know are kept as JSON in `extra` (null if there are none) and written back in the
+// same object, after the known ones.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,18 +17,23 @@
 
 namespace fw {
 
-/// JSON that keeps the order of keys, so that a saved file differs from the loaded one only where it was edited.
+/// JSON that keeps the order of keys, so that a saved file differs from the loaded one only where it was
+/// edited.
 using Json = nlohmann::ordered_json;
 
 inline constexpr int kFormatVersion = 1;
 inline constexpr std::size_t kMaxFileBytes = 16u << 20;
-inline constexpr std::size_t kMaxNodes = 10'000;
-inline constexpr int kMaxNesting = 64;
+inline constexpr std::size_t kMaxNodes = 10'000;           ///< in one file, groups included
+inline constexpr std::size_t kMaxExpandedNodes = 200'000;  ///< with every instance of a group counted
+inline constexpr std::size_t kMaxJsonValues = 2'000'000;   ///< in one file: bounds the memory of reading it
+inline constexpr int kMaxNesting = 64;  ///< of JSON arrays and objects, and of groups in groups
 
 /// 1-based place in the text of the file; 0 for a document that was not read from text.
 struct TextPosition {
     int line = 0, column = 0;
-    bool operator==(const TextPosition&) const { return true; }  // where a value stood is not part of the value
+    bool operator==(const TextPosition&) const {
+        return true;
+    }  // where a value stood is not part of the value
 };
 
 /// An input's source: the named output of another node; the first output if `output` is empty.
@@ -39,6 +47,7 @@ struct InputValue {
     std::variant<double, bool, std::string, std::vector<double>, Link> value;
     TextPosition at;
     bool pairs = false;  ///< numbers written as a list of pairs: [[x, y], …]
+    Json extra;          ///< of a link
     bool operator==(const InputValue&) const = default;
 };
 
@@ -50,35 +59,41 @@ struct Node {
     std::string code;   ///< of an expression node
     std::string group;  ///< of a group node: the id of the group it instances
     std::vector<std::pair<std::string, InputValue>> inputs;
-    Json extra = Json::object();
+    Json extra;
     TextPosition place, codePlace;
     bool operator==(const Node&) const = default;
 
+    /// The value or link the file gives for this input; nullptr if it is left to its default.
     const InputValue* input(std::string_view name) const;
+    /// Replaces the input, or adds it at the end.
     void set(std::string_view name, InputValue value);
 };
 
 /// An input of a group, seen inside as an output of its `group_input` node.
 struct GroupInput {
-    std::string name, type;  ///< type as in files: "float", "vec3", "surface", …
-    std::optional<InputValue> value;
+    std::string name, type;           ///< type as in files: "float", "vec3", "surface", …
+    std::optional<InputValue> value;  ///< default of an instance that gives none
+    Json extra;
+    TextPosition place;
     bool operator==(const GroupInput&) const = default;
 };
 
 /// An output of a group, seen inside as an input of its `group_output` node.
 struct GroupOutput {
     std::string name, type;
+    Json extra;
+    TextPosition place;
     bool operator==(const GroupOutput&) const = default;
 };
 
-/// A reusable subgraph. Its node of type group_input has the group's inputs as outputs; the inputs of its node of
-/// type group_output are the group's outputs.
+/// A reusable subgraph. Its node of type group_input has the group's inputs as outputs; the inputs of its
+/// node of type group_output are the group's outputs.
 struct Group {
     std::string id;
     std::vector<GroupInput> inputs;
     std::vector<GroupOutput> outputs;
     std::vector<Node> nodes;
-    Json extra = Json::object();
+    Json extra;
     TextPosition place;
     bool operator==(const Group&) const = default;
 };
@@ -88,7 +103,7 @@ struct ExposedParameter {
     std::string name;
     std::string node, input;
     std::optional<double> min, max;
-    Json extra = Json::object();
+    Json extra;
     TextPosition place;
     bool operator==(const ExposedParameter&) const = default;
 };
@@ -99,7 +114,7 @@ struct Graph {
     std::vector<Group> groups;
     std::vector<ExposedParameter> parameters;
     Json scene, timeline, frames;  ///< kept as written; null if absent
-    Json extra = Json::object();   ///< unknown top-level keys
+    Json extra;                    ///< unknown top-level keys
     std::string path;              ///< file it was read from; empty if none
     bool operator==(const Graph&) const = default;
 
