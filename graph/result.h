@@ -1,8 +1,8 @@
 // The project's one error type, and the value-or-error that carries it.
 //
 // Three classes of failure exist (see ARCHITECTURE.md). A bug is an assert. What a user can cause (a file, a
-// graph, code in a node, an option) is an `Error` returned inside a `Result<T>`. A failure of the device or the
-// system is a `SystemError`, thrown, and caught once, in main.
+// graph, code in a node, an option) is an `Error` returned inside a `Result<T>`. A failure of the device or
+// the system is a `SystemError`, thrown, and caught once, in main.
 #pragma once
 
 #include <cassert>
@@ -18,18 +18,19 @@ namespace fw {
 struct Error {
     enum class Severity { error, warning };
 
-    std::string message;   ///< what is wrong and what to do, one sentence, no full stop needed
-    std::string file;      ///< path as the user gave it
-    std::string node;      ///< id of the node, "group/node" inside a group
-    std::string input;     ///< name of the input of that node
-    int line = 0;          ///< 1-based line in `file`, 0 if unknown
-    int column = 0;        ///< 1-based column in `file`
-    int codeLine = 0;      ///< 1-based line inside the node's code, 0 if the finding is not about code
-    int codeColumn = 0;    ///< 1-based column inside the node's code
+    std::string message = {};  ///< what is wrong and what to do, one sentence, no full stop needed
+    std::string file = {};     ///< path as the user gave it
+    std::string node = {};     ///< id of the node, "group/node" inside a group
+    std::string input = {};    ///< name of the input of that node
+    int line = 0;              ///< 1-based line in `file`, 0 if unknown
+    int column = 0;            ///< 1-based column in `file`
+    int codeLine = 0;          ///< 1-based line inside the node's code, 0 if the finding is not about code
+    int codeColumn = 0;        ///< 1-based column inside the node's code
     Severity severity = Severity::error;
 };
 
-/// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left out.
+/// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left
+/// out.
 std::string format(const Error& error);
 
 /// A failure of the device or the system (Vulkan, memory, disk): exit status 3.
