@@ -1,5 +1,7 @@
 #include "graph/result.h"
 
+#include <algorithm>
+
 namespace fw {
 
 std::string format(const Error& error) {
@@ -16,6 +18,16 @@ std::string format(const Error& error) {
         text += "code " + std::to_string(error.codeLine) + ":" + std::to_string(error.codeColumn) + ", ";
     if (text.ends_with(", ")) text.replace(text.size() - 2, 2, ": ");
     return text + error.message;
+}
+
+std::string quoted(std::string_view name) {
+    constexpr std::size_t kLongest = 60;
+    std::size_t length = std::min(name.size(), kLongest);
+    while (length < name.size() && length > 0 && (name[length] & 0xC0) == 0x80) --length;  // whole characters
+    std::string text = "'";
+    for (const char c : name.substr(0, length))
+        text += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+    return text + (length < name.size() ? "…'" : "'");
 }
 
 }  // namespace fw

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -32,6 +33,9 @@ struct Error {
 /// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left
 /// out.
 std::string format(const Error& error);
+
+/// `name` in single quotes for a message: shortened beyond 60 bytes, control characters as '?'.
+std::string quoted(std::string_view name);
 
 /// A failure of the device or the system (Vulkan, memory, disk): exit status 3.
 struct SystemError : std::runtime_error {
