@@ -1,16 +1,17 @@
 // The node library: one table, one entry a node type, its meaning written in the field language.
 //
-// Everything that knows node types reads this table: the checker, the compiler, the expression language (every
-// node type is a function there, its arguments in the order of `inputs`), the reference page, the JSON schema and
-// the editor. Adding a node is one entry in one of the files under nodes/.
+// Everything that knows node types reads this table: the checker, the compiler, the expression language
+// (every node type is a function there, its arguments in the order of `inputs`), the reference page, the JSON
+// schema and the editor. Adding a node is one entry in one of the files under nodes/.
 //
 // A body is field-language code (language/parser.h). Its inputs are names in scope, already evaluated at the
 // context position `p`; an input of type surface, scalar, vec2 or vec3 is also callable at another position:
 // `a(vec3(abs(p.x), p.yz))`. String and points inputs are visible as compile-time values.
 //
-// What a body returns becomes the node's only output; with several outputs it returns once and assigns the
-// others by name. A scalar returned where the output is a surface gets the default material; `with_distance(s, d)`
-// is the surface `s` with its distance replaced; `mix(a, b, t)` and `c ? a : b` work on whole surfaces.
+// What a body returns becomes the node's only output; with several outputs it assigns each by name and
+// returns nothing. A scalar returned where the output is a surface gets the default material;
+// `with_distance(s, d)` is the surface `s` with its distance replaced; `mix(a, b, t)` and `c ? a : b` work on
+// whole surfaces.
 #pragma once
 
 #include <functional>
@@ -24,7 +25,17 @@
 
 namespace fw {
 
-enum class Category : unsigned char { shape, shape2d, combine, domain, field, maths, material, mesh, structure };
+enum class Category : unsigned char {
+    shape,
+    shape2d,
+    combine,
+    domain,
+    field,
+    maths,
+    material,
+    mesh,
+    structure
+};
 std::string_view categoryName(Category category);
 
 /// Default of an input where the file gives none. `position` means: the context position.
@@ -41,7 +52,7 @@ struct InputSpec {
     double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed, each component
     double max = std::numeric_limits<double>::infinity();
     std::vector<std::string> options = {};  ///< the allowed strings of an enum input
-    std::string unit = {};                  ///< "m", "degrees", "" for a plain number
+    std::string unit = {};                  ///< "m", "degrees", "color" (linear sRGB), "" for a plain number
     std::string doc = {};
     bool positive = false;  ///< must be > 0 (min alone allows equality)
 };
@@ -51,7 +62,9 @@ struct OutputSpec {
     Type type;
 };
 
-/// What an exactness rule may ask about the node it classifies.
+/// What an exactness rule may ask about the node it classifies. A rule assumes that `p` is the context
+/// position and that no number depends on position; where one does, whoever asks the rule lowers its answer
+/// to distorted().
 struct ExactnessArguments {
     /// Exactness of the named surface input; that of empty space if unconnected.
     std::function<Exactness(std::string_view)> surface;
@@ -64,6 +77,8 @@ using ExactnessRule = std::function<Exactness(const ExactnessArguments&)>;
 
 /// The rule of a shape whose class does not depend on its inputs.
 ExactnessRule always(Exactness exactness);
+/// The rule of a node that keeps the class of this surface input.
+ExactnessRule sameAs(std::string input);
 
 struct NodeType {
     std::string id;
@@ -73,8 +88,9 @@ struct NodeType {
     std::vector<InputSpec> inputs;
     std::vector<OutputSpec> outputs;
     ExactnessRule exactness = {};  ///< of the surface output; empty for nodes without one
-    std::string body = {};         ///< field language; empty for nodes the compiler treats itself (see compile.cpp)
+    std::string body = {};  ///< field language; empty for nodes the compiler treats itself (see compile.cpp)
     std::vector<std::string> aliases = {};  ///< former ids, still read; also searched by the editor
+    bool open = false;  ///< the document decides what inputs and outputs there are beside those of the table
 };
 
 /// Every node type, in the order of the reference page. Built once.
@@ -83,17 +99,12 @@ const std::vector<NodeType>& nodeTypes();
 const NodeType* findNodeType(std::string_view id);
 /// Index of the named input in `type.inputs`; -1 if there is none.
 int inputIndex(const NodeType& type, std::string_view name);
+/// Index of the named output in `type.outputs`; -1 if there is none.
+int outputIndex(const NodeType& type, std::string_view name);
 /// The id of the node type whose name is nearest by edit distance: for "did you mean". Empty if none is near.
 std::string nearestNodeType(std::string_view id);
 /// The entry of `names` nearest to `name` by edit distance; empty if none is near.
 std::string nearestName(std::string_view name, std::span<const std::string> names);
-
-// Shorthands of the tables under nodes/.
-inline InputDefault position() { return {InputDefault::Kind::position, {}, {}}; }
-inline InputDefault number(double value) { return {InputDefault::Kind::numbers, {value}, {}}; }
-inline InputDefault numbers(std::vector<double> values) { return {InputDefault::Kind::numbers, std::move(values), {}}; }
-inline InputDefault text(std::string value) { return {InputDefault::Kind::text, {}, std::move(value)}; }
-inline InputDefault unconnected() { return {}; }
 
 // The families, one file each under nodes/.
 std::vector<NodeType> shapeNodes();

@@ -1,0 +1,162 @@
+// Shorthands for the tables of this folder: the kinds of input that many nodes have, each with its type, unit
+// and range. Not for use outside graph/nodes/.
+#pragma once
+
+#include "graph/node_type.h"
+
+namespace fw {
+
+inline InputDefault numbers(std::vector<double> values) {
+    return {InputDefault::Kind::numbers, std::move(values), {}};
+}
+
+/// Where a shape is evaluated: the context position unless wired.
+inline InputSpec positionInput() {
+    return {.name = "p",
+            .type = Type::vec3,
+            .value = {InputDefault::Kind::position, {}, {}},
+            .unit = "m",
+            .doc = "Where the shape is looked up; wire a changed position here to bend or repeat space."};
+}
+
+/// A surface that another node makes; nothing (empty space) if unconnected.
+inline InputSpec surfaceInput(std::string name, std::string doc) {
+    return {.name = std::move(name), .type = Type::surface, .value = {}, .doc = std::move(doc)};
+}
+
+/// A length of at least 0.
+inline InputSpec length(std::string name, double value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::scalar,
+            .value = numbers({value}),
+            .min = 0,
+            .unit = "m",
+            .doc = std::move(doc)};
+}
+
+/// A length above 0.
+inline InputSpec positiveLength(std::string name, double value, std::string doc) {
+    InputSpec input = length(std::move(name), value, std::move(doc));
+    input.positive = true;
+    return input;
+}
+
+/// Three lengths of at least 0, along x, y and z.
+inline InputSpec lengths(std::string name, std::vector<double> value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::vec3,
+            .value = numbers(std::move(value)),
+            .min = 0,
+            .unit = "m",
+            .doc = std::move(doc)};
+}
+
+/// A length, place or height that may be negative.
+inline InputSpec coordinate(std::string name, double value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::scalar,
+            .value = numbers({value}),
+            .unit = "m",
+            .doc = std::move(doc)};
+}
+
+/// A point or a displacement.
+inline InputSpec place(std::string name, std::vector<double> value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::vec3,
+            .value = numbers(std::move(value)),
+            .unit = "m",
+            .doc = std::move(doc)};
+}
+
+/// A direction; its length does not matter.
+inline InputSpec direction(std::string name, std::vector<double> value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::vec3,
+            .value = numbers(std::move(value)),
+            .doc = std::move(doc)};
+}
+
+/// An angle in degrees within a range.
+inline InputSpec angle(std::string name, double value, double min, double max, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::scalar,
+            .value = numbers({value}),
+            .min = min,
+            .max = max,
+            .unit = "degrees",
+            .doc = std::move(doc)};
+}
+
+/// A plain number of any size.
+inline InputSpec scalar(std::string name, double value, std::string doc) {
+    return {.name = std::move(name), .type = Type::scalar, .value = numbers({value}), .doc = std::move(doc)};
+}
+
+/// A share between 0 and 1.
+inline InputSpec share(std::string name, double value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::scalar,
+            .value = numbers({value}),
+            .min = 0,
+            .max = 1,
+            .doc = std::move(doc)};
+}
+
+/// A vector of plain numbers.
+inline InputSpec vector(std::string name, std::vector<double> value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::vec3,
+            .value = numbers(std::move(value)),
+            .doc = std::move(doc)};
+}
+
+/// A colour, linear sRGB, each channel at least 0.
+inline InputSpec color(std::string name, std::vector<double> value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::vec3,
+            .value = numbers(std::move(value)),
+            .min = 0,
+            .unit = "color",
+            .doc = std::move(doc)};
+}
+
+/// A whole number within a range.
+inline InputSpec integer(std::string name, int value, int min, int max, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::integer,
+            .value = numbers({double(value)}),
+            .min = double(min),
+            .max = double(max),
+            .doc = std::move(doc)};
+}
+
+/// A switch.
+inline InputSpec toggle(std::string name, bool value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::boolean,
+            .value = numbers({value ? 1.0 : 0.0}),
+            .min = 0,
+            .max = 1,
+            .doc = std::move(doc)};
+}
+
+/// One of several words; the first is the default.
+inline InputSpec choice(std::string name, std::vector<std::string> options, std::string doc) {
+    InputDefault first{InputDefault::Kind::text, {}, options.front()};
+    return {.name = std::move(name),
+            .type = Type::string,
+            .value = std::move(first),
+            .options = std::move(options),
+            .doc = std::move(doc)};
+}
+
+/// Any text.
+inline InputSpec textInput(std::string name, std::string value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::string,
+            .value = {InputDefault::Kind::text, {}, std::move(value)},
+            .doc = std::move(doc)};
+}
+
+}  // namespace fw

@@ -1,0 +1,23 @@
+#include "graph/types.h"
+
+#include <cassert>
+
+namespace fw {
+
+std::string_view typeName(Type type) {
+    switch (type) {
+        case Type::boolean: return "bool";
+        case Type::integer: return "int";
+        case Type::scalar: return "float";
+        case Type::vec2: return "vec2";
+        case Type::vec3: return "vec3";
+        case Type::surface: return "surface";
+        case Type::string: return "string";
+        case Type::points: return "points";
+        case Type::mesh: return "mesh";
+    }
+    assert(!"every type has a name");
+    return "";
+}
+
+}  // namespace fw
