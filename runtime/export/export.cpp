@@ -1,0 +1,205 @@
+#include "runtime/export/export.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "runtime/export/formats.h"
+
+namespace fw {
+namespace {
+
+enum class Format { glb, gltf, obj, stl, ply };
+
+constexpr std::array<std::pair<const char*, Format>, 5> kFormats = {{{".glb", Format::glb},
+                                                                     {".gltf", Format::gltf},
+                                                                     {".obj", Format::obj},
+                                                                     {".stl", Format::stl},
+                                                                     {".ply", Format::ply}}};
+
+std::string lowerExtension(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension;
+}
+
+std::optional<Format> formatOf(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    for (const auto& [known, format] : kFormats)
+        if (extension == known) return format;
+    return std::nullopt;
+}
+
+/// The bounds, or nothing if some coordinate is NaN or infinite.
+std::optional<Bounds> finiteBounds(const std::vector<glm::vec3>& positions) {
+    Bounds bounds{positions[0], positions[0]};
+    glm::vec3 poison(0.0f);  // x * 0 is 0 for finite x and NaN for the rest: one test for all
+    for (const glm::vec3& p : positions) {
+        bounds.min = glm::min(bounds.min, p);
+        bounds.max = glm::max(bounds.max, p);
+        poison += p * 0.0f;
+    }
+    if (poison != glm::vec3(0.0f)) return std::nullopt;
+    return bounds;
+}
+
+bool unitLength(glm::vec3 n) {
+    const float squared = glm::dot(n, n);
+    return squared > 0.999f && squared < 1.001f;  // NaN fails
+}
+
+/// Where the field has no gradient the mesher has no normal. glTF demands one: the mean of the triangles
+/// around.
+std::vector<glm::vec3> repairedNormals(const Mesh& mesh) {
+    std::vector<glm::vec3> normals = mesh.normals;
+    for (glm::vec3& n : normals)
+        if (!unitLength(n)) n = glm::vec3(0.0f);
+    std::vector<glm::vec3> sums(normals.size(), glm::vec3(0.0f));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const uint32_t* corner = &mesh.indices[i];
+        const glm::vec3 a = mesh.positions[corner[0]];
+        const glm::vec3 area = glm::cross(mesh.positions[corner[1]] - a, mesh.positions[corner[2]] - a);
+        for (int k = 0; k < 3; ++k) sums[corner[k]] += area;
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (normals[i] != glm::vec3(0.0f)) continue;
+        const glm::vec3 n = glm::normalize(sums[i]);
+        normals[i] = unitLength(n) ? n : glm::vec3(0.0f, 1.0f, 0.0f);
+    }
+    return normals;
+}
+
+std::string percentEncoded(const std::string& name) {
+    constexpr char kHex[] = "0123456789ABCDEF";
+    std::string uri;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                           std::string_view("-._~").find(c) != std::string_view::npos;
+        if (plain) {
+            uri += c;
+        } else {
+            uri += '%';
+            uri += kHex[byte >> 4];
+            uri += kHex[byte & 15];
+        }
+    }
+    return uri;
+}
+
+/// Names stand on a line of their own in OBJ and in JSON: control characters and broken UTF-8 must not reach
+/// them.
+std::string printable(const std::string& name) {
+    std::string text;
+    for (const char c : name) text += (c > ' ' && c < 127) ? c : '_';
+    return text.empty() ? "mesh" : text;
+}
+
+Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, const std::string& besidePath,
+                                OutputFile* beside) {
+    ExportedFiles files{{path}, file.size()};
+    if (beside) {
+        // The file asked for goes last: when it is there, all of the export is.
+        if (Done finished = file.finish(); !finished) return finished.error();
+        if (Done committed = beside->commit(); !committed) return committed.error();
+        files.paths.push_back(besidePath);
+        files.bytes += beside->size();
+    }
+    if (Done committed = file.commit(); !committed) return committed.error();
+    return files;
+}
+
+}  // namespace
+
+Done checkExportPath(const std::string& path) {
+    if (formatOf(path)) return done();
+    const std::string extension = lowerExtension(path);
+    std::string message = extension.empty() ? "the file needs an extension that names its format: "
+                                            : "unknown format '" + extension + "'; known are ";
+    for (std::size_t i = 0; i < kFormats.size(); ++i) {
+        if (i > 0) message += i + 1 < kFormats.size() ? ", " : " and ";
+        message += kFormats[i].first;
+    }
+    return Error{.message = message, .file = path};
+}
+
+Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
+    const auto refuse = [&](std::string message) {
+        return Error{.message = std::move(message), .file = path};
+    };
+    if (Done known = checkExportPath(path); !known) return known.error();
+    const Format format = *formatOf(path);
+    assert(mesh.indices.size() % 3 == 0);
+    assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
+    assert(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
+
+    if (mesh.indices.empty() || mesh.positions.empty())
+        return refuse("nothing to export: the surface has no triangle inside the region");
+    if (mesh.positions.size() > 0x7fffffffu || mesh.triangleCount() > 0xffffffffu)
+        return refuse("the mesh is too large for this format; lower the resolution");
+    if (*std::max_element(mesh.indices.begin(), mesh.indices.end()) >= mesh.positions.size())
+        return refuse("the mesh refers to a vertex that it does not have");
+    const std::optional<Bounds> bounds = finiteBounds(mesh.positions);
+    if (!bounds)
+        return refuse("the mesh has a vertex that is not finite; the field is infinite or undefined there");
+    if (std::any_of(mesh.normals.begin(), mesh.normals.end(), [](glm::vec3 n) { return !unitLength(n); })) {
+        Mesh repaired = mesh;
+        repaired.normals = repairedNormals(mesh);
+        return exportMesh(repaired, path, options);
+    }
+
+    const std::filesystem::path full(path);
+    const std::string name = printable(options.name.empty() ? full.stem().string() : options.name);
+    Result<OutputFile> file = OutputFile::open(path, options.cancel);
+    if (!file) return file.error();
+
+    if (format == Format::gltf || format == Format::obj) {
+        std::filesystem::path besidePath = full;
+        besidePath.replace_extension(format == Format::gltf ? ".bin" : ".mtl");
+        Result<OutputFile> beside = OutputFile::open(besidePath.string(), options.cancel);
+        if (!beside) return beside.error();
+        const std::string besideName = besidePath.filename().string();
+        if (format == Format::gltf)
+            writeGltf(mesh, *bounds, name, percentEncoded(besideName), *file, *beside);
+        else
+            writeObj(mesh, name, besideName, *file, *beside);
+        return commitAll(path, *file, besidePath.string(), &*beside);
+    }
+    switch (format) {
+        case Format::glb:
+            if (!writeGlb(mesh, *bounds, name, *file))
+                return refuse("the mesh exceeds the 4 GiB of a GLB; write .gltf or lower the resolution");
+            break;
+        case Format::stl: writeStl(mesh, *file); break;
+        case Format::ply: writePly(mesh, *file); break;
+        default: break;
+    }
+    return commitAll(path, *file, {}, nullptr);
+}
+
+std::string generatorName() { return std::string("Fieldwright ") + FIELDWRIGHT_VERSION; }
+
+unsigned char encodeSrgb(float linear) {
+    // thresholds[i] is the linear value halfway between the codes i and i + 1: nearest rounding without a
+    // power a call.
+    static const std::array<float, 255> thresholds = [] {
+        std::array<float, 255> limits{};
+        for (int i = 0; i < 255; ++i) {
+            const double code = (i + 0.5) / 255.0;
+            limits[static_cast<std::size_t>(i)] =
+                static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
+        }
+        return limits;
+    }();
+    return static_cast<unsigned char>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -
+                                      thresholds.begin());
+}
+
+}  // namespace fw

@@ -1,0 +1,47 @@
+// Writes a mesh to a file of the format that the file's extension names.
+//
+// Why it is built as it is: a mesh of 256 cells a side holds 600,000 triangles and the whole process has 0.25
+// s, so the writers hand the mesh's own arrays to the system where the format allows and format the rest in
+// small chunks. No copy of the file is ever held in memory.
+//
+// What is guaranteed: the file appears under its name whole or not at all (output_file.h). On any failure the
+// temporary file is removed and a file that stood there before is as it was. glTF and OBJ have a second file
+// (.bin, .mtl): two renames, that one first.
+//
+// Positions are metres, +Y up, in every format. Colours: glTF holds them linear, as its specification asks;
+// PLY, OBJ and MTL hold them sRGB-encoded, as the programs that read them expect.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "graph/result.h"
+#include "runtime/mesh.h"
+
+namespace fw {
+
+struct ExportOptions {
+    std::string name = {};  ///< of the object inside the file; the file's stem if empty
+    const std::atomic<bool>* cancel =
+        nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
+};
+
+/// What an export left on disk.
+struct ExportedFiles {
+    std::vector<std::string> paths;  ///< the file asked for, then the one beside it if the format has one
+    uint64_t bytes = 0;              ///< of all of them
+};
+
+/// Writes `mesh` to `path`; the extension (.glb, .gltf, .obj, .stl, .ply, in any case) picks the format.
+/// Errors name the path: unknown extension, empty mesh, index or coordinate out of range, unwritable folder,
+/// full disk, cancelled. Normals that are not unit vectors are replaced by those of the triangles around.
+Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
+                                 const ExportOptions& options = {});
+
+/// Refuses, before any work is done, a path whose extension exportMesh does not know; the message lists those
+/// it does.
+Done checkExportPath(const std::string& path);
+
+}  // namespace fw

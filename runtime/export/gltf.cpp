@@ -1,0 +1,195 @@
+// glTF 2.0, core features only: one node, one mesh, one primitive, one material.
+//
+// The JSON comes from tinygltf. The binary part is streamed beside it, block after block (positions, normals,
+// colours, indices), straight from the mesh's arrays: tinygltf would hold it two more times. Colours are
+// normalised 16-bit RGBA, because 8 bits of linear light band visibly in the dark and floats take twice the
+// room.
+//
+// An emission above 1 is the one thing the core cannot say; KHR_materials_emissive_strength says it.
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "runtime/export/formats.h"
+
+namespace fw {
+namespace {
+
+constexpr std::size_t kChunk = 16384;  // vertices or indices converted at a time
+
+struct Layout {
+    uint64_t vertices = 0, indices = 0;
+    bool normals = false, colors = false, shortIndices = false;
+    uint64_t indexBytes() const { return indices * (shortIndices ? 2 : 4); }
+    uint64_t bytes() const { return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0)) + indexBytes(); }
+};
+
+Layout layoutOf(const Mesh& mesh) {
+    // 65535 is the restart value and may not be an index.
+    return {mesh.positions.size(), mesh.indices.size(), !mesh.normals.empty(), !mesh.colors.empty(),
+            mesh.positions.size() <= 65535};
+}
+
+tinygltf::Material materialOf(const Mesh& mesh) {
+    tinygltf::Material material;
+    const glm::vec3 color = mesh.colors.empty() ? mesh.baseColor : glm::vec3(1.0f);
+    material.pbrMetallicRoughness.baseColorFactor = {std::clamp(color.x, 0.0f, 1.0f),
+                                                     std::clamp(color.y, 0.0f, 1.0f),
+                                                     std::clamp(color.z, 0.0f, 1.0f), 1.0};
+    material.pbrMetallicRoughness.roughnessFactor = std::clamp(mesh.roughness, 0.0f, 1.0f);
+    material.pbrMetallicRoughness.metallicFactor = std::clamp(mesh.metallic, 0.0f, 1.0f);
+    const glm::vec3 emission = glm::max(mesh.emission, glm::vec3(0.0f));
+    const float strength = std::max({1.0f, emission.x, emission.y, emission.z});
+    material.emissiveFactor = {emission.x / strength, emission.y / strength, emission.z / strength};
+    if (strength > 1.0f) {
+        tinygltf::Value::Object value{{"emissiveStrength", tinygltf::Value(static_cast<double>(strength))}};
+        material.extensions["KHR_materials_emissive_strength"] = tinygltf::Value(value);
+    }
+    return material;
+}
+
+/// The JSON; its one buffer has the given uri, or none where the binary part follows in the same file.
+std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const std::string& uri) {
+    const Layout layout = layoutOf(mesh);
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = generatorName();
+
+    uint64_t offset = 0;
+    const auto addView = [&](uint64_t bytes, int target) {
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        view.byteOffset = offset;
+        view.byteLength = bytes;
+        view.target = target;
+        model.bufferViews.push_back(view);
+        offset += bytes;
+        return static_cast<int>(model.bufferViews.size()) - 1;
+    };
+    const auto addAccessor = [&](int view, int componentType, int type,
+                                 uint64_t count) -> tinygltf::Accessor& {
+        tinygltf::Accessor accessor;
+        accessor.bufferView = view;
+        accessor.componentType = componentType;
+        accessor.type = type;
+        accessor.count = count;
+        return model.accessors.emplace_back(accessor);
+    };
+    const auto lastAccessor = [&] { return static_cast<int>(model.accessors.size()) - 1; };
+
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = 0;
+    tinygltf::Accessor& positions =
+        addAccessor(addView(layout.vertices * 12, TINYGLTF_TARGET_ARRAY_BUFFER),
+                    TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, layout.vertices);
+    // A float is a double exactly and the JSON holds doubles that read back exactly.
+    positions.minValues = {bounds.min.x, bounds.min.y, bounds.min.z};
+    positions.maxValues = {bounds.max.x, bounds.max.y, bounds.max.z};
+    primitive.attributes["POSITION"] = lastAccessor();
+    if (layout.normals) {
+        addAccessor(addView(layout.vertices * 12, TINYGLTF_TARGET_ARRAY_BUFFER),
+                    TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, layout.vertices);
+        primitive.attributes["NORMAL"] = lastAccessor();
+    }
+    if (layout.colors) {
+        addAccessor(addView(layout.vertices * 8, TINYGLTF_TARGET_ARRAY_BUFFER),
+                    TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4, layout.vertices)
+            .normalized = true;
+        primitive.attributes["COLOR_0"] = lastAccessor();
+    }
+    addAccessor(
+        addView(layout.indexBytes(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
+        layout.shortIndices ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+        TINYGLTF_TYPE_SCALAR, layout.indices);
+    primitive.indices = lastAccessor();
+
+    tinygltf::Material material = materialOf(mesh);
+    material.name = name;
+    for (const auto& extension : material.extensions) model.extensionsUsed.push_back(extension.first);
+    model.materials.push_back(material);
+    tinygltf::Mesh object;
+    object.name = name;
+    object.primitives.push_back(primitive);
+    model.meshes.push_back(object);
+    tinygltf::Node node;
+    node.name = name;
+    node.mesh = 0;
+    model.nodes.push_back(node);
+    tinygltf::Scene scene;
+    scene.nodes = {0};
+    model.scenes.push_back(scene);
+    model.defaultScene = 0;
+
+    std::ostringstream text;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, false, false);
+    // tinygltf derives a buffer from bytes that it holds; ours are not in memory, so the buffer is named
+    // here.
+    auto document = nlohmann::json::parse(text.str());
+    document["buffers"][0]["byteLength"] = layout.bytes();
+    if (!uri.empty()) document["buffers"][0]["uri"] = uri;
+    return uri.empty() ? document.dump() : document.dump(2) + "\n";
+}
+
+uint16_t unit16(float value) {
+    return value > 0.0f ? static_cast<uint16_t>(std::min(value, 1.0f) * 65535.0f + 0.5f)
+                        : uint16_t{0};  // NaN: 0
+}
+
+void writeBinary(const Mesh& mesh, OutputFile& file) {
+    file.write(std::span(mesh.positions));
+    file.write(std::span(mesh.normals));
+    std::vector<std::array<uint16_t, 4>> colors;
+    for (std::size_t first = 0; first < mesh.colors.size() && file.good(); first += kChunk) {
+        colors.clear();
+        for (std::size_t i = first; i < std::min(first + kChunk, mesh.colors.size()); ++i) {
+            const glm::vec3 c = mesh.colors[i];
+            colors.push_back({unit16(c.x), unit16(c.y), unit16(c.z), 65535});
+        }
+        file.write(std::span<const std::array<uint16_t, 4>>(colors));
+    }
+    if (!layoutOf(mesh).shortIndices) {
+        file.write(std::span(mesh.indices));
+        return;
+    }
+    std::vector<uint16_t> narrow;
+    for (std::size_t first = 0; first < mesh.indices.size() && file.good(); first += kChunk) {
+        const std::size_t last = std::min(first + kChunk, mesh.indices.size());
+        narrow.clear();
+        for (std::size_t i = first; i < last; ++i) narrow.push_back(static_cast<uint16_t>(mesh.indices[i]));
+        file.write(std::span<const uint16_t>(narrow));
+    }
+}
+
+}  // namespace
+
+bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, OutputFile& file) {
+    std::string json = jsonOf(mesh, bounds, name, {});
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const uint64_t binary = layoutOf(mesh).bytes();
+    const uint64_t padded = (binary + 3) / 4 * 4;
+    const uint64_t total = 12 + 8 + json.size() + 8 + padded;
+    if (total > 0xffffffffu) return false;
+    const std::array<uint32_t, 5> head = {0x46546C67, 2, static_cast<uint32_t>(total),
+                                          static_cast<uint32_t>(json.size()),
+                                          0x4E4F534A};  // "glTF", version, length; length, "JSON"
+    const std::array<uint32_t, 2> chunk = {static_cast<uint32_t>(padded), 0x004E4942};  // length, "BIN"
+    file.write(std::span<const uint32_t>(head));
+    file.write(json);
+    file.write(std::span<const uint32_t>(chunk));
+    writeBinary(mesh, file);
+    file.write("\0\0\0", padded - binary);
+    return true;
+}
+
+void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const std::string& binaryUri,
+               OutputFile& file, OutputFile& binary) {
+    file.write(jsonOf(mesh, bounds, name, binaryUri));
+    writeBinary(mesh, binary);
+}
+
+}  // namespace fw

@@ -1,0 +1,142 @@
+// Wavefront OBJ and its material file.
+//
+// Numbers are the shortest text that reads back as the same float, so the file loses nothing. Vertex colours
+// follow the position ("v x y z r g b"), the extension that MeshLab, Blender and ZBrush share, sRGB-encoded.
+// The material file carries the factors: Kd, and Pr, Pm, Ke of the PBR extension that Blender and others
+// read.
+//
+// Formatting is what costs here, so two threads format alternate blocks while their texts go out in order.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <functional>
+#include <future>
+#include <vector>
+
+#include "runtime/export/formats.h"
+
+namespace fw {
+namespace {
+
+constexpr std::size_t kBlock = 8192;  // lines formatted at a time
+constexpr std::size_t kLongestLine =
+    128;  // "v" and six floats of at most 15 characters; "f" and six indices of 10
+
+char* put(char* out, float value) { return std::to_chars(out, out + 24, value).ptr; }
+char* put(char* out, uint32_t value) { return std::to_chars(out, out + 12, value).ptr; }
+
+char* putVector(char* out, const char* key, glm::vec3 v) {
+    while (*key) *out++ = *key++;
+    for (int k = 0; k < 3; ++k) {
+        *out++ = ' ';
+        out = put(out, v[k]);
+    }
+    return out;
+}
+
+/// Colour codes are 8 bit: three digits say all of them.
+char* putColor(char* out, glm::vec3 color) {
+    for (int k = 0; k < 3; ++k) {
+        const unsigned code = (encodeSrgb(color[k]) * 1000u + 127u) / 255u;
+        *out++ = ' ';
+        *out++ = static_cast<char>('0' + code / 1000);
+        *out++ = '.';
+        *out++ = static_cast<char>('0' + code / 100 % 10);
+        *out++ = static_cast<char>('0' + code / 10 % 10);
+        *out++ = static_cast<char>('0' + code % 10);
+    }
+    return out;
+}
+
+using FormatLine = std::function<char*(char* out, std::size_t first, std::size_t last)>;
+
+/// Writes lines 0..count; `format` appends lines first..last to `out` and returns the end.
+void writeLines(std::size_t count, const FormatLine& format, OutputFile& file) {
+    const auto formatBlock = [&](std::size_t first, std::vector<char>& text) -> std::size_t {
+        text.resize(kBlock * kLongestLine);
+        return static_cast<std::size_t>(format(text.data(), first, std::min(first + kBlock, count)) -
+                                        text.data());
+    };
+    std::array<std::vector<char>, 2> texts;
+    for (std::size_t first = 0; first < count && file.good(); first += 2 * kBlock) {
+        std::future<std::size_t> second;
+        if (first + kBlock < count)
+            second = std::async(std::launch::async, formatBlock, first + kBlock, std::ref(texts[1]));
+        const std::size_t size = formatBlock(first, texts[0]);
+        file.write(texts[0].data(), size);
+        if (second.valid()) {
+            const std::size_t secondSize = second.get();
+            file.write(texts[1].data(), secondSize);
+        }
+    }
+}
+
+void writeMaterial(const Mesh& mesh, const std::string& name, OutputFile& library) {
+    const auto linear = [](glm::vec3 v) {
+        std::array<char, kLongestLine> text{};
+        return std::string(text.data(), putVector(text.data(), "", v));
+    };
+    const auto encoded = [](glm::vec3 v) {
+        std::array<char, kLongestLine> text{};
+        return std::string(text.data(), putColor(text.data(), v));
+    };
+    const glm::vec3 base = mesh.colors.empty() ? mesh.baseColor : glm::vec3(1.0f);
+    library.write("# " + generatorName() + "\nnewmtl " + name + "\n");
+    library.write("Kd" + encoded(base) + "\nPr " + std::to_string(mesh.roughness) + "\nPm " +
+                  std::to_string(mesh.metallic) + "\n");
+    if (mesh.emission != glm::vec3(0.0f)) library.write("Ke" + linear(mesh.emission) + "\n");
+}
+
+}  // namespace
+
+void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
+              OutputFile& library) {
+    writeMaterial(mesh, name, library);
+    file.write("# " + generatorName() + ", metres, +Y up\nmtllib " + libraryName + "\no " + name + "\n");
+    writeLines(
+        mesh.positions.size(),
+        [&](char* out, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                out = putVector(out, "v", mesh.positions[i]);
+                if (!mesh.colors.empty()) out = putColor(out, mesh.colors[i]);
+                *out++ = '\n';
+            }
+            return out;
+        },
+        file);
+    writeLines(
+        mesh.normals.size(),
+        [&](char* out, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                out = putVector(out, "vn", mesh.normals[i]);
+                *out++ = '\n';
+            }
+            return out;
+        },
+        file);
+    file.write("usemtl " + name + "\n");
+    const bool normals = !mesh.normals.empty();
+    writeLines(
+        mesh.triangleCount(),
+        [&](char* out, std::size_t first, std::size_t last) {
+            for (std::size_t i = first * 3; i < last * 3; ++i) {
+                if (i % 3 == 0) *out++ = 'f';
+                *out++ = ' ';
+                const char* index = out;
+                out = put(out, mesh.indices[i] + 1);
+                if (normals) {  // "7//7"
+                    const auto digits = static_cast<std::size_t>(out - index);
+                    *out++ = '/';
+                    *out++ = '/';
+                    std::memcpy(out, index, digits);
+                    out += digits;
+                }
+                if (i % 3 == 2) *out++ = '\n';
+            }
+            return out;
+        },
+        file);
+}
+
+}  // namespace fw

@@ -1,0 +1,65 @@
+// Binary little-endian PLY: a text header, then vertices (position, normal, colour), then faces.
+//
+// Colours are 8-bit sRGB, as every reader of "red green blue" takes them; a mesh without vertex colours
+// states its base colour so that it does not look different from the glTF.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <vector>
+
+#include "runtime/export/formats.h"
+
+namespace fw {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the writers copy memory into little-endian files");
+
+struct Rgb {
+    unsigned char r, g, b;
+};
+
+Rgb encode(glm::vec3 color) { return {encodeSrgb(color.x), encodeSrgb(color.y), encodeSrgb(color.z)}; }
+
+}  // namespace
+
+void writePly(const Mesh& mesh, OutputFile& file) {
+    constexpr std::size_t kChunk = 8192;
+    const bool normals = !mesh.normals.empty();
+    std::string header =
+        "ply\nformat binary_little_endian 1.0\ncomment " + generatorName() + ", metres, +Y up\n";
+    header += "element vertex " + std::to_string(mesh.positions.size()) + "\n";
+    header += "property float x\nproperty float y\nproperty float z\n";
+    if (normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
+    header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    header += "element face " + std::to_string(mesh.triangleCount()) + "\n";
+    header += "property list uchar int vertex_indices\nend_header\n";
+    file.write(header);
+
+    const std::size_t stride = normals ? 27 : 15;
+    std::vector<char> chunk(kChunk * std::max<std::size_t>(stride, 13));
+    glm::vec3 lastColor = mesh.baseColor;  // neighbours mostly share a colour: encode it once
+    Rgb lastCode = encode(lastColor);
+    for (std::size_t first = 0; first < mesh.positions.size() && file.good(); first += kChunk) {
+        const std::size_t last = std::min(first + kChunk, mesh.positions.size());
+        char* out = chunk.data();
+        for (std::size_t i = first; i < last; ++i, out += stride) {
+            std::memcpy(out, &mesh.positions[i], 12);
+            if (normals) std::memcpy(out + 12, &mesh.normals[i], 12);
+            if (!mesh.colors.empty() && mesh.colors[i] != lastColor)
+                lastCode = encode(lastColor = mesh.colors[i]);
+            std::memcpy(out + stride - 3, &lastCode, 3);
+        }
+        file.write(chunk.data(), (last - first) * stride);
+    }
+    for (std::size_t first = 0; first < mesh.triangleCount() && file.good(); first += kChunk) {
+        const std::size_t last = std::min(first + kChunk, mesh.triangleCount());
+        char* out = chunk.data();
+        for (std::size_t i = first; i < last; ++i, out += 13) {
+            out[0] = 3;
+            std::memcpy(out + 1, &mesh.indices[i * 3], 12);
+        }
+        file.write(chunk.data(), (last - first) * 13);
+    }
+}
+
+}  // namespace fw
