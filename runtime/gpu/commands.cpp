@@ -1,0 +1,178 @@
+#include "runtime/gpu/commands.h"
+
+#include <algorithm>
+
+namespace fw {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr uint32_t kMostStages = 64;
+
+void begin(Commands& commands) {
+    auto info = zeroed<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands.handle, &info), "recording commands");
+}
+
+/// Ends, runs and awaits what is recorded; returns the wall clock time of that in ms.
+double run(Commands& commands) {
+    const Device& device = commands.device;
+    check(vkEndCommandBuffer(commands.handle), "recording commands");
+    auto buffer = zeroed<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
+    buffer.commandBuffer = commands.handle;
+    auto info = zeroed<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &buffer;
+    Clock::time_point start = Clock::now();
+    check(vkQueueSubmit2(device.queue, 1, &info, device.fence), "submitting work to the device");
+    check(vkWaitForFences(device.handle, 1, &device.fence, VK_TRUE, UINT64_MAX), "waiting for the device");
+    double elapsed = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    check(vkResetFences(device.handle, 1, &device.fence), "resetting a fence");
+    return elapsed;
+}
+
+void allocate(Commands& commands) {
+    auto info = zeroed<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    info.commandPool = commands.device.commandPool;
+    info.commandBufferCount = 1;
+    check(vkAllocateCommandBuffers(commands.device.handle, &info, &commands.handle),
+          "allocating a command buffer");
+    begin(commands);
+}
+
+void writeTimestamp(Commands& commands) {
+    vkCmdWriteTimestamp2(commands.handle, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, commands.queries,
+                         uint32_t(commands.stages.size()));
+}
+
+}  // namespace
+
+Commands::Commands(const Device& owner, bool wantTimes) : device(owner), timed(wantTimes) {
+    allocate(*this);
+    if (timed && device.timestamps) {
+        auto info = zeroed<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+        info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+        info.queryCount = kMostStages + 1;
+        check(vkCreateQueryPool(device.handle, &info, nullptr, &queries), "creating timestamp queries");
+        vkCmdResetQueryPool(handle, queries, 0, kMostStages + 1);
+    }
+}
+
+Commands::~Commands() {
+    if (queries) vkDestroyQueryPool(device.handle, queries, nullptr);
+    vkFreeCommandBuffers(device.handle, device.commandPool, 1, &handle);
+}
+
+void beginStage(Commands& commands, const char* name) {
+    if (!commands.timed) return;
+    assert(commands.stages.size() < kMostStages);
+    if (commands.queries) {
+        writeTimestamp(commands);
+    } else {
+        // What is recorded so far belongs to the stage before, or to none.
+        double elapsed = run(commands);
+        if (commands.stageOpen) commands.stages.back().milliseconds = elapsed;
+        vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
+        allocate(commands);
+    }
+    commands.stages.push_back({name, 0});
+    commands.stageOpen = true;
+}
+
+void barrier(Commands& commands) {
+    auto memory = zeroed<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+    memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
+    memory.dstAccessMask =
+        VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT;
+    auto info = zeroed<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &memory;
+    vkCmdPipelineBarrier2(commands.handle, &info);
+}
+
+void imageBarrier(Commands& commands, const Image& image, VkImageLayout from, VkImageLayout to) {
+    auto memory = zeroed<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
+    memory.srcStageMask = memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    memory.oldLayout = from;
+    memory.newLayout = to;
+    memory.srcQueueFamilyIndex = memory.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    memory.image = image.handle;
+    memory.subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    auto info = zeroed<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &memory;
+    vkCmdPipelineBarrier2(commands.handle, &info);
+}
+
+void fill(Commands& commands, const Buffer& buffer, uint32_t word, VkDeviceSize offset, VkDeviceSize size) {
+    vkCmdFillBuffer(commands.handle, buffer.handle, offset, size, word);
+}
+
+void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::size_t pushSize,
+          std::span<const Descriptor> descriptors) {
+    VkPipelineBindPoint point = pipeline.shader.stages == VK_SHADER_STAGE_COMPUTE_BIT
+                                    ? VK_PIPELINE_BIND_POINT_COMPUTE
+                                    : VK_PIPELINE_BIND_POINT_GRAPHICS;
+    vkCmdBindPipeline(commands.handle, point, pipeline.handle);
+    assert(pushSize == pipeline.shader.pushConstantSize && "push constants do not match the shader's");
+    if (pushSize)
+        vkCmdPushConstants(commands.handle, pipeline.layout, pipeline.shader.stages, 0, uint32_t(pushSize),
+                           push);
+
+    std::array<VkWriteDescriptorSet, 32> writes;
+    uint32_t count = 0;
+    for (const ShaderBinding& declared : pipeline.shader.bindings) {
+        auto given = std::find_if(descriptors.begin(), descriptors.end(),
+                                  [&](const Descriptor& d) { return d.binding == declared.binding; });
+        assert(given != descriptors.end() && "a binding of the shader is not given");
+        assert((declared.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
+                given->buffer.range <= commands.device.properties.limits.maxStorageBufferRange) &&
+               "a storage buffer is larger than the device can bind: give a range");
+        VkWriteDescriptorSet& write = writes[count++];
+        write = zeroed<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstBinding = declared.binding;
+        write.descriptorCount = 1;
+        write.descriptorType = declared.type;
+        write.pBufferInfo = &given->buffer;
+        write.pImageInfo = &given->image;
+    }
+    if (count)
+        commands.device.pushDescriptors(commands.handle, point, pipeline.layout, 0, count, writes.data());
+}
+
+void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
+              std::size_t pushSize, std::span<const Descriptor> descriptors) {
+    bind(commands, pipeline, push, pushSize, descriptors);
+    vkCmdDispatch(commands.handle, groups.x, groups.y, groups.z);
+}
+
+void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,
+                      VkDeviceSize offset, const void* push, std::size_t pushSize,
+                      std::span<const Descriptor> descriptors) {
+    bind(commands, pipeline, push, pushSize, descriptors);
+    vkCmdDispatchIndirect(commands.handle, arguments.handle, offset);
+}
+
+void submit(Commands& commands) {
+    if (commands.queries) writeTimestamp(commands);
+    double elapsed = run(commands);
+    if (!commands.stageOpen) return;
+    if (!commands.queries) {
+        commands.stages.back().milliseconds = elapsed;
+        return;
+    }
+    std::vector<uint64_t> ticks(commands.stages.size() + 1);
+    check(vkGetQueryPoolResults(commands.device.handle, commands.queries, 0, uint32_t(ticks.size()),
+                                ticks.size() * 8, ticks.data(), 8,
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "reading timestamps");
+    for (std::size_t i = 0; i < commands.stages.size(); ++i)
+        commands.stages[i].milliseconds =
+            double(ticks[i + 1] - ticks[i]) * commands.device.properties.limits.timestampPeriod * 1e-6;
+}
+
+}  // namespace fw

@@ -1,0 +1,104 @@
+// Recording work, submitting it, and the time of each of its named stages.
+//
+// One command buffer, recorded and submitted once. `dispatch` checks what it is given against what the shader
+// declares. Stage times: on a GPU timestamp queries around each stage; on a software device, whose timestamps
+// lie, a timed recording is submitted and awaited stage by stage and the wall clock is read, which costs some
+// 50 microseconds a stage. An untimed recording is one submission.
+#pragma once
+
+#include <chrono>
+#include <glm/vec3.hpp>
+
+#include "runtime/gpu/resources.h"
+#include "runtime/gpu/shader.h"
+
+namespace fw {
+
+struct StageTime {
+    std::string name;
+    double milliseconds = 0;
+};
+
+/// A command buffer while it is recorded. Move-only in effect: it is made, filled, submitted and dies in one
+/// place.
+struct Commands {
+    explicit Commands(const Device& device, bool timed = false);
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+    ~Commands();
+
+    const Device& device;
+    VkCommandBuffer handle = VK_NULL_HANDLE;
+    bool timed = false;
+    std::vector<StageTime> stages;         ///< complete after submit, in order of recording
+    VkQueryPool queries = VK_NULL_HANDLE;  ///< GPU only
+    bool stageOpen = false;
+};
+
+/// A resource for one binding of a shader.
+struct Descriptor {
+    uint32_t binding = 0;
+    VkDescriptorBufferInfo buffer = {};
+    VkDescriptorImageInfo image = {};
+
+    /// The whole buffer, or `size` bytes from `offset`. At most maxStorageBufferRange bytes can be bound.
+    Descriptor(uint32_t bindingNumber, const Buffer& b, VkDeviceSize offset = 0,
+               VkDeviceSize size = VK_WHOLE_SIZE)
+        : binding(bindingNumber), buffer{b.handle, offset, size == VK_WHOLE_SIZE ? b.size - offset : size} {}
+    Descriptor(uint32_t bindingNumber, VkImageView view, VkImageLayout layout,
+               VkSampler sampler = VK_NULL_HANDLE)
+        : binding(bindingNumber), image{sampler, view, layout} {}
+};
+
+/// Starts a named stage, which lasts until the next one or the submission. Nothing happens in an untimed
+/// recording.
+void beginStage(Commands& commands, const char* name);
+
+/// Everything recorded before is done and visible to everything recorded after, host reads included.
+void barrier(Commands& commands);
+
+/// The same for one image, which also changes its layout; `from` may be VK_IMAGE_LAYOUT_UNDEFINED to drop the
+/// content.
+void imageBarrier(Commands& commands, const Image& image, VkImageLayout from, VkImageLayout to);
+
+/// Sets `size` bytes from `offset` (multiples of 4) to a repeated word.
+void fill(Commands& commands, const Buffer& buffer, uint32_t word, VkDeviceSize offset = 0,
+          VkDeviceSize size = VK_WHOLE_SIZE);
+
+/// Binds the pipeline with its push constants and resources. Every binding of the shader must be among
+/// `descriptors`; those that the shader lacks are passed over, so a caller can give the parameter buffer
+/// whether or not the field reads it.
+void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::size_t pushSize,
+          std::span<const Descriptor> descriptors);
+
+/// Runs a compute shader over `groups` work groups.
+void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
+              std::size_t pushSize, std::span<const Descriptor> descriptors);
+
+/// The same with the three group counts read from `arguments` at `offset` when it runs.
+void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,
+                      VkDeviceSize offset, const void* push, std::size_t pushSize,
+                      std::span<const Descriptor> descriptors);
+
+/// As above, with a struct for the push constants.
+template <class Push>
+void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const Push& push,
+              std::span<const Descriptor> descriptors) {
+    dispatch(commands, pipeline, groups, &push, sizeof(Push), descriptors);
+}
+template <class Push>
+void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,
+                      VkDeviceSize offset, const Push& push, std::span<const Descriptor> descriptors) {
+    dispatchIndirect(commands, pipeline, arguments, offset, &push, sizeof(Push), descriptors);
+}
+
+/// Ends the recording, runs it and waits for it. Fills `commands.stages` if it is timed. Throws SystemError
+/// if the device is lost.
+void submit(Commands& commands);
+
+/// Group count that covers `items` with `perGroup` each.
+constexpr uint32_t groupsFor(uint64_t items, uint32_t perGroup) {
+    return uint32_t((items + perGroup - 1) / perGroup);
+}
+
+}  // namespace fw

@@ -1,0 +1,109 @@
+// The Vulkan device: one instance, one physical device, one queue that does everything.
+//
+// A plain move-only struct in the manner of niagara: handles and what was found out about the device, no
+// framework around them. It outlives every Buffer, Image, Pipeline and Commands made from it. Recording and
+// submitting belong to one thread at a time; creating pipelines and resources may run on several.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "graph/result.h"
+
+namespace fw {
+
+struct DeviceOptions {
+    std::string pick;  ///< index in listDevices() or part of a name, without regard to case; empty: chosen
+    bool validation =
+        false;  ///< load the validation layer; FIELDWRIGHT_VALIDATION=1 in the environment asks too
+    std::vector<const char*> instanceExtensions = {};  ///< what a window system needs
+    bool presentation = false;                         ///< VK_KHR_swapchain
+};
+
+/// What `fieldwright info` says of a device.
+struct DeviceInfo {
+    std::string name;
+    std::string kind;         ///< "discrete", "integrated", "virtual", "software", "other"
+    std::string driver;       ///< name and version as the driver states them
+    uint32_t apiVersion = 0;  ///< as VK_MAKE_API_VERSION packs it
+    uint64_t memory = 0;      ///< bytes of the largest device-local heap
+    bool usable = false;      ///< has all that Fieldwright needs
+};
+
+/// What the validation layer said, and the bytes of device memory that are and were in use.
+struct DeviceRecord {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+    std::atomic<uint64_t> allocated = 0, peak = 0;
+};
+
+/// The plain part of a Device, so that moving it is one exchange.
+struct DeviceState {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice handle = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    uint32_t queueFamily = 0;
+    VkCommandPool commandPool = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    uint64_t pipelineCacheKey =
+        0;  ///< of the content that was loaded; what did not change is not written again
+    PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
+
+    VkPhysicalDeviceProperties properties = {};
+    VkPhysicalDeviceMemoryProperties memory = {};
+    uint64_t largestAllocation = 0;
+    uint32_t subgroupSize = 0;
+    bool software = false;       ///< a CPU device: its timestamps lie, and copies to it are wasted
+    bool unifiedMemory = false;  ///< device-local memory is host-visible: every buffer is mapped
+    bool geometryShader = false;
+    bool deviceAddresses = false;
+    bool timestamps = false;               ///< usable ones
+    std::shared_ptr<DeviceRecord> record;  ///< address stays put when the device moves
+};
+
+struct Device : DeviceState {
+    Device() = default;
+    Device(Device&& other) noexcept;
+    Device& operator=(Device&& other) noexcept;
+    ~Device();
+
+    std::string name() const { return properties.deviceName; }
+    /// Warnings and errors of the validation layer so far; empty without it.
+    std::vector<std::string> validationMessages() const;
+};
+
+/// Every Vulkan device, the preferred first (discrete, integrated, virtual, software). Empty where Vulkan has
+/// none.
+std::vector<DeviceInfo> listDevices();
+
+/// Opens the preferred usable device, or the one that `options.pick` names; an Error where nothing matches
+/// it. Throws SystemError where Vulkan or a usable device is missing.
+Result<Device> createDevice(const DeviceOptions& options = {});
+
+/// Waits for the device to be idle.
+void waitIdle(const Device& device);
+
+/// A Vulkan struct with its type set and all else zero.
+template <class T>
+T zeroed(VkStructureType type) {
+    T value{};
+    value.sType = type;
+    return value;
+}
+
+/// Throws SystemError with a sentence for the result unless it is a success; `what` names the action.
+void check(VkResult result, const char* what);
+
+/// $XDG_CACHE_HOME/fieldwright, or ~/.cache/fieldwright; empty where neither variable is set.
+std::string cacheFolder();
+
+}  // namespace fw

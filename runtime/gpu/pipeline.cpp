@@ -1,0 +1,229 @@
+// Pipelines from compiled shaders (see shader.h).
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <thread>
+
+#include "runtime/gpu/shader.h"
+
+namespace fw {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct ModuleState {
+    VkDevice device = VK_NULL_HANDLE;
+    VkShaderModule handle = VK_NULL_HANDLE;
+};
+struct Module : ModuleState {
+    Module(const Device& owner, const Spirv& spirv) {
+        device = owner.handle;
+        auto info = zeroed<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+        info.codeSize = spirv.size() * 4;
+        info.pCode = spirv.data();
+        check(vkCreateShaderModule(device, &info, nullptr, &handle), "creating a shader module");
+    }
+    Module(Module&& other) noexcept : ModuleState(std::exchange(static_cast<ModuleState&>(other), {})) {}
+    ~Module() {
+        if (handle) vkDestroyShaderModule(device, handle, nullptr);
+    }
+};
+
+/// Specialization constants 0, 1, ... of four bytes each; `info` points into it.
+struct Specialization {
+    explicit Specialization(const std::vector<uint32_t>& values) {
+        for (uint32_t i = 0; i < values.size(); ++i) entries.push_back({i, i * 4, 4});
+        info = {uint32_t(entries.size()), entries.data(), values.size() * 4, values.data()};
+    }
+    Specialization(const Specialization&) = delete;
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info;
+};
+
+void createLayout(const Device& device, Pipeline& pipeline) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const ShaderBinding& binding : pipeline.shader.bindings)
+        bindings.push_back({binding.binding, binding.type, 1, pipeline.shader.stages, nullptr});
+    auto set = zeroed<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+    set.bindingCount = uint32_t(bindings.size());
+    set.pBindings = bindings.data();
+    check(vkCreateDescriptorSetLayout(device.handle, &set, nullptr, &pipeline.setLayout),
+          "creating a descriptor layout");
+    VkPushConstantRange push{pipeline.shader.stages, 0, pipeline.shader.pushConstantSize};
+    auto layout = zeroed<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    layout.setLayoutCount = 1;
+    layout.pSetLayouts = &pipeline.setLayout;
+    layout.pushConstantRangeCount = push.size ? 1 : 0;
+    layout.pPushConstantRanges = &push;
+    check(vkCreatePipelineLayout(device.handle, &layout, nullptr, &pipeline.layout),
+          "creating a pipeline layout");
+}
+
+Spirv compileOrThrow(const ShaderOptions& options) {
+    Result<Spirv> spirv = compileShader(options);
+    if (!spirv) throw SystemError(format(spirv.error()));
+    return std::move(*spirv);
+}
+
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlags stage, VkShaderModule module,
+                                          const Specialization& constants) {
+    auto info = zeroed<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    info.stage = VkShaderStageFlagBits(stage);
+    info.module = module;
+    info.pName = "main";
+    info.pSpecializationInfo = &constants.info;
+    return info;
+}
+
+Pipeline build(const Device& device, const ShaderOptions& options, const Spirv& spirv) {
+    Pipeline pipeline;
+    pipeline.device = device.handle;
+    pipeline.shader = reflect(spirv);
+    createLayout(device, pipeline);
+    Module module(device, spirv);
+    Specialization constants(options.constants);
+    auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.handle, constants);
+    info.layout = pipeline.layout;
+    check(vkCreateComputePipelines(device.handle, device.pipelineCache, 1, &info, nullptr, &pipeline.handle),
+          "creating a compute pipeline");
+    return pipeline;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(Pipeline&& other) noexcept
+    : PipelineState(std::exchange(static_cast<PipelineState&>(other), {})) {}
+
+Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
+    std::swap(static_cast<PipelineState&>(*this), static_cast<PipelineState&>(other));
+    return *this;
+}
+
+Pipeline::~Pipeline() {
+    if (!device) return;
+    vkDestroyPipeline(device, handle, nullptr);
+    vkDestroyPipelineLayout(device, layout, nullptr);
+    vkDestroyDescriptorSetLayout(device, setLayout, nullptr);
+}
+
+std::vector<Pipeline> createComputePipelines(const Device& device, std::span<const ShaderOptions> shaders,
+                                             CompileTimes* times) {
+    std::vector<Pipeline> pipelines(shaders.size());
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::exception_ptr failure;
+    auto work = [&] {
+        for (std::size_t i; (i = next++) < shaders.size();) {
+            try {
+                Clock::time_point start = Clock::now();
+                Spirv spirv = compileOrThrow(shaders[i]);
+                double compiled = since(start);
+                pipelines[i] = build(device, shaders[i], spirv);
+                std::lock_guard lock(mutex);
+                if (times) {
+                    times->spirv += compiled;
+                    times->pipeline += since(start) - compiled;
+                }
+            } catch (...) {
+                std::lock_guard lock(mutex);
+                if (!failure) failure = std::current_exception();
+            }
+        }
+    };
+    std::size_t threads =
+        std::min<std::size_t>(std::max(2u, std::thread::hardware_concurrency()), shaders.size());
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 1; i < threads; ++i) workers.emplace_back(work);
+    work();
+    workers.clear();
+    if (failure) std::rethrow_exception(failure);
+    return pipelines;
+}
+
+Pipeline createComputePipeline(const Device& device, const ShaderOptions& shader) {
+    return build(device, shader, compileOrThrow(shader));
+}
+
+Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& options) {
+    Pipeline pipeline;
+    pipeline.device = device.handle;
+    std::vector<Module> modules;
+    std::vector<std::unique_ptr<Specialization>> constants;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    for (const ShaderOptions& shader : options.shaders) {
+        Spirv spirv = compileOrThrow(shader);
+        ShaderInterface part = reflect(spirv);
+        pipeline.shader.stages |= part.stages;
+        pipeline.shader.pushConstantSize = std::max(pipeline.shader.pushConstantSize, part.pushConstantSize);
+        for (const ShaderBinding& binding : part.bindings) {
+            auto same = [&](const ShaderBinding& other) { return other.binding == binding.binding; };
+            std::vector<ShaderBinding>& all = pipeline.shader.bindings;
+            if (std::none_of(all.begin(), all.end(), same)) all.push_back(binding);
+        }
+        modules.emplace_back(device, spirv);
+        constants.push_back(std::make_unique<Specialization>(shader.constants));
+        stages.push_back(stageInfo(part.stages, modules.back().handle, *constants.back()));
+    }
+    createLayout(device, pipeline);
+
+    auto vertices = zeroed<VkPipelineVertexInputStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    auto assembly = zeroed<VkPipelineInputAssemblyStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    assembly.topology = options.topology;
+    auto viewport =
+        zeroed<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    viewport.viewportCount = viewport.scissorCount = 1;
+    auto raster = zeroed<VkPipelineRasterizationStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    raster.rasterizerDiscardEnable = options.discard;
+    raster.cullMode = options.cull;
+    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    raster.lineWidth = 1.0f;
+    auto samples = zeroed<VkPipelineMultisampleStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    auto depth = zeroed<VkPipelineDepthStencilStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    depth.depthTestEnable = options.depthTest;
+    depth.depthWriteEnable = options.depthWrite;
+    depth.depthCompareOp = options.depthCompare;
+    std::vector<VkPipelineColorBlendAttachmentState> attachments(options.colorFormats.size(), options.blend);
+    auto blend =
+        zeroed<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    blend.attachmentCount = uint32_t(attachments.size());
+    blend.pAttachments = attachments.data();
+    VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    auto dynamic =
+        zeroed<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    dynamic.dynamicStateCount = 2;
+    dynamic.pDynamicStates = dynamicStates;
+    auto rendering = zeroed<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
+    rendering.colorAttachmentCount = uint32_t(options.colorFormats.size());
+    rendering.pColorAttachmentFormats = options.colorFormats.data();
+    rendering.depthAttachmentFormat = options.depthFormat;
+
+    auto info = zeroed<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
+    info.pNext = &rendering;
+    info.stageCount = uint32_t(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &vertices;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &samples;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = pipeline.layout;
+    check(vkCreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info, nullptr, &pipeline.handle),
+          "creating a graphics pipeline");
+    return pipeline;
+}
+
+}  // namespace fw

@@ -1,0 +1,28 @@
+// Structs and constants that shaders and C++ share; both include this file. Everything is laid out as scalars
+// (4-byte alignment), which is what C++ does with these members and what `scalar` blocks do in GLSL.
+#ifndef FW_SHARED_H
+#define FW_SHARED_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace fw::gpu {
+using uint = uint32_t;
+using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
+using uvec4 = glm::uvec4;
+using ivec3 = glm::ivec3;
+using vec2 = glm::vec2;
+using vec3 = glm::vec3;
+using vec4 = glm::vec4;
+#endif
+
+#define FIELD_PARAMETERS 15  // binding of the live parameters, in every shader that includes field.glsl
+
+#ifdef __cplusplus
+}  // namespace fw::gpu
+#endif
+#endif

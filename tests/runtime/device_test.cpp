@@ -1,0 +1,158 @@
+// The Vulkan layer: devices, buffers, submission, stage times, and what is said when something is missing.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/support/gpu.h"
+
+namespace fw {
+namespace {
+
+TEST(Device, ListNamesAtLeastTheSoftwareDevice) {
+    std::vector<DeviceInfo> devices = listDevices();
+    ASSERT_FALSE(devices.empty());
+    EXPECT_TRUE(std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& d) { return d.usable; }));
+    for (const DeviceInfo& info : devices) {
+        EXPECT_FALSE(info.name.empty());
+        EXPECT_FALSE(info.driver.empty());
+        EXPECT_GT(info.memory, 0u);
+    }
+}
+
+TEST(Device, PickTakesIndexOrPartOfTheNameAndRefusesTheRest) {
+    std::vector<DeviceInfo> devices = listDevices();
+    Result<Device> byIndex = createDevice({.pick = "0"});
+    ASSERT_TRUE(byIndex);
+    EXPECT_EQ(byIndex->name(), devices[0].name);
+    std::string part = devices[0].name.substr(1, 4);
+    std::transform(part.begin(), part.end(), part.begin(), ::toupper);
+    Result<Device> byName = createDevice({.pick = part});
+    ASSERT_TRUE(byName);
+    EXPECT_EQ(byName->name(), devices[0].name);
+    Result<Device> missing = createDevice({.pick = "no such device"});
+    ASSERT_FALSE(missing);
+    EXPECT_NE(missing.error().message.find(devices[0].name), std::string::npos);
+    EXPECT_FALSE(createDevice({.pick = "99"}));
+}
+
+TEST(Device, ValidationMessagesAreCollected) {
+    Result<Device> device = createDevice({.validation = true});
+    ASSERT_TRUE(device);
+    EXPECT_TRUE(device->validationMessages().empty());
+    auto bad = zeroed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+    bad.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    bad.size = 0;  // not allowed
+    VkBuffer buffer = VK_NULL_HANDLE;
+    vkCreateBuffer(device->handle, &bad, nullptr, &buffer);
+    vkDestroyBuffer(device->handle, buffer, nullptr);
+    ASSERT_FALSE(device->validationMessages().empty());
+    EXPECT_NE(device->validationMessages()[0].find("VkBufferCreateInfo"), std::string::npos);
+}
+
+TEST(Resources, BytesSurviveTheRoundTripAndMemoryIsCounted) {
+    Device& device = test::device();
+    uint64_t before = device.record->allocated;
+    {
+        std::vector<uint32_t> data(100'001);
+        std::iota(data.begin(), data.end(), 7u);
+        for (Memory memory : {Memory::device, Memory::upload, Memory::readback}) {
+            Buffer buffer = createBuffer(device, data.size() * 4, memory);
+            upload(device, buffer, data);
+            EXPECT_EQ(download<uint32_t>(device, buffer, data.size()), data);
+            EXPECT_EQ(download<uint32_t>(device, buffer, 3, 40), (std::vector<uint32_t>{17, 18, 19}));
+        }
+        Buffer buffer;
+        EXPECT_TRUE(reserve(device, buffer, 1000));
+        EXPECT_FALSE(reserve(device, buffer, 500));
+        EXPECT_TRUE(reserve(device, buffer, 2000));
+        EXPECT_GT(device.record->allocated, before);
+    }
+    EXPECT_EQ(device.record->allocated, before);
+    EXPECT_GT(device.record->peak, before);
+}
+
+TEST(Resources, AnImpossibleBufferIsASystemErrorThatSaysSo) {
+    Device& device = test::device();
+    try {
+        createBuffer(device, 1ull << 60);
+        FAIL() << "a buffer of an exbibyte was made";
+    } catch (const SystemError& error) {
+        EXPECT_NE(std::string(error.what()).find("lower resolution"), std::string::npos);
+    }
+}
+
+constexpr const char* kSquares = R"(
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint bias = 1;
+layout(push_constant) uniform Push { uint count; uint factor; };
+layout(binding = 0, scalar) readonly buffer In { uint source[]; };
+layout(binding = 3, scalar) writeonly buffer Out { uint target[]; };
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < count) target[i] = source[i] * factor + bias;
+}
+)";
+
+TEST(Commands, DispatchComputesAndStagesAreTimed) {
+    Device& device = test::device();
+    struct Push {
+        uint32_t count, factor;
+    } push{1000, 3};
+    Pipeline pipeline = test::computePipeline(kSquares, {5});
+    Buffer source = createBuffer(device, 4000), target = createBuffer(device, 4000),
+           arguments = createBuffer(device, 12);
+    std::vector<uint32_t> data(1000);
+    std::iota(data.begin(), data.end(), 0u);
+    upload(device, source, data);
+    upload(device, arguments, std::vector<uint32_t>{groupsFor(1000, 64), 1, 1});
+    for (bool timed : {false, true}) {
+        Commands commands(device, timed);
+        beginStage(commands, "clear");
+        fill(commands, target, 0);
+        barrier(commands);
+        beginStage(commands, "squares");
+        Descriptor descriptors[] = {
+            {0, source}, {3, target}, {15, source}};  // 15 is not the shader's: passed over
+        if (timed)
+            dispatchIndirect(commands, pipeline, arguments, 0, push, descriptors);
+        else
+            dispatch(commands, pipeline, {groupsFor(1000, 64), 1, 1}, push, descriptors);
+        barrier(commands);
+        submit(commands);
+        std::vector<uint32_t> result = download<uint32_t>(device, target, 1000);
+        for (uint32_t i = 0; i < 1000; ++i) ASSERT_EQ(result[i], i * 3 + 5);
+        ASSERT_EQ(commands.stages.size(), timed ? 2u : 0u);
+        if (timed) {
+            EXPECT_EQ(commands.stages[1].name, "squares");
+            EXPECT_GT(commands.stages[1].milliseconds, 0.0);
+        }
+    }
+}
+
+TEST(Resources, ImagesCanBeWrittenByAShaderAndRead) {
+    Device& device = test::device();
+    Image image =
+        createImage(device, {.extent = {8, 8, 8}, .format = VK_FORMAT_R32_SFLOAT, .type = VK_IMAGE_TYPE_3D});
+    Pipeline pipeline = test::computePipeline(R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, r32f) writeonly uniform image3D target;
+void main() { imageStore(target, ivec3(gl_GlobalInvocationID), vec4(dot(vec3(gl_GlobalInvocationID), vec3(1, 10, 100)))); }
+)");
+    Buffer pixels = createBuffer(device, 8 * 8 * 8 * 4, Memory::readback);
+    Commands commands(device);
+    imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    Descriptor descriptors[] = {{0, image.view, VK_IMAGE_LAYOUT_GENERAL}};
+    dispatch(commands, pipeline, {1, 1, 8}, nullptr, 0, descriptors);
+    imageBarrier(commands, image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = image.extent;
+    vkCmdCopyImageToBuffer(commands.handle, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels.handle,
+                           1, &region);
+    barrier(commands);
+    submit(commands);
+    EXPECT_EQ(download<float>(device, pixels, 1, (5 * 64 + 3 * 8 + 2) * 4)[0], 532.0f);
+}
+
+}  // namespace
+}  // namespace fw

@@ -1,0 +1,83 @@
+#include "tests/support/gpu.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace fw::test {
+namespace {
+
+Device* shared = nullptr;
+
+/// Fails the test during which the validation layer spoke.
+class ValidationListener : public testing::EmptyTestEventListener {
+    void OnTestStart(const testing::TestInfo&) override {
+        seen = shared ? shared->validationMessages().size() : 0;
+    }
+    void OnTestEnd(const testing::TestInfo&) override {
+        if (!shared) return;
+        std::vector<std::string> all = shared->validationMessages();
+        for (; seen < all.size(); ++seen) ADD_FAILURE() << "validation layer: " << all[seen];
+    }
+    std::size_t seen = 0;
+};
+
+/// Destroys the device before the program's statics go, since the validation layer has some of its own.
+class DeviceEnvironment : public testing::Environment {
+    void TearDown() override {
+        if (!shared) return;
+        std::shared_ptr<DeviceRecord> record = shared->record;
+        std::size_t before = record->messages.size();
+        delete shared;
+        shared = nullptr;
+        for (; before < record->messages.size(); ++before)
+            ADD_FAILURE() << "validation layer, at the device's end: " << record->messages[before];
+    }
+};
+
+const bool registered = [] {
+    testing::AddGlobalTestEnvironment(new DeviceEnvironment);
+    testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);
+    return true;
+}();
+
+}  // namespace
+
+Device& device() {
+    if (!shared) {
+        const char* off = std::getenv("FIELDWRIGHT_VALIDATION");
+        Result<Device> made = createDevice({.validation = !off || std::string(off) != "0"});
+        if (!made) throw SystemError(format(made.error()));
+        shared = new Device(std::move(*made));
+    }
+    return *shared;
+}
+
+Pipeline computePipeline(const std::string& text, const std::vector<uint32_t>& constants,
+                         const std::string& field) {
+    return createComputePipeline(device(),
+                                 {.name = "test.comp", .field = field, .constants = constants, .text = text});
+}
+
+TemporaryCache::TemporaryCache() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "fieldwright-cache-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw SystemError("cannot make a temporary folder");
+    folder = pattern;
+    if (const char* value = std::getenv("XDG_CACHE_HOME")) {
+        had = true;
+        previous = value;
+    }
+    setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+}
+
+TemporaryCache::~TemporaryCache() {
+    if (had)
+        setenv("XDG_CACHE_HOME", previous.c_str(), 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
+    std::error_code error;
+    std::filesystem::remove_all(folder, error);
+}
+
+}  // namespace fw::test

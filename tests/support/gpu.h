@@ -1,0 +1,30 @@
+// One device for all tests of a program, with the validation layer on where it is installed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/gpu/commands.h"
+
+namespace fw::test {
+
+/// The device that all tests share. After every test of the program, a message of the validation layer that
+/// came during it fails that test.
+Device& device();
+
+/// A compute pipeline from GLSL text (without #version); `name` only labels it.
+Pipeline computePipeline(const std::string& text, const std::vector<uint32_t>& constants = {},
+                         const std::string& field = {});
+
+/// A fresh folder that holds the caches as long as the object lives.
+struct TemporaryCache {
+    TemporaryCache();
+    ~TemporaryCache();
+    std::string folder;
+
+  private:
+    std::string previous;
+    bool had = false;
+};
+
+}  // namespace fw::test
