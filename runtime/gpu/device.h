@@ -19,7 +19,8 @@
 namespace fw {
 
 struct DeviceOptions {
-    std::string pick;  ///< index in listDevices() or part of a name, without regard to case; empty: chosen
+    std::string pick =
+        {};  ///< index in listDevices() or part of a name, without regard to case; empty: chosen
     bool validation =
         false;  ///< load the validation layer; FIELDWRIGHT_VALIDATION=1 in the environment asks too
     std::vector<const char*> instanceExtensions = {};  ///< what a window system needs

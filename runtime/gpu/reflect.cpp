@@ -76,6 +76,7 @@ VkShaderStageFlags stageFlag(uint32_t model) {
 ShaderInterface reflect(std::span<const uint32_t> spirv) {
     ShaderInterface result;
     Ids ids;
+    std::vector<uint32_t> localSizeIds;
     constexpr std::size_t kHeaderWords = 5;
     for (std::size_t at = kHeaderWords; at < spirv.size();) {
         auto op = spv::Op(spirv[at] & 0xffff);
@@ -89,6 +90,9 @@ ShaderInterface reflect(std::span<const uint32_t> spirv) {
             case spv::OpEntryPoint: result.stages |= stageFlag(w[1]); break;
             case spv::OpExecutionMode:
                 if (w[2] == spv::ExecutionModeLocalSize) result.localSize = {w[3], w[4], w[5]};
+                break;
+            case spv::OpExecutionModeId:  // the ids of constants, which come later
+                if (w[2] == spv::ExecutionModeLocalSizeId) localSizeIds = operandsFrom(3);
                 break;
             case spv::OpDecorate:
                 if (w[2] == spv::DecorationBinding) ids[w[1]].binding = int(w[3]);
@@ -132,6 +136,7 @@ ShaderInterface reflect(std::span<const uint32_t> spirv) {
             result.pushConstantSize = sizeOf(ids, ids[id.type].operands[1]);
         if (id.binding >= 0) result.bindings.push_back({uint32_t(id.binding), descriptorType(ids, id)});
     }
+    for (std::size_t i = 0; i < localSizeIds.size(); ++i) result.localSize[i] = ids[localSizeIds[i]].constant;
     auto byBinding = [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; };
     std::sort(result.bindings.begin(), result.bindings.end(), byBinding);
     // Two views of one buffer may share a binding.

@@ -31,7 +31,7 @@ std::string_view shaderSource(std::string_view name);
 
 /// What turns one file into one shader.
 struct ShaderOptions {
-    std::string name;                       ///< file; its ending (.comp .vert .geom .frag) gives the stage
+    std::string name = {};                  ///< file; its ending (.comp .vert .geom .frag) gives the stage
     std::string_view field = {};            ///< answers #include "field.glsl"; empty: the default field
     std::vector<std::string> defines = {};  ///< "NAME" or "NAME VALUE", put before the text
     std::vector<uint32_t> constants = {};   ///< values of specialization constants 0, 1, ...
