@@ -33,18 +33,21 @@ inline constexpr std::array kTalkWays = {TalkWay::everyCell, TalkWay::compactedC
 struct TalkOptions {
     int cells = 128;  ///< along each edge; a power of two
     float half = 1;   ///< of the cube [-half, half]^3, metres; the surface must stay clear of its faces
-    std::string_view field;  ///< GLSL that answers "field.glsl"; empty: the default field
-    int imageSize = 1024;    ///< pixels along an edge of the depth image
+    std::string_view field = {};  ///< GLSL that answers "field.glsl"; empty: the default field
+    int imageSize = 1024;         ///< pixels along an edge of the depth image
 };
 
 struct TalkStages {
     const Device& device;
-    TalkGrid grid;
-    Pipeline sample, activity, counts, reduce, arguments, vertices, indices;   // compute
-    Pipeline drawEvery, drawActive, drawIndexed, captureEvery, captureActive;  // graphics
-    Buffer sampleBuffer, caseBuffer, cellPyramid, vertexPyramid, argumentBuffer;
-    Buffer lookupBuffer, vertexBuffer, indexBuffer, captureBuffer;
-    Image depth;
+    TalkGrid grid = {};
+    // Compute.
+    Pipeline sample = {}, activity = {}, counts = {}, reduce = {}, arguments = {}, vertices = {},
+             indices = {};
+    // Graphics.
+    Pipeline drawEvery = {}, drawActive = {}, drawIndexed = {}, captureEvery = {}, captureActive = {};
+    Buffer sampleBuffer = {}, caseBuffer = {}, cellPyramid = {}, vertexPyramid = {}, argumentBuffer = {};
+    Buffer lookupBuffer = {}, vertexBuffer = {}, indexBuffer = {};
+    Image depth = {};
 };
 
 /// Needs a device with geometry shaders that may write buffers; throws SystemError where it has none.

@@ -1,7 +1,7 @@
 #include "tests/bench/verify.h"
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
 
 namespace fw::bench {
 
@@ -42,6 +42,33 @@ std::string faultOf(std::span<const uint32_t> indices, std::size_t vertexCount) 
         }
     }
     return {};
+}
+
+std::vector<std::array<uint64_t, 3>> trianglesByEdge(std::span<const glm::vec3> positions,
+                                                     std::span<const uint32_t> indices,
+                                                     const GridEdges& grid) {
+    const auto edgeOf = [&](glm::vec3 p) {
+        const glm::vec3 at = (p - grid.origin) / grid.spacing;
+        uint64_t axis = 0, key = 0;
+        float farthest = 0;
+        for (int i = 0; i < 3; i++) {
+            const float off = std::abs(at[i] - std::round(at[i]));
+            if (off > farthest) farthest = off, axis = i;
+        }
+        for (int i = 0; i < 3; i++)
+            key = key << 20 | uint64_t(uint64_t(i) == axis ? std::floor(at[i]) : std::round(at[i]));
+        return key << 2 | axis;
+    };
+    std::vector<uint64_t> edges(positions.size());
+    std::transform(positions.begin(), positions.end(), edges.begin(), edgeOf);
+    std::vector<std::array<uint64_t, 3>> triangles(indices.size() / 3);
+    for (std::size_t t = 0; t < triangles.size(); t++) {
+        auto& triangle = triangles[t];
+        for (int i = 0; i < 3; i++) triangle[i] = edges[indices[3 * t + i]];
+        std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
 }
 
 }  // namespace fw::bench
