@@ -38,12 +38,19 @@ constexpr int componentCount(Type type) {
 std::string_view typeName(Type type);
 
 /// Order of a surface's scalars.
-enum SurfaceComponent { distanceComponent = 0, baseColorComponent = 1, roughnessComponent = 4, metallicComponent = 5, emissionComponent = 6 };
+enum SurfaceComponent {
+    distanceComponent = 0,
+    baseColorComponent = 1,
+    roughnessComponent = 4,
+    metallicComponent = 5,
+    emissionComponent = 6
+};
 
 /// The material of a surface that no material node touched: base colour, roughness, metallic, emission.
 inline constexpr std::array<double, 8> kDefaultMaterial = {0.8, 0.8, 0.8, 0.5, 0.0, 0.0, 0.0, 0.0};
 
-/// How a field's value relates to the distance to its zero set (definitions: sdf.md's "exact", "bound", "distorted").
+/// How a field's value relates to the distance to its zero set (definitions: sdf.md's "exact", "bound",
+/// "distorted").
 ///
 /// exact outside/inside: |f| is the distance there. Bound: 1-Lipschitz, so |f| never exceeds the distance.
 /// Distorted: the Lipschitz constant is above 1 (infinite where no constant is known).

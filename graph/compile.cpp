@@ -1,0 +1,575 @@
+#include "graph/compile.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <unordered_map>
+
+#include "graph/check.h"
+#include "graph/language/lower.h"
+#include "graph/node_type.h"
+
+namespace fw {
+
+namespace {
+
+using language::Value;
+
+/// What a node gives: its outputs in order, and the class of its surface.
+struct Lowered {
+    std::vector<OutputSpec> outputs;
+    std::vector<Value> values;
+    Exactness exactness = distorted();
+    std::string spoiler;
+    bool failed = false;
+};
+using LoweredNodes = std::unordered_map<std::string, Lowered>;
+
+bool isSurface(const OutputSpec& output) { return output.type == Type::surface; }
+
+Type literalType(const InputValue& input) {
+    if (std::holds_alternative<bool>(input.value)) return Type::boolean;
+    if (std::holds_alternative<std::string>(input.value)) return Type::string;
+    if (const auto* numbers = std::get_if<std::vector<double>>(&input.value))
+        return input.pairs || numbers->size() > 3 ? Type::points
+               : numbers->size() == 2             ? Type::vec2
+                                                  : Type::vec3;
+    return Type::scalar;
+}
+
+Type typeNamed(std::string_view name) {
+    for (Type type : {Type::boolean, Type::integer, Type::scalar, Type::vec2, Type::vec3, Type::surface,
+                      Type::string, Type::points, Type::mesh})
+        if (typeName(type) == name) return type;
+    return Type::scalar;
+}
+
+class Compiler {
+  public:
+    Compiler(const Graph& graph_, const CompileOptions& options_) : graph(graph_), options(options_) {
+        if (options.live.contains("time")) {
+            state.time = state.ir.parameter(0);
+            live.push_back({"time", 0, options.time});
+        } else {
+            state.time = state.ir.constant(options.time);
+        }
+    }
+
+    /// Lowers `targets` and what they need among `nodes`, in dependency order.
+    LoweredNodes lowerAll(const std::vector<Node>& nodes, const std::string& prefix,
+                          const Lowered* groupInput, const std::vector<const Node*>& targets) {
+        std::unordered_map<std::string_view, const Node*> byId;
+        for (const Node& node : nodes) byId[node.id] = &node;
+        LoweredNodes done;
+        std::vector<const Node*> pending(targets);
+        while (!pending.empty()) {
+            const Node* node = pending.back();
+            bool ready = true;
+            if (!done.contains(node->id))
+                for (const auto& [name, input] : node->inputs)
+                    if (const Link* link = std::get_if<Link>(&input.value))
+                        if (const auto source = byId.find(link->node);
+                            source != byId.end() && !done.contains(link->node))
+                            pending.push_back(source->second), ready = false;
+            if (!ready) continue;
+            pending.pop_back();
+            if (!done.contains(node->id)) {
+                Lowered lowered = lower(*node, prefix, groupInput, done);
+                if (prefix.empty() && std::any_of(lowered.outputs.begin(), lowered.outputs.end(), isSurface))
+                    exactness[node->id] = lowered.exactness;
+                done.emplace(node->id, std::move(lowered));
+            }
+        }
+        return done;
+    }
+
+    const Ir& ir() const { return state.ir; }
+    std::vector<Error> errors;
+    std::vector<LiveParameter> live;
+    std::map<std::string, Exactness, std::less<>> exactness;
+
+  private:
+    void report(const Node& node, const std::string& prefix, const std::string& input, Error error) {
+        error.file = graph.path;
+        error.node = prefix + node.id;
+        error.input = input;
+        const InputValue* value = input.empty() ? nullptr : node.input(input);
+        const TextPosition at = error.codeLine > 0 ? node.codePlace : value ? value->at : node.place;
+        error.line = at.line, error.column = at.column;
+        errors.push_back(std::move(error));
+    }
+
+    Lowered failure(std::vector<OutputSpec> outputs) {
+        Lowered result{std::move(outputs), {}, distorted(), {}, true};
+        for (const OutputSpec& output : result.outputs) {
+            InputSpec none{"", output.type, {}};
+            result.values.push_back(language::defaultValue(state, none));
+        }
+        if (result.outputs.empty()) {
+            result.outputs = {{"value", Type::scalar}};
+            result.values = {language::constantValue(state, Type::scalar, {})};
+        }
+        return result;
+    }
+
+    /// The output that a link names, with the class of the node it comes from; nullptr where the source
+    /// failed.
+    static const Value* linked(const Link& link, const LoweredNodes& done, const Lowered** source = nullptr) {
+        const auto found = done.find(link.node);
+        if (found == done.end()) return nullptr;
+        if (source) *source = &found->second;
+        for (std::size_t i = 0; i < found->second.outputs.size(); ++i)
+            if (link.output.empty() || found->second.outputs[i].name == link.output)
+                return &found->second.values[i];
+        return nullptr;
+    }
+
+    /// The slot of a live input's component, made at its first use.
+    IrId liveComponent(const std::string& name, int component, double value) {
+        for (std::size_t slot = 0; slot < live.size(); ++slot)
+            if (live[slot].name == name && live[slot].component == component)
+                return state.ir.parameter(static_cast<uint32_t>(slot));
+        live.push_back({name, component, value});
+        return state.ir.parameter(static_cast<uint32_t>(live.size() - 1));
+    }
+
+    /// The name under which this input is live; empty if it is folded.
+    std::string liveName(const Node& node, const std::string& prefix, const std::string& input) const {
+        if (options.live.contains(prefix + node.id + "." + input)) return prefix + node.id + "." + input;
+        if (!options.liveExposed) return {};
+        if (prefix.empty())
+            for (const ExposedParameter& parameter : graph.parameters)
+                if (parameter.node == node.id && parameter.input == input) return parameter.name;
+        if (node.type == "parameter" && input == "value") {
+            const InputValue* name = node.input("name");
+            if (name && std::holds_alternative<std::string>(name->value))
+                return std::get<std::string>(name->value);
+        }
+        return {};
+    }
+
+    /// The value that the file or the library gives for an input that is not linked.
+    Value literal(const Node& node, const std::string& prefix, const InputSpec& spec,
+                  const InputValue* given) {
+        Value value = language::defaultValue(state, spec);
+        std::vector<double> numbers;
+        if (spec.value.kind == InputDefault::Kind::numbers) numbers = spec.value.numbers;
+        if (given) {
+            if (const auto* number = std::get_if<double>(&given->value)) numbers = {*number};
+            if (const auto* flag = std::get_if<bool>(&given->value)) numbers = {*flag ? 1.0 : 0.0};
+            if (const auto* list = std::get_if<std::vector<double>>(&given->value)) numbers = *list;
+            if (const auto* words = std::get_if<std::string>(&given->value)) value.text = *words;
+            if (spec.type == Type::points)
+                value.points = std::make_shared<const std::vector<double>>(numbers);
+            else if (componentCount(spec.type) > 0 && !numbers.empty())
+                value = spec.type == Type::surface
+                            ? *language::convert(state, language::constantValue(state, Type::scalar, numbers),
+                                                 Type::surface)
+                            : language::constantValue(state, spec.type, numbers);
+        }
+        const bool mayBeLive =
+            (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3) &&
+            !numbers.empty();
+        const std::string name = mayBeLive ? liveName(node, prefix, spec.name) : std::string();
+        if (!name.empty())
+            for (int i = 0; i < componentCount(spec.type); ++i)
+                value.ids[i] = liveComponent(name, i, state.ir.number(value.ids[i]));
+        return value;
+    }
+
+    Lowered lower(const Node& node, const std::string& prefix, const Lowered* groupInput,
+                  const LoweredNodes& done) {
+        if (state.ir.size() > 2 * kMaxIrOperations) return failure({});
+        const NodeType* type = findNodeType(node.type);
+        if (!type) return failure({});
+        if (type->id == "group_input") return groupInput ? *groupInput : failure({});
+        if (type->id == "reroute") return passOn(node, done, nullptr);
+        if (type->id == "group") return group(node, prefix, done);
+        if (type->id == "expression")
+            return node.muted ? passOn(node, done, nullptr) : expression(node, prefix, done);
+        if (node.muted && !type->outputs.empty()) return passOn(node, done, &type->outputs);
+        if (type->id == "group_output") return groupOutput(node, done);
+
+        // A node of the library.
+        Lowered result;
+        result.outputs = type->outputs;
+        std::vector<Value> inputs;
+        bool plain = true;  // the position is the context's and no number varies over space
+        bool fine = true;
+        std::unordered_map<std::string_view, Exactness> classes;
+        for (const InputSpec& spec : type->inputs) {
+            const InputValue* given = node.input(spec.name);
+            const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
+            const Lowered* source = nullptr;
+            const Value* from = link ? linked(*link, done, &source) : nullptr;
+            Value value = language::defaultValue(state, spec);
+            if (from) {
+                fine &= !source->failed;
+                const Result<Value> converted = language::convert(state, *from, spec.type);
+                if (converted) {
+                    value = *converted;
+                } else if (from->type != Type::mesh) {
+                    report(node, prefix, spec.name, converted.error());
+                    fine = false;
+                }
+            } else {
+                value = literal(node, prefix, spec, given);
+            }
+            if (spec.type == Type::surface) {
+                classes[spec.name] = !from                         ? kExact
+                                     : from->type == Type::surface ? source->exactness
+                                                                   : distorted();
+                if (from && result.spoiler.empty()) result.spoiler = source->spoiler;
+            } else {
+                const bool isPosition = spec.value.kind == InputDefault::Kind::position;
+                for (int i = 0; i < componentCount(spec.type); ++i)
+                    plain &= isPosition ? value.ids[i] == state.ir.position(i)
+                                        : state.ir[value.ids[i]].positions == 0;
+            }
+            inputs.push_back(std::move(value));
+        }
+        if (!fine) return failure(type->outputs);
+
+        if (type->exactness) {
+            ExactnessArguments arguments;
+            arguments.surface = [&](std::string_view name) {
+                return classes.contains(name) ? classes[name] : kExact;
+            };
+            arguments.constant = [&](std::string_view name, int component) -> std::optional<double> {
+                const int index = inputIndex(*type, name);
+                if (index < 0 || component >= componentCount(inputs[index].type)) return std::nullopt;
+                const IrId id = inputs[index].ids[component];
+                return state.ir.isConstant(id) ? std::optional(state.ir.number(id)) : std::nullopt;
+            };
+            arguments.option = [&](std::string_view name) {
+                const int index = inputIndex(*type, name);
+                return index < 0 ? std::string() : inputs[index].text;
+            };
+            result.exactness = plain ? type->exactness(arguments) : distorted();
+            const bool inputsExact = std::all_of(classes.begin(), classes.end(),
+                                                 [](const auto& entry) { return entry.second.exact(); });
+            if (result.exactness.exact())
+                result.spoiler.clear();
+            else if (inputsExact || result.spoiler.empty())
+                result.spoiler = prefix + node.id;
+        }
+        if (type->body.empty()) {  // stages: what they take is read by the caller
+            result.outputs = {{"surface", Type::surface}};
+            result.values = {inputs.empty() ? language::emptySurface(state) : inputs[0]};
+            if (const auto surface = classes.find("surface"); surface != classes.end())
+                result.exactness = surface->second;
+            return result;
+        }
+        Result<std::vector<Value>> values = language::lowerNode(state, *type, std::move(inputs));
+        if (!values) {
+            Error error = values.error();
+            error.codeLine = error.codeColumn = 0;
+            report(node, prefix, "", error);
+            return failure(type->outputs);
+        }
+        result.values = std::move(*values);
+        return result;
+    }
+
+    /// A muted node or a reroute: the first linked input that gives the first output's type, else the first
+    /// input.
+    Lowered passOn(const Node& node, const LoweredNodes& done, const std::vector<OutputSpec>* outputs) {
+        const Lowered* source = nullptr;
+        const Value* value = nullptr;
+        for (const auto& [name, input] : node.inputs) {
+            const Link* link = std::get_if<Link>(&input.value);
+            const Lowered* candidateSource = nullptr;
+            const Value* candidate = link ? linked(*link, done, &candidateSource) : nullptr;
+            if (candidate && (!outputs || language::convert(state, *candidate, (*outputs)[0].type))) {
+                value = candidate, source = candidateSource;
+                break;
+            }
+        }
+        if (!value) return failure(outputs ? *outputs : std::vector<OutputSpec>{});
+        Lowered result = *source;
+        const Type type = outputs ? (*outputs)[0].type : value->type;
+        result.outputs = {{outputs ? (*outputs)[0].name : "value", type}};
+        result.values = {*language::convert(state, *value, type)};
+        if (outputs)
+            for (std::size_t i = 1; i < outputs->size(); ++i) {
+                const Result<Value> other = language::convert(state, *value, (*outputs)[i].type);
+                result.outputs.push_back((*outputs)[i]);
+                result.values.push_back(other ? *other
+                                              : language::defaultValue(state, {"", (*outputs)[i].type, {}}));
+            }
+        return result;
+    }
+
+    Lowered expression(const Node& node, const std::string& prefix, const LoweredNodes& done) {
+        language::Scope scope;
+        scope.anyResult = true;
+        scope.refusesZeroDivision = true;
+        bool fine = true;
+        for (const auto& [name, input] : node.inputs) {
+            if (const Link* link = std::get_if<Link>(&input.value)) {
+                const Lowered* source = nullptr;
+                const Value* value = linked(*link, done, &source);
+                fine &= value && !source->failed;
+                if (value) scope.inputs.emplace_back(name, *value);
+            } else {
+                const InputSpec spec{name, literalType(input), {}};
+                scope.inputs.emplace_back(name, literal(node, prefix, spec, &input));
+            }
+        }
+        if (!fine) return failure({});
+        Result<std::shared_ptr<const language::Tree>> tree = language::parse(node.code);
+        Result<std::vector<Value>> values =
+            tree ? language::lower(state, **tree, scope) : Result<std::vector<Value>>(tree.error());
+        if (!values) {
+            report(node, prefix, "", values.error());
+            return failure({});
+        }
+        Lowered result;
+        const Type type = values->front().type == Type::integer ? Type::scalar : values->front().type;
+        values->front().type = type;
+        result.outputs = {{"value", type}};
+        result.values = std::move(*values);
+        result.spoiler = prefix + node.id;
+        return result;
+    }
+
+    Lowered group(const Node& node, const std::string& prefix, const LoweredNodes& done) {
+        const Group* definition = graph.group(node.group);
+        if (!definition) return failure({});
+        std::vector<OutputSpec> outputs;
+        for (const GroupOutput& output : definition->outputs)
+            outputs.push_back({output.name, typeNamed(output.type)});
+        if (node.muted) return passOn(node, done, &outputs);
+
+        Lowered inputs;
+        inputs.exactness = kExact;
+        for (const GroupInput& input : definition->inputs) {
+            InputSpec spec{input.name, typeNamed(input.type), {}};
+            const InputValue* given = node.input(input.name);
+            if (!given && input.value) given = &*input.value;
+            const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
+            const Lowered* source = nullptr;
+            Value value = language::defaultValue(state, spec);
+            if (const Value* from = link ? linked(*link, done, &source) : nullptr) {
+                if (source->failed) return failure(outputs);
+                const Result<Value> converted = language::convert(state, *from, spec.type);
+                if (!converted) {
+                    report(node, prefix, input.name, converted.error());
+                    return failure(outputs);
+                }
+                value = *converted;
+                if (spec.type == Type::surface && !source->exactness.exact())
+                    inputs.exactness = source->exactness, inputs.spoiler = source->spoiler;
+            } else if (!link) {
+                value = literal(node, prefix, spec, given);
+            }
+            inputs.outputs.push_back({input.name, spec.type});
+            inputs.values.push_back(std::move(value));
+        }
+        const auto end = std::find_if(definition->nodes.begin(), definition->nodes.end(),
+                                      [](const Node& n) { return n.type == "group_output"; });
+        if (end == definition->nodes.end()) return failure(outputs);
+        const std::string inner = prefix + node.id + "/";
+        if (std::count(inner.begin(), inner.end(), '/') > kMaxNesting) return failure(outputs);
+        const LoweredNodes nodes = lowerAll(definition->nodes, inner, &inputs, {&*end});
+        const Lowered& last = nodes.at(end->id);
+
+        Lowered result{outputs, {}, last.exactness, last.spoiler, last.failed};
+        for (const OutputSpec& output : outputs) {
+            const auto found = std::find_if(last.outputs.begin(), last.outputs.end(),
+                                            [&](const OutputSpec& o) { return o.name == output.name; });
+            Value value = language::defaultValue(state, {"", output.type, {}});
+            if (found != last.outputs.end()) {
+                const Result<Value> converted =
+                    language::convert(state, last.values[found - last.outputs.begin()], output.type);
+                if (converted)
+                    value = *converted;
+                else
+                    report(node, prefix, "", converted.error());
+            }
+            result.values.push_back(std::move(value));
+        }
+        return result;
+    }
+
+    /// Gathers a group's results under the names of its outputs.
+    Lowered groupOutput(const Node& node, const LoweredNodes& done) {
+        Lowered result;
+        result.exactness = kExact;
+        for (const auto& [name, input] : node.inputs) {
+            const Link* link = std::get_if<Link>(&input.value);
+            const Lowered* source = nullptr;
+            if (const Value* value = link ? linked(*link, done, &source) : nullptr) {
+                result.outputs.push_back({name, value->type});
+                result.values.push_back(*value);
+                result.failed |= source->failed;
+                if (value->type == Type::surface)
+                    result.exactness = source->exactness, result.spoiler = source->spoiler;
+            } else if (!link) {
+                const InputSpec spec{name, literalType(input), {}};
+                result.outputs.push_back({name, spec.type});
+                result.values.push_back(literal(node, "", spec, &input));
+            }
+        }
+        return result;
+    }
+
+    const Graph& graph;
+    const CompileOptions& options;
+    language::Lowering state;
+};
+
+const Node* outputNode(const Graph& graph) {
+    const auto found = std::find_if(graph.nodes.begin(), graph.nodes.end(), [](const Node& node) {
+        const NodeType* type = findNodeType(node.type);
+        return type && type->id == "output";
+    });
+    return found == graph.nodes.end() ? nullptr : &*found;
+}
+
+/// The number or numbers that a node gives for an input; its default if it gives none.
+std::vector<double> settings(const Node& node, std::string_view input) {
+    const InputValue* value = node.input(input);
+    if (value) {
+        if (const auto* number = std::get_if<double>(&value->value)) return {*number};
+        if (const auto* numbers = std::get_if<std::vector<double>>(&value->value)) return *numbers;
+    }
+    const NodeType* type = findNodeType(node.type);
+    const int index = inputIndex(*type, input);
+    return index < 0 ? std::vector<double>{} : type->inputs[index].value.numbers;
+}
+
+/// Resolution and region, from the output node or from the polygonize node that feeds it.
+void readSettings(const Graph& graph, const Node& output, Program& program) {
+    const Node* stage = &output;
+    if (const InputValue* input = output.input("surface"))
+        if (const Link* link = std::get_if<Link>(&input->value))
+            if (const Node* source = graph.node(link->node); source && source->type == "polygonize")
+                stage = source;
+    if (const auto resolution = settings(*stage, "resolution"); !resolution.empty())
+        program.resolution = static_cast<int>(resolution[0]);
+    const auto lo = settings(*stage, "region_min"), hi = settings(*stage, "region_max");
+    if (lo.size() == 3 && hi.size() == 3) program.region = Box{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
+}
+
+Error errorAt(const Graph& graph, const Node* node, std::string message) {
+    Error error;
+    error.message = std::move(message);
+    error.file = graph.path;
+    if (node) error.node = node->id, error.line = node->place.line, error.column = node->place.column;
+    return error;
+}
+
+}  // namespace
+
+bool Program::hasMaterial() const {
+    for (int i = 0; i < 8; ++i)
+        if (!ir.isConstant(surface[i + 1], kDefaultMaterial[i])) return true;
+    return false;
+}
+
+std::vector<double> Program::parameters() const {
+    std::vector<double> values;
+    for (const LiveParameter& parameter : live) values.push_back(parameter.value);
+    return values;
+}
+
+Result<Program> compile(const Graph& graph, const CompileOptions& options) {
+    for (const Error& error : check(graph))
+        if (error.severity == Error::Severity::error) return error;
+    const Node* output = outputNode(graph);
+    if (!output)
+        return errorAt(graph, nullptr, "the graph has no output node: add one and connect the surface to it");
+
+    Compiler compiler(graph, options);
+    LoweredNodes lowered = compiler.lowerAll(graph.nodes, "", nullptr, {output});
+    if (!compiler.errors.empty()) return compiler.errors.front();
+
+    const Lowered& result = lowered.at(output->id);
+    Program program;
+    std::copy_n(result.values[0].ids.begin(), 9, program.surface.begin());
+    program.ir = compiler.ir().compact(program.surface);
+    program.live = std::move(compiler.live);
+    if (program.ir.size() > kMaxIrOperations)
+        return errorAt(graph, output,
+                       "the field has more than " + std::to_string(kMaxIrOperations) +
+                           " operations: use fewer nodes, copies or loops");
+    if (program.ir.isConstant(program.distance()) && !std::isfinite(program.ir.number(program.distance())))
+        return errorAt(graph, output, "the field is not a number anywhere: look for a division by zero");
+    program.structureHash = program.ir.hash(program.surface);
+    program.exactness = result.exactness;
+    program.spoiledBy = result.spoiler;
+    program.nodeExactness = std::move(compiler.exactness);
+    readSettings(graph, *output, program);
+    return program;
+}
+
+std::vector<Error> compileErrors(const Graph& graph) {
+    Compiler compiler(graph, {});
+    std::vector<const Node*> all;
+    for (const Node& node : graph.nodes) all.push_back(&node);
+    compiler.lowerAll(graph.nodes, "", nullptr, all);
+    return std::move(compiler.errors);
+}
+
+Done setParameter(Graph& graph, const std::string& name, const std::string& text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (at < end) {
+        double number = 0.0;
+        const auto [next, failure] = std::from_chars(at, end, number);
+        if (failure != std::errc{} || !std::isfinite(number) || (next < end && *next != ','))
+            return errorAt(graph, nullptr,
+                           "'" + text + "' is no value for the parameter '" + name +
+                               "': write a number, or numbers with commas between them");
+        numbers.push_back(number);
+        at = next < end ? next + 1 : next;
+    }
+    if (numbers.empty())
+        return errorAt(graph, nullptr, "the parameter '" + name + "' is given no value: write name=value");
+
+    std::vector<std::string> names;
+    Node* node = nullptr;
+    std::string input;
+    double lo = -INFINITY, hi = INFINITY;
+    for (const ExposedParameter& parameter : graph.parameters) {
+        names.push_back(parameter.name);
+        if (parameter.name != name) continue;
+        node = graph.node(parameter.node), input = parameter.input;
+        lo = parameter.min.value_or(lo), hi = parameter.max.value_or(hi);
+    }
+    for (Node& candidate : graph.nodes) {
+        const InputValue* label = candidate.type == "parameter" ? candidate.input("name") : nullptr;
+        if (!label || !std::holds_alternative<std::string>(label->value)) continue;
+        names.push_back(std::get<std::string>(label->value));
+        if (names.back() != name || node) continue;
+        node = &candidate, input = "value";
+        if (const auto least = settings(candidate, "min"); !least.empty()) lo = least[0];
+        if (const auto most = settings(candidate, "max"); !most.empty()) hi = most[0];
+    }
+    if (!node) {
+        const std::string near = nearestName(name, names);
+        std::string known;
+        for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+        return errorAt(graph, nullptr,
+                       "the graph has no parameter '" + name + "'" +
+                           (!near.empty()   ? ": did you mean '" + near + "'?"
+                            : known.empty() ? ": it exposes none"
+                                            : ": it has " + known));
+    }
+    for (double number : numbers)
+        if (number < lo || number > hi)
+            return errorAt(graph, node,
+                           "the parameter '" + name + "' takes values from " + std::to_string(lo) + " to " +
+                               std::to_string(hi));
+    InputValue value;
+    if (numbers.size() == 1)
+        value.value = numbers[0];
+    else
+        value.value = numbers;
+    node->set(input, std::move(value));
+    return done();
+}
+
+}  // namespace fw

@@ -1,0 +1,78 @@
+// From a document to a program: what a runtime needs to evaluate the graph's field, and nothing of how it was
+// drawn.
+//
+// compile() orders the nodes that the output needs, lowers each body into one Ir (language/lower.h),
+// propagates exactness, and keeps what the roots use. Groups are expanded in place: their fields are values
+// like any other. A muted node passes on its first input of its output's type.
+//
+// Parameters. Every number of the graph is folded into the code, except the *live* ones: those stand in slots
+// of a parameter buffer, change by an upload, and do not enter structureHash. Constants are several times
+// faster than loads, so live is asked for, not the default.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "graph/evaluate.h"
+#include "graph/graph.h"
+#include "graph/ir.h"
+#include "graph/result.h"
+#include "graph/types.h"
+
+namespace fw {
+
+enum class MeshMethod : unsigned char { marchingCubes };
+
+/// One slot of the parameter buffer.
+struct LiveParameter {
+    std::string name;   ///< of an exposed parameter, else "node.input"; "time" for the seconds
+    int component = 0;  ///< which component of a vector input
+    double value = 0.0;
+};
+
+/// What compile() is asked for beyond the graph.
+struct CompileOptions {
+    /// Inputs to keep live, as "node.input"; "time" keeps the seconds live.
+    std::set<std::string> live;
+    /// Keep every exposed parameter live, under its own name.
+    bool liveExposed = false;
+    double time = 0.0;  ///< seconds, folded unless live
+};
+
+struct Program {
+    Ir ir;
+    std::array<IrId, 9> surface{};  ///< roots, in the order of SurfaceComponent
+    std::vector<LiveParameter> live;
+    uint64_t structureHash = 0;  ///< equal for equal code, whatever the live values
+
+    Exactness exactness;
+    std::string spoiledBy;  ///< node by which the field lost its exactness; empty if exact
+    std::map<std::string, Exactness, std::less<>> nodeExactness;
+
+    int resolution = 128;  ///< cells along the longest side
+    MeshMethod method = MeshMethod::marchingCubes;
+    std::optional<Box> region;  ///< given by a polygonize node
+
+    IrId distance() const { return surface[distanceComponent]; }
+    /// Some point's material differs from another's or from the default.
+    bool hasMaterial() const;
+    /// The live values in their slots.
+    std::vector<double> parameters() const;
+};
+
+/// Compiles the field that the graph's output shows. The Error is the first of check()'s errors, if there are
+/// any.
+Result<Program> compile(const Graph& graph, const CompileOptions& options = {});
+
+/// Every error that lowering the graph's nodes finds (code that does not compile, fields that are too large):
+/// the part of check() that needs the compiler. Expects a graph whose structure is sound.
+std::vector<Error> compileErrors(const Graph& graph);
+
+/// Sets the exposed parameter `name` to the numbers in `text` ("1.5" or "1,2,3"). Errors: no such parameter
+/// (with the nearest name), not a number, out of its range.
+Done setParameter(Graph& graph, const std::string& name, const std::string& text);
+
+}  // namespace fw

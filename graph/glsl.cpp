@@ -1,0 +1,244 @@
+#include "graph/glsl.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <string_view>
+
+namespace fw {
+
+namespace {
+
+std::string name(char prefix, IrId id) { return prefix + std::to_string(id); }
+
+std::string literal(double value) {
+    const auto narrow = static_cast<float>(value);
+    if (!std::isfinite(narrow)) {
+        if (std::isnan(narrow)) return "uintBitsToFloat(0x7fc00000u)";
+        return narrow > 0 ? "uintBitsToFloat(0x7f800000u)" : "uintBitsToFloat(0xff800000u)";
+    }
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, narrow).ptr;
+    std::string text(digits, end);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return narrow < 0.0f ? "(" + text + ")" : text;
+}
+
+/// The template with %a … replaced by what `operand(letter)` gives.
+void fill(std::string& out, std::string_view pattern, const std::function<std::string(char)>& operand) {
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        if (pattern[i] == '%' && i + 1 < pattern.size())
+            out += operand(pattern[++i]);
+        else
+            out += pattern[i];
+    }
+}
+
+class Emitter {
+  public:
+    explicit Emitter(const Program& program_) : program(program_), ir(program_.ir) {}
+
+    std::string run() {
+        for (IrId id = 0; id < ir.size(); ++id) {
+            const Op op = ir[id].op;
+            usesNoise |= op == Op::gradientNoise || op == Op::simplexNoise || op == Op::worleyNoise ||
+                         op == Op::cellHash;
+        }
+        parameters();
+        if (usesNoise) text += "#include \"lib/noise.glsl\"\n";
+        text +=
+            "float fieldPower(float a, float b) { return a > 0.0 ? pow(a, b) : b > 0.0 ? 0.0 : b < 0.0 ? "
+            "1e30 : 1.0; }\n"
+            "float fieldArcTangent2(float y, float x) { return y == 0.0 && x == 0.0 ? 0.0 : atan(y, x); }\n";
+        value();
+        gradient();
+        interval();
+        rows();
+        material();
+        return std::move(text);
+    }
+
+  private:
+    void parameters() {
+        text += "struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };\n";
+        if (!program.live.empty())
+            text += "layout(set = 0, binding = " + std::to_string(kFieldParametersBinding) +
+                    ", std430) readonly buffer FieldParameters { float fieldParameters[]; };\n";
+        for (std::size_t slot = 0; slot < program.live.size(); ++slot)
+            text += "float fieldP" + std::to_string(slot) + ";\n";
+        text += "void fieldBegin() {\n";
+        for (std::size_t slot = 0; slot < program.live.size(); ++slot)
+            text +=
+                "    fieldP" + std::to_string(slot) + " = fieldParameters[" + std::to_string(slot) + "];\n";
+        text += "}\n";
+    }
+
+    std::vector<bool> neededBy(std::span<const IrId> roots) const {
+        std::vector<bool> needed(ir.size(), false);
+        for (IrId root : roots) needed[root] = true;
+        for (IrId id = static_cast<IrId>(ir.size()); id-- > 0;)
+            if (needed[id])
+                for (int i = 0; i < opInfo(ir[id].op).arity; ++i) needed[ir[id].operands[i]] = true;
+        return needed;
+    }
+
+    /// The value of an operand in scalar code: its variable, or the literal.
+    std::string scalarOperand(IrId id) const {
+        if (ir.isConstant(id)) return literal(ir.number(id));
+        if (ir[id].op == Op::parameter) return "fieldP" + std::to_string(static_cast<int>(ir.number(id)));
+        return name('v', id);
+    }
+    std::string intervalOperand(IrId id) const {
+        if (ir.isConstant(id)) return "vec2(" + literal(ir.number(id)) + ")";
+        if (ir[id].op == Op::parameter) return "vec2(" + scalarOperand(id) + ")";
+        return name('i', id);
+    }
+    std::string gradientOperand(IrId id) const { return hasGradient(id) ? name('g', id) : "vec3(0.0)"; }
+    bool hasGradient(IrId id) const {
+        return ir[id].positions != 0 && *opInfo(ir[id].op).glslGradient != '\0';
+    }
+    static bool isInline(const IrNode& node) { return node.op == Op::constant || node.op == Op::parameter; }
+    std::string_view typeOf(IrId id) const { return opInfo(ir[id].op).boolean ? "bool" : "float"; }
+
+    void scalarStatement(IrId id, std::string_view pattern) {
+        text += "    ";
+        text += typeOf(id);
+        text += " " + name('v', id) + " = ";
+        fill(text, pattern, [&](char letter) { return scalarOperand(ir[id].operands[letter - 'a']); });
+        text += ";\n";
+    }
+
+    void scalarStatements(const std::vector<bool>& needed) {
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (needed[id] && !isInline(ir[id])) scalarStatement(id, opInfo(ir[id].op).glsl);
+    }
+
+    void value() {
+        const IrId root = program.distance();
+        text += "#ifdef FIELD_VALUE\nfloat fieldValue(vec3 p) {\n";
+        scalarStatements(neededBy(std::span(&root, 1)));
+        text += "    return " + scalarOperand(root) + ";\n}\n#endif\n";
+    }
+
+    void gradient() {
+        const IrId root = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&root, 1));
+        text += "#ifdef FIELD_GRADIENT\nvec4 fieldGradient(vec3 p) {\n";
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (!needed[id] || isInline(ir[id])) continue;
+            scalarStatement(id, opInfo(ir[id].op).glsl);
+            if (!hasGradient(id)) continue;
+            text += "    vec3 " + name('g', id) + " = ";
+            fill(text, opInfo(ir[id].op).glslGradient, [&](char letter) {
+                if (letter == 'v') return name('v', id);
+                return letter < 'a' ? gradientOperand(ir[id].operands[letter - 'A'])
+                                    : scalarOperand(ir[id].operands[letter - 'a']);
+            });
+            text += ";\n";
+        }
+        text += "    return vec4(" + gradientOperand(root) + ", " + scalarOperand(root) + ");\n}\n#endif\n";
+    }
+
+    void interval() {
+        const IrId root = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&root, 1));
+        text +=
+            "#ifdef FIELD_INTERVAL\n#include \"lib/interval.glsl\"\nvec2 fieldInterval(vec3 lo, vec3 hi) {\n";
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (!needed[id] || isInline(ir[id])) continue;
+            text += "    vec2 " + name('i', id) + " = ";
+            fill(text, opInfo(ir[id].op).glslInterval,
+                 [&](char letter) { return intervalOperand(ir[id].operands[letter - 'a']); });
+            text += ";\n";
+        }
+        text += "    return " + intervalOperand(root) + ";\n}\n#endif\n";
+    }
+
+    /// 0: constant along x and y; 1: along y; 2: varies with y.
+    int stageOf(IrId id) const {
+        const uint8_t positions = ir[id].positions;
+        return positions & dependsOnY ? 2 : positions & dependsOnX ? 1 : 0;
+    }
+
+    void rows() {
+        const IrId root = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&root, 1));
+        // Values a later stage reads are members of the struct that the earlier stage returns.
+        std::vector<int> lastReader(ir.size(), -1);
+        lastReader[root] = 2;
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (needed[id])
+                for (int i = 0; i < opInfo(ir[id].op).arity; ++i) {
+                    int& reader = lastReader[ir[id].operands[i]];
+                    reader = std::max(reader, stageOf(id));
+                }
+        const auto kept = [&](IrId id, int stage) {
+            return needed[id] && !isInline(ir[id]) && stageOf(id) <= stage && lastReader[id] > stage;
+        };
+        const auto members = [&](int stage, const std::function<void(IrId)>& visit) {
+            for (IrId id = 0; id < ir.size(); ++id)
+                if (kept(id, stage)) visit(id);
+        };
+        const auto statements = [&](int stage, const char* axis) {
+            for (IrId id = 0; id < ir.size(); ++id) {
+                if (!needed[id] || isInline(ir[id]) || stageOf(id) != stage) continue;
+                const bool leaf = ir[id].op >= Op::positionX && ir[id].op <= Op::positionZ;
+                scalarStatement(id, leaf ? axis : opInfo(ir[id].op).glsl);
+            }
+        };
+        const auto unpack = [&](int stage, const char* from) {
+            members(stage, [&](IrId id) {
+                text += "    ";
+                text += typeOf(id);
+                text += " " + name('v', id) + " = " + from + "." + name('v', id) + ";\n";
+            });
+        };
+        const auto structure = [&](int stage, const char* type) {
+            text += std::string("struct ") + type + " { float unused;";
+            members(stage,
+                    [&](IrId id) { text += " " + std::string(typeOf(id)) + " " + name('v', id) + ";"; });
+            text += " };\n";
+        };
+        const auto pack = [&](int stage, const char* type) {
+            text += std::string("    return ") + type + "(0.0";
+            members(stage, [&](IrId id) { text += ", " + name('v', id); });
+            text += ");\n}\n";
+        };
+        text += "#ifdef FIELD_ROWS\n";
+        structure(0, "FieldPlane");
+        structure(1, "FieldRow");
+        text += "FieldPlane fieldPlane(float z) {\n";
+        statements(0, "z");
+        pack(0, "FieldPlane");
+        text += "FieldRow fieldRow(FieldPlane plane, float x) {\n";
+        unpack(0, "plane");
+        statements(1, "x");
+        pack(1, "FieldRow");
+        text += "float fieldAt(FieldRow row, float y) {\n";
+        unpack(1, "row");
+        statements(2, "y");
+        text += "    return " + scalarOperand(root) + ";\n}\n#endif\n";
+    }
+
+    void material() {
+        const std::span<const IrId> roots(program.surface.data() + 1, 8);
+        text += "#ifdef FIELD_MATERIAL\nFieldMaterial fieldMaterial(vec3 p) {\n";
+        scalarStatements(neededBy(roots));
+        text += "    return FieldMaterial(vec3(" + scalarOperand(roots[0]) + ", " + scalarOperand(roots[1]) +
+                ", " + scalarOperand(roots[2]) + "), " + scalarOperand(roots[3]) + ", " +
+                scalarOperand(roots[4]) + ", vec3(" + scalarOperand(roots[5]) + ", " +
+                scalarOperand(roots[6]) + ", " + scalarOperand(roots[7]) + "));\n}\n#endif\n";
+    }
+
+    const Program& program;
+    const Ir& ir;
+    std::string text;
+    bool usesNoise = false;
+};
+
+}  // namespace
+
+std::string emitField(const Program& program) { return Emitter(program).run(); }
+
+}  // namespace fw

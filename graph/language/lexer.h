@@ -1,0 +1,36 @@
+// Text of the field language into tokens.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/result.h"
+
+namespace fw::language {
+
+/// 1-based place in a code text.
+struct Place {
+    int line = 1, column = 1;
+};
+
+struct Token {
+    enum class Kind : unsigned char { end, name, integer, number, string, symbol } kind = Kind::end;
+    std::string_view text;  ///< of a string: without its quotes
+    double value = 0.0;     ///< of integer and number
+    Place place;
+
+    bool is(std::string_view symbol) const { return kind == Kind::symbol && text == symbol; }
+    bool isName(std::string_view name) const { return kind == Kind::name && text == name; }
+};
+
+inline constexpr std::size_t kMaxTokens = 200'000;
+
+/// The tokens of `code`, the last of kind `end`; they refer into `code`. Comments are // and /* */. The Error
+/// names the place inside the code.
+Result<std::vector<Token>> tokenize(std::string_view code);
+
+/// An Error at a place inside code.
+Error codeError(Place place, std::string message);
+
+}  // namespace fw::language

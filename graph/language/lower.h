@@ -1,0 +1,75 @@
+// Meaning of the field language: a syntax tree into the scalar graph of ir.h, by abstract execution.
+//
+// Every value is a function of the position, represented by ids of the Ir. Running a statement computes ids,
+// so
+//   * a call is inlined, a constant `for` is unrolled, a constant `if` runs one side;
+//   * an `if` that depends on the position runs both sides and selects, variable by variable; `return`,
+//   `break`
+//     and `continue` inside it are kept as the condition under which the code that follows still counts
+//     ("live");
+//   * `a(q)`, a field at another position, is a substitution in a's graph.
+//
+// Numbers: an integer literal is a float wherever a float is wanted, `/` always divides as float, and
+// declaring an `int` truncates. A surface stands for its distance in arithmetic; min and max of surfaces keep
+// the material of the side taken; assigning a float to a variable that holds a surface replaces its distance.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graph/ir.h"
+#include "graph/language/parser.h"
+#include "graph/node_type.h"
+
+namespace fw::language {
+
+/// A typed value: componentCount(type) ids, or a text or points known at compile time.
+struct Value {
+    Type type = Type::scalar;
+    std::array<IrId, 9> ids{};
+    std::string text{};
+    std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
+
+    IrId id() const { return ids[0]; }
+};
+
+/// What a code text sees.
+struct Scope {
+    std::vector<std::pair<std::string, Value>> inputs;
+    std::vector<OutputSpec> outputs;   ///< wanted results; the first is what `return` yields
+    bool anyResult = false;            ///< the first output takes the type that the code returns
+    bool refusesZeroDivision = false;  ///< a division by the constant 0 is an error (a user's code)
+};
+
+/// One compilation's state.
+struct Lowering {
+    Ir ir;
+    IrId time = 0;          ///< seconds
+    std::size_t steps = 0;  ///< expressions and statements run so far, bounded by kMaxSteps
+    int calls = 0;          ///< depth of calls, bounded by kMaxCalls
+};
+
+inline constexpr std::size_t kMaxSteps = 4'000'000;
+inline constexpr int kMaxCalls = 64;
+
+/// Runs `tree` in `scope`; one value for each output. The Error names the place inside the code.
+Result<std::vector<Value>> lower(Lowering& state, const Tree& tree, const Scope& scope);
+
+/// Runs the body of a library node on its inputs, one value for each entry of `type.inputs`.
+Result<std::vector<Value>> lowerNode(Lowering& state, const NodeType& type, std::vector<Value> inputs);
+
+/// The value of an input that is neither given nor linked.
+Value defaultValue(Lowering& state, const InputSpec& input);
+
+/// `value` as `type`: surface <-> float (distance, default material), bool and int to float, float to vec2
+/// and vec3 (splat). An Error without a place if there is no such conversion.
+Result<Value> convert(Lowering& state, const Value& value, Type type);
+
+Value constantValue(Lowering& state, Type type, std::span<const double> numbers);
+/// The surface of nothing: far away everywhere.
+Value emptySurface(Lowering& state);
+inline constexpr double kEmptyDistance = 1e9;
+
+}  // namespace fw::language

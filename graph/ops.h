@@ -1,0 +1,97 @@
+// The op table: every scalar operation of the IR with its name, arity and four meanings.
+//
+//   value     double x double … -> double                         the reference
+//   interval  Interval x Interval … -> Interval                   contains the value of every point of its
+//   operands gradient  forward mode: the derivative of the result from the operands' derivatives, one
+//   component at a time GLSL      the same three as text
+//
+// Adding an op is one row of the table in ops.cpp (and its name in the enum). Everything else, the folding of
+// constants, the CPU evaluators, the three GLSL emitters and the tests, is driven by the row.
+//
+// In the GLSL templates %a %b %c %d are the operands, %v the result's value, and, in gradients, %A %B %C %D
+// are the operands' gradients (vec3). Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals are
+// vec2(0|1, 0|1).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "graph/interval.h"
+
+namespace fw {
+
+/// Order is the order of rows in the table. Files never store these numbers.
+enum class Op : uint8_t {
+    // leaves
+    constant,
+    parameter,
+    positionX,
+    positionY,
+    positionZ,
+    // one operand
+    negate,
+    absolute,
+    sign,
+    floor,
+    ceil,
+    round,
+    truncate,
+    squareRoot,
+    square,
+    exponential,
+    logarithm,
+    sine,
+    cosine,
+    tangent,
+    arcSine,
+    arcCosine,
+    arcTangent,
+    logicalNot,
+    // two operands
+    add,
+    subtract,
+    multiply,
+    divide,
+    minimum,
+    maximum,
+    power,
+    modulo,
+    truncatedModulo,
+    arcTangent2,
+    less,
+    lessEqual,
+    equal,
+    logicalAnd,
+    logicalOr,
+    // three operands: condition, then, else
+    select,
+    // four operands: x, y, z, seed
+    gradientNoise,
+    simplexNoise,
+    worleyNoise,
+    cellHash,
+    count
+};
+
+inline constexpr int kMaxArity = 4;
+
+struct OpInfo {
+    Op op;
+    const char* name;
+    int arity;
+    bool boolean;      ///< the result is a truth value
+    bool commutative;  ///< operands may be swapped
+    double (*value)(const double* operands);
+    Interval (*interval)(const Interval* operands);
+    /// One component of the result's derivative, from the operands' values, the result and their derivatives.
+    double (*gradient)(const double* operands, double result, const double* derivatives);
+    const char* glsl;
+    const char* glslInterval;
+    const char* glslGradient;  ///< "" where the derivative is zero everywhere
+};
+
+const OpInfo& opInfo(Op op);
+std::span<const OpInfo> opTable();
+
+}  // namespace fw

@@ -1,0 +1,64 @@
+// Intervals in float, vec2(least, greatest), rounded outwards: the GPU twin of graph/interval.h. "Everything" is
+// ±1e30 so that no infinity or NaN arises, and what transcendental functions may err by on a GPU is added as slack.
+
+vec2 iOut(vec2 a) { return a + abs(a) * vec2(-1.2e-7, 1.2e-7); }
+vec2 iSlack(vec2 a) { return a + (abs(a) * 1e-5 + 1e-5) * vec2(-1.0, 1.0); }
+vec2 iCut(vec2 a) { return clamp(iOut(a), -1e30, 1e30); }
+vec2 iAbs(vec2 a) { return vec2(max(0.0, max(a.x, -a.y)), max(-a.x, a.y)); }
+vec2 iSquare(vec2 a) {
+    vec2 m = iAbs(a);
+    return iCut(m * m);
+}
+vec2 iMultiply(vec2 a, vec2 b) {
+    vec4 p = a.xxyy * b.xyxy;
+    return iCut(vec2(min(min(p.x, p.y), min(p.z, p.w)), max(max(p.x, p.y), max(p.z, p.w))));
+}
+vec2 iDivide(vec2 a, vec2 b) {
+    return b.x <= 0.0 && b.y >= 0.0 ? vec2(-1e30, 1e30) : iMultiply(a, iCut(1.0 / b.yx));
+}
+vec2 iExp(vec2 a) { return clamp(iSlack(exp(min(a, 69.0))), 0.0, 1e30); }
+vec2 iPower(vec2 a, vec2 b) {
+    vec2 base = max(a, 0.0);
+    vec4 p = vec4(base.x > 0.0 ? pow(base.x, b.x) : b.x > 0.0 ? 0.0 : 1e30, base.x > 0.0 ? pow(base.x, b.y) : b.y > 0.0 ? 0.0 : 1e30,
+                  base.y > 0.0 ? pow(base.y, b.x) : b.x > 0.0 ? 0.0 : 1e30, base.y > 0.0 ? pow(base.y, b.y) : b.y > 0.0 ? 0.0 : 1e30);
+    return clamp(iSlack(vec2(min(min(p.x, p.y), min(p.z, p.w)), max(max(p.x, p.y), max(p.z, p.w)))), 0.0, 1e30);
+}
+// The quotient keeps one integer value over the interval: a shift; else the whole period.
+vec2 iModulo(vec2 a, vec2 b) {
+    float k = floor(a.x / b.x);
+    vec2 slack = (abs(k * b.x) + max(abs(a.x), abs(a.y))) * vec2(-2.4e-7, 2.4e-7);
+    return b.x == b.y && b.x > 0.0 && floor(a.y / b.x) == k ? a - k * b.x + slack : iOut(vec2(min(0.0, b.x), max(0.0, b.y)));
+}
+vec2 iTruncatedModulo(vec2 a, vec2 b) {
+    float most = max(abs(b.x), abs(b.y));
+    float k = trunc(a.x / most);
+    vec2 slack = (abs(k * most) + max(abs(a.x), abs(a.y))) * vec2(-2.4e-7, 2.4e-7);
+    return b.x == b.y && most > 0.0 && trunc(a.y / most) == k
+               ? a - k * most + slack
+               : iOut(vec2(a.x < 0.0 ? max(-most, a.x) : 0.0, a.y > 0.0 ? min(most, a.y) : 0.0));
+}
+vec2 iSin(vec2 a) {
+    const float tau = 6.28318531, quarter = 1.57079633;
+    vec2 ends = sin(a);
+    bool low = -quarter + ceil((a.x + quarter) / tau - 1e-5) * tau <= a.y + 1e-4;
+    bool high = quarter + ceil((a.x - quarter) / tau - 1e-5) * tau <= a.y + 1e-4;
+    float slack = 1e-5 + max(abs(a.x), abs(a.y)) * 5e-7;
+    vec2 range = vec2(low ? -1.0 : min(ends.x, ends.y) - slack, high ? 1.0 : max(ends.x, ends.y) + slack);
+    return a.y - a.x >= tau || max(abs(a.x), abs(a.y)) > 1e5 ? vec2(-1.0, 1.0) : range;
+}
+vec2 iArcTangent2(vec2 y, vec2 x) {
+    if (x.x <= 0.0 && y.x <= 0.0 && y.y >= 0.0) return vec2(-3.141594, 3.141594);
+    vec4 t = vec4(atan(y.x, x.x), atan(y.x, x.y), atan(y.y, x.x), atan(y.y, x.y));
+    return iSlack(vec2(min(min(t.x, t.y), min(t.z, t.w)), max(max(t.x, t.y), max(t.z, t.w))));
+}
+vec2 iEqual(vec2 a, vec2 b) {
+    return vec2(a.x == a.y && b.x == b.y && a.x == b.x, a.y >= b.x && b.y >= a.x);
+}
+vec2 iSelect(vec2 c, vec2 a, vec2 b) {
+    return c.x > 0.5 ? a : c.y < 0.5 ? b : vec2(min(a.x, b.x), max(a.y, b.y));
+}
+vec3 iCentre(vec2 x, vec2 y, vec2 z) { return 0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y); }
+vec2 iNoise(float centre, vec2 x, vec2 y, vec2 z, float slope, float least, float most) {
+    float radius = 0.5 * length(vec3(x.y - x.x, y.y - y.x, z.y - z.x));
+    return clamp(centre + (slope * radius + 1e-4) * vec2(-1.0, 1.0), least, most);
+}
