@@ -102,10 +102,10 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
         case Op::minimum:
         case Op::maximum: {
             if (a == b) return a;
-            const Op opposite = op == Op::minimum ? Op::maximum : Op::minimum;
+            const Op dual = op == Op::minimum ? Op::maximum : Op::minimum;
             for (int i : {0, 1}) {
                 const IrId other = operands[1 - i];
-                if (made(i, opposite) && (inner(i, 0) == other || inner(i, 1) == other)) return other;
+                if (made(i, dual) && (inner(i, 0) == other || inner(i, 1) == other)) return other;
                 if (made(i, op) && (inner(i, 0) == other || inner(i, 1) == other)) return operands[i];
             }
             break;

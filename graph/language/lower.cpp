@@ -73,7 +73,9 @@ class Run {
         }
         std::optional<Value> result = lastAssigned(frame);
         if (frame.result) {
-            if (!ir.isConstant(frame.live, 0.0) && result) {
+            if (!ir.isConstant(frame.live, 0.0)) {
+                if (!result)
+                    fail(end, "the code does not return on every path: end it with a return outside the if");
                 // Some paths return and others fall through to the last assignment.
                 result = checked(choose(state, frame.live, *result, *frame.result), end);
             } else {
@@ -81,7 +83,12 @@ class Run {
             }
         }
         if (!result) fail(end, "the code has no result: end it with 'return …;' or assign the result last");
-        if (scope.outputs.empty() || scope.anyResult) return {*result};
+        if (scope.anyResult) {
+            if (componentCount(result->type) == 0)
+                fail(end,
+                     "the code returns a " + std::string(typeName(result->type)) + ", which no node can use");
+            return {*result};
+        }
         return {converted(*result, scope.outputs[0].type, end)};
     }
 
