@@ -10,16 +10,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
 
 namespace fw {
 namespace {
-
-constexpr std::size_t kChunk = 16384;  // vertices or indices converted at a time
 
 struct Layout {
     uint64_t vertices = 0, indices = 0;
@@ -143,26 +143,27 @@ uint16_t unit16(float value) {
 void writeBinary(const Mesh& mesh, OutputFile& file) {
     file.write(std::span(mesh.positions));
     file.write(std::span(mesh.normals));
-    std::vector<std::array<uint16_t, 4>> colors;
-    for (std::size_t first = 0; first < mesh.colors.size() && file.good(); first += kChunk) {
-        colors.clear();
-        for (std::size_t i = first; i < std::min(first + kChunk, mesh.colors.size()); ++i) {
+    const auto formatColors = [&](char* out, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i, out += 8) {
             const glm::vec3 c = mesh.colors[i];
-            colors.push_back({unit16(c.x), unit16(c.y), unit16(c.z), 65535});
+            const std::array<uint16_t, 4> rgba = {unit16(c.x), unit16(c.y), unit16(c.z), 65535};
+            std::memcpy(out, rgba.data(), 8);
         }
-        file.write(std::span<const std::array<uint16_t, 4>>(colors));
-    }
+        return out;
+    };
+    writeBlocks(mesh.colors.size(), 8, formatColors, file);
     if (!layoutOf(mesh).shortIndices) {
         file.write(std::span(mesh.indices));
         return;
     }
-    std::vector<uint16_t> narrow;
-    for (std::size_t first = 0; first < mesh.indices.size() && file.good(); first += kChunk) {
-        const std::size_t last = std::min(first + kChunk, mesh.indices.size());
-        narrow.clear();
-        for (std::size_t i = first; i < last; ++i) narrow.push_back(static_cast<uint16_t>(mesh.indices[i]));
-        file.write(std::span<const uint16_t>(narrow));
-    }
+    const auto narrow = [&](char* out, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i, out += 2) {
+            const auto index = static_cast<uint16_t>(mesh.indices[i]);
+            std::memcpy(out, &index, 2);
+        }
+        return out;
+    };
+    writeBlocks(mesh.indices.size(), 2, narrow, file);
 }
 
 }  // namespace

@@ -4,22 +4,16 @@
 // follow the position ("v x y z r g b"), the extension that MeshLab, Blender and ZBrush share, sRGB-encoded.
 // The material file carries the factors: Kd, and Pr, Pm, Ke of the PBR extension that Blender and others
 // read.
-//
-// Formatting is what costs here, so two threads format alternate blocks while their texts go out in order.
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
-#include <functional>
-#include <future>
-#include <vector>
 
+#include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
 
 namespace fw {
 namespace {
 
-constexpr std::size_t kBlock = 8192;  // lines formatted at a time
 constexpr std::size_t kLongestLine =
     128;  // "v" and six floats of at most 15 characters; "f" and six indices of 10
 
@@ -49,29 +43,6 @@ char* putColor(char* out, glm::vec3 color) {
     return out;
 }
 
-using FormatLine = std::function<char*(char* out, std::size_t first, std::size_t last)>;
-
-/// Writes lines 0..count; `format` appends lines first..last to `out` and returns the end.
-void writeLines(std::size_t count, const FormatLine& format, OutputFile& file) {
-    const auto formatBlock = [&](std::size_t first, std::vector<char>& text) -> std::size_t {
-        text.resize(kBlock * kLongestLine);
-        return static_cast<std::size_t>(format(text.data(), first, std::min(first + kBlock, count)) -
-                                        text.data());
-    };
-    std::array<std::vector<char>, 2> texts;
-    for (std::size_t first = 0; first < count && file.good(); first += 2 * kBlock) {
-        std::future<std::size_t> second;
-        if (first + kBlock < count)
-            second = std::async(std::launch::async, formatBlock, first + kBlock, std::ref(texts[1]));
-        const std::size_t size = formatBlock(first, texts[0]);
-        file.write(texts[0].data(), size);
-        if (second.valid()) {
-            const std::size_t secondSize = second.get();
-            file.write(texts[1].data(), secondSize);
-        }
-    }
-}
-
 void writeMaterial(const Mesh& mesh, const std::string& name, OutputFile& library) {
     const auto linear = [](glm::vec3 v) {
         std::array<char, kLongestLine> text{};
@@ -94,8 +65,8 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
               OutputFile& library) {
     writeMaterial(mesh, name, library);
     file.write("# " + generatorName() + ", metres, +Y up\nmtllib " + libraryName + "\no " + name + "\n");
-    writeLines(
-        mesh.positions.size(),
+    writeBlocks(
+        mesh.positions.size(), kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 out = putVector(out, "v", mesh.positions[i]);
@@ -105,8 +76,8 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
             return out;
         },
         file);
-    writeLines(
-        mesh.normals.size(),
+    writeBlocks(
+        mesh.normals.size(), kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 out = putVector(out, "vn", mesh.normals[i]);
@@ -117,8 +88,8 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
         file);
     file.write("usemtl " + name + "\n");
     const bool normals = !mesh.normals.empty();
-    writeLines(
-        mesh.triangleCount(),
+    writeBlocks(
+        mesh.triangleCount(), kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
             for (std::size_t i = first * 3; i < last * 3; ++i) {
                 if (i % 3 == 0) *out++ = 'f';

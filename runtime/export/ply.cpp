@@ -2,11 +2,11 @@
 //
 // Colours are 8-bit sRGB, as every reader of "red green blue" takes them; a mesh without vertex colours
 // states its base colour so that it does not look different from the glTF.
-#include <algorithm>
 #include <bit>
 #include <cstring>
-#include <vector>
+#include <string>
 
+#include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
 
 namespace fw {
@@ -23,7 +23,6 @@ Rgb encode(glm::vec3 color) { return {encodeSrgb(color.x), encodeSrgb(color.y), 
 }  // namespace
 
 void writePly(const Mesh& mesh, OutputFile& file) {
-    constexpr std::size_t kChunk = 8192;
     const bool normals = !mesh.normals.empty();
     std::string header =
         "ply\nformat binary_little_endian 1.0\ncomment " + generatorName() + ", metres, +Y up\n";
@@ -36,12 +35,9 @@ void writePly(const Mesh& mesh, OutputFile& file) {
     file.write(header);
 
     const std::size_t stride = normals ? 27 : 15;
-    std::vector<char> chunk(kChunk * std::max<std::size_t>(stride, 13));
-    glm::vec3 lastColor = mesh.baseColor;  // neighbours mostly share a colour: encode it once
-    Rgb lastCode = encode(lastColor);
-    for (std::size_t first = 0; first < mesh.positions.size() && file.good(); first += kChunk) {
-        const std::size_t last = std::min(first + kChunk, mesh.positions.size());
-        char* out = chunk.data();
+    const auto formatVertices = [&](char* out, std::size_t first, std::size_t last) {
+        glm::vec3 lastColor = mesh.baseColor;  // neighbours mostly share a colour: encode it once
+        Rgb lastCode = encode(lastColor);
         for (std::size_t i = first; i < last; ++i, out += stride) {
             std::memcpy(out, &mesh.positions[i], 12);
             if (normals) std::memcpy(out + 12, &mesh.normals[i], 12);
@@ -49,17 +45,17 @@ void writePly(const Mesh& mesh, OutputFile& file) {
                 lastCode = encode(lastColor = mesh.colors[i]);
             std::memcpy(out + stride - 3, &lastCode, 3);
         }
-        file.write(chunk.data(), (last - first) * stride);
-    }
-    for (std::size_t first = 0; first < mesh.triangleCount() && file.good(); first += kChunk) {
-        const std::size_t last = std::min(first + kChunk, mesh.triangleCount());
-        char* out = chunk.data();
+        return out;
+    };
+    writeBlocks(mesh.positions.size(), stride, formatVertices, file);
+    const auto formatFaces = [&](char* out, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i, out += 13) {
             out[0] = 3;
             std::memcpy(out + 1, &mesh.indices[i * 3], 12);
         }
-        file.write(chunk.data(), (last - first) * 13);
-    }
+        return out;
+    };
+    writeBlocks(mesh.triangleCount(), 13, formatFaces, file);
 }
 
 }  // namespace fw

@@ -2,17 +2,18 @@
 //
 // The normal is that of the flat triangle; where it collapsed to a line it is zero, which readers take as
 // "compute it". The text must not start with "solid": that marks the ASCII form.
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <glm/geometric.hpp>
-#include <vector>
 
+#include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
 
 namespace fw {
 
 void writeStl(const Mesh& mesh, OutputFile& file) {
-    constexpr std::size_t kRecord = 50, kChunk = 5000;
+    constexpr std::size_t kRecord = 50;
     std::array<char, 80> header{};
     const std::string text = generatorName() + ", binary STL, metres, +Y up";
     std::memcpy(header.data(), text.data(), std::min(text.size(), header.size()));
@@ -20,10 +21,7 @@ void writeStl(const Mesh& mesh, OutputFile& file) {
     const auto count = static_cast<uint32_t>(mesh.triangleCount());
     file.write(&count, sizeof count);
 
-    std::vector<char> records(kChunk * kRecord);
-    for (std::size_t first = 0; first < count && file.good(); first += kChunk) {
-        const std::size_t last = std::min<std::size_t>(first + kChunk, count);
-        char* out = records.data();
+    const auto format = [&](char* out, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i, out += kRecord) {
             const uint32_t* corner = &mesh.indices[i * 3];
             const glm::vec3 a = mesh.positions[corner[0]], b = mesh.positions[corner[1]],
@@ -31,13 +29,14 @@ void writeStl(const Mesh& mesh, OutputFile& file) {
             // Double: the area of a sliver underflows a float, and its normal is wanted all the same.
             const glm::dvec3 area = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
             const double length = glm::length(area);
-            const std::array<glm::vec3, 4> facet = {length > 0.0 ? glm::vec3(area / length) : glm::vec3(0.0f),
-                                                    a, b, c};
+            const double scale = length > 0.0 ? 1.0 / length : 0.0;
+            const std::array<glm::vec3, 4> facet = {glm::vec3(area * scale), a, b, c};
             std::memcpy(out, facet.data(), 48);
             out[48] = out[49] = 0;
         }
-        file.write(records.data(), (last - first) * kRecord);
-    }
+        return out;
+    };
+    writeBlocks(count, kRecord, format, file);
 }
 
 }  // namespace fw
