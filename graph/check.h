@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "graph/graph.h"
-#include "graph/node_type.h"
 #include "graph/result.h"
 
 namespace fw {
@@ -14,10 +13,5 @@ namespace fw {
 /// the last of which then says that there are more. A graph without an Error::Severity::error among them is
 /// structurally sound: every type and name exists, every value fits its input, and links form no cycle.
 std::vector<Error> check(const Graph& graph);
-
-/// Whether an output of type `from` may feed an input of type `to`: the same type, a scalar as a surface with
-/// the default material, a surface as its distance, a scalar as a vec3 of three equal components, a boolean
-/// or an integer as a scalar.
-bool converts(Type from, Type to);
 
 }  // namespace fw

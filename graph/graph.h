@@ -23,7 +23,9 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr int kFormatVersion = 1;
 inline constexpr std::size_t kMaxFileBytes = 16u << 20;
-inline constexpr std::size_t kMaxNodes = 10'000;           ///< in one file, groups included
+inline constexpr std::size_t kMaxNodes = 10'000;    ///< in one file, groups included
+inline constexpr std::size_t kMaxSockets = 256;     ///< inputs of one node, inputs and outputs of one group
+inline constexpr std::size_t kMaxEntries = 10'000;  ///< groups, parameters
 inline constexpr std::size_t kMaxExpandedNodes = 200'000;  ///< with every instance of a group counted
 inline constexpr std::size_t kMaxJsonValues = 2'000'000;   ///< in one file: bounds the memory of reading it
 inline constexpr int kMaxNesting = 64;  ///< of JSON arrays and objects, and of groups in groups

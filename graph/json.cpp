@@ -112,7 +112,7 @@ class Reader {
     bool unknown(uint32_t key, Json& extra, const std::vector<std::string>& known) {
         if (++unknownKeys <= kMaxWarnings && warnings) {
             const std::string near = nearestName(list[key].text.substr(0, 64), known);
-            warn(key, "unknown key " + quoted(list[key].text) + " is kept but has no effect" +
+            warn(key, "unknown key " + inQuotes(list[key].text) + " is kept but has no effect" +
                           (near.empty() ? "" : "; did you mean '" + near + "'?"));
         }
         if (extra.is_null()) extra = Json::object();
@@ -177,8 +177,11 @@ class Reader {
 
     template <class Entry>
     bool readList(uint32_t value, std::string_view key, std::vector<Entry>& to,
-                  bool (Reader::*readEntry)(uint32_t, Entry&)) {
+                  bool (Reader::*readEntry)(uint32_t, Entry&), std::size_t limit = kMaxEntries) {
         if (list[value].kind != Kind::array) return failKind(value, key, "an array");
+        if (count(value) > limit)
+            return fail(value, "\"" + std::string(key) + "\" has more than " + std::to_string(limit) +
+                                   " entries: split it");
         for (uint32_t i = value + 1; i < list[value].next; i = list[i].next)
             if (!(this->*readEntry)(i, to.emplace_back())) return false;
         return true;
@@ -231,6 +234,9 @@ class Reader {
     bool readInputs(uint32_t value, Node& to) {
         if (list[value].kind != Kind::object)
             return failKind(value, "inputs", "an object of input names and values");
+        if (count(value) > kMaxSockets)
+            return fail(value,
+                        "the node has more than " + std::to_string(kMaxSockets) + " inputs: remove some");
         to.inputs.reserve(count(value));
         return forMembers(value, [&](std::string_view key, uint32_t, uint32_t i) {
             input = key;
@@ -322,8 +328,8 @@ class Reader {
         group = to.id;
         const bool sound = forMembers(value, [&](std::string_view key, uint32_t keyAt, uint32_t i) {
             if (key == "id") return true;
-            if (key == "inputs") return readList(i, key, to.inputs, &Reader::readGroupInput);
-            if (key == "outputs") return readList(i, key, to.outputs, &Reader::readGroupOutput);
+            if (key == "inputs") return readList(i, key, to.inputs, &Reader::readGroupInput, kMaxSockets);
+            if (key == "outputs") return readList(i, key, to.outputs, &Reader::readGroupOutput, kMaxSockets);
             if (key == "nodes") return readNodes(i, to.nodes);
             return unknown(keyAt, to.extra, {"id", "inputs", "outputs", "nodes"});
         });

@@ -179,7 +179,7 @@ class Follower {
             if (list[keys[i - 1]].text == list[keys[i]].text && (second == 0 || keys[i] < second))
                 first = keys[i - 1], second = keys[i];
         if (second == 0) return true;
-        return fail(list[second].at, "the key " + quoted(list[second].text) +
+        return fail(list[second].at, "the key " + inQuotes(list[second].text) +
                                          " stands twice in this object, first in line " +
                                          std::to_string(list[first].at.line) + ": remove one of them");
     }

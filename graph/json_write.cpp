@@ -21,7 +21,7 @@ namespace fw {
 
 namespace {
 
-constexpr std::size_t kLineWidth = 110;
+constexpr std::size_t kLineWidth = 120;
 
 /// Shortest text that reads back as the same double; plain digits where a person would write them.
 void appendNumber(std::string& out, double value) {
@@ -54,7 +54,8 @@ class Layout {
         out += out.empty() ? "{\n  " : ",\n  ";
         appendScalar(out, key);
         out += ": ";
-        if (key == "nodes" || key == "groups" || key == "parameters") {
+        const bool list = key == "nodes" || key == "groups" || key == "parameters";
+        if (list && !value.empty()) {
             out += '[';
             entries(value, 4, [&](const Json& entry) { key == "groups" ? group(entry) : packed(entry, 4); });
             out += "\n  ]";

@@ -20,7 +20,7 @@ std::string format(const Error& error) {
     return text + error.message;
 }
 
-std::string quoted(std::string_view name) {
+std::string inQuotes(std::string_view name) {
     constexpr std::size_t kLongest = 60;
     std::size_t length = std::min(name.size(), kLongest);
     while (length < name.size() && length > 0 && (name[length] & 0xC0) == 0x80) --length;  // whole characters

@@ -35,7 +35,7 @@ struct Error {
 std::string format(const Error& error);
 
 /// `name` in single quotes for a message: shortened beyond 60 bytes, control characters as '?'.
-std::string quoted(std::string_view name);
+std::string inQuotes(std::string_view name);
 
 /// A failure of the device or the system (Vulkan, memory, disk): exit status 3.
 struct SystemError : std::runtime_error {

@@ -20,4 +20,10 @@ std::string_view typeName(Type type) {
     return "";
 }
 
+std::optional<Type> typeNamed(std::string_view name) {
+    for (int i = 0; i <= static_cast<int>(Type::mesh); ++i)
+        if (typeName(static_cast<Type>(i)) == name) return static_cast<Type>(i);
+    return {};
+}
+
 }  // namespace fw

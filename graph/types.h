@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 namespace fw {
@@ -36,6 +37,8 @@ constexpr int componentCount(Type type) {
 
 /// "float", "vec3", "surface", …: as written in files and in code.
 std::string_view typeName(Type type);
+/// The type with this name; empty if there is none.
+std::optional<Type> typeNamed(std::string_view name);
 
 /// Order of a surface's scalars.
 enum SurfaceComponent {
