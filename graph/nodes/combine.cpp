@@ -1,33 +1,109 @@
 // Booleans and blends of two surfaces.
+//
+// With radius 0 the sharp minimum and maximum; else the corner where the two meet is filled (union) or cut
+// back (intersect, subtract) over that width. The round profile is the quadratic smooth minimum, whose fill
+// is radius / 4 deep where the two fields are equal; chamfer is a flat at 45 degrees for perpendicular faces;
+// stairs follow the stepped blend of the hg_sdf library. Materials blend as the quadratic smooth minimum
+// does.
+#include <cmath>
+
+#include "graph/nodes/code.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
+namespace {
+
+/// `sharp` says which sides stay exact without a blend, given those of the inputs.
+ExactnessRule blendRule(Exactness (*sharp)(Exactness a, Exactness b)) {
+    return [sharp](const ExactnessArguments& node) {
+        const Exactness a = node.surface("a"), b = node.surface("b");
+        const double lipschitz = std::max(a.lipschitz, b.lipschitz);
+        Exactness result = sharp(a, b);
+        result.lipschitz = lipschitz;
+        if (node.constant("radius", 0) == 0.0) return result;
+        if (node.option("profile") == "chamfer") return distorted(lipschitz * std::sqrt(2.0));
+        return distorted(lipschitz);
+    };
+}
+
+/// d = the blended minimum of the expressions x and y.
+std::string blendedMin(const std::string& x, const std::string& y) {
+    const std::string arguments = "(" + x + ", " + y + ", radius";
+    return "float d;\nif (profile == \"chamfer\") d = chamferMin" + arguments +
+           ");\nelse if (profile == \"stairs\") d = stairsMin" + arguments + ", steps);\nelse d = roundMin" +
+           arguments + ");\n";
+}
+
+NodeType blendNode(std::string id, std::string label, std::string doc, ExactnessRule rule, std::string body,
+                   std::vector<std::string> aliases) {
+    return {.id = std::move(id),
+            .label = std::move(label),
+            .category = Category::combine,
+            .doc = std::move(doc),
+            .inputs = {surfaceInput("a", "The first surface."), surfaceInput("b", "The second surface."),
+                       length("radius", 0, "Width of the blend where the two meet; 0 keeps the edge sharp."),
+                       choice("profile", {"round", "chamfer", "stairs"}, "Shape of the blend."),
+                       integer("steps", 4, 1, 64, "Number of steps of the stairs profile.")},
+            .outputs = {{"surface", Type::surface}},
+            .exactness = std::move(rule),
+            .body = kBlend + std::move(body),
+            .aliases = std::move(aliases)};
+}
+
+}  // namespace
 
 std::vector<NodeType> combineNodes() {
-    const std::vector<InputSpec> inputs = {
-        surfaceInput("a", "The first surface."),
-        surfaceInput("b", "The second surface."),
-        length("radius", 0, "Width of the blend where the two meet; 0 keeps the edge sharp."),
-        choice("profile", {"round", "chamfer", "stairs"}, "Cross-section of the blend."),
-        integer("steps", 4, 1, 64, "Number of steps of the stairs profile."),
-    };
     return {
-        {.id = "union",
-         .label = "Union",
+        blendNode("union", "Union", "Both surfaces together.", blendRule([](Exactness a, Exactness b) {
+                      return Exactness{a.outside && b.outside, false, 1};
+                  }),
+                  "if (radius <= 0.0) return min(a, b);\n" + blendedMin("a.distance", "b.distance") +
+                      "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (a.distance - b.distance) / "
+                      "max(radius, 1e-9), 0.0, 1.0)), d);",
+                  {"join"}),
+        blendNode("intersect", "Intersect", "What lies inside both surfaces.",
+                  blendRule([](Exactness a, Exactness b) {
+                      return Exactness{false, a.inside && b.inside, 1};
+                  }),
+                  "if (radius <= 0.0) return max(a, b);\n" + blendedMin("-a.distance", "-b.distance") +
+                      "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (b.distance - a.distance) / "
+                      "max(radius, 1e-9), 0.0, 1.0)), -d);",
+                  {"intersection"}),
+        blendNode("subtract", "Subtract",
+                  "The first surface with the second cut out of it; the cut keeps the material of the first.",
+                  blendRule([](Exactness a, Exactness b) {
+                      return Exactness{false, a.inside && b.outside, 1};
+                  }),
+                  "if (radius <= 0.0) return with_distance(a, max(a.distance, -b.distance));\n" +
+                      blendedMin("-a.distance", "b.distance") + "return with_distance(a, -d);",
+                  {"difference", "cut"}),
+        // Rounds the creases where the two meet: union blended, minus intersection blended.
+        blendNode(
+            "xor", "Exclusive or", "What lies inside exactly one of the two surfaces.",
+            blendRule([](Exactness a, Exactness b) { return a.exact() && b.exact() ? kExact : kBound; }),
+            "if (radius <= 0.0) return with_distance(abs(a.distance) < abs(b.distance) ? a : b,\n"
+            "    max(min(a.distance, b.distance), min(-a.distance, -b.distance)));\n" +
+                blendedMin("a.distance", "b.distance") + "float either = d;\n" +
+                blendedMin("-a.distance", "-b.distance").substr(std::string("float d;\n").size()) +
+                "float nearer = abs(a.distance) - abs(b.distance);\n"
+                "return with_distance(mix(a, b, clamp(0.5 + 0.5 * nearer / max(radius, 1e-9), 0.0, 1.0)), "
+                "max(either, d));",
+            {"symmetric_difference"}),
+        {.id = "morph",
+         .label = "Morph",
          .category = Category::combine,
-         .doc = "Both surfaces together.",
-         .inputs = inputs,
+         .doc = "Fades from one surface to another.",
+         .inputs = {surfaceInput("a", "The surface at 0."), surfaceInput("b", "The surface at 1."),
+                    share("t", 0.5, "How far along the way from a to b.")},
          .outputs = {{"surface", Type::surface}},
-         .exactness = always(kBound),
-         .body = "return with_distance(a.distance < b.distance ? a : b, min(a.distance, b.distance));"},
-        {.id = "subtract",
-         .label = "Subtract",
-         .category = Category::combine,
-         .doc = "The first surface with the second cut out of it.",
-         .inputs = inputs,
-         .outputs = {{"surface", Type::surface}},
-         .exactness = always(kBound),
-         .body = "return with_distance(a, max(a.distance, -b.distance));"},
+         .exactness =
+             [](const ExactnessArguments& node) {
+                 const Exactness a = node.surface("a"), b = node.surface("b");
+                 if (node.constant("t", 0) == 0.0) return a;
+                 if (node.constant("t", 0) == 1.0) return b;
+                 return distorted(std::max(a.lipschitz, b.lipschitz));
+             },
+         .body = "return mix(a, b, t);"},
     };
 }
 

@@ -1,7 +1,27 @@
 // Flat shapes, endless along z, and the two nodes that make solids of them.
+#include "graph/nodes/code.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
+namespace {
+
+const std::vector<OutputSpec> kSurface = {{"surface", Type::surface}};
+
+/// Extruding keeps the class of a flat shape. Rounding shrinks the profile first, which is exact on smooth
+/// rims only.
+Exactness extrudedExactness(const ExactnessArguments& node) {
+    const Exactness profile = node.surface("surface");
+    if (node.constant("rounding", 0) == 0.0) return profile;
+    return {false, false, std::max(profile.lipschitz, 1.0)};
+}
+
+/// Nothing is known here of a profile that crosses the axis: the part beyond it is not in the solid but in
+/// its field.
+Exactness revolvedExactness(const ExactnessArguments& node) {
+    return {false, false, std::max(node.surface("surface").lipschitz, 1.0)};
+}
+
+}  // namespace
 
 std::vector<NodeType> shape2dNodes() {
     return {
@@ -10,9 +30,115 @@ std::vector<NodeType> shape2dNodes() {
          .category = Category::shape2d,
          .doc = "A disc in the xy plane, centred at the origin.",
          .inputs = {positionInput(), length("radius", 0.5, "Distance from the centre to the rim.")},
-         .outputs = {{"surface", Type::surface}},
+         .outputs = kSurface,
          .exactness = always(kExact),
          .body = "return length(p.xy) - radius;"},
+        {.id = "rectangle",
+         .label = "Rectangle",
+         .category = Category::shape2d,
+         .doc = "A rectangle in the xy plane, centred at the origin.",
+         .inputs = {positionInput(),
+                    {.name = "half_extents",
+                     .type = Type::vec2,
+                     .value = numbers({0.5, 0.5}),
+                     .min = 0,
+                     .unit = "m",
+                     .doc = "Half the size along x and y."}},
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = std::string(kExtent) + "return ext2(abs(p.xy) - half_extents);"},
+        // Sign by counting the edges that a ray to the right crosses. The distance to the bounding rectangle
+        // is never above that to the polygon; it changes no value but settles the sign of boxes outside it,
+        // which may straddle a corner's height.
+        {.id = "polygon",
+         .label = "Polygon",
+         .category = Category::shape2d,
+         .doc = "A closed outline in the xy plane through a list of points, drawn in order.",
+         .inputs = {positionInput(),
+                    {.name = "points",
+                     .type = Type::points,
+                     .value = numbers({-0.5, -0.5, 0.5, -0.5, 0.5, 0.2, 0, 0.6, -0.5, 0.2}),
+                     .unit = "m",
+                     .doc = "Corners of the outline, x and y each; the last is joined to the first."}},
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = R"(
+int n = count(points);
+if (n == 0) return empty();
+vec2 lo = points[0];
+vec2 hi = points[0];
+float near = 1e18;
+bool inside = false;
+for (int i = 0; i < n; i++) {
+    vec2 a = points[i];
+    vec2 b = points[i + 1 < n ? i + 1 : 0];
+    lo = min(lo, a);
+    hi = max(hi, a);
+    vec2 along = b - a;
+    vec2 q = p.xy - a;
+    vec2 off = q - along * clamp(dot(q, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+    near = min(near, dot(off, off));
+    if (a.y != b.y) {
+        float side = q.x * along.y - q.y * along.x;
+        bool crosses = a.y < b.y ? (p.y >= a.y && p.y < b.y && side < 0.0) : (p.y >= b.y && p.y < a.y && side > 0.0);
+        inside = crosses ? !inside : inside;
+    }
+}
+vec2 bounds = max(lo - p.xy, p.xy - hi);
+float d = sqrt(near);
+return max(inside ? -d : d, bounds.x, bounds.y);)"},
+        {.id = "regular_polygon",
+         .label = "Regular polygon",
+         .category = Category::shape2d,
+         .doc = "A polygon of equal sides in the xy plane, standing on one of them.",
+         .inputs = {positionInput(), integer("sides", 6, 3, 128, "Number of sides."),
+                    length("apothem", 0.5, "Distance from the centre to the middle of each side.")},
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = std::string(kSector) + R"(
+vec2 q = sector(vec2(p.x, -p.y), sides);
+float rim = q.y - apothem;
+return length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), max(rim, 0.0))) + min(rim, 0.0);)"},
+        {.id = "star",
+         .label = "Star",
+         .category = Category::shape2d,
+         .doc = "A star in the xy plane with one tip pointing up.",
+         .inputs = {positionInput(), integer("points", 5, 2, 128, "Number of tips."),
+                    length("outer_radius", 0.6, "Distance from the centre to the tips."),
+                    length("inner_radius", 0.3, "Distance from the centre to the notches between the tips.")},
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = std::string(kSegment) + kSector + R"(
+vec2 q = sector(p.xy, points);
+vec2 tip = vec2(0.0, outer_radius);
+vec2 notch = inner_radius * vec2(sin(PI / points), cos(PI / points));
+vec2 along = notch - tip;
+float d = segment(q, tip, notch);
+return along.x * (q.y - tip.y) < along.y * (q.x - tip.x) ? -d : d;)"},
+        {.id = "extrude",
+         .label = "Extrude",
+         .category = Category::shape2d,
+         .doc = "Gives a flat shape thickness along z; of a solid it takes the slice at z = 0.",
+         .inputs = {surfaceInput("surface", "The flat shape."),
+                    length("half_height", 0.5, "Half the thickness along z."),
+                    length("rounding", 0,
+                           "Radius of the rounded edges, within the given size; what fits is used.")},
+         .outputs = kSurface,
+         .exactness = extrudedExactness,
+         .body = std::string(kExtent) + R"(
+profile = surface(vec3(p.xy, 0.0));
+float r = min(rounding, half_height);
+return with_distance(profile, ext2(vec2(profile.distance + r, abs(p.z) - (half_height - r))) - r);)"},
+        {.id = "revolve",
+         .label = "Revolve",
+         .category = Category::shape2d,
+         .doc = "Turns a flat shape around the y axis, as on a lathe.",
+         .inputs = {surfaceInput("surface", "The flat shape; what lies right of the axis is used."),
+                    coordinate("offset", 0, "How far the shape is moved away from the axis first.")},
+         .outputs = kSurface,
+         .exactness = revolvedExactness,
+         .body = "return surface(vec3(length(p.xz) - offset, p.y, 0.0));",
+         .aliases = {"lathe"}},
     };
 }
 

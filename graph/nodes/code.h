@@ -1,0 +1,53 @@
+// Field-language functions that several bodies of this folder begin with. Not for use outside graph/nodes/.
+#pragma once
+
+namespace fw {
+
+/// ext2, ext3: distance to the set where every q_i <= 0, for the q_i of orthogonal slabs; exact on both
+/// sides.
+inline constexpr const char* kExtent = R"(
+float ext2(vec2 q) { return length(max(q, 0.0)) + min(max(q.x, q.y), 0.0); }
+float ext3(vec3 q) { return length(max(q, 0.0)) + min(max(q.x, q.y, q.z), 0.0); }
+)";
+
+/// segment: distance to the segment from a to b, which may be one point.
+inline constexpr const char* kSegment = R"(
+float segment(vec2 q, vec2 a, vec2 b) {
+    vec2 along = b - a;
+    return length(q - a - along * clamp(dot(q - a, along) / max(dot(along, along), 1e-12), 0.0, 1.0));
+}
+)";
+
+/// sector: folds the plane into the half sector from +y to PI/n to its right, by log2(n) reflections, each of
+/// which keeps distances to a figure with n-fold mirror symmetry. A reflection is chosen by a comparison
+/// rather than written as q - 2 min(dot, 0) n, so that intervals stay narrow away from the mirrors.
+inline constexpr const char* kSector = R"(
+vec2 sector(vec2 q, int n) {
+    q.x = abs(q.x);
+    for (int i = 0; i < 7; i++) {
+        float mirror = PI / n * exp2(6.0 - i);
+        if (mirror < PI) {
+            float s = sin(2.0 * mirror);
+            float c = cos(2.0 * mirror);
+            if (q.y * sin(mirror) < q.x * cos(mirror)) q = vec2(q.y * s - q.x * c, q.y * c + q.x * s);
+        }
+    }
+    return q;
+}
+)";
+
+/// roundMin, chamferMin, stairsMin: the minimum of a and b with the corner between them filled over a width k
+/// >= 0. Those of the round profile are the quadratic smooth minimum; stairs have n steps.
+inline constexpr const char* kBlend = R"(
+float roundMin(float a, float b, float k) {
+    float h = max(k - abs(a - b), 0.0);
+    return min(a, b) - h * h * (0.25 / max(k, 1e-9));
+}
+float chamferMin(float a, float b, float k) { return min(a, b, (a + b - k) * sqrt(0.5)); }
+float stairsMin(float a, float b, float k, float n) {
+    float s = max(k, 1e-9) / (n + 1.0);
+    return min(a, b, 0.5 * (a + b - k + abs(mod(b - k - a + s, 2.0 * s) - s)));
+}
+)";
+
+}  // namespace fw
