@@ -2,6 +2,7 @@
 
 #include "graph/check_parts.h"
 #include "graph/check_value.h"
+#include "graph/compile.h"
 
 namespace fw {
 
@@ -152,7 +153,7 @@ void checkParameters(const Graph& graph, const Scope& top, Findings& findings) {
     }
 }
 
-std::vector<Error> check(const Graph& graph) {
+std::vector<Error> checkStructure(const Graph& graph) {
     Findings findings(graph.path);
     const Groups groups(graph);
     const Scope top(groups, graph.nodes, nullptr);
@@ -167,6 +168,18 @@ std::vector<Error> check(const Graph& graph) {
     }
     checkParameters(graph, top, findings);
     return findings.take();
+}
+
+bool hasErrors(const std::vector<Error>& findings) {
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const Error& finding) { return finding.severity == Error::Severity::error; });
+}
+
+std::vector<Error> check(const Graph& graph) {
+    std::vector<Error> findings = checkStructure(graph);
+    if (hasErrors(findings)) return findings;
+    for (Error& error : compileErrors(graph)) findings.push_back(std::move(error));
+    return findings;
 }
 
 }  // namespace fw

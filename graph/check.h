@@ -1,5 +1,5 @@
-// Every finding about a document that needs no compilation of code: unknown names, values out of range, links
-// that lead nowhere or do not fit, cycles of nodes and of groups, a missing output.
+// Every finding about a document: unknown names, values out of range, links that lead nowhere or do not fit,
+// cycles of nodes and of groups, a missing output, code that does not compile.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,16 @@
 
 namespace fw {
 
-/// All findings, errors and warnings, in the order of the document; empty if there are none. At most 1,000,
-/// the last of which then says that there are more. A graph without an Error::Severity::error among them is
-/// structurally sound: every type and name exists, every value fits its input, and links form no cycle.
+/// All findings, errors and warnings; empty if there are none. At most 1,000 of the structure, the last of
+/// which then says that there are more. Code is compiled only where the structure is sound.
 std::vector<Error> check(const Graph& graph);
+
+/// The findings of check() that need no compilation. A graph without an Error::Severity::error among them is
+/// structurally sound: every type and name exists, every value fits its input, links and groups form no
+/// cycle, and groups expand to bounded depth and size.
+std::vector<Error> checkStructure(const Graph& graph);
+
+/// Whether an error, not only warnings, is among the findings.
+bool hasErrors(const std::vector<Error>& findings);
 
 }  // namespace fw

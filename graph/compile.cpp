@@ -37,13 +37,6 @@ Type literalType(const InputValue& input) {
     return Type::scalar;
 }
 
-Type typeNamed(std::string_view name) {
-    for (Type type : {Type::boolean, Type::integer, Type::scalar, Type::vec2, Type::vec3, Type::surface,
-                      Type::string, Type::points, Type::mesh})
-        if (typeName(type) == name) return type;
-    return Type::scalar;
-}
-
 class Compiler {
   public:
     Compiler(const Graph& graph_, const CompileOptions& options_) : graph(graph_), options(options_) {
@@ -338,13 +331,13 @@ class Compiler {
         if (!definition) return failure({});
         std::vector<OutputSpec> outputs;
         for (const GroupOutput& output : definition->outputs)
-            outputs.push_back({output.name, typeNamed(output.type)});
+            outputs.push_back({output.name, typeNamed(output.type).value_or(Type::scalar)});
         if (node.muted) return passOn(node, done, &outputs);
 
         Lowered inputs;
         inputs.exactness = kExact;
         for (const GroupInput& input : definition->inputs) {
-            InputSpec spec{input.name, typeNamed(input.type), {}};
+            InputSpec spec{input.name, typeNamed(input.type).value_or(Type::scalar), {}};
             const InputValue* given = node.input(input.name);
             if (!given && input.value) given = &*input.value;
             const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
@@ -475,7 +468,7 @@ std::vector<double> Program::parameters() const {
 }
 
 Result<Program> compile(const Graph& graph, const CompileOptions& options) {
-    for (const Error& error : check(graph))
+    for (const Error& error : checkStructure(graph))
         if (error.severity == Error::Severity::error) return error;
     const Node* output = outputNode(graph);
     if (!output)
