@@ -1,0 +1,288 @@
+// The files that exportMesh writes: accepted by the tools of their formats, and holding the mesh exactly.
+#include "runtime/export/export.h"
+
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <sstream>
+
+#include "runtime/export/read_back.h"
+#include "runtime/mesh_report.h"
+#include "tests/support/meshes.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+using test::TempDir;
+
+/// Folder of the npm package gltf-validator, installed beside the build on first use.
+std::string validatorModules() {
+    const std::filesystem::path home = std::filesystem::path(FIELDWRIGHT_BINARY_DIR) / "gltf-validator";
+    const std::filesystem::path modules = home / "node_modules";
+    if (!std::filesystem::exists(modules / "gltf-validator")) {
+        // Under another name first: two test programs may get here at once.
+        const std::filesystem::path fresh = home.string() + "." + std::to_string(::getpid());
+        std::filesystem::create_directories(fresh);
+        const auto result = test::runProgram("npm install --silent --no-audit --no-fund --prefix '" +
+                                             fresh.string() + "' gltf-validator@2.0.0-dev.3.10");
+        EXPECT_EQ(result.status, 0) << "npm could not install gltf-validator:\n" << result.output;
+        std::error_code taken;
+        std::filesystem::rename(fresh, home, taken);
+        if (taken) std::filesystem::remove_all(fresh);
+    }
+    return modules.string();
+}
+
+/// Expects Khronos' validator to find nothing at all in the files, not even a hint.
+void expectValid(const std::vector<std::string>& files) {
+    std::string command =
+        "node '" FIELDWRIGHT_SOURCE_DIR "/tests/support/validate_gltf.js' '" + validatorModules() + "'";
+    for (const std::string& file : files) command += " '" + file + "'";
+    const auto result = test::runProgram(command);
+    ASSERT_EQ(result.status, 0) << result.output;
+    std::istringstream lines(result.output);
+    std::size_t clean = 0;
+    for (std::string line; std::getline(lines, line);) clean += line.starts_with("0 0 0 0 ");
+    EXPECT_EQ(clean, files.size()) << result.output;
+}
+
+void mustExport(const Mesh& mesh, const std::string& path) {
+    const Result<ExportedFiles> written = exportMesh(mesh, path);
+    ASSERT_TRUE(written) << format(written.error());
+    uint64_t bytes = 0;
+    for (const std::string& file : written->paths) bytes += std::filesystem::file_size(file);
+    EXPECT_EQ(bytes, written->bytes);
+    EXPECT_EQ(written->paths[0], path);
+}
+
+Mesh painted(Mesh mesh) {
+    test::paint(mesh);
+    return mesh;
+}
+
+tinygltf::Model loadModel(const std::string& path) {
+    tinygltf::Model model;
+    std::string error, warning;
+    tinygltf::TinyGLTF loader;
+    const bool loaded = path.ends_with(".glb") ? loader.LoadBinaryFromFile(&model, &error, &warning, path)
+                                               : loader.LoadASCIIFromFile(&model, &error, &warning, path);
+    EXPECT_TRUE(loaded) << error;
+    EXPECT_EQ(warning, "");
+    return model;
+}
+
+const unsigned char* dataOf(const tinygltf::Model& model, int accessor) {
+    const auto& view = model.bufferViews[static_cast<std::size_t>(
+        model.accessors[static_cast<std::size_t>(accessor)].bufferView)];
+    return model.buffers[0].data.data() + view.byteOffset;
+}
+
+TEST(Export, GltfHasNothingForTheValidatorToSay) {
+    const TempDir folder;
+    Mesh plain = test::cube();
+    Mesh full = painted(test::torus(40, 17));
+    full.roughness = 0.25f;
+    full.metallic = 1.0f;
+    full.emission = {0.5f, 0.0f, 0.25f};
+    Mesh glowing = test::torus(9, 5);
+    glowing.emission = {12.0f, 3.0f, 0.0f};
+    glowing.baseColor = {0.1f, 0.2f, 0.9f};
+    Mesh wide = painted(test::torus(300, 250));  // 75,000 vertices: 32-bit indices
+    Mesh odd = test::tetrahedron();              // 12 indices of 16 bits ...
+    odd.indices.resize(9);                       // ... and 9, which end off a multiple of four
+
+    std::vector<std::string> files;
+    for (const char* extension : {".glb", ".gltf"}) {
+        for (const auto& [name, mesh] : {std::pair<const char*, const Mesh*>{"plain", &plain},
+                                         {"full", &full},
+                                         {"glowing", &glowing},
+                                         {"wide", &wide},
+                                         {"odd", &odd},
+                                         {"Größe 100% #1", &plain}}) {
+            files.push_back(folder.path(std::string(name) + extension));
+            mustExport(*mesh, files.back());
+        }
+    }
+    expectValid(files);
+}
+
+TEST(Export, GltfHoldsTheMeshExactly) {
+    const TempDir folder;
+    Mesh mesh = painted(test::torus(300, 250, 1.0 / 3.0, 0.1));
+    mesh.roughness = 0.3f;
+    mesh.metallic = 0.6f;
+    mesh.emission = {2.0f, 1.0f, 0.0f};
+    for (const char* name : {"mesh.glb", "mesh.gltf"}) {
+        mustExport(mesh, folder.path(name));
+        const tinygltf::Model model = loadModel(folder.path(name));
+        EXPECT_EQ(model.asset.generator, "Fieldwright " FIELDWRIGHT_VERSION);
+        ASSERT_EQ(model.meshes.size(), 1u);
+        const tinygltf::Primitive& part = model.meshes[0].primitives.at(0);
+        const int positions = part.attributes.at("POSITION"), normals = part.attributes.at("NORMAL");
+        const int colors = part.attributes.at("COLOR_0");
+        ASSERT_EQ(model.accessors[static_cast<std::size_t>(positions)].count, mesh.positions.size());
+        ASSERT_EQ(model.accessors[static_cast<std::size_t>(part.indices)].count, mesh.indices.size());
+        EXPECT_EQ(0,
+                  std::memcmp(dataOf(model, positions), mesh.positions.data(), mesh.positions.size() * 12));
+        EXPECT_EQ(0, std::memcmp(dataOf(model, normals), mesh.normals.data(), mesh.normals.size() * 12));
+        EXPECT_EQ(0, std::memcmp(dataOf(model, part.indices), mesh.indices.data(), mesh.indices.size() * 4));
+        for (std::size_t i = 0; i < mesh.colors.size(); i += 97) {
+            std::array<uint16_t, 4> rgba{};
+            std::memcpy(rgba.data(), dataOf(model, colors) + i * 8, 8);
+            for (int k = 0; k < 3; ++k)
+                EXPECT_NEAR(rgba[static_cast<std::size_t>(k)] / 65535.0, mesh.colors[i][k],
+                            0.5 / 65535 + 1e-7);
+            EXPECT_EQ(rgba[3], 65535);
+        }
+        const tinygltf::Material& material = model.materials.at(0);
+        EXPECT_EQ(material.pbrMetallicRoughness.roughnessFactor, double{0.3f});
+        EXPECT_EQ(material.pbrMetallicRoughness.metallicFactor, double{0.6f});
+        EXPECT_EQ(material.pbrMetallicRoughness.baseColorFactor, (std::vector<double>{1, 1, 1, 1}));
+        EXPECT_EQ(material.emissiveFactor, (std::vector<double>{1, 0.5, 0}));
+        EXPECT_EQ(material.extensions.at("KHR_materials_emissive_strength")
+                      .Get("emissiveStrength")
+                      .GetNumberAsDouble(),
+                  2.0);
+    }
+}
+
+TEST(Export, GltfStatesTheBaseColourOfAMeshWithoutVertexColours) {
+    const TempDir folder;
+    Mesh mesh = test::cube();
+    mesh.baseColor = {0.25f, 0.5f, 0.75f};
+    mustExport(mesh, folder.path("mesh.glb"));
+    const tinygltf::Model model = loadModel(folder.path("mesh.glb"));
+    EXPECT_EQ(model.materials.at(0).pbrMetallicRoughness.baseColorFactor,
+              (std::vector<double>{0.25, 0.5, 0.75, 1}));
+    EXPECT_EQ(model.meshes.at(0).primitives.at(0).attributes.size(), 1u);
+}
+
+TEST(Export, NormalsThatTheFieldCouldNotGiveComeFromTheTriangles) {
+    const TempDir folder;
+    Mesh mesh = test::torus(24, 12);
+    const std::vector<glm::vec3> right = mesh.normals;
+    mesh.normals[5] = glm::vec3(0.0f);
+    mesh.normals[6] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    mesh.normals[7] *= 3.0f;
+    mustExport(mesh, folder.path("mesh.glb"));
+    expectValid({folder.path("mesh.glb")});
+    const tinygltf::Model model = loadModel(folder.path("mesh.glb"));
+    std::vector<glm::vec3> written(mesh.normals.size());
+    std::memcpy(written.data(), dataOf(model, model.meshes[0].primitives[0].attributes.at("NORMAL")),
+                written.size() * 12);
+    for (std::size_t i = 0; i < written.size(); ++i) EXPECT_GT(glm::dot(written[i], right[i]), 0.9f) << i;
+}
+
+TEST(Export, AdmeshFindsNothingToRepairInTheStl) {
+    const TempDir folder;
+    for (const Mesh& mesh : {test::cube(), test::torus(200, 60),
+                             test::join(test::cube(), test::moved(test::cube(), {3, 0, 0}))}) {
+        mustExport(mesh, folder.path("mesh.stl"));
+        const auto result = test::runProgram("admesh '" + folder.path("mesh.stl") + "'");
+        ASSERT_EQ(result.status, 0) << result.output;
+        EXPECT_NE(result.output.find("Number of facets                 : "), std::string::npos)
+            << result.output;
+        for (const char* line :
+             {"Total disconnected facets        :     0                   0", "Degenerate facets     :     0",
+              "Edges fixed           :     0", "Facets removed        :     0",
+              "Facets added          :     0", "Facets reversed       :     0",
+              "Backwards edges       :     0", "Normals fixed         :     0"})
+            EXPECT_NE(result.output.find(line), std::string::npos) << line << "\n" << result.output;
+    }
+}
+
+TEST(Export, EveryFormatHoldsTheSameTriangles) {
+    const TempDir folder;
+    const Mesh mesh = painted(test::torus(90, 40, 1.0 / 3.0, 0.07));
+    const WeldedMesh wanted = weld(mesh.positions, mesh.indices);
+    for (const char* name : {"mesh.glb", "mesh.gltf", "mesh.obj", "mesh.ply", "MESH.STL"}) {
+        mustExport(mesh, folder.path(name));
+        const Result<WeldedMesh> read = readWelded(folder.path(name));
+        ASSERT_TRUE(read) << format(read.error());
+        ASSERT_EQ(read->indices.size(), wanted.indices.size()) << name;
+        for (std::size_t i = 0; i < wanted.indices.size(); ++i)
+            ASSERT_EQ(read->positions[read->indices[i]], wanted.positions[wanted.indices[i]])
+                << name << " corner " << i;
+    }
+}
+
+TEST(Export, ObjNumbersReadBackAsTheSameFloats) {
+    const TempDir folder;
+    Mesh mesh = painted(test::torus(30, 20, 1.0 / 3.0, 0.07));
+    mesh.positions[0] = {1e-30f, -3.4e38f, 16777217.0f};
+    mustExport(mesh, folder.path("part.obj"));
+    std::istringstream lines(test::readText(folder.path("part.obj")));
+    std::size_t vertices = 0, normals = 0, faces = 0;
+    bool library = false;
+    for (std::string line; std::getline(lines, line);) {
+        glm::vec3 p, c;
+        if (std::sscanf(line.c_str(), "v %f %f %f %f %f %f", &p.x, &p.y, &p.z, &c.x, &c.y, &c.z) == 6) {
+            ASSERT_EQ(p, mesh.positions.at(vertices));
+            for (int k = 0; k < 3; ++k) {
+                const double linear = c[k] <= 0.04045 ? c[k] / 12.92 : std::pow((c[k] + 0.055) / 1.055, 2.4);
+                EXPECT_NEAR(linear, mesh.colors[vertices][k], 0.006);
+            }
+            ++vertices;
+        } else if (std::sscanf(line.c_str(), "vn %f %f %f", &p.x, &p.y, &p.z) == 3) {
+            ASSERT_EQ(p, mesh.normals.at(normals++));
+        } else if (line.starts_with("f ")) {
+            std::array<unsigned, 6> n{};
+            ASSERT_EQ(
+                std::sscanf(line.c_str(), "f %u//%u %u//%u %u//%u", &n[0], &n[1], &n[2], &n[3], &n[4], &n[5]),
+                6)
+                << line;
+            for (std::size_t k = 0; k < 3; ++k) {
+                ASSERT_EQ(n[2 * k], mesh.indices[faces * 3 + k] + 1);
+                ASSERT_EQ(n[2 * k + 1], n[2 * k]);
+            }
+            ++faces;
+        } else if (line == "mtllib part.mtl") {
+            library = true;
+        }
+    }
+    EXPECT_EQ(vertices, mesh.positions.size());
+    EXPECT_EQ(normals, mesh.normals.size());
+    EXPECT_EQ(faces, mesh.triangleCount());
+    EXPECT_TRUE(library);
+    EXPECT_NE(test::readText(folder.path("part.mtl")).find("newmtl part\nKd 1.000 1.000 1.000\n"),
+              std::string::npos);
+}
+
+TEST(Export, PlyColoursAreTheNearestSrgbCodes) {
+    const TempDir folder;
+    Mesh mesh;
+    for (int i = 0; i <= 255; ++i) {
+        const double code = i / 255.0;
+        const double linear = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+        mesh.positions.emplace_back(i, 0, i * i);
+        mesh.colors.emplace_back(linear, i % 2 ? -1.0 : 7.0, 0.0);
+    }
+    mesh.indices = {0, 1, 255};
+    mustExport(mesh, folder.path("mesh.ply"));
+    const std::string text = test::readText(folder.path("mesh.ply"));
+    const std::size_t body = text.find("end_header\n") + 11;
+    ASSERT_EQ(text.size(), body + 256 * 15 + 13);
+    for (std::size_t i = 0; i <= 255; ++i) {
+        EXPECT_EQ(static_cast<unsigned char>(text[body + i * 15 + 12]), i);
+        EXPECT_EQ(static_cast<unsigned char>(text[body + i * 15 + 13]), i % 2 ? 0 : 255);
+    }
+}
+
+TEST(Export, LargeMeshIsNotHeldTwice) {
+    const TempDir folder;
+    const Mesh mesh = painted(test::torus(2000, 500));  // 2 million triangles: an STL of 100 MB
+    const uint64_t before = peakMemoryBytes();
+    for (const char* name : {"mesh.glb", "mesh.stl", "mesh.obj"}) mustExport(mesh, folder.path(name));
+    EXPECT_LT(peakMemoryBytes(), before + (24u << 20));
+}
+
+}  // namespace
+}  // namespace fw
