@@ -89,7 +89,7 @@ void OutputFile::discard() {
 
 void OutputFile::write(const void* data, std::size_t size) {
     appended += size;
-    if (!good()) return;
+    if (!good() || size == 0) return;
     if (size > kBufferBytes - buffered) flush();
     if (size >= kBufferBytes) {
         put(static_cast<const char*>(data), size);
