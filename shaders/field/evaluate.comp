@@ -1,0 +1,35 @@
+#version 460
+// The field at a list of points, in each of its meanings: how tests compare the device with the CPU reference, and
+// what `fieldwright compile --emit spirv` shows.
+#extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_scalar_block_layout : enable
+#define FIELD_VALUE
+#define FIELD_GRADIENT
+#define FIELD_INTERVAL
+#define FIELD_ROWS
+#define FIELD_MATERIAL
+#include "field.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint count; float halfSize; };
+layout(binding = 0, scalar) readonly buffer Points { vec3 points[]; };
+
+struct FieldSample {
+    float value, rowValue;
+    vec2 interval;   // over the cube of halfSize around the point
+    vec4 gradient;   // xyz, and the value found beside it
+    vec3 baseColor;
+    float roughness;
+};
+layout(binding = 1, scalar) writeonly buffer Samples { FieldSample samples[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    fieldBegin();
+    vec3 p = points[i];
+    FieldMaterial material = fieldMaterial(p);
+    samples[i] = FieldSample(fieldValue(p), fieldAt(fieldRow(fieldPlane(p.z), p.x), p.y),
+                             fieldInterval(p - halfSize, p + halfSize), fieldGradient(p), material.baseColor,
+                             material.roughness);
+}

@@ -1,0 +1,257 @@
+// The field language: what code means, and what is said of code that means nothing.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "graph/evaluate.h"
+#include "graph/language/lower.h"
+
+namespace fw {
+namespace {
+
+using language::Value;
+
+struct Outcome {
+    Ir ir;
+    IrId root = 0;
+    Type type = Type::scalar;
+    std::string error;
+
+    double at(double x, double y, double z) const { return evaluate(ir, root, {}, Point{x, y, z}); }
+};
+
+Outcome run(const std::string& code) {
+    Outcome outcome;
+    const auto tree = language::parse(code);
+    if (!tree) {
+        outcome.error = format(tree.error());
+        return outcome;
+    }
+    language::Lowering state;
+    state.time = state.ir.constant(2.0);
+    language::Scope scope;
+    scope.anyResult = true;
+    scope.refusesZeroDivision = true;
+    const auto values = language::lower(state, **tree, scope);
+    if (!values) {
+        outcome.error = format(values.error());
+        return outcome;
+    }
+    outcome.root = values->front().ids[0];
+    outcome.type = values->front().type;
+    outcome.ir = std::move(state.ir);
+    return outcome;
+}
+
+void expectValue(const std::string& code, double expected, Point p = {0.3, -0.4, 0.5}) {
+    const Outcome outcome = run(code);
+    ASSERT_EQ(outcome.error, "") << code;
+    EXPECT_NEAR(outcome.at(p[0], p[1], p[2]), expected, 1e-12) << code;
+}
+
+void expectError(const std::string& code, const std::string& part) {
+    const Outcome outcome = run(code);
+    EXPECT_NE(outcome.error.find(part), std::string::npos)
+        << code.substr(0, 200) << "\n said: " << outcome.error;
+}
+
+TEST(Language, Expressions) {
+    expectValue("return 1 + 2 * 3 - 4 / 8;", 6.5);
+    expectValue("return -2 * -3;", 6.0);
+    expectValue("return (1 + 2) * 3 % 5;", 4.0);
+    expectValue("return 7 / 2;", 3.5);
+    expectValue("int a = 7 / 2; return a;", 3.0);
+    expectValue("return p.x + pos.y * 10;", 0.3 - 4.0);
+    expectValue("return p.zyx.x;", 0.5);
+    expectValue("return vec3(p.xy, 9).z;", 9.0);
+    expectValue("return vec3(p.z).y;", 0.5);
+    expectValue("return dot(vec3(1, 2, 3), p);", 0.3 - 0.8 + 1.5);
+    expectValue("return length(vec2(3, 4));", 5.0);
+    expectValue("return p.x > 0.0 && !(p.y > 0.0) ? 1.0 : 2.0;", 1.0);
+    expectValue("return 1e-1 + .5 + 2.f;", 2.6);
+    expectValue("return cross(vec3(1, 0, 0), vec3(0, 1, 0)).z;", 1.0);
+    expectValue("return time;", 2.0);
+    expectValue("return 3 // a comment\n + /* another */ 4;", 7.0);
+    expectValue("return pow(-2.0, 3);", -8.0);
+    expectValue("return pow(p.y, 2.0);", 0.16);
+}
+
+TEST(Language, NamesOfOtherLanguages) {
+    expectValue("return frac(1.75);", 0.75);
+    expectValue("return lerp(1, 3, 0.25);", 1.5);
+    expectValue("return saturate(1.5);", 1.0);
+    expectValue("return fmod(-0.75, 0.5);", -0.25);  // truncates, as HLSL's
+    expectValue("return mod(-0.75, 0.5);", 0.25);    // floors, as GLSL's
+    expectValue("float3 a = float3(1, 2, 3); return a.y;", 2.0);
+}
+
+TEST(Language, Statements) {
+    expectValue("a = 1; a += 2; a *= 3; a -= 1; a /= 4; return a;", 2.0);
+    expectValue("d = 1; d = d + 1;", 2.0);  // the last assignment is the result
+    expectValue("vec3 q = p; q.xz = vec2(7, 8); q.y += 1.0; return q.x + q.y * 10 + q.z * 100;", 7 + 6 + 800);
+    expectValue("pos.y = frac(pos.y); return pos.y;", 0.6);
+    expectValue("float a = 1, b = 2; return a + b;", 3.0);
+    expectValue("float s = 0.0; for (int i = 0; i < 5; i++) s += float(i); return s;", 10.0);
+    expectValue(
+        "s = 0; for (int i = 0; i < 10; i++) { if (i == 2) continue; if (i == 5) break; s += i; } return s;",
+        8.0);
+    expectValue("float s = 0; for (int i = 3; i > 0; i--) for (int j = 0; j < i; j++) s += 1; return s;",
+                6.0);
+    expectValue("if (p.x > 0.0) { return 5; } return 6;", 5.0);
+    expectValue("a = 1; if (p.x < 0.0) a = 2; else if (p.y < 0.0) a = 3; else a = 4; return a;", 3.0);
+    expectValue(
+        "float twice(float x) { return 2.0 * x; } float four(float x) { return twice(twice(x)); } return "
+        "four(p.x);",
+        1.2);
+    expectValue("float f(vec2 q) { if (q.x < q.y) return q.x; return q.y; } return f(p.xy) + f(p.yx);", -0.8);
+}
+
+TEST(Language, LeavingALoopWherePositionDecides) {
+    const std::string code =
+        "float d = 0; for (int i = 0; i < 8; i++) { d += 1; if (d > p.x) break; d += 0.5; } return d;";
+    const Outcome outcome = run(code);
+    ASSERT_EQ(outcome.error, "");
+    for (double x = -1.0; x < 14.0; x += 0.37) {
+        double d = 0;
+        for (int i = 0; i < 8; i++) {
+            d += 1;
+            if (d > x) break;
+            d += 0.5;
+        }
+        EXPECT_NEAR(outcome.at(x, 0, 0), d, 1e-12) << x;
+    }
+    const Outcome skipped =
+        run("float d = 0; for (int i = 0; i < 6; i++) { if (float(i) > p.x && float(i) < p.y) continue; d += "
+            "float(i); } return d;");
+    ASSERT_EQ(skipped.error, "");
+    for (double x = -1.0; x < 6.0; x += 0.7)
+        for (double y = -1.0; y < 7.0; y += 0.6) {
+            double d = 0;
+            for (int i = 0; i < 6; i++)
+                if (!(i > x && i < y)) d += i;
+            EXPECT_NEAR(skipped.at(x, y, 0), d, 1e-12) << x << ' ' << y;
+        }
+}
+
+TEST(Language, ReturnsInsideLoopsAndBranches) {
+    const Outcome outcome =
+        run("for (int i = 0; i < 4; i++) { if (p.x < float(i)) return float(i) * 10.0; } return -1.0;");
+    ASSERT_EQ(outcome.error, "");
+    EXPECT_NEAR(outcome.at(-0.5, 0, 0), 0, 1e-12);
+    EXPECT_NEAR(outcome.at(0.5, 0, 0), 10, 1e-12);
+    EXPECT_NEAR(outcome.at(2.5, 0, 0), 30, 1e-12);
+    EXPECT_NEAR(outcome.at(3.5, 0, 0), -1, 1e-12);
+}
+
+TEST(Language, NodesAreFunctions) {
+    expectValue("return sphere(p, 1.0);", std::sqrt(0.5) - 1.0);
+    expectValue("d = Box(pos, vec3(1, 2, 1)); return d;", -0.5);
+    expectValue("d = union(sphere(p, 0.1), sphere(p, 0.2)); return d.distance;", std::sqrt(0.5) - 0.2);
+    // A field of a node at another position.
+    expectValue("a = sphere(p, 1.0); return a(p + vec3(1, 0, 0));", std::sqrt(1.69 + 0.16 + 0.25) - 1.0);
+    expectValue("return translate(sphere(p, 1.0), vec3(-1, 0, 0));", std::sqrt(1.69 + 0.16 + 0.25) - 1.0);
+}
+
+TEST(Language, SurfacesKeepTheirMaterial) {
+    const std::string red =
+        "a = with_material(sphere(p, 1.0), vec3(1, 0, 0), 0.1, 1.0, vec3(0)); b = sphere(p - vec3(3, 0, 0), "
+        "1.0); ";
+    expectValue(red + "return min(a, b).base_color.y;", 0.0);
+    expectValue(red + "return min(a, b).base_color.y;", 0.8, {3, 0, 0});
+    expectValue(red + "a = max(a, -box(p, vec3(0.1))); return a.base_color.x;", 1.0);
+    expectValue(red + "a = a - 0.1; return a.metallic;", 1.0);
+    expectValue(red + "return mix(a, b, 0.5).roughness;", 0.3);
+}
+
+TEST(Language, TheTalksTower) {
+    // "Combined Result", word for word but for the names that the listing leaves open.
+    const Outcome outcome = run(R"(
+        float cylinderHole(vec3 c) { return length(c.xz - 0.25) - 0.1; }
+        float holes() { return length(pos.xz) - 0.3; }
+        A = 1.0; B = 0.5; N = 0.25; M = 1.0;
+        d = Box(pos, vec3(1, 2, 1))
+        ;c = fmod(pos * A, B);
+        subD = max(c.y, min(c.y, c.z));
+        subD = min(subD, cylinderHole(c));
+        subD = max(subD, box(pos, vec3(2)));
+        e = fmod(pos + N, M);
+        floorD = Box(e, vec3(0.45, 0.1, 0.45));
+        floorD = min(floorD, holes());
+        d = max(d, -subD);
+        d = max(d, -floorD);)");
+    ASSERT_EQ(outcome.error, "");
+    const auto box = [](double x, double y, double z, double a, double b, double c) {
+        const double qx = std::abs(x) - a, qy = std::abs(y) - b, qz = std::abs(z) - c;
+        const double outside = std::hypot(std::max(qx, 0.0), std::max(qy, 0.0), std::max(qz, 0.0));
+        return outside + std::min(std::max({qx, qy, qz}), 0.0);
+    };
+    for (double x : {-1.3, -0.4, 0.2, 0.9})
+        for (double y : {-2.1, -0.6, 0.1, 1.7})
+            for (double z : {-0.9, 0.05, 0.6}) {
+                double d = box(x, y, z, 1, 2, 1);
+                const double cx = std::fmod(x, 0.5), cy = std::fmod(y, 0.5), cz = std::fmod(z, 0.5);
+                double subD = std::max(cy, std::min(cy, cz));
+                subD = std::min(subD, std::hypot(cx - 0.25, cz - 0.25) - 0.1);
+                subD = std::max(subD, box(x, y, z, 2, 2, 2));
+                double floorD = box(std::fmod(x + 0.25, 1), std::fmod(y + 0.25, 1), std::fmod(z + 0.25, 1),
+                                    0.45, 0.1, 0.45);
+                floorD = std::min(floorD, std::hypot(x, z) - 0.3);
+                d = std::max(std::max(d, -subD), -floorD);
+                EXPECT_NEAR(outcome.at(x, y, z), d, 1e-12);
+            }
+}
+
+TEST(Language, Diagnostics) {
+    expectError("return spere(p, 1);", "code 1:8: unknown function 'spere': did you mean 'sphere'?");
+    expectError("a = 1;\nreturn lenght(p);", "code 2:8: unknown function 'lenght': did you mean 'length'?");
+    expectError("radius = 1; return radios;", "did you mean 'radius'?");
+    expectError("x = 3 +", "code 1:8: expected a value, found the end of the code");
+    expectError("return 1/0;", "code 1:9: division by zero");
+    expectError("return p / vec3(1, 0, 1);", "division by zero");
+    expectError("float f(float x) { return f(x); } return f(1);", "calls itself");
+    expectError("for (;;) {}", "code 1:6");
+    expectError("for (int i = 0; i < 1; ) d = p.x;", "code 1:24");
+    expectError("for (int i = 0; i < 1; i = i) d = p.x;", "steps");
+    expectError("for (int i = 0; i < p.x; i++) d = 1.;", "must be known");
+    expectError("while (true) {}", "'while' is not part of the language");
+    expectError("return vec3(1) + vec2(1);", "vec2 and vec3 do not mix");
+    expectError("return \"a\";", "string");
+    expectError("if (p.x > 0.) { return 1.; }", "does not return on every path");
+    expectError("", "no result");
+    expectError("return 1; }", "expected a value, found '}'");
+    expectError("return 1e999;", "out of range");
+    expectError("return @;", "the character '@'");
+    expectError("return p.w;", "no component 'w'");
+    expectError("return sphere(p, 1, 2);", "at most 2 arguments");
+    expectError("float if = 1;", "is a word of the language");
+    expectError("return min(1);", "takes 2 to 8 arguments");
+    expectError("return pow(1, 2, 3);", "takes 2 arguments");
+    expectError("break; return 1;", "inside a loop");
+    expectError("return /* open", "no end");
+}
+
+TEST(Language, HostileCodeIsRefusedSoon) {
+    const auto start = std::chrono::steady_clock::now();
+    std::string sum = "return p.x", parens = "return ", minus = "return ", blocks, dots = "return p";
+    for (int i = 0; i < 1'000'000; ++i) sum += "+p.x";
+    for (int i = 0; i < 100'000; ++i) parens += '(', minus += "- ", blocks += '{', dots += ".x";
+    expectError(sum + ";", "longer than");
+    expectError(parens, "nested deeper");
+    expectError(minus, "nested deeper");
+    expectError(blocks, "nested deeper");
+    expectError(dots + ";", "");
+    expectError("d = p.x; for (int i = 0; i < 1000000000; i++) d = sphere(p + d, 1);", "more than");
+    expectError("a = p.x; for (int i = 0; i < 100000; i++) { a = sin(a) + cos(a + i); } return a;",
+                "operations");
+    std::string calls = "float f0(float x) { return x + p.x; }";
+    for (int i = 1; i < 40; ++i)
+        calls += "float f" + std::to_string(i) + "(float x) { return f" + std::to_string(i - 1) + "(x) + f" +
+                 std::to_string(i - 1) + "(x * 1.1); }";
+    expectError(calls + " return f39(1);", "");
+    EXPECT_LT(std::chrono::steady_clock::now() - start,
+              std::chrono::seconds(60));  // ends at all; time is no criterion here
+}
+
+}  // namespace
+}  // namespace fw
