@@ -498,7 +498,8 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
 }
 
 std::vector<Error> compileErrors(const Graph& graph) {
-    Compiler compiler(graph, {});
+    const CompileOptions nothingLive;
+    Compiler compiler(graph, nothingLive);
     std::vector<const Node*> all;
     for (const Node& node : graph.nodes) all.push_back(&node);
     compiler.lowerAll(graph.nodes, "", nullptr, all);
