@@ -4,10 +4,16 @@
 namespace fw {
 
 /// ext2, ext3: distance to the set where every q_i <= 0, for the q_i of orthogonal slabs; exact on both
-/// sides.
+/// sides. On the surface itself the case of the inside holds, whose gradient is not that of a root at 0.
 inline constexpr const char* kExtent = R"(
-float ext2(vec2 q) { return length(max(q, 0.0)) + min(max(q.x, q.y), 0.0); }
-float ext3(vec3 q) { return length(max(q, 0.0)) + min(max(q.x, q.y, q.z), 0.0); }
+float ext2(vec2 q) {
+    float inside = max(q.x, q.y);
+    return inside <= 0.0 ? inside : length(max(q, 0.0));
+}
+float ext3(vec3 q) {
+    float inside = max(q.x, q.y, q.z);
+    return inside <= 0.0 ? inside : length(max(q, 0.0));
+}
 )";
 
 /// segment: distance to the segment from a to b, which may be one point.

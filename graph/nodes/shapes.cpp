@@ -1,9 +1,10 @@
 // Solids. Those of revolution stand on the y axis; half sizes are measured from the origin.
 //
-// Convex solids whose distance needs a case distinction are written max(planes, outside distance) where the
-// planes (max of signed plane distances) are the exact value inside and a lower bound outside: the maximum
-// changes no value, but the planes give a narrow interval where the case is not decided, which is what
-// culling lives on.
+// Where the surface is, a gradient is wanted that gives the normal; so no case that holds there may be a root
+// of what is 0 there. Convex solids whose distance needs a case distinction are written max(planes, outside
+// distance) where the planes (max of signed plane distances) are the exact value inside and a lower bound
+// outside: the maximum changes no value, but the planes give a narrow interval where the case is not decided,
+// which is what culling lives on.
 //
 // Formulas after Inigo Quilez' collection of distance functions; the differences are noted at each entry.
 #include "graph/nodes/code.h"
@@ -137,11 +138,11 @@ return length(vec2(length(vec2(p.x, y)) - major_radius, p.z)) - minor_radius;)"}
          .exactness = always(kExact),
          .body = std::string(kSegment) + R"(
 vec2 w = vec2(length(p.xz), p.y);
-float slope = (w.x * height + w.y * radius) / max(length(vec2(radius, height)), 1e-12);
-float planes = max(slope, -p.y - height);
-float side = segment(w, vec2(0.0), vec2(radius, -height));
-float base = length(vec2(max(w.x - radius, 0.0), p.y + height));
-return planes < 0.0 ? planes : max(planes, min(side, base));)"},
+float h = max(height, 1e-12);
+float planes = max((w.x * h + w.y * radius) / length(vec2(radius, h)), -p.y - h);
+float side = segment(w, vec2(0.0), vec2(radius, -h));
+float base = length(vec2(max(w.x - radius, 0.0), p.y + h));
+return planes <= 0.0 ? planes : max(planes, min(side, base));)"},
         {.id = "capped_cone",
          .label = "Capped cone",
          .category = Category::shape,
@@ -153,12 +154,13 @@ return planes < 0.0 ? planes : max(planes, min(side, base));)"},
          .exactness = always(kExact),
          .body = std::string(kSegment) + R"(
 vec2 w = vec2(length(p.xz), p.y);
-vec2 slope = vec2(2.0 * half_height, radius_bottom - radius_top);
-float cap = abs(p.y) - half_height;
-float planes = max(dot(w - vec2(radius_bottom, -half_height), slope) / max(length(slope), 1e-12), cap);
-float side = segment(w, vec2(radius_bottom, -half_height), vec2(radius_top, half_height));
+float h = max(half_height, 1e-12);
+vec2 slope = normalize(vec2(2.0 * h, radius_bottom - radius_top));
+float cap = abs(p.y) - h;
+float planes = max(dot(w - vec2(radius_bottom, -h), slope), cap);
+float side = segment(w, vec2(radius_bottom, -h), vec2(radius_top, h));
 float ends = length(vec2(max(w.x - (p.y < 0.0 ? radius_bottom : radius_top), 0.0), cap));
-return planes < 0.0 ? planes : max(planes, min(side, ends));)",
+return planes <= 0.0 ? planes : max(planes, min(side, ends));)",
          .aliases = {"frustum"}},
         // Where one ball swallows the other (height <= |difference of radii|) the hull is the larger ball.
         {.id = "round_cone",
@@ -227,8 +229,10 @@ float ball = length(p) - radius;
 if (half_angle >= 180.0) return ball;
 vec2 edge = vec2(sin(radians(half_angle)), cos(radians(half_angle)));
 vec2 w = vec2(length(p.xz), p.y);
-float side = length(w - edge * clamp(dot(w, edge), 0.0, radius));
-return max(ball, w.x * edge.y < p.y * edge.x ? -side : side);)"},
+float foot = dot(w, edge);
+float line = w.x * edge.y - w.y * edge.x;
+float ends = length(w - edge * clamp(foot, 0.0, radius));
+return max(ball, foot >= 0.0 && foot <= radius ? line : (line < 0.0 ? -ends : ends));)"},
         {.id = "vesica",
          .label = "Vesica",
          .category = Category::shape,
@@ -315,7 +319,7 @@ return min(ext3(vec3(q.x, w.yz)), ext3(vec3(w.x, q.y, w.z)), ext3(vec3(w.xy, q.z
 vec3 q = abs(p);
 float u = max(q.x, q.y, q.z);
 float w = min(q.x, q.y, q.z);
-float v = max(min(q.x, q.y), min(max(q.x, q.y), q.z));
+float v = q.x + q.y + q.z - u - w;
 float m = (q.x + q.y + q.z - size) / 3.0;
 float t = clamp((u - v + size) * 0.5, 0.0, size);
 float face = m * sqrt(3.0);
@@ -332,17 +336,18 @@ return w >= m ? face : max(face, length(vec3(u - t, v - (size - t), w)));)"},
          // distance to its plane.
          .body = std::string(kSegment) + R"(
 float x = max(abs(p.x), abs(p.z));
-float z = min(abs(p.x), abs(p.z));
+float z = abs(p.x) + abs(p.z) - x;
 float c = half_side;
-float l = max(length(vec2(c, height)), 1e-12);
-float slope = (x * height + (p.y - height) * c) / l;
-float along = (p.y * height - (x - c) * c) / l;
+float h = max(height, 1e-12);
+float l = length(vec2(c, h));
+float slope = (x * h + (p.y - h) * c) / l;
+float along = (p.y * h - (x - c) * c) / l;
 float planes = max(slope, -p.y);
 float outer = c * along + (z - c) * l;
 float foot = length(vec2(min(along, 0.0), max(z - c, 0.0)));
 float face = length(vec2(slope, outer < 0.0 ? foot : segment(vec2(along, z), vec2(0.0, c), vec2(l, 0.0))));
 float base = length(vec3(max(x - c, 0.0), p.y, max(z - c, 0.0)));
-return planes < 0.0 ? planes : max(planes, min(face, base));)"},
+return planes <= 0.0 ? planes : max(planes, min(face, base));)"},
         {.id = "prism",
          .label = "Prism",
          .category = Category::shape,
@@ -355,7 +360,7 @@ return planes < 0.0 ? planes : max(planes, min(face, base));)"},
          .body = std::string(kExtent) + kSector + R"(
 vec2 q = sector(vec2(p.x, -p.y), sides);
 float rim = q.y - apothem;
-float polygon = length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), max(rim, 0.0))) + min(rim, 0.0);
+float polygon = rim <= 0.0 ? rim : length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), rim));
 return ext2(vec2(polygon, abs(p.z) - half_height));)"},
         {.id = "tetrahedron",
          .label = "Tetrahedron",

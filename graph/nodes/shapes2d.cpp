@@ -47,9 +47,12 @@ std::vector<NodeType> shape2dNodes() {
          .outputs = kSurface,
          .exactness = always(kExact),
          .body = std::string(kExtent) + "return ext2(abs(p.xy) - half_extents);"},
-        // Sign by counting the edges that a ray to the right crosses. The distance to the bounding rectangle
-        // is never above that to the polygon; it changes no value but settles the sign of boxes outside it,
-        // which may straddle a corner's height.
+        // Sign by counting the edges that a ray to the right crosses; the nearest edge gives the magnitude,
+        // as a signed distance to its line where the foot lies inside the edge, so that the gradient is right
+        // on the outline too: with normals that point to +x (or +y), a place on an edge counts to the same
+        // side for the line and for the ray. The distance to the bounding rectangle is never above that to
+        // the polygon; it changes no value but settles the sign of boxes outside it, which may straddle a
+        // corner's height.
         {.id = "polygon",
          .label = "Polygon",
          .category = Category::shape2d,
@@ -68,6 +71,8 @@ if (n == 0) return empty();
 vec2 lo = points[0];
 vec2 hi = points[0];
 float near = 1e18;
+float line = 1e9;
+bool onEdge = false;
 bool inside = false;
 for (int i = 0; i < n; i++) {
     vec2 a = points[i];
@@ -76,17 +81,26 @@ for (int i = 0; i < n; i++) {
     hi = max(hi, a);
     vec2 along = b - a;
     vec2 q = p.xy - a;
-    vec2 off = q - along * clamp(dot(q, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+    float foot = dot(q, along);
+    float size = dot(along, along);
+    vec2 off = q - along * clamp(foot / max(size, 1e-12), 0.0, 1.0);
+    bool closer = dot(off, off) < near;
     near = min(near, dot(off, off));
-    if (a.y != b.y) {
-        float side = q.x * along.y - q.y * along.x;
-        bool crosses = a.y < b.y ? (p.y >= a.y && p.y < b.y && side < 0.0) : (p.y >= b.y && p.y < a.y && side > 0.0);
-        inside = crosses ? !inside : inside;
+    if (size > 0.0) {
+        vec2 right = normalize(vec2(along.y, -along.x)) * (along.y > 0.0 || (along.y == 0.0 && along.x < 0.0) ? 1.0 : -1.0);
+        line = closer ? dot(q, right) : line;
+        onEdge = closer ? foot >= 0.0 && foot <= size : onEdge;
+        bool crossing = min(a.y, b.y) <= p.y && p.y < max(a.y, b.y) && dot(q, right) < 0.0;
+        inside = crossing ? !inside : inside;
+    } else {
+        onEdge = closer ? false : onEdge;
     }
 }
-vec2 bounds = max(lo - p.xy, p.xy - hi);
 float d = sqrt(near);
-return max(inside ? -d : d, bounds.x, bounds.y);)"},
+float wanted = inside ? -1.0 : 1.0;
+float found = line < 0.0 ? -1.0 : 1.0;
+vec2 bounds = max(lo - p.xy, p.xy - hi);
+return max(onEdge ? line * (wanted * found) : wanted * d, bounds.x, bounds.y);)"},
         {.id = "regular_polygon",
          .label = "Regular polygon",
          .category = Category::shape2d,
@@ -98,7 +112,7 @@ return max(inside ? -d : d, bounds.x, bounds.y);)"},
          .body = std::string(kSector) + R"(
 vec2 q = sector(vec2(p.x, -p.y), sides);
 float rim = q.y - apothem;
-return length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), max(rim, 0.0))) + min(rim, 0.0);)"},
+return rim <= 0.0 ? rim : length(vec2(max(q.x - apothem * tan(PI / sides), 0.0), rim));)"},
         {.id = "star",
          .label = "Star",
          .category = Category::shape2d,
@@ -113,8 +127,11 @@ vec2 q = sector(p.xy, points);
 vec2 tip = vec2(0.0, outer_radius);
 vec2 notch = inner_radius * vec2(sin(PI / points), cos(PI / points));
 vec2 along = notch - tip;
+float size = length(along);
+float foot = dot(q - tip, along);
+float line = (along.y * q.x - along.x * (q.y - outer_radius)) / max(size, 1e-12);
 float d = segment(q, tip, notch);
-return along.x * (q.y - tip.y) < along.y * (q.x - tip.x) ? -d : d;)"},
+return 0.0 < size && foot >= 0.0 && foot <= size * size ? -line : (line > 0.0 ? -d : d);)"},
         {.id = "extrude",
          .label = "Extrude",
          .category = Category::shape2d,
