@@ -47,9 +47,9 @@ struct Link {
 struct InputValue {
     /// number, boolean, string, numbers (vectors; points as x,y pairs), or link
     std::variant<double, bool, std::string, std::vector<double>, Link> value;
-    TextPosition at;
+    TextPosition at = {};
     bool pairs = false;  ///< numbers written as a list of pairs: [[x, y], …]
-    Json extra;          ///< of a link
+    Json extra = {};          ///< of a link
     bool operator==(const InputValue&) const = default;
 };
 

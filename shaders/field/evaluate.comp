@@ -1,8 +1,5 @@
-#version 460
 // The field at a list of points, in each of its meanings: how tests compare the device with the CPU reference, and
 // what `fieldwright compile --emit spirv` shows.
-#extension GL_GOOGLE_include_directive : enable
-#extension GL_EXT_scalar_block_layout : enable
 #define FIELD_VALUE
 #define FIELD_GRADIENT
 #define FIELD_INTERVAL

@@ -1,0 +1,33 @@
+#include "tests/support/device_field.h"
+
+#include "graph/glsl.h"
+#include "tests/support/gpu.h"
+
+namespace fw::test {
+
+std::vector<FieldSample> evaluateOnDevice(const Program& program,
+                                          std::span<const std::array<float, 3>> points, float halfSize) {
+    Device& gpu = device();
+    const std::string field = emitField(program);
+    const Pipeline pipeline = createComputePipeline(gpu, {.name = "field/evaluate.comp", .field = field});
+    const Buffer in = createBuffer(gpu, points.size_bytes(), Memory::upload);
+    const Buffer out = createBuffer(gpu, points.size() * sizeof(FieldSample), Memory::readback);
+    std::vector<float> live;
+    for (double value : program.parameters()) live.push_back(static_cast<float>(value));
+    live.resize(std::max<std::size_t>(live.size(), 1));
+    const Buffer parameters = createBuffer(gpu, live.size() * sizeof(float), Memory::upload);
+    uploadBytes(gpu, in, points.data(), points.size_bytes());
+    upload(gpu, parameters, live);
+
+    Commands commands(gpu);
+    const struct {
+        uint32_t count;
+        float halfSize;
+    } push{static_cast<uint32_t>(points.size()), halfSize};
+    const Descriptor descriptors[] = {{0, in}, {1, out}, {kFieldParametersBinding, parameters}};
+    dispatch(commands, pipeline, {groupsFor(points.size(), 64), 1, 1}, push, descriptors);
+    submit(commands);
+    return download<FieldSample>(gpu, out, points.size());
+}
+
+}  // namespace fw::test
