@@ -128,7 +128,7 @@ void checkUnconnected(const Scope& scope, uint32_t i, Findings& findings) {
         const bool linked = std::any_of(node.inputs.begin(), node.inputs.end(), [](const auto& input) {
             return std::holds_alternative<Link>(input.second.value);
         });
-        if (!linked)
+        if (!linked && !scope.group)
             findings.warning(placeOf(scope, node),
                              "nothing is connected to the output: it shows empty space");
     } else if (type.id == "reroute") {

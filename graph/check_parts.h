@@ -86,7 +86,7 @@ using Edges = std::vector<std::vector<uint32_t>>;
 /// leads to.
 template <class Closes, class Finished>
 void walk(const Edges& edges, Closes closes, Finished finished) {
-    enum : std::uint8_t { fresh, open, done };
+    enum : std::uint8_t { fresh, open, left };
     std::vector<uint8_t> state(edges.size(), fresh);
     std::vector<uint32_t> stack, edge;
     for (uint32_t root = 0; root < edges.size(); ++root) {
@@ -97,7 +97,7 @@ void walk(const Edges& edges, Closes closes, Finished finished) {
         while (!stack.empty()) {
             const uint32_t vertex = stack.back();
             if (edge.back() == edges[vertex].size()) {
-                state[vertex] = done;
+                state[vertex] = left;
                 finished(vertex);
                 stack.pop_back();
                 edge.pop_back();

@@ -253,8 +253,9 @@ class Follower {
         if (!valueNext) return "expected a key in double quotes";
         std::string word;
         for (const char c : rest.substr(rest.find_first_not_of("+-") == 1 ? 1 : 0)) {
-            if (c < 'A' || c > 'z') break;
-            word += static_cast<char>(c | 0x20);
+            const char lower = static_cast<char>(c | 0x20);
+            if (lower < 'a' || lower > 'z') break;
+            word += lower;
         }
         if (word == "nan" || word == "inf" || word == "infinity")
             return "JSON has no NaN and no infinity: write a finite number";

@@ -289,9 +289,12 @@ std::optional<Error> notFinite(const Graph& graph, const std::string& path) {
     };
     const auto inNodes = [&](const std::vector<Node>& nodes,
                              const std::string& prefix) -> std::optional<Error> {
-        for (const Node& node : nodes)
+        for (const Node& node : nodes) {
+            if (node.at && !(std::isfinite((*node.at)[0]) && std::isfinite((*node.at)[1])))
+                return error(prefix + node.id, "at");
             for (const auto& [name, value] : node.inputs)
                 if (!finite(value)) return error(prefix + node.id, name);
+        }
         return {};
     };
     if (auto found = inNodes(graph.nodes, "")) return found;
