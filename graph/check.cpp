@@ -8,7 +8,8 @@ namespace fw {
 
 namespace {
 
-constexpr std::size_t kMaxCompared = 100'000;  // names, in all hints together: tenths of a second
+constexpr std::size_t kMaxCompared =
+    50'000'000;  // pairs of letters, in all hints together: tenths of a second
 constexpr std::size_t kLongestHinted = 64;
 
 bool isLower(char c) { return c >= 'a' && c <= 'z'; }
@@ -84,8 +85,9 @@ void Findings::add(const Place& place, std::string message, Error::Severity seve
 }
 
 bool Findings::mayCompare(std::string_view name, std::size_t count) {
-    if (full() || name.size() > kLongestHinted || compared + count > kMaxCompared) return false;
-    compared += count;
+    const std::size_t cost = count * (name.size() + 1) * (name.size() + 1);  // near names are about as long
+    if (full() || name.size() > kLongestHinted || compared + cost > kMaxCompared) return false;
+    compared += cost;
     return true;
 }
 

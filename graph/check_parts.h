@@ -52,7 +52,7 @@ class Findings {
     std::vector<Error> list;
     std::size_t beyond = 0;    ///< findings that were only counted
     bool errorBeyond = false;  ///< whether an error is among them
-    std::size_t compared = 0;  ///< names, in hints
+    std::size_t compared = 0;  ///< pairs of letters, in hints
 };
 
 /// The declarations of groups, groups that contain themselves, are nested too deep or multiply beyond bounds.
