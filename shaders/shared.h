@@ -22,6 +22,64 @@ using vec4 = glm::vec4;
 
 #define FIELD_PARAMETERS 15  // binding of the live parameters, in every shader that includes field.glsl
 
+// ---- Mesher ------------------------------------------------------------------------------------------------------
+// Words used: sample, a grid point; cell, between eight samples; brick, 8^3 cells; block, 8^3 bricks; row, 8 bricks
+// along x; plane, the 9x9 samples of a brick at one z; strip, 4x8 cells (x, y) of a brick at one z.
+
+#define MESHER_VERTEX_CHUNK 8388608u     // vertices that one dispatch writes: 16 bytes each make 128 MiB
+#define MESHER_TRIANGLE_CHUNK 11000000u  // triangles that one dispatch starts: 12 bytes each and some slack, ditto
+#define MESHER_CHUNKS 17                 // dispatches at most: 2 GiB, the largest allocation
+#define MESHER_GROUP_BRICKS 8            // bricks of one work group of the kernels over planes
+#define MESHER_GROUP_VERTICES 64
+#define MESHER_GROUP_STRIPS 64
+
+// What every mesher kernel is told.
+struct MesherPush {
+    vec3 origin;            // of the region, metres
+    float cellSize;         // metres
+    uvec3 cells;            // of the region
+    float margin;           // an interval this close to zero counts as reaching it
+    uvec3 blocks;           // of the grid, which has one layer of outside samples around the region
+    float nudge;            // least distance of a vertex from the ends of its grid edge, in cells
+    uint brickCapacity;
+    uint vertexCapacity;
+    uint triangleCapacity;
+    uint chunk;             // of vertices or triangles, for kernels that run once a chunk
+};
+
+struct DispatchArguments {
+    uint x, y, z;
+};
+
+struct DrawIndexedArguments {
+    uint indexCount, instanceCount, firstIndex;
+    int vertexOffset;
+    uint firstInstance;
+};
+
+// What the kernels count, and the arguments of the indirect dispatches and of the draw that follow.
+struct MesherCounts {
+    uint blocks;     // that may hold surface
+    uint bricks;     // the same
+    uint vertices;
+    uint triangles;
+    uint strips;     // that hold active cells
+    uint caps;       // vertices made by closing the surface at the region's boundary
+    uint leaks;      // planes whose surface runs on into a brick that was culled: the mesh is then not usable
+    uint unused;
+    DispatchArguments blockGroups, compactGroups, linkGroups, brickGroups, emitGroups;
+    DispatchArguments vertexGroups[MESHER_CHUNKS];
+    DispatchArguments stripGroups[MESHER_CHUNKS];
+    uint stripStart[MESHER_CHUNKS + 1];  // first strip of each chunk of triangles
+    DrawIndexedArguments draw;
+};
+
+// A vertex of the mesh as the device stores it; the normal is octahedral, two 16-bit signed fractions.
+struct MeshVertex {
+    vec3 position;
+    uint normal;
+};
+
 #ifdef __cplusplus
 }  // namespace fw::gpu
 #endif

@@ -1,0 +1,313 @@
+#include "runtime/mesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "runtime/marching_cubes_table.h"
+
+namespace fw {
+namespace {
+
+using gpu::MesherCounts;
+using gpu::MesherPush;
+
+enum Kernel {
+    blocks,
+    cull,
+    cullAll,
+    topBricks,
+    topBricksAll,
+    compact,
+    compactAll,
+    link,
+    sample,
+    count,
+    topStrips,
+    emit,
+    vertices,
+    indices,
+    colors,
+    kernelCount
+};
+
+/// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
+constexpr int kCellsForBlocks = 512;
+
+constexpr uint32_t kMostBricks = 1u << 20;  // twenty bits in the list of vertices
+constexpr float kLeastNudge = 1e-4f;        // cells
+constexpr float kNudgeUlps = 8.0f;          // of the largest coordinate
+constexpr float kMostNudge = 0.05f;
+
+uint32_t chunksOf(uint64_t items, uint64_t each) { return uint32_t((items + each - 1) / each); }
+
+/// A number of work groups as the kernels see it: spread over two axes beyond 32768 (groupsFor in
+/// mesher.glsl).
+constexpr uint64_t kGroupsAlongX = 32768;
+uint64_t spread(uint64_t groups) {
+    return groups <= kGroupsAlongX ? groups : (groups + kGroupsAlongX - 1) / kGroupsAlongX * kGroupsAlongX;
+}
+
+/// Sizes what depends on the grid, and what depends on how much surface is in it.
+void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount, bool wantColors) {
+    uint64_t all = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
+    if (reserve(device, buffers.table, sizeof(packedCellPolygons())))
+        uploadBytes(device, buffers.table, packedCellPolygons().data(), sizeof(packedCellPolygons()));
+    reserve(device, buffers.counts, sizeof(MesherCounts), Memory::device);
+    reserve(device, buffers.blockList, all * 4);
+    reserve(device, buffers.blockAlive, all * 4);
+    reserve(device, buffers.blockSums, all * 16);
+    reserve(device, buffers.rows, all * 64 * 8);
+    uint64_t bricks = buffers.brickCapacity;
+    reserve(device, buffers.brickList, bricks * 4);
+    reserve(device, buffers.links, bricks * 32);
+    reserve(device, buffers.planes, bricks * 9 * 12);
+    reserve(device, buffers.sums, spread(chunksOf(bricks, MESHER_GROUP_BRICKS)) * 16);
+    for (Buffer& edges : buffers.edges) reserve(device, edges, bricks * 8 * 16);
+    reserve(device, buffers.stripList, bricks * 16 * 8);
+    reserve(device, buffers.vertexList, uint64_t(buffers.vertexCapacity) * 4);
+    reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
+    if (wantColors) reserve(device, buffers.colors, uint64_t(buffers.vertexCapacity) * 12);
+    reserve(device, buffers.triangles, uint64_t(buffers.triangleCapacity) * 12);
+}
+
+/// Capacity for a count that turned out larger, with some room so that small changes do not grow it each
+/// time.
+uint32_t grown(uint32_t capacity, uint32_t needed) {
+    return needed <= capacity ? capacity
+                              : uint32_t(std::min<uint64_t>(needed + uint64_t(needed) / 8 + 256, ~0u));
+}
+
+Error tooLarge(const char* what, uint64_t has, uint64_t most) {
+    return {.message = std::string("the surface needs ") + std::to_string(has) + " " + what +
+                       " at this resolution, " + std::to_string(most) +
+                       " is the most; choose a lower resolution or a smaller region"};
+}
+
+/// A range of a buffer that a binding can hold: chunk `index` of `stride` bytes and up to the limit behind
+/// its start.
+Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer, uint32_t index,
+                   uint64_t stride) {
+    uint64_t offset = std::min<uint64_t>(index * stride, buffer.size - 4) / stride * stride;
+    return {binding, buffer, offset,
+            std::min<uint64_t>(buffer.size - offset, device.properties.limits.maxStorageBufferRange)};
+}
+
+void record(Commands& commands, const MesherPipelines& pipelines, const MesherBuffers& b,
+            const MesherConfig& config, MesherPush push, bool blocksFirst) {
+    const Device& device = commands.device;
+    auto argument = [](std::size_t member) { return VkDeviceSize(member); };
+    std::vector<Descriptor> common = {{0, b.counts}};
+    if (config.parameters) common.push_back({FIELD_PARAMETERS, *config.parameters});
+    auto with = [&](std::initializer_list<Descriptor> more) {
+        std::vector<Descriptor> list = common;
+        list.insert(list.end(), more);
+        return list;
+    };
+    auto indirect = [&](Kernel kernel, std::size_t offset, std::initializer_list<Descriptor> more) {
+        dispatchIndirect(commands, pipelines.all[kernel], b.counts, argument(offset), push, with(more));
+        barrier(commands);
+    };
+    auto direct = [&](Kernel kernel, uint32_t groups, std::initializer_list<Descriptor> more) {
+        glm::uvec3 size(std::min<uint32_t>(groups, kGroupsAlongX), chunksOf(groups, kGroupsAlongX), 1);
+        dispatch(commands, pipelines.all[kernel], size, push, with(more));
+        barrier(commands);
+    };
+
+    beginStage(commands, "cull");
+    fill(commands, b.counts, 0);
+    if (blocksFirst) fill(commands, b.rows, 0);
+    barrier(commands);
+    if (blocksFirst) {
+        direct(blocks, 1, {{1, b.blockList}, {2, b.blockAlive}});
+        indirect(cull, offsetof(MesherCounts, blockGroups),
+                 {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}});
+    } else {
+        direct(cullAll, push.blocks.x * push.blocks.y * push.blocks.z,
+               {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}});
+    }
+    beginStage(commands, "compact");
+    direct(blocksFirst ? topBricks : topBricksAll, 1, {{4, b.blockSums}});
+    indirect(blocksFirst ? compact : compactAll, offsetof(MesherCounts, compactGroups),
+             {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}, {5, b.brickList}});
+    indirect(link, offsetof(MesherCounts, linkGroups), {{3, b.rows}, {5, b.brickList}, {6, b.links}});
+    beginStage(commands, "sample");
+    indirect(sample, offsetof(MesherCounts, brickGroups), {{5, b.brickList}, {7, b.planes}});
+    beginStage(commands, "count");
+    indirect(count, offsetof(MesherCounts, brickGroups),
+             {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}});
+    direct(topStrips, 1, {{4, b.sums}});
+    beginStage(commands, "emit");
+    indirect(emit, offsetof(MesherCounts, emitGroups),
+             {{4, b.sums},
+              {7, b.planes},
+              {8, b.edges[0]},
+              {9, b.edges[1]},
+              {10, b.edges[2]},
+              {11, b.vertexList},
+              {12, b.stripList}});
+    beginStage(commands, "vertices");
+    for (push.chunk = 0; push.chunk < chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK); ++push.chunk) {
+        std::size_t offset =
+            offsetof(MesherCounts, vertexGroups) + push.chunk * sizeof(gpu::DispatchArguments);
+        Descriptor target = chunkOf(device, 13, b.vertices, push.chunk,
+                                    uint64_t(MESHER_VERTEX_CHUNK) * sizeof(gpu::MeshVertex));
+        indirect(vertices, offset, {{5, b.brickList}, {11, b.vertexList}, target});
+        if (config.colors)
+            indirect(colors, offset,
+                     {target, chunkOf(device, 14, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
+    }
+    beginStage(commands, "indices");
+    for (push.chunk = 0; push.chunk < chunksOf(push.triangleCapacity, MESHER_TRIANGLE_CHUNK); ++push.chunk) {
+        std::size_t offset =
+            offsetof(MesherCounts, stripGroups) + push.chunk * sizeof(gpu::DispatchArguments);
+        indirect(indices, offset,
+                 {{6, b.links},
+                  {7, b.planes},
+                  {8, b.edges[0]},
+                  {9, b.edges[1]},
+                  {10, b.edges[2]},
+                  {11, b.table},
+                  {12, b.stripList},
+                  chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
+    }
+}
+
+}  // namespace
+
+MesherPipelines createMesherPipelines(const Device& device, std::string_view field, bool wantColors,
+                                      CompileTimes* times) {
+    std::vector<ShaderOptions> shaders(kernelCount);
+    auto set = [&](Kernel kernel, const char* name, std::vector<uint32_t> constants = {}) {
+        shaders[kernel] = {.name = name, .field = field, .constants = std::move(constants)};
+    };
+    set(blocks, "mesher/blocks.comp");
+    set(cull, "mesher/cull.comp", {1});
+    set(cullAll, "mesher/cull.comp", {0});
+    set(topBricks, "mesher/top_bricks.comp", {1});
+    set(topBricksAll, "mesher/top_bricks.comp", {0});
+    set(compact, "mesher/compact.comp", {1});
+    set(compactAll, "mesher/compact.comp", {0});
+    set(link, "mesher/link.comp");
+    set(sample, "mesher/sample.comp");
+    set(count, "mesher/count.comp");
+    set(topStrips, "mesher/top_strips.comp");
+    set(emit, "mesher/emit.comp");
+    set(vertices, "mesher/vertices.comp");
+    set(indices, "mesher/indices.comp");
+    if (wantColors)
+        set(colors, "mesher/colors.comp");
+    else
+        shaders.pop_back();
+    return {createComputePipelines(device, shaders, times), wantColors};
+}
+
+Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipelines, MesherBuffers& buffers,
+                               const MesherConfig& config) {
+    assert(!config.colors || pipelines.colors);
+    int longest = std::max({config.cells.x, config.cells.y, config.cells.z});
+    if (std::min({config.cells.x, config.cells.y, config.cells.z}) < 1 || longest > kMostMesherCells)
+        return Error{.message = "a grid of " + std::to_string(config.cells.x) + " x " +
+                                std::to_string(config.cells.y) + " x " + std::to_string(config.cells.z) +
+                                " cells cannot be polygonised: each side needs 1 to " +
+                                std::to_string(kMostMesherCells) + " cells"};
+    glm::vec3 farCorner = config.origin + glm::vec3(config.cells) * config.cellSize;
+    glm::vec3 reach = glm::max(glm::abs(config.origin), glm::abs(farCorner));
+    float largest = std::max({reach.x, reach.y, reach.z});
+    float ulp = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
+    float nudge = std::max(kLeastNudge, kNudgeUlps * ulp / config.cellSize);
+    if (!(config.cellSize > 0) || !(nudge <= kMostNudge))
+        return Error{.message =
+                         "cells of " + std::to_string(config.cellSize) +
+                         " m are too small for coordinates up to " + std::to_string(largest) +
+                         " m in single precision; choose a lower resolution or move the model to the origin"};
+
+    glm::uvec3 cells(config.cells);
+    glm::uvec3 blockCount = (cells + 2u + 63u) / 64u;
+    // First guesses: a surface of some eight cross sections of the region.
+    uint64_t section =
+        (uint64_t(cells.x) * cells.y + uint64_t(cells.y) * cells.z + uint64_t(cells.z) * cells.x) / 3;
+    auto guess = [](uint64_t items) { return uint32_t(std::min<uint64_t>(items, 1u << 27)); };
+    buffers.brickCapacity = std::max(buffers.brickCapacity, std::min(kMostBricks, guess(section / 8 + 512)));
+    buffers.vertexCapacity = std::max(buffers.vertexCapacity, guess(section * 8 + 8192));
+    buffers.triangleCapacity = std::max(buffers.triangleCapacity, guess(section * 16 + 16384));
+
+    MesherPush push{};
+    push.origin = config.origin;
+    push.cellSize = config.cellSize;
+    push.cells = cells;
+    push.blocks = blockCount;
+    push.nudge = nudge;
+    MesherResult result;
+    for (result.runs = 1;; ++result.runs) {
+        reserveAll(device, buffers, blockCount, config.colors);
+        push.brickCapacity = buffers.brickCapacity;
+        push.vertexCapacity = buffers.vertexCapacity;
+        push.triangleCapacity = buffers.triangleCapacity;
+        Commands commands(device, config.timed);
+        record(commands, pipelines, buffers, config, push, longest >= kCellsForBlocks);
+        submit(commands);
+        result.stages = commands.stages;
+        MesherCounts counts = download<MesherCounts>(device, buffers.counts, 1)[0];
+        constexpr uint64_t kMostVertices = uint64_t(MESHER_VERTEX_CHUNK) * (MESHER_CHUNKS - 1);
+        constexpr uint64_t kMostTriangles = uint64_t(MESHER_TRIANGLE_CHUNK) * (MESHER_CHUNKS - 1);
+        if (counts.bricks > kMostBricks)
+            return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, kMostBricks);
+        if (counts.vertices > kMostVertices) return tooLarge("vertices", counts.vertices, kMostVertices);
+        if (counts.triangles > kMostTriangles) return tooLarge("triangles", counts.triangles, kMostTriangles);
+        bool fits = counts.bricks <= buffers.brickCapacity && counts.vertices <= buffers.vertexCapacity &&
+                    counts.triangles <= buffers.triangleCapacity;
+        if (!fits) {
+            buffers.brickCapacity = std::min(kMostBricks, grown(buffers.brickCapacity, counts.bricks));
+            buffers.vertexCapacity = grown(buffers.vertexCapacity, counts.vertices);
+            buffers.triangleCapacity = grown(buffers.triangleCapacity, counts.triangles);
+            continue;
+        }
+        if (counts.leaks) {
+            // The interval of some brick missed surface that is there (rounding, or a field at fault). The
+            // mesh has a hole, so cull less: each time with a wider margin, in the end not at all.
+            push.margin = std::isinf(push.margin) ? push.margin
+                          : push.margin == 0      ? config.cellSize / 8
+                                                  : push.margin * 16;
+            if (push.margin > 16 * longest * config.cellSize)
+                push.margin = std::numeric_limits<float>::infinity();
+            continue;
+        }
+        result.vertices = counts.vertices;
+        result.triangles = counts.triangles;
+        result.bricks = counts.bricks;
+        result.capped = counts.caps != 0;
+        return result;
+    }
+}
+
+glm::vec3 unpackOctahedral(uint32_t word) {
+    auto fraction = [](uint32_t bits) { return std::max(float(int16_t(bits & 0xffff)) / 32767.0f, -1.0f); };
+    glm::vec3 n(fraction(word), fraction(word >> 16), 0.0f);
+    n.z = 1.0f - std::abs(n.x) - std::abs(n.y);
+    float fold = std::max(-n.z, 0.0f);
+    n.x += n.x < 0 ? fold : -fold;
+    n.y += n.y < 0 ? fold : -fold;
+    return n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+}
+
+Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result) {
+    Mesh mesh;
+    mesh.indices.resize(std::size_t(result.triangles) * 3);
+    downloadBytes(device, buffers.triangles, mesh.indices.data(), mesh.indices.size() * 4);
+    std::vector<gpu::MeshVertex> packed =
+        download<gpu::MeshVertex>(device, buffers.vertices, result.vertices);
+    mesh.positions.resize(packed.size());
+    mesh.normals.resize(packed.size());
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+        mesh.positions[i] = packed[i].position;
+        mesh.normals[i] = unpackOctahedral(packed[i].normal);
+    }
+    if (buffers.colors) mesh.colors = download<glm::vec3>(device, buffers.colors, result.vertices);
+    return mesh;
+}
+
+}  // namespace fw

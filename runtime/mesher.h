@@ -1,0 +1,87 @@
+// From a field to indexed triangles in device memory: marching cubes over sparse bricks.
+//
+// The pipeline is that of Matt Swoboda's "Advanced Procedural Rendering in DirectX 11" (GDC 2012): compact
+// what is active with a histopyramid, make one vertex for each active grid edge, find a triangle's vertices
+// through an edge -> vertex lookup, dispatch and draw indirectly, read no count back before the end.
+// Deviations:
+//  * The grid is sparse. Interval arithmetic over the field drops bricks of 8^3 cells (and, on long grids,
+//  first
+//    blocks of 64^3), and no sample is stored: only signs are, 9x9 bits a plane of a brick.
+//  * Active edges, active cells and even the number of triangles come from bit operations, 32 cells at a
+//  time;
+//    an edge's vertex is a base and a population count, not an entry of a volume.
+//  * A vertex is the root of the field on its edge, found by evaluating it again, with the field's exact
+//  gradient for normal.
+//  * The table is derived from a rule that makes every surface closed, oriented and manifold
+//  (marching_cubes_table.h).
+//  * Places come from prefix sums alone, so that the same input gives the same bytes on every run.
+//
+// A sample is inside if f < 0; zero and NaN are outside. Outside the region everything is: a surface that
+// leaves the region is closed on its boundary (`capped`). Vertices keep a distance from grid points (about
+// 1e-4 cells), so that no triangle collapses. Sharp edges are bevelled by up to a cell.
+//
+// Lifetime: pipelines belong to a structure (a field's text), buffers to a resolution (they grow when a mesh
+// needs more and hold the last mesh), the configuration to one run.
+#pragma once
+
+#include <string_view>
+
+#include "runtime/gpu/commands.h"
+#include "runtime/mesh.h"
+#include "shaders/shared.h"
+
+namespace fw {
+
+struct MesherConfig {
+    glm::vec3 origin{-1.0f};      ///< least corner of the region, metres
+    float cellSize = 2.0f / 128;  ///< metres
+    glm::ivec3 cells{128};        ///< of the region along each axis, any number from 1 to kMostMesherCells
+    const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
+    bool colors = false;  ///< also the base colour at each vertex; the pipelines must have been made for it
+    bool timed = false;   ///< fill MesherResult::stages (see commands.h for what that costs)
+};
+
+inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits
+
+/// The kernels for one field.
+struct MesherPipelines {
+    std::vector<Pipeline> all;  ///< in the order of mesher.cpp's Kernel
+    bool colors = false;
+};
+
+/// Compiles the kernels. `field` is the text that answers #include "field.glsl", empty for the default field.
+MesherPipelines createMesherPipelines(const Device& device, std::string_view field, bool colors = false,
+                                      CompileTimes* times = nullptr);
+
+/// Everything the kernels write. Made empty; runMesher sizes it.
+struct MesherBuffers {
+    Buffer vertices;   ///< gpu::MeshVertex each
+    Buffer colors;     ///< vec3 each, if asked for
+    Buffer triangles;  ///< three uint32 indices each
+    Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
+    Buffer table, blockList, blockAlive, blockSums, rows, brickList, links, planes, sums, edges[3],
+        vertexList, stripList;
+    uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;
+};
+
+struct MesherResult {
+    uint32_t vertices = 0, triangles = 0;
+    uint32_t bricks = 0;  ///< that were sampled
+    bool capped = false;  ///< the surface was closed at the region's boundary
+    int runs = 1;         ///< of the kernels; more than one if buffers had to grow
+    std::vector<StageTime> stages;
+};
+
+/// Polygonises the field over the region into `buffers`. Errors: a region without cells or with too many,
+/// cells too small for the precision of positions, a surface too large to number. Throws SystemError if
+/// memory runs out.
+Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipelines, MesherBuffers& buffers,
+                               const MesherConfig& config);
+
+/// Copies the last mesh to the host.
+Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);
+
+/// The unit vector that lib/octahedral.glsl packed.
+glm::vec3 unpackOctahedral(uint32_t word);
+
+}  // namespace fw

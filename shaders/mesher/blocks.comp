@@ -1,0 +1,37 @@
+// Culls blocks of 64^3 cells and lists the survivors in order. One work group: there are few blocks.
+#define HISTOPYRAMID_LANES 256
+#include "mesher/mesher.glsl"
+#include "mesher/alive.glsl"
+#include "lib/histopyramid.glsl"
+
+layout(local_size_x = HISTOPYRAMID_LANES) in;
+layout(binding = 1, scalar) writeonly buffer BlockList { uint blockList[]; };
+layout(binding = 2, scalar) buffer BlockAlive { uint blockAlive[]; };
+
+void main() {
+    fieldBegin();
+    uint all = push.blocks.x * push.blocks.y * push.blocks.z;
+    uint each = (all + HISTOPYRAMID_LANES - 1) / HISTOPYRAMID_LANES;
+    uint first = min(gl_LocalInvocationIndex * each, all), last = min(first + each, all);
+    uint found = 0;
+    uint i = 0;
+    do {  // each >= 1
+        uint block = min(first + i, all - 1);
+        uvec3 at = uvec3(block % push.blocks.x, block / push.blocks.x % push.blocks.y, block / (push.blocks.x * push.blocks.y));
+        bool alive = first + i < last && mayHoldSurface(at * 64, 64);
+        if (first + i < last) blockAlive[first + i] = alive ? 1 : 0;
+        found += alive ? 1 : 0;
+    } while (++i < each);
+    uvec4 total;
+    uint place = sumBefore(uvec4(found, 0, 0, 0), total).x;
+    i = first;
+    do {
+        bool alive = i < last && blockAlive[min(i, all - 1)] != 0;
+        if (alive) blockList[place] = i;
+        place += alive ? 1 : 0;
+    } while (++i < first + each);
+    if (gl_LocalInvocationIndex == 0) {
+        counts.blocks = total.x;
+        counts.blockGroups = groupsFor(total.x, 1);
+    }
+}

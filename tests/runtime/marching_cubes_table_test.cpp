@@ -1,0 +1,128 @@
+// The derived table: every pattern, and every pair of patterns that share a face.
+#include "runtime/marching_cubes_table.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace fw {
+namespace {
+
+bool inside(int pattern, glm::uvec3 corner) {
+    return pattern >> (corner.x + 2 * corner.y + 4 * corner.z) & 1;
+}
+
+bool crossed(int pattern, int edge) {
+    CellEdge e = cellEdge(edge);
+    glm::uvec3 other = e.corner;
+    other[e.axis] += 1;
+    return inside(pattern, e.corner) != inside(pattern, other);
+}
+
+/// The middle of an edge in half cells: exact, and the same for the two cells that share the edge.
+using Point = std::array<int, 3>;
+Point middle(int edge, Point cell = {0, 0, 0}) {
+    CellEdge e = cellEdge(edge);
+    Point p;
+    for (int i = 0; i < 3; ++i) p[i] = 2 * (cell[i] + int(e.corner[i])) + (i == e.axis);
+    return p;
+}
+
+using Segment = std::pair<Point, Point>;
+
+/// Directed edges of the fans of a pattern, with their multiplicity.
+std::map<Segment, int> fanEdges(int pattern, Point cell = {0, 0, 0}) {
+    std::map<Segment, int> edges;
+    for (const CellPolygon& polygon : cellPolygons(pattern)) {
+        for (std::size_t i = 2; i < polygon.size(); ++i) {
+            Point a = middle(polygon[0], cell), b = middle(polygon[i - 1], cell),
+                  c = middle(polygon[i], cell);
+            ++edges[{a, b}], ++edges[{b, c}], ++edges[{c, a}];
+        }
+    }
+    return edges;
+}
+
+TEST(MarchingCubesTable, EveryCrossedEdgeHasOneVertexInOnePolygon) {
+    for (int pattern = 0; pattern < 256; ++pattern) {
+        std::multiset<int> used;
+        for (const CellPolygon& polygon : cellPolygons(pattern)) {
+            EXPECT_GE(polygon.size(), 3u);
+            used.insert(polygon.begin(), polygon.end());
+        }
+        for (int edge = 0; edge < 12; ++edge) EXPECT_EQ(used.count(edge), crossed(pattern, edge)) << pattern;
+    }
+}
+
+TEST(MarchingCubesTable, FansAreOrientedAndOpenOnlyOnFacesOfTheCell) {
+    for (int pattern = 0; pattern < 256; ++pattern) {
+        std::map<Segment, int> edges = fanEdges(pattern);
+        for (const auto& [segment, times] : edges) {
+            EXPECT_EQ(times, 1) << "pattern " << pattern << " runs an edge twice in one direction";
+            bool inFace = false;
+            for (int axis = 0; axis < 3; ++axis)
+                inFace |= segment.first[axis] == segment.second[axis] && segment.first[axis] % 2 == 0;
+            // A line in a face is the cell's border and belongs to one triangle, one across the cell to two.
+            EXPECT_EQ(edges.count({segment.second, segment.first}), inFace ? 0u : 1u) << pattern;
+        }
+    }
+}
+
+TEST(MarchingCubesTable, TrianglesTurnTowardsTheOutside) {
+    // A single inside corner: the polygon's normal points away from it.
+    for (int corner = 0; corner < 8; ++corner) {
+        ASSERT_EQ(cellPolygons(1 << corner).size(), 1u);
+        const CellPolygon& polygon = cellPolygons(1 << corner)[0];
+        ASSERT_EQ(polygon.size(), 3u);
+        Point a = middle(polygon[0]), b = middle(polygon[1]), c = middle(polygon[2]);
+        int u[3], v[3];
+        for (int i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+        int normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(normal[i] > 0, (corner >> i & 1) == 0) << corner;
+    }
+}
+
+TEST(MarchingCubesTable, AllPairsAcrossAFaceMeetWithoutGapOrFlip) {
+    // Twelve corners, two cells side by side along each axis: what they draw in the shared face must cancel.
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int signs = 0; signs < 4096; ++signs) {
+            auto patternAt = [&](int offset) {
+                int pattern = 0;
+                for (int corner = 0; corner < 8; ++corner) {
+                    int along = (corner >> axis & 1) + offset;
+                    int across = (corner >> (axis + 1) % 3 & 1) + 2 * (corner >> (axis + 2) % 3 & 1);
+                    pattern |= (signs >> (along * 4 + across) & 1) << corner;
+                }
+                return pattern;
+            };
+            Point second = {0, 0, 0};
+            second[axis] = 1;
+            std::map<Segment, int> edges = fanEdges(patternAt(0));
+            for (const auto& [segment, times] : fanEdges(patternAt(1), second)) edges[segment] += times;
+            for (const auto& [segment, times] : edges) {
+                ASSERT_EQ(times, 1) << "axis " << axis << " signs " << signs;
+                if (segment.first[axis] != 2 || segment.second[axis] != 2) continue;
+                ASSERT_TRUE(edges.count({segment.second, segment.first}))
+                    << "axis " << axis << " signs " << signs;
+            }
+        }
+    }
+}
+
+TEST(MarchingCubesTable, PackedTableHoldsTheSame) {
+    for (int pattern = 0; pattern < 256; ++pattern) {
+        glm::uvec2 packed = packedCellPolygons()[pattern];
+        std::size_t codes = packed.x >> 30 | packed.y >> 30 << 2, at = 0;
+        for (const CellPolygon& polygon : cellPolygons(pattern)) {
+            for (std::size_t i = 0; i < polygon.size(); ++i, ++at) {
+                uint32_t code = at < 6 ? packed.x >> 5 * at : packed.y >> 5 * (at - 6);
+                EXPECT_EQ(code & 31, polygon[i] | (i == 0 ? 16u : 0u));
+            }
+        }
+        EXPECT_EQ(codes, at);
+    }
+}
+
+}  // namespace
+}  // namespace fw
