@@ -52,7 +52,7 @@ struct InputSpec {
     double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed, each component
     double max = std::numeric_limits<double>::infinity();
     std::vector<std::string> options = {};  ///< the allowed strings of an enum input
-    std::string unit = {};                  ///< "m", "degrees", "color" (linear sRGB), "" for a plain number
+    std::string unit = {};  ///< "m", "1/m", "degrees", "degrees/m", "color" (linear sRGB), "" for a number
     std::string doc = {};
     bool positive = false;  ///< must be > 0 (min alone allows equality)
 };

@@ -267,7 +267,7 @@ return min(surface(w * height + u * q.x + v * q.y), surface(w * height + u * nex
 std::vector<NodeType> deformations() {
     const auto rate = [](double value, const char* doc) {
         return InputSpec{
-            .name = "rate", .type = Type::scalar, .value = numbers({value}), .unit = "degrees", .doc = doc};
+            .name = "rate", .type = Type::scalar, .value = numbers({value}), .unit = "degrees/m", .doc = doc};
     };
     return {
         {.id = "twist",

@@ -75,7 +75,7 @@ double randomNumber(Random& random, const InputSpec& input) {
     const bool hasMin = std::isfinite(input.min), hasMax = std::isfinite(input.max);
     if (hasMin && !input.positive && chance(random, 0.15)) return input.min;
     if (hasMax && chance(random, 0.15)) return input.max;
-    if (input.unit == "degrees" && !hasMin)
+    if (input.unit.starts_with("degrees") && !hasMin)
         return chance(random, 0.3) ? 90 * std::floor(uniform(random, -4, 5)) : uniform(random, -90, 90);
     const double lo = input.positive ? 0.2 : hasMin ? input.min : -1.2;
     return uniform(random, lo, hasMax ? input.max : lo + (hasMin ? 1.2 : 2.4));
