@@ -1,0 +1,65 @@
+// The commands of `fieldwright`: one struct of options and one function each. main.cpp reads the options.
+//
+// Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 interrupted by
+// Ctrl-C. Standard output carries results only; messages go to standard error.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/compile.h"
+#include "graph/graph.h"
+#include "graph/result.h"
+
+namespace fw::cli {
+
+inline constexpr int kDone = 0, kBadInput = 1, kBadUsage = 2, kSystemFailure = 3, kInterrupted = 130;
+
+/// Set by Ctrl-C; long work reads it between steps.
+extern std::atomic<bool> interrupted;
+
+/// What every command that reads a graph takes.
+struct GraphOptions {
+    std::string path;
+    std::vector<std::string> assignments;  ///< "name=value"
+    double time = 0.0;
+};
+
+/// Reads and checks the graph, applies the assignments; warnings and errors go to standard error.
+std::optional<Graph> openGraph(const GraphOptions& options);
+/// openGraph, then compile.
+std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions);
+void print(const Error& error);
+
+struct ExportOptions {
+    GraphOptions graph;
+    std::string output, method = "marching-cubes", report, device;
+    std::optional<int> resolution;
+    std::vector<double> region;  ///< empty, or x0 y0 z0 x1 y1 z1
+};
+int runExport(const ExportOptions& options);
+
+int runCheck(const std::vector<std::string>& paths);
+
+struct EvalOptions {
+    GraphOptions graph;
+    std::vector<double> at, interval;
+    bool gradient = false;
+};
+int runEval(const EvalOptions& options);
+
+struct CompileCommandOptions {
+    GraphOptions graph;
+    std::string emit = "glsl";
+    std::vector<std::string> live;
+};
+int runCompile(const CompileCommandOptions& options);
+
+enum class NodesFormat { list, json, markdown };
+int runNodes(NodesFormat format);
+int runInfo();
+
+}  // namespace fw::cli

@@ -1,0 +1,160 @@
+// The commands that look at a graph or at the program without meshing: check, eval, compile, nodes, info.
+#include <cstdio>
+#include <string>
+
+#include "graph/check.h"
+#include "graph/glsl.h"
+#include "graph/json.h"
+#include "graph/reference.h"
+#include "runtime/cli/commands.h"
+#include "runtime/gpu/shader.h"
+
+namespace fw::cli {
+
+void print(const Error& error) { std::fprintf(stderr, "%s\n", format(error).c_str()); }
+
+std::optional<Graph> openGraph(const GraphOptions& options) {
+    std::vector<Error> warnings;
+    Result<Graph> graph = readGraph(options.path, &warnings);
+    for (const Error& warning : warnings) print(warning);
+    if (!graph) {
+        print(graph.error());
+        return std::nullopt;
+    }
+    for (const std::string& assignment : options.assignments) {
+        const std::size_t equals = assignment.find('=');
+        Error error;
+        error.message = "--set " + assignment + ": write name=value";
+        const Done set = equals == std::string::npos ? Done(error)
+                                                     : setParameter(*graph, assignment.substr(0, equals),
+                                                                    assignment.substr(equals + 1));
+        if (!set) {
+            print(set.error());
+            return std::nullopt;
+        }
+    }
+    bool sound = true;
+    for (const Error& finding : check(*graph)) {
+        print(finding);
+        sound &= finding.severity != Error::Severity::error;
+    }
+    if (!sound) return std::nullopt;
+    return std::move(*graph);
+}
+
+std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions) {
+    const std::optional<Graph> graph = openGraph(options);
+    if (!graph) return std::nullopt;
+    Result<Program> program = compile(*graph, compileOptions);
+    if (!program) {
+        print(program.error());
+        return std::nullopt;
+    }
+    return std::move(*program);
+}
+
+int runCheck(const std::vector<std::string>& paths) {
+    bool sound = true;
+    for (const std::string& path : paths) {
+        std::vector<Error> findings;
+        const Result<Graph> graph = readGraph(path, &findings);
+        if (!graph) {
+            findings.push_back(graph.error());
+        } else {
+            for (Error& finding : check(*graph)) findings.push_back(std::move(finding));
+        }
+        for (const Error& finding : findings) {
+            std::printf("%s\n", format(finding).c_str());
+            sound &= finding.severity != Error::Severity::error;
+        }
+    }
+    return sound ? kDone : kBadInput;
+}
+
+int runEval(const EvalOptions& options) {
+    if (options.at.empty() && options.interval.empty()) {
+        std::fprintf(stderr,
+                     "fieldwright eval: give a point (--at x y z) or a box (--interval x0 y0 z0 x1 y1 z1)\n");
+        return kBadUsage;
+    }
+    CompileOptions compileOptions;
+    compileOptions.time = options.graph.time;
+    const std::optional<Program> program = openProgram(options.graph, compileOptions);
+    if (!program) return kBadInput;
+    if (!options.at.empty()) {
+        const Point point{options.at[0], options.at[1], options.at[2]};
+        ValueGradient result;
+        evaluateGradient(program->ir, program->distance(), program->parameters(), std::span(&point, 1),
+                         std::span(&result, 1));
+        std::printf("%.17g\n", result.value);
+        if (options.gradient)
+            std::printf("%.17g %.17g %.17g\n", result.gradient[0] + 0.0, result.gradient[1] + 0.0,
+                        result.gradient[2] + 0.0);
+    }
+    if (!options.interval.empty()) {
+        const std::vector<double>& b = options.interval;
+        const Box box{{std::min(b[0], b[3]), std::min(b[1], b[4]), std::min(b[2], b[5])},
+                      {std::max(b[0], b[3]), std::max(b[1], b[4]), std::max(b[2], b[5])}};
+        const Interval range = evaluateInterval(program->ir, program->distance(), program->parameters(), box);
+        std::printf("%.17g %.17g\n", range.lo, range.hi);
+    }
+    return kDone;
+}
+
+int runCompile(const CompileCommandOptions& options) {
+    CompileOptions compileOptions;
+    compileOptions.time = options.graph.time;
+    compileOptions.live.insert(options.live.begin(), options.live.end());
+    const std::optional<Program> program = openProgram(options.graph, compileOptions);
+    if (!program) return kBadInput;
+    std::fprintf(stderr, "%zu operations, structure %016llx, %s\n", program->ir.size(),
+                 static_cast<unsigned long long>(program->structureHash),
+                 program->exactness.exact()
+                     ? "exact distance"
+                     : ("not an exact distance since node '" + program->spoiledBy + "'").c_str());
+    if (options.emit == "ir") {
+        std::fputs(program->ir.text(program->surface).c_str(), stdout);
+    } else if (options.emit == "glsl") {
+        std::fputs(emitField(*program).c_str(), stdout);
+    } else {
+        const std::string field = emitField(*program);
+        const Result<Spirv> words = compileShader({.name = "field/evaluate.comp", .field = field});
+        if (!words) throw SystemError(words.error().message);
+        std::fwrite(words->data(), sizeof((*words)[0]), words->size(), stdout);
+    }
+    return kDone;
+}
+
+int runNodes(NodesFormat nodesFormat) {
+    if (nodesFormat == NodesFormat::json) {
+        std::fputs(nodesJson().c_str(), stdout);
+    } else if (nodesFormat == NodesFormat::markdown) {
+        std::fputs(nodesMarkdown().c_str(), stdout);
+    } else {
+        for (const NodeType& type : nodeTypes()) {
+            std::string inputs;
+            for (const InputSpec& input : type.inputs) inputs += (inputs.empty() ? "" : ", ") + input.name;
+            std::printf("%-18s %s (%s)\n", type.id.c_str(),
+                        type.doc.substr(0, type.doc.find('.') + 1).c_str(), inputs.c_str());
+        }
+    }
+    return kDone;
+}
+
+int runInfo() {
+    std::printf("fieldwright %s, file format %d\n", FIELDWRIGHT_VERSION, kFormatVersion);
+    const std::vector<DeviceInfo> devices = listDevices();
+    if (devices.empty()) std::printf("no Vulkan device: install mesa-vulkan-drivers for a software one\n");
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        std::printf("device %zu: %s (%s, %s, %.1f GiB)%s\n", i, devices[i].name.c_str(),
+                    devices[i].kind.c_str(), devices[i].driver.c_str(),
+                    static_cast<double>(devices[i].memory) / (1u << 30),
+                    devices[i].usable ? "" : ": lacks features that Fieldwright needs");
+    std::printf("shader cache: %s\n",
+                cacheFolder().empty() ? "none (set XDG_CACHE_HOME or HOME)" : cacheFolder().c_str());
+    std::printf("limits: file %zu MiB, %zu nodes, %zu operations, nesting %d\n", kMaxFileBytes >> 20,
+                kMaxNodes, kMaxIrOperations, kMaxNesting);
+    return kDone;
+}
+
+}  // namespace fw::cli

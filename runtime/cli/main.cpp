@@ -1,0 +1,129 @@
+// `fieldwright`: reads the command line and runs one command.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <new>
+
+#include "runtime/cli/commands.h"
+
+namespace fw::cli {
+
+std::atomic<bool> interrupted = false;
+
+namespace {
+
+void onInterrupt(int) { interrupted = true; }
+
+void addGraph(CLI::App* command, GraphOptions& graph) {
+    command->add_option("GRAPH", graph.path, "The graph file (*.field.json)")->required();
+    command->add_option("--set", graph.assignments, "Set an exposed parameter: name=value, or name=x,y,z")
+        ->take_all();
+    command->add_option("--time", graph.time, "Seconds at which the graph is evaluated")->default_val(0.0);
+}
+
+int run(int count, char** arguments) {
+    CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields"};
+    app.set_version_flag("--version", "fieldwright " FIELDWRIGHT_VERSION);
+    app.require_subcommand(1);
+    app.footer(
+        "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 "
+        "interrupted.\n"
+        "Try:  fieldwright export samples/tower.field.json -o tower.glb");
+
+    ExportOptions exportOptions;
+    CLI::App* exportCommand = app.add_subcommand("export", "Turn a graph into a mesh file");
+    addGraph(exportCommand, exportOptions.graph);
+    exportCommand
+        ->add_option("-o,--output", exportOptions.output,
+                     "The mesh file; its ending says the format: .glb .gltf .obj .stl .ply")
+        ->required();
+    exportCommand
+        ->add_option("--resolution", exportOptions.resolution,
+                     "Cells along the region's longest side (default: the output node's, else 128)")
+        ->check(CLI::Range(1, 4096));
+    exportCommand->add_option("--method", exportOptions.method, "How the surface becomes triangles")
+        ->check(CLI::IsMember({"marching-cubes"}))
+        ->default_str("marching-cubes");
+    exportCommand
+        ->add_option("--region", exportOptions.region,
+                     "Mesh only this box: x0 y0 z0 x1 y1 z1, in metres (default: found from the field)")
+        ->expected(6);
+    exportCommand->add_option("--report", exportOptions.report,
+                              "Write what the mesh file holds, measured from it, as JSON to this file");
+    exportCommand->add_option("--device", exportOptions.device,
+                              "Index or part of the name of the device (see fieldwright info)");
+
+    std::vector<std::string> checkPaths;
+    CLI::App* checkCommand =
+        app.add_subcommand("check", "List every problem of graph files, with file:line:column");
+    checkCommand->add_option("GRAPH", checkPaths, "The graph files")->required();
+
+    EvalOptions evalOptions;
+    CLI::App* evalCommand =
+        app.add_subcommand("eval", "Evaluate a graph's field on the CPU, in double precision");
+    addGraph(evalCommand, evalOptions.graph);
+    evalCommand->add_option("--at", evalOptions.at, "The point: x y z. Prints the distance (negative inside)")
+        ->expected(3);
+    evalCommand->add_flag("--gradient", evalOptions.gradient, "Print the gradient at the point too");
+    evalCommand
+        ->add_option("--interval", evalOptions.interval,
+                     "A box: x0 y0 z0 x1 y1 z1. Prints bounds of the field over it")
+        ->expected(6);
+
+    CompileCommandOptions compileOptions;
+    CLI::App* compileCommand = app.add_subcommand("compile", "Show what a graph compiles to");
+    addGraph(compileCommand, compileOptions.graph);
+    compileCommand->add_option("--emit", compileOptions.emit, "What to print: glsl, ir, or spirv (binary)")
+        ->check(CLI::IsMember({"glsl", "ir", "spirv"}))
+        ->default_str("glsl");
+    compileCommand
+        ->add_option("--live", compileOptions.live,
+                     "Keep this input a parameter instead of folding it: node.input")
+        ->take_all();
+
+    NodesFormat nodesFormat = NodesFormat::list;
+    CLI::App* nodesCommand = app.add_subcommand("nodes", "List the node library");
+    CLI::Option* json = nodesCommand->add_flag_callback(
+        "--json", [&] { nodesFormat = NodesFormat::json; }, "Every node with its inputs, as JSON");
+    nodesCommand
+        ->add_flag_callback(
+            "--markdown", [&] { nodesFormat = NodesFormat::markdown; }, "The reference page")
+        ->excludes(json);
+
+    CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
+
+    try {
+        app.parse(count, arguments);
+    } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
+
+    if (exportCommand->parsed()) {
+        struct sigaction action {};
+        action.sa_handler = onInterrupt;
+        action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends the process at once
+        sigaction(SIGINT, &action, nullptr);
+        sigaction(SIGTERM, &action, nullptr);
+        return runExport(exportOptions);
+    }
+    if (checkCommand->parsed()) return runCheck(checkPaths);
+    if (evalCommand->parsed()) return runEval(evalOptions);
+    if (compileCommand->parsed()) return runCompile(compileOptions);
+    if (nodesCommand->parsed()) return runNodes(nodesFormat);
+    if (infoCommand->parsed()) return runInfo();
+    return kBadUsage;
+}
+
+}  // namespace
+}  // namespace fw::cli
+
+int main(int count, char** arguments) {
+    try {
+        return fw::cli::run(count, arguments);
+    } catch (const fw::SystemError& error) {
+        std::fprintf(stderr, "fieldwright: %s\n", error.what());
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "fieldwright: out of memory: lower --resolution or shrink --region\n");
+    }
+    return fw::cli::kSystemFailure;
+}

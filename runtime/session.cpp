@@ -1,0 +1,118 @@
+#include "runtime/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graph/glsl.h"
+#include "graph/region.h"
+
+namespace fw {
+
+namespace {
+
+Error problem(std::string message) {
+    Error error;
+    error.message = std::move(message);
+    return error;
+}
+
+double milliseconds(std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+}
+
+}  // namespace
+
+Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
+    if (request.region || program.region) {
+        const Box& box = request.region ? *request.region : *program.region;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!std::isfinite(box.lo[axis]) || !std::isfinite(box.hi[axis]))
+                return problem("the region has a corner that is not a number");
+            if (!(box.lo[axis] < box.hi[axis]))
+                return problem("the region has no extent along " + std::string(1, "xyz"[axis]) +
+                               ": give its least corner first");
+        }
+        return box;
+    }
+    const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
+    const Region found = findRegion(program.ir, program.distance(), program.parameters());
+    switch (found.extent) {
+        case Extent::empty: return problem("the solid is empty: no point has a negative distance");
+        case Extent::unbounded:
+            return problem(
+                "the solid has no bounds: give a region (--region x0 y0 z0 x1 y1 z1), or intersect it with a "
+                "box");
+        case Extent::bounded: break;
+    }
+    return padded(found.box, resolution, 1.5);
+}
+
+Session::Session(Device device) : gpu(std::move(device)) {}
+
+bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
+    current = std::move(program);
+    std::vector<float> values;
+    for (double value : current.parameters()) values.push_back(static_cast<float>(value));
+    values.resize(std::max<std::size_t>(values.size(), 1));
+    reserve(gpu, parameters, values.size() * sizeof(float), Memory::upload);
+    upload(gpu, parameters, values);
+    if (built && builtHash == current.structureHash) return false;
+
+    const auto start = std::chrono::steady_clock::now();
+    const std::string field = emitField(current);
+    if (stages) stages->push_back({"emit", milliseconds(start)});
+    const auto compiling = std::chrono::steady_clock::now();
+    pipelines = createMesherPipelines(gpu, field, current.hasMaterial());
+    if (stages) stages->push_back({"pipelines", milliseconds(compiling)});
+    builtHash = current.structureHash;
+    built = true;
+    return true;
+}
+
+void Session::setParameter(std::size_t slot, double value) {
+    current.live.at(slot).value = value;
+    const auto narrow = static_cast<float>(value);
+    uploadBytes(gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
+}
+
+Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed) {
+    const int resolution = request.resolution > 0 ? request.resolution : current.resolution;
+    if (resolution < 1 || resolution > kMostResolution)
+        return problem("the resolution must be between 1 and " + std::to_string(kMostResolution) + " cells");
+    const Result<Box> region = meshRegion(current, {request.region, resolution});
+    if (!region) return region.error();
+
+    MesherConfig config;
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region->hi[axis] - region->lo[axis]);
+    const double cell = longest / resolution;
+    config.cellSize = static_cast<float>(cell);
+    for (int axis = 0; axis < 3; ++axis) {
+        config.origin[axis] = static_cast<float>(region->lo[axis]);
+        // The other sides take whole cells, at least what the region asks for.
+        config.cells[axis] = std::clamp(
+            static_cast<int>(std::ceil((region->hi[axis] - region->lo[axis]) / cell - 1e-6)), 1, resolution);
+    }
+    config.parameters = &parameters;
+    config.colors = pipelines.colors;
+    config.timed = timed;
+    return runMesher(gpu, pipelines, buffers, config);
+}
+
+Mesh Session::download(const MesherResult& result) const {
+    Mesh mesh = downloadMesh(gpu, buffers, result);
+    const auto constant = [&](int component) {
+        const IrId id = current.surface[component];
+        return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
+                                         : static_cast<float>(kDefaultMaterial[component - 1]);
+    };
+    mesh.roughness = constant(roughnessComponent);
+    mesh.metallic = constant(metallicComponent);
+    for (int i = 0; i < 3; ++i) {
+        mesh.baseColor[i] = constant(baseColorComponent + i);
+        mesh.emission[i] = constant(emissionComponent + i);
+    }
+    return mesh;
+}
+
+}  // namespace fw

@@ -1,0 +1,61 @@
+// The one orchestrator: owns the device objects of a program and runs its stages.
+//
+// Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), nothing per frame
+// yet.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/compile.h"
+#include "runtime/mesher.h"
+
+namespace fw {
+
+/// What to polygonise.
+struct MeshRequest {
+    std::optional<Box> region;  ///< none: the program's own, else found from the field
+    int resolution = 0;         ///< cells along the region's longest side; 0: the program's
+};
+
+inline constexpr int kMostResolution = 4096;
+
+class Session {
+  public:
+    explicit Session(Device device);
+
+    const Device& device() const { return gpu; }
+
+    /// Makes `program` the one that is meshed. Builds pipelines only if the structure changed; returns
+    /// whether it did. Stage times go to `stages`.
+    bool setProgram(Program program, std::vector<StageTime>* stages = nullptr);
+    const Program& program() const { return current; }
+
+    /// Changes a live parameter's value: an upload, never a compile.
+    void setParameter(std::size_t slot, double value);
+
+    /// Runs the mesher into device memory. Errors: a region without bounds (the field is unbounded) or with
+    /// none left (it is empty), a resolution out of range, and what runMesher refuses.
+    Result<MesherResult> polygonise(const MeshRequest& request, bool timed = false);
+
+    /// The last mesh, with the program's material.
+    Mesh download(const MesherResult& result) const;
+    const MesherBuffers& meshBuffers() const { return buffers; }
+
+  private:
+    Device gpu;
+    Program current;
+    uint64_t builtHash = 0;
+    bool built = false;
+    MesherPipelines pipelines;
+    MesherBuffers buffers;
+    Buffer parameters;
+};
+
+/// The region that a program is meshed in: the request's, the program's own, or the solid's bounds with a
+/// margin of 1.5 cells. Errors as in Session::polygonise.
+Result<Box> meshRegion(const Program& program, const MeshRequest& request);
+
+}  // namespace fw
