@@ -49,7 +49,7 @@ struct InputValue {
     std::variant<double, bool, std::string, std::vector<double>, Link> value;
     TextPosition at = {};
     bool pairs = false;  ///< numbers written as a list of pairs: [[x, y], …]
-    Json extra = {};          ///< of a link
+    Json extra = {};     ///< of a link
     bool operator==(const InputValue&) const = default;
 };
 
