@@ -161,7 +161,7 @@ void recordGeneration(Commands& commands, const TalkStages& s, TalkWay way) {
     const uint32_t side = 1u << s.grid.levels;
     const auto bound = resources(s);
     beginStage(commands, "sample");
-    dispatch(commands, s.sample, groupsOver(side + 1), s.grid, bound);
+    dispatch(commands, s.sample, {(side + 16) / 16, (side + 16) / 16, side + 1}, s.grid, bound);
     barrier(commands);
     if (way == TalkWay::everyCell) return;
 
