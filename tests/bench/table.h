@@ -42,8 +42,8 @@ std::string count(uint64_t value);
 struct Table {
     std::string title;
     std::vector<std::string> header;
-    std::vector<std::vector<std::string>> rows;
-    std::vector<std::string> notes;  ///< sentences below the table
+    std::vector<std::vector<std::string>> rows = {};
+    std::vector<std::string> notes = {};  ///< sentences below the table
 };
 
 /// Prints to standard output, the first column to the left and the others to the right.

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "graph/compile.h"
+#include "graph/json.h"
 #include "tests/bench/baseline.h"
 #include "tests/bench/verify.h"
 #include "tests/support/gpu.h"
@@ -26,6 +30,25 @@ TEST(Baseline, MeshesAreClosedAndTheSameOnEveryRun) {
                                baseline.positions().end()));
         EXPECT_TRUE(
             std::equal(indices.begin(), indices.end(), baseline.indices().begin(), baseline.indices().end()));
+    }
+}
+
+TEST(BenchFields, GraphsSayTheSameAsTheCode) {
+    std::mt19937 random(7);
+    for (Field field : kFields) {
+        SCOPED_TRACE(fieldName(field));
+        std::vector<Error> warnings;
+        const Result<Graph> graph = readGraph(benchGraph(field), &warnings);
+        ASSERT_TRUE(graph) << format(graph.error());
+        EXPECT_TRUE(warnings.empty());
+        const Result<Program> program = compile(*graph);
+        ASSERT_TRUE(program) << format(program.error());
+        std::uniform_real_distribution<float> anywhere(-regionHalf(field), regionHalf(field));
+        for (int i = 0; i < 20'000; i++) {
+            const float x = anywhere(random), y = anywhere(random), z = anywhere(random);
+            const double value = evaluate(program->ir, program->distance(), program->parameters(), {x, y, z});
+            ASSERT_NEAR(value, fieldAt(field, {x, y, z}), 2e-6) << x << " " << y << " " << z;
+        }
     }
 }
 

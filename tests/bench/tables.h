@@ -1,0 +1,40 @@
+// The benchmark's tables, one function each, and what they share. Each prints its table and reports what was
+// wrong.
+#pragma once
+
+#include <optional>
+
+#include "graph/compile.h"
+#include "runtime/gpu/device.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/fields.h"
+#include "tests/bench/table.h"
+
+namespace fw::bench {
+
+/// One run of the benchmark.
+struct Bench {
+    const BenchOptions& options;
+    bool failed = false;                ///< a mesh was wrong or an input did not load
+    std::optional<Device> opened = {};  ///< by the first table that needs it
+
+    const Device& device();
+    /// Prints the problem to standard error and marks the run as failed.
+    void fail(const std::string& problem);
+    std::vector<int> sizes(std::vector<int> usual) const {
+        return options.sizes.empty() ? usual : options.sizes;
+    }
+};
+
+void mesherTable(Bench& bench);   ///< ours against the baseline, four fields
+void talkTable(Bench& bench);     ///< the slide's table
+void processTable(Bench& bench);  ///< the command itself, from graph file to mesh file
+void liveTable(Bench& bench);     ///< a live parameter changes
+void compileTable(Bench& bench);  ///< a graph's structure changes
+void peaksTable(Bench& bench);    ///< what the device can do at most
+
+/// The graph of a benchmark field, read and compiled; reports a failure and returns nothing if that does not
+/// work.
+std::optional<Program> benchProgram(Bench& bench, Field field, const CompileOptions& options = {});
+
+}  // namespace fw::bench
