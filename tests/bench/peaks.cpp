@@ -36,14 +36,23 @@ Peaks measurePeaks(const Device& device, int repeats) {
     const Buffer source = createBuffer(device, bytes), target = createBuffer(device, bytes);
     const Descriptor copied[] = {Descriptor(0, source), Descriptor(1, target)};
     const int copies = device.software ? 1 : 16;
-    peaks.gigabytes = measure(repeats, [&] {
-        const double ms = timedRun(device, [&](Commands& commands) {
-            for (int i = 0; i < copies; i++) {
-                dispatch(commands, copy, {uint32_t(bytes / 16 / 256 / 16), 16, 1}, nullptr, 0, copied);
-                barrier(commands);
-            }
+    const auto rate = [&](auto&& recordCopy) {
+        return measure(repeats, [&] {
+            const double ms = timedRun(device, [&](Commands& commands) {
+                for (int i = 0; i < copies; i++) {
+                    recordCopy(commands);
+                    barrier(commands);
+                }
+            });
+            return 2.0 * double(bytes) * copies / ms * 1e-6;
         });
-        return 2.0 * double(bytes) * copies / ms * 1e-6;
+    };
+    peaks.gigabytes = rate([&](Commands& commands) {
+        const VkBufferCopy region = {0, 0, bytes};
+        vkCmdCopyBuffer(commands.handle, source.handle, target.handle, 1, &region);
+    });
+    peaks.shaderGigabytes = rate([&](Commands& commands) {
+        dispatch(commands, copy, {uint32_t(bytes / 16 / 256 / 16), 16, 1}, nullptr, 0, copied);
     });
 
     const Pipeline nothing = createComputePipeline(device, {.name = "bench/peak_nothing.comp"});

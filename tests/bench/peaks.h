@@ -8,7 +8,8 @@ namespace fw::bench {
 
 struct Peaks {
     Figure gigaflops;             ///< multiply-adds in a compute shader, each counted as two operations
-    Figure gigabytes;             ///< a second, read plus written, copying between storage buffers
+    Figure gigabytes;             ///< a second, read plus written, by a copy command between buffers
+    Figure shaderGigabytes;       ///< the same by a compute shader, 16 bytes an invocation
     Figure dispatchMicroseconds;  ///< of an empty dispatch and its barrier, among many in one submission
     Figure submitMicroseconds;    ///< of an empty submission that is awaited
 };
