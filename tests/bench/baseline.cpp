@@ -91,7 +91,7 @@ void Baseline::writeIndices(const Slab& slab, std::size_t firstTriangle) {
     uint32_t* out = corners.data() + 3 * firstTriangle;
     for (const ActiveCell& cell : slab.cells) {
         const std::size_t point = cell.z * side * side + cell.point;
-        for (CellEdge edge : table[cell.code]) {
+        for (CaseEdge edge : table[cell.code]) {
             const std::size_t start = point + edge.x * strides[0] + edge.y * strides[1] + edge.z * strides[2];
             *out++ = lookup[3 * start + edge.axis] + base[cell.z + edge.z >= secondSlab];
         }

@@ -22,7 +22,7 @@ std::vector<uint32_t> packedCases() {
     for (int pattern = 0; pattern < 256; pattern++) {
         uint32_t* row = &words[pattern * 16];
         *row++ = caseTable()[pattern].count;
-        for (CellEdge edge : caseTable()[pattern])
+        for (CaseEdge edge : caseTable()[pattern])
             *row++ = edge.x | edge.y << 1 | edge.z << 2 | edge.axis << 3;
     }
     return words;

@@ -1,4 +1,5 @@
-// The baseline and the talk's stages draw one and the same closed mesh.
+// The baseline, the mesher and the talk's stages make one and the same closed mesh; the benchmark's own parts
+// work.
 #include "tests/bench/talk_stages.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +7,12 @@
 #include <random>
 
 #include "graph/compile.h"
+#include "graph/glsl.h"
 #include "graph/json.h"
+#include "runtime/mesher.h"
 #include "tests/bench/baseline.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/table.h"
 #include "tests/bench/verify.h"
 #include "tests/support/gpu.h"
 
@@ -67,6 +72,33 @@ TEST(Verify, FindsFaults) {
     EXPECT_NE(faultOf(twice, 4), "") << "four triangles share an edge";
 }
 
+TEST(Baseline, HasTheMeshersTriangles) {
+    Baseline baseline(kCells);
+    for (Field field : kFields) {
+        SCOPED_TRACE(fieldName(field));
+        const Result<Graph> graph = readGraph(benchGraph(field), nullptr);
+        ASSERT_TRUE(graph) << format(graph.error());
+        const Result<Program> program = compile(*graph);
+        ASSERT_TRUE(program) << format(program.error());
+        const float half = regionHalf(field);
+        const GridEdges grid{.origin = glm::vec3(-half), .spacing = 2 * half / kCells};
+        MesherBuffers buffers;
+        MesherConfig config;
+        config.origin = grid.origin;
+        config.cellSize = grid.spacing;
+        config.cells = glm::ivec3(kCells);
+        const Result<MesherResult> result =
+            runMesher(device(), createMesherPipelines(device(), emitField(*program)), buffers, config);
+        ASSERT_TRUE(result) << format(result.error());
+        const Mesh mesh = downloadMesh(device(), buffers, *result);
+        baseline.run(field);
+        EXPECT_EQ(mesh.positions.size(), baseline.positions().size());
+        EXPECT_EQ(faultOf(mesh.indices, mesh.positions.size()), "");
+        EXPECT_EQ(trianglesByEdge(mesh.positions, mesh.indices, grid),
+                  trianglesByEdge(baseline.positions(), baseline.indices(), grid));
+    }
+}
+
 TEST(TalkStages, EveryWayDrawsTheBaselinesTriangles) {
     if (!device().geometryShader) GTEST_SKIP() << "the device has no geometry shaders";
     Baseline baseline(kCells);
@@ -104,6 +136,47 @@ TEST(TalkStages, EveryWayLeavesTheSameDepths) {
         for (std::size_t i = 0; i < depth.size(); i++) differing += std::abs(depth[i] - first[i]) > 1e-5f;
         EXPECT_EQ(differing, 0) << "way " << int(way);
     }
+}
+
+TEST(Bench, FiguresReadWell) {
+    EXPECT_EQ(number(0), "0");
+    EXPECT_EQ(number(0.01234), "0.0123");
+    EXPECT_EQ(number(1.6), "1.60");
+    EXPECT_EQ(number(-12.34), "-12.3");
+    EXPECT_EQ(number(123456), "123456");
+    EXPECT_EQ(count(0), "0");
+    EXPECT_EQ(count(999), "999");
+    EXPECT_EQ(count(1234567), "1 234 567");
+    int calls = 0;
+    const Figure figure = measure(3, [&] { return double(10 - ++calls); });
+    EXPECT_EQ(calls, 5) << "two to warm up, three that count";
+    EXPECT_EQ(figure.least(), 5);
+    EXPECT_EQ(figure.median(), 6);
+    EXPECT_EQ(figure.greatest(), 7);
+}
+
+TEST(Bench, PrintsTablesForTerminalAndPage) {
+    const Table table{
+        .title = "T", .header = {"a", "µs"}, .rows = {{"row", "1"}, {"r", "22"}}, .notes = {"Note."}};
+    testing::internal::CaptureStdout();
+    print(table, false);
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "T\na    µs\nrow   1\nr    22\n  Note.\n\n");
+    testing::internal::CaptureStdout();
+    print(table, true);
+    EXPECT_EQ(testing::internal::GetCapturedStdout(),
+              "### T\n\n| a   | µs |\n| --- | ---: |\n| row |  1 |\n| r   | 22 |\n\n* Note.\n\n");
+}
+
+TEST(Bench, RunsByName) {
+    const std::vector<std::string> unknown = {"peaks", "nonsense"}, known = {"live"};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(runBench(unknown), 2);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("'nonsense'"), std::string::npos);
+    testing::internal::CaptureStdout();
+    BenchOptions once;
+    once.repeats = 1;
+    EXPECT_EQ(runBench(known, once), 0);
+    EXPECT_NE(testing::internal::GetCapturedStdout().find("upload and mesh"), std::string::npos);
 }
 
 }  // namespace
