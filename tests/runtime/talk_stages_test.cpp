@@ -164,7 +164,7 @@ TEST(Bench, PrintsTablesForTerminalAndPage) {
     testing::internal::CaptureStdout();
     print(table, true);
     EXPECT_EQ(testing::internal::GetCapturedStdout(),
-              "### T\n\n| a   | µs |\n| --- | ---: |\n| row |  1 |\n| r   | 22 |\n\n* Note.\n\n");
+              "### T\n\n| a | µs |\n| --- | ---: |\n| row | 1 |\n| r | 22 |\n\n* Note.\n\n");
 }
 
 TEST(Bench, RunsByName) {
