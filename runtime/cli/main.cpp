@@ -7,6 +7,7 @@
 #include <new>
 
 #include "runtime/cli/commands.h"
+#include "tests/bench/bench.h"
 
 namespace fw::cli {
 
@@ -92,6 +93,21 @@ int run(int count, char** arguments) {
             "--markdown", [&] { nodesFormat = NodesFormat::markdown; }, "The reference page")
         ->excludes(json);
 
+    std::vector<std::string> benchNames;
+    bench::BenchOptions benchOptions;
+    CLI::App* benchCommand =
+        app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md");
+    benchCommand->add_option("TABLE", benchNames,
+                             "all (default), or some of: mesher talk process live compile peaks");
+    benchCommand->add_flag("--markdown", benchOptions.markdown, "Print the tables as the page has them");
+    benchCommand->add_option("--size", benchOptions.sizes, "Cells along an edge (default: each table's own)")
+        ->check(CLI::Range(8, 2048));
+    benchCommand->add_option("--repeats", benchOptions.repeats, "Runs that count")
+        ->check(CLI::Range(1, 1000))
+        ->default_val(benchOptions.repeats);
+    benchCommand->add_option("--device", benchOptions.device,
+                             "Index or part of the name of the device (see fieldwright info)");
+
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
 
     try {
@@ -110,6 +126,7 @@ int run(int count, char** arguments) {
     if (evalCommand->parsed()) return runEval(evalOptions);
     if (compileCommand->parsed()) return runCompile(compileOptions);
     if (nodesCommand->parsed()) return runNodes(nodesFormat);
+    if (benchCommand->parsed()) return bench::runBench(benchNames, benchOptions);
     if (infoCommand->parsed()) return runInfo();
     return kBadUsage;
 }

@@ -106,7 +106,8 @@ void processTable(Bench& bench) {
     // The report costs time of its own (it reads the file back), so it comes from a run that is not timed.
     command.insert(command.end(), {"--report", report});
     runSelf(command, warm);
-    const nlohmann::json written = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+    const nlohmann::ordered_json written =
+        nlohmann::ordered_json::parse(std::ifstream(report), nullptr, false);
     if (!written.is_object()) return bench.fail("export wrote no report");
     for (const char* fault :
          {"boundaryEdges", "nonManifoldEdges", "nonManifoldVertices", "flippedEdges", "degenerateTriangles"})
