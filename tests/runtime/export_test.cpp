@@ -165,6 +165,23 @@ TEST(Export, GltfStatesTheBaseColourOfAMeshWithoutVertexColours) {
     EXPECT_EQ(model.meshes.at(0).primitives.at(0).attributes.size(), 1u);
 }
 
+TEST(Export, GltfIndicesAreAsShortAsTheVerticesAllow) {
+    // The greatest 16-bit number restarts a strip in glTF and may not stand for a vertex.
+    const TempDir folder;
+    for (const std::size_t vertices : {65535u, 65536u}) {
+        Mesh mesh = test::cube();
+        mesh.positions.resize(vertices, glm::vec3(2.0f));
+        mesh.indices.insert(mesh.indices.end(), {0, 1, static_cast<uint32_t>(vertices - 1)});
+        mustExport(mesh, folder.path("mesh.glb"));
+        const tinygltf::Model model = loadModel(folder.path("mesh.glb"));
+        const int indices = model.meshes.at(0).primitives.at(0).indices;
+        EXPECT_EQ(model.accessors[static_cast<std::size_t>(indices)].componentType,
+                  vertices == 65535 ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+                                    : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+        expectValid({folder.path("mesh.glb")});
+    }
+}
+
 TEST(Export, NormalsThatTheFieldCouldNotGiveComeFromTheTriangles) {
     const TempDir folder;
     Mesh mesh = test::torus(24, 12);
@@ -201,7 +218,7 @@ TEST(Export, AdmeshFindsNothingToRepairInTheStl) {
 
 TEST(Export, EveryFormatHoldsTheSameTriangles) {
     const TempDir folder;
-    const Mesh mesh = painted(test::torus(90, 40, 1.0 / 3.0, 0.07));
+    const Mesh mesh = painted(test::torus(500, 300, 1.0 / 3.0, 0.07));  // many blocks in every format
     const WeldedMesh wanted = weld(mesh.positions, mesh.indices);
     for (const char* name : {"mesh.glb", "mesh.gltf", "mesh.obj", "mesh.ply", "MESH.STL"}) {
         mustExport(mesh, folder.path(name));
