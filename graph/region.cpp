@@ -54,41 +54,56 @@ std::optional<Box> boundByHalfSpaces(const Field& field) {
     return box;
 }
 
+void include(std::optional<Box>& hull, const Box& box) {
+    if (!hull) hull = box;
+    for (int axis = 0; axis < 3; ++axis) {
+        hull->lo[axis] = std::min(hull->lo[axis], box.lo[axis]);
+        hull->hi[axis] = std::max(hull->hi[axis], box.hi[axis]);
+    }
+}
+
 /// The hull of what an octree over `start` cannot prove empty, at most `budget` interval evaluations; none if
 /// nothing is left.
 std::optional<Box> shrink(const Field& field, const Box& start, std::size_t budget) {
     std::vector<Box> cells{start};
+    std::optional<Box> settled;  // hull of the cells that are not divided any further
     std::optional<Box> bound = start;
     while (!cells.empty() && cells.size() * 8 <= budget) {
         budget -= cells.size() * 8;
-        std::vector<Box> next;
-        for (const Box& cell : cells)
-            for (int octant = 0; octant < 8; ++octant) {
-                Box child = cell;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const double middle = 0.5 * (cell.lo[axis] + cell.hi[axis]);
-                    (octant >> axis & 1 ? child.lo : child.hi)[axis] = middle;
+        std::vector<Box> children;
+        for (const Box& cell : cells) {
+            // Sides much shorter than the longest wait, so that flat cells do not multiply along them.
+            double longest = 0.0;
+            for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, cell.hi[axis] - cell.lo[axis]);
+            std::vector<Box> parts{cell};
+            for (int axis = 0; axis < 3; ++axis) {
+                if (cell.hi[axis] - cell.lo[axis] < 0.6 * longest) continue;
+                const double middle = 0.5 * (cell.lo[axis] + cell.hi[axis]);
+                for (std::size_t k = parts.size(); k-- > 0;) {
+                    parts.push_back(parts[k]);
+                    parts[k].hi[axis] = parts.back().lo[axis] = middle;
                 }
-                if (!field.outside(child)) next.push_back(child);
             }
-        cells = std::move(next);
-        if (cells.empty()) return std::nullopt;
-        bound = cells.front();
-        for (const Box& cell : cells)
+            for (const Box& part : parts)
+                if (!field.outside(part)) children.push_back(part);
+        }
+        bound = settled;
+        for (const Box& child : children) include(bound, child);
+        if (!bound) return std::nullopt;
+        // Only cells at a face of the hull can still move it.
+        cells.clear();
+        for (const Box& child : children) {
+            bool atFace = false;
             for (int axis = 0; axis < 3; ++axis) {
-                bound->lo[axis] = std::min(bound->lo[axis], cell.lo[axis]);
-                bound->hi[axis] = std::max(bound->hi[axis], cell.hi[axis]);
+                const double size = child.hi[axis] - child.lo[axis];
+                atFace |= child.lo[axis] < bound->lo[axis] + 0.5 * size ||
+                          child.hi[axis] > bound->hi[axis] - 0.5 * size;
             }
-        // Cells well inside the hull no longer move it; keep the ones near its faces.
-        std::erase_if(cells, [&](const Box& cell) {
-            for (int axis = 0; axis < 3; ++axis) {
-                const double size = cell.hi[axis] - cell.lo[axis];
-                if (cell.lo[axis] < bound->lo[axis] + 0.5 * size ||
-                    cell.hi[axis] > bound->hi[axis] - 0.5 * size)
-                    return false;
-            }
-            return true;
-        });
+            if (atFace)
+                cells.push_back(child);
+            else
+                include(settled, child);
+        }
     }
     return bound;
 }
@@ -109,8 +124,13 @@ bool reachesBeyond(const Field& field, const Box& box) {
         size = std::max({size, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
     for (int i = 0; i < 20'000; ++i) {
         const double reach = size * std::pow(kFarthest / size, unit(random));
+        // Copies may run along a line or a plane: a random set of axes is left at the box.
+        const unsigned displaced = 1 + random() % 7;
         Point point;
-        for (double& c : point) c = reach * (2.0 * unit(random) - 1.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            point[axis] = box.lo[axis] + unit(random) * (box.hi[axis] - box.lo[axis]);
+            if (displaced >> axis & 1) point[axis] = reach * (2.0 * unit(random) - 1.0);
+        }
         bool within = true;
         for (int axis = 0; axis < 3; ++axis)
             within &= point[axis] >= box.lo[axis] && point[axis] <= box.hi[axis];
@@ -129,10 +149,13 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     // About 20 ms of interval arithmetic at most.
     const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 512, 20'000);
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};
         const std::optional<Box> tight = shrink(field, *box, budget);
         return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
     }
-    for (double reach = 2.0; reach <= kFarthest; reach *= 4.0) {
+    // Far enough from kFarthest that what repeats shows up again before it.
+    for (double reach = 2.0; reach <= kFarthest / 32.0; reach *= 4.0) {
         const Box start = everywhere(reach);
         const std::optional<Box> tight = shrink(field, start, budget * 4);
         const Box found = tight.value_or(Box{});

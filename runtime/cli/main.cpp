@@ -135,6 +135,7 @@ int run(int count, char** arguments) {
 }  // namespace fw::cli
 
 int main(int count, char** arguments) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a full quota is a write that fails, which has a message
     try {
         return fw::cli::run(count, arguments);
     } catch (const fw::SystemError& error) {

@@ -1,0 +1,79 @@
+// The region search: contains the solid, close to its bounds, and honest about solids without any.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "graph/language/lower.h"
+#include "graph/region.h"
+
+namespace fw {
+namespace {
+
+Region regionOf(const std::string& code) {
+    const auto tree = language::parse(code);
+    EXPECT_TRUE(tree) << format(tree.error());
+    language::Lowering state;
+    state.time = state.ir.constant(0.0);
+    language::Scope scope;
+    scope.anyResult = true;
+    const auto values = language::lower(state, **tree, scope);
+    EXPECT_TRUE(values) << format(values.error());
+    std::array<IrId, 1> root{values->front().ids[0]};
+    const Ir ir = state.ir.compact(root);
+    return findRegion(ir, root[0], {});
+}
+
+void expectBounds(const std::string& code, Point lo, Point hi, double slack) {
+    SCOPED_TRACE(code);
+    const Region region = regionOf(code);
+    ASSERT_EQ(region.extent, Extent::bounded);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(region.box.lo[axis], lo[axis] + 1e-6);
+        EXPECT_GE(region.box.lo[axis], lo[axis] - slack);
+        EXPECT_GE(region.box.hi[axis], hi[axis] - 1e-6);
+        EXPECT_LE(region.box.hi[axis], hi[axis] + slack);
+    }
+}
+
+TEST(Region, OfSolidsAlongTheAxes) {
+    expectBounds("return box(p, vec3(1, 2, 3));", {-1, -2, -3}, {1, 2, 3}, 0.01);
+    expectBounds("return sphere(p - vec3(5, 0, 0), 0.001);", {4.999, -0.001, -0.001}, {5.001, 0.001, 0.001},
+                 0.01);
+    expectBounds("return sphere(p - vec3(100, -200, 3), 50);", {50, -250, -47}, {150, -150, 53}, 1.0);
+    expectBounds("return max(sphere(p, 1), p.y);", {-1, -1, -1}, {1, 0, 1}, 0.05);
+}
+
+TEST(Region, OfSolidsWhoseHalfSpacesProveLittle) {
+    expectBounds("return octahedron(p, 0.8);", {-0.8, -0.8, -0.8}, {0.8, 0.8, 0.8}, 0.1);
+    const double r = std::sqrt(0.5);
+    expectBounds(
+        "q = vec3(p.x + p.z, p.y * sqrt(2.0), p.z - p.x) * sqrt(0.5); return box(q, vec3(1, 0.5, 0.01));",
+        {-r * 1.01, -0.5, -r * 1.01}, {r * 1.01, 0.5, r * 1.01}, 0.3);
+    expectBounds("return twist(box(p, vec3(0.5, 1, 0.5)), 90);", {-0.5, -1, -0.5}, {0.5, 1, 0.5}, 1.1);
+    expectBounds("return capped_cone(p, 0.5, 0.6, 0.25);", {-0.6, -0.5, -0.6}, {0.6, 0.5, 0.6}, 0.1);
+}
+
+TEST(Region, OfSolidsWithoutBounds) {
+    EXPECT_EQ(regionOf("return p.y;").extent, Extent::unbounded);
+    EXPECT_EQ(regionOf("return repeat(sphere(p, 1), vec3(20, 0, 0));").extent, Extent::unbounded);
+    EXPECT_EQ(regionOf("return repeat(sphere(p, 1), vec3(3));").extent, Extent::unbounded);
+    EXPECT_EQ(regionOf("return -sphere(p, 1);").extent, Extent::unbounded);
+    EXPECT_EQ(regionOf("return gyroid(p, 1, 0.1);").extent, Extent::unbounded);
+    EXPECT_EQ(regionOf("return -1;").extent, Extent::unbounded);
+}
+
+TEST(Region, OfNothing) {
+    EXPECT_EQ(regionOf("return 1;").extent, Extent::empty);
+    EXPECT_EQ(regionOf("return length(p) + 0.1;").extent, Extent::empty);
+    EXPECT_EQ(regionOf("return max(sphere(p, 1), sphere(p - vec3(3, 0, 0), 1));").extent, Extent::empty);
+}
+
+TEST(Region, PaddingKeepsTheCellsPromised) {
+    const Box box = padded({{0, 0, 0}, {1, 2, 4}}, 100, 1.5);
+    const double cell = (box.hi[2] - box.lo[2]) / 100;
+    EXPECT_NEAR(box.lo[0], -1.5 * cell, 1e-12);
+    EXPECT_NEAR(box.hi[1], 2 + 1.5 * cell, 1e-12);
+}
+
+}  // namespace
+}  // namespace fw
