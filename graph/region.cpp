@@ -54,56 +54,62 @@ std::optional<Box> boundByHalfSpaces(const Field& field) {
     return box;
 }
 
-void include(std::optional<Box>& hull, const Box& box) {
-    if (!hull) hull = box;
-    for (int axis = 0; axis < 3; ++axis) {
-        hull->lo[axis] = std::min(hull->lo[axis], box.lo[axis]);
-        hull->hi[axis] = std::max(hull->hi[axis], box.hi[axis]);
-    }
+/// The two halves of `cell` across its longest axis.
+std::array<Box, 2> halves(const Box& cell) {
+    int axis = 0;
+    for (int other : {1, 2})
+        if (cell.hi[other] - cell.lo[other] > cell.hi[axis] - cell.lo[axis]) axis = other;
+    std::array<Box, 2> result = {cell, cell};
+    result[0].hi[axis] = result[1].lo[axis] = 0.5 * (cell.lo[axis] + cell.hi[axis]);
+    return result;
 }
 
-/// The hull of what an octree over `start` cannot prove empty, at most `budget` interval evaluations; none if
-/// nothing is left.
-std::optional<Box> shrink(const Field& field, const Box& start, std::size_t budget) {
+Box hull(const std::vector<Box>& cells) {
+    Box bound = cells.front();
+    for (const Box& cell : cells)
+        for (int axis = 0; axis < 3; ++axis) {
+            bound.lo[axis] = std::min(bound.lo[axis], cell.lo[axis]);
+            bound.hi[axis] = std::max(bound.hi[axis], cell.hi[axis]);
+        }
+    return bound;
+}
+
+/// A cell that is at a face of the hull, so that the hull may shrink if the cell is split.
+bool holdsUp(const Box& bound, const Box& cell) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (cell.lo[axis] <= bound.lo[axis] || cell.hi[axis] >= bound.hi[axis]) return true;
+    return false;
+}
+
+double longestSide(const Box& box) {
+    return std::max({box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
+}
+
+/// The hull of what is left of `start` when cells that are provably empty are dropped and those at the hull's
+/// faces are split, round by round; none if nothing is left. Ends after `patience` rounds that did not move
+/// the hull (three rounds halve the cells), or after `budget` interval evaluations.
+std::optional<Box> shrink(const Field& field, const Box& start, int patience, std::size_t budget) {
     std::vector<Box> cells{start};
-    std::optional<Box> settled;  // hull of the cells that are not divided any further
-    std::optional<Box> bound = start;
-    while (!cells.empty() && cells.size() * 8 <= budget) {
-        budget -= cells.size() * 8;
-        std::vector<Box> children;
+    Box bound = start;
+    for (int idle = 0; idle < patience && budget >= 2; ++idle) {
+        std::vector<Box> next;
         for (const Box& cell : cells) {
-            // Sides much shorter than the longest wait, so that flat cells do not multiply along them.
-            double longest = 0.0;
-            for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, cell.hi[axis] - cell.lo[axis]);
-            std::vector<Box> parts{cell};
-            for (int axis = 0; axis < 3; ++axis) {
-                if (cell.hi[axis] - cell.lo[axis] < 0.6 * longest) continue;
-                const double middle = 0.5 * (cell.lo[axis] + cell.hi[axis]);
-                for (std::size_t k = parts.size(); k-- > 0;) {
-                    parts.push_back(parts[k]);
-                    parts[k].hi[axis] = parts.back().lo[axis] = middle;
-                }
+            if (!holdsUp(bound, cell) || budget < 2) {
+                next.push_back(cell);
+                continue;
             }
-            for (const Box& part : parts)
-                if (!field.outside(part)) children.push_back(part);
+            budget -= 2;
+            for (const Box& half : halves(cell))
+                if (!field.outside(half)) next.push_back(half);
         }
-        bound = settled;
-        for (const Box& child : children) include(bound, child);
-        if (!bound) return std::nullopt;
-        // Only cells at a face of the hull can still move it.
-        cells.clear();
-        for (const Box& child : children) {
-            bool atFace = false;
-            for (int axis = 0; axis < 3; ++axis) {
-                const double size = child.hi[axis] - child.lo[axis];
-                atFace |= child.lo[axis] < bound->lo[axis] + 0.5 * size ||
-                          child.hi[axis] > bound->hi[axis] - 0.5 * size;
-            }
-            if (atFace)
-                cells.push_back(child);
-            else
-                include(settled, child);
+        if (next.empty()) return std::nullopt;
+        cells = std::move(next);
+        const Box smaller = hull(cells);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double moved = smaller.lo[axis] - bound.lo[axis] + bound.hi[axis] - smaller.hi[axis];
+            if (moved > 0.01 * longestSide(bound)) idle = -1;
         }
+        bound = smaller;
     }
     return bound;
 }
@@ -151,16 +157,17 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
         for (int axis = 0; axis < 3; ++axis)
             if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};
-        const std::optional<Box> tight = shrink(field, *box, budget);
+        const std::optional<Box> tight = shrink(field, *box, 12, budget);
         return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
     }
     // Far enough from kFarthest that what repeats shows up again before it.
     for (double reach = 2.0; reach <= kFarthest / 32.0; reach *= 4.0) {
         const Box start = everywhere(reach);
-        const std::optional<Box> tight = shrink(field, start, budget * 4);
+        const std::optional<Box> tight = shrink(field, start, 18, budget);
         const Box found = tight.value_or(Box{});
         if (tight && touches(*tight, start)) continue;
-        if (tight && !reachesBeyond(field, found)) return {Extent::bounded, found};
+        if (tight && !reachesBeyond(field, found))
+            return {Extent::bounded, shrink(field, found, 18, 4 * budget).value_or(found)};
     }
     return {Extent::unbounded, {}};
 }
