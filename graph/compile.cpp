@@ -189,26 +189,31 @@ class Compiler {
         std::vector<Value> inputs;
         bool plain = true;  // the position is the context's and no number varies over space
         bool fine = true;
+        std::size_t shown = 0;  // the input that a stage passes on
         std::unordered_map<std::string_view, Exactness> classes;
         for (const InputSpec& spec : type->inputs) {
             const InputValue* given = node.input(spec.name);
             const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
             const Lowered* source = nullptr;
             const Value* from = link ? linked(*link, done, &source) : nullptr;
-            Value value = language::defaultValue(state, spec);
+            // A mesh is known by the surface that it is made from.
+            const bool shape = spec.type == Type::surface || spec.type == Type::mesh;
+            Value value = shape ? language::emptySurface(state) : language::defaultValue(state, spec);
             if (from) {
                 fine &= !source->failed;
-                const Result<Value> converted = language::convert(state, *from, spec.type);
+                const Result<Value> converted =
+                    language::convert(state, *from, shape ? Type::surface : spec.type);
                 if (converted) {
                     value = *converted;
-                } else if (from->type != Type::mesh) {
+                } else {
                     report(node, prefix, spec.name, converted.error());
                     fine = false;
                 }
-            } else {
+            } else if (spec.type != Type::mesh) {
                 value = literal(node, prefix, spec, given);
             }
-            if (spec.type == Type::surface) {
+            if (shape) {
+                if (from) shown = inputs.size();
                 classes[spec.name] = !from                         ? kExact
                                      : from->type == Type::surface ? source->exactness
                                                                    : distorted();
@@ -247,10 +252,10 @@ class Compiler {
                 result.spoiler = prefix + node.id;
         }
         if (type->body.empty()) {  // stages: what they take is read by the caller
-            result.outputs = {{"surface", Type::surface}};
-            result.values = {inputs.empty() ? language::emptySurface(state) : inputs[0]};
-            if (const auto surface = classes.find("surface"); surface != classes.end())
-                result.exactness = surface->second;
+            result.outputs = {{type->outputs.empty() ? "surface" : type->outputs[0].name, Type::surface}};
+            result.values = {inputs.empty() ? language::emptySurface(state) : inputs[shown]};
+            if (!inputs.empty() && classes.contains(type->inputs[shown].name))
+                result.exactness = classes[type->inputs[shown].name];
             return result;
         }
         Result<std::vector<Value>> values = language::lowerNode(state, *type, std::move(inputs));
@@ -432,13 +437,18 @@ std::vector<double> settings(const Node& node, std::string_view input) {
     return index < 0 ? std::vector<double>{} : type->inputs[index].value.numbers;
 }
 
+/// The node that feeds this input, reroutes passed over; nullptr if none does.
+const Node* feeding(const Graph& graph, const Node& node, std::string_view name) {
+    const InputValue* input = node.input(name);
+    const Link* link = input ? std::get_if<Link>(&input->value) : nullptr;
+    const Node* source = link ? graph.node(link->node) : nullptr;
+    return source && source->type == "reroute" ? feeding(graph, *source, "value") : source;
+}
+
 /// Resolution and region, from the output node or from the polygonize node that feeds it.
 void readSettings(const Graph& graph, const Node& output, Program& program) {
-    const Node* stage = &output;
-    if (const InputValue* input = output.input("surface"))
-        if (const Link* link = std::get_if<Link>(&input->value))
-            if (const Node* source = graph.node(link->node); source && source->type == "polygonize")
-                stage = source;
+    const Node* source = feeding(graph, output, "mesh");
+    const Node* stage = source && source->type == "polygonize" ? source : &output;
     if (const auto resolution = settings(*stage, "resolution"); !resolution.empty())
         program.resolution = static_cast<int>(resolution[0]);
     const auto lo = settings(*stage, "region_min"), hi = settings(*stage, "region_max");

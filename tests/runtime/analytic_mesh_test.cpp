@@ -345,6 +345,26 @@ TEST(AnalyticSolids, MengerSponges) {
     }
 }
 
+TEST(AnalyticSolids, APolygonizeNodeGivesRegionAndResolution) {
+    Nodes nodes;
+    nodes.add("ball", "sphere", {});
+    nodes.add("mesh", "polygonize",
+              Inputs()
+                  .set("surface", from("ball"))
+                  .set("region_min", vec(-1.2, -1.2, -1.2))
+                  .set("region_max", vec(1.2, 1.2, 0.6))
+                  .set("resolution", {40.0}));
+    nodes.add("bend", "reroute", Inputs().set("value", from("mesh")));
+    nodes.add("out", "output", Inputs().set("mesh", from("bend")));
+    for (const Error& error : check(nodes.graph)) ADD_FAILURE() << format(error);
+    Result<Program> program = compile(nodes.graph);
+    ASSERT_TRUE(program) << format(program.error());
+    EXPECT_EQ(program->resolution, 40);
+    ASSERT_TRUE(program->region.has_value());
+    EXPECT_EQ(*program->region, (Box{{-1.2, -1.2, -1.2}, {1.2, 1.2, 0.6}}));
+    EXPECT_TRUE(program->exactness.exact());
+}
+
 TEST(AnalyticSolids, ErrorFallsWithTheSquareOfTheCell) {
     const double exact = 4.0 / 3.0 * kPi * 0.343;
     double errors[3], cells[3];
