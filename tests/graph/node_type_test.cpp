@@ -101,7 +101,7 @@ const std::map<std::string, std::vector<std::string>>& promised() {
         {"expression", {}},
         {"material", {"surface", "base_color", "roughness", "metallic", "emission"}},
         {"polygonize", {"surface", "region_min", "region_max", "resolution", "method"}},
-        {"output", {"surface", "resolution", "method"}},
+        {"output", {"surface", "mesh", "resolution", "method"}},
         {"reroute", {}},
         {"frame", {}},
         {"group", {}},
