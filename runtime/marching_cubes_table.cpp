@@ -69,14 +69,20 @@ std::vector<CellPolygon> derive(int pattern) {
     return polygons;
 }
 
-glm::uvec2 pack(const std::vector<CellPolygon>& polygons) {
-    uint64_t codes = 0;
-    uint32_t count = 0;
-    for (const CellPolygon& polygon : polygons)
-        for (std::size_t i = 0; i < polygon.size(); ++i)
-            codes |= uint64_t(polygon[i] | (i == 0 ? 16u : 0u)) << 5 * count++;
-    constexpr uint64_t kHalf = (1ull << 30) - 1;
-    return {uint32_t(codes & kHalf) | (count & 3) << 30, uint32_t(codes >> 30 & kHalf) | (count >> 2) << 30};
+glm::uvec3 pack(const std::vector<CellPolygon>& polygons) {
+    glm::uvec3 words(0);
+    unsigned count = 0, last = 0;
+    for (const CellPolygon& polygon : polygons) {
+        for (std::size_t i = 0; i < polygon.size(); ++i, ++count) {
+            CellEdge edge = cellEdge(polygon[i]);
+            unsigned code =
+                edge.corner.y | edge.corner.z << 2 | unsigned(edge.axis) << 3 | edge.corner.x << 5;
+            words[count / 4] |= (code | (i == 0 ? 64u : 0u)) << count % 4 * 8;
+            last = count;
+        }
+    }
+    words[last / 4] |= 128u << last % 4 * 8;
+    return words;
 }
 
 }  // namespace
@@ -101,9 +107,9 @@ CellEdge cellEdge(int edge) {
     }
 }
 
-const std::array<glm::uvec2, 256>& packedCellPolygons() {
-    static const std::array<glm::uvec2, 256> packed = [] {
-        std::array<glm::uvec2, 256> made;
+const std::array<glm::uvec3, 256>& packedCellPolygons() {
+    static const std::array<glm::uvec3, 256> packed = [] {
+        std::array<glm::uvec3, 256> made;
         for (int i = 0; i < 256; ++i) made[i] = pack(cellPolygons(i));
         return made;
     }();

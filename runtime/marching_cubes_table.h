@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -33,9 +32,9 @@ struct CellEdge {
 };
 CellEdge cellEdge(int edge);
 
-/// The table as the index kernel reads it: up to twelve codes of five bits, edge and "first of its polygon"
-/// (16), six in each word from the lowest bit; the number of codes in the top two bits of both words, low
-/// part first.
-const std::array<glm::uvec2, 256>& packedCellPolygons();
+/// The table as the index kernel reads it: up to twelve bytes from the lowest bit, one for each edge. Of a
+/// byte, bits 5 and 0 are the offsets of the edge along x and y, bit 2 that along z, bits 3 and 4 the axis;
+/// bit 6 marks the first edge of a polygon, bit 7 the last edge of all.
+const std::array<glm::uvec3, 256>& packedCellPolygons();
 
 }  // namespace fw

@@ -18,15 +18,13 @@ using gpu::MesherPush;
 enum Kernel {
     blocks,
     cull,
-    cullAll,
     topBricks,
-    topBricksAll,
     compact,
-    compactAll,
     link,
     sample,
     count,
     topStrips,
+    topStripsChunked,
     emit,
     vertices,
     indices,
@@ -37,7 +35,7 @@ enum Kernel {
 /// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
 constexpr int kCellsForBlocks = 512;
 
-constexpr uint32_t kMostBricks = 1u << 20;  // twenty bits in the list of vertices
+constexpr uint32_t kMostBricks = 1u << 19;  // 128 MiB of lookup, what every device can bind
 constexpr float kLeastNudge = 1e-4f;        // cells
 constexpr float kNudgeUlps = 8.0f;          // of the largest coordinate
 constexpr float kMostNudge = 0.05f;
@@ -66,7 +64,7 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.links, bricks * 32);
     reserve(device, buffers.planes, bricks * 9 * 12);
     reserve(device, buffers.sums, spread(chunksOf(bricks, MESHER_GROUP_BRICKS)) * 16);
-    for (Buffer& edges : buffers.edges) reserve(device, edges, bricks * 8 * 16);
+    reserve(device, buffers.edges, bricks * 16 * 16);
     reserve(device, buffers.stripList, bricks * 16 * 8);
     reserve(device, buffers.vertexList, uint64_t(buffers.vertexCapacity) * 4);
     reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
@@ -97,79 +95,67 @@ Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer,
 }
 
 void record(Commands& commands, const MesherPipelines& pipelines, const MesherBuffers& b,
-            const MesherConfig& config, MesherPush push, bool blocksFirst) {
+            const MesherConfig& config, MesherPush push) {
     const Device& device = commands.device;
-    auto argument = [](std::size_t member) { return VkDeviceSize(member); };
     std::vector<Descriptor> common = {{0, b.counts}};
     if (config.parameters) common.push_back({FIELD_PARAMETERS, *config.parameters});
-    auto with = [&](std::initializer_list<Descriptor> more) {
+    auto with = [&](const std::vector<Descriptor>& more) {
         std::vector<Descriptor> list = common;
-        list.insert(list.end(), more);
+        list.insert(list.end(), more.begin(), more.end());
         return list;
     };
-    auto indirect = [&](Kernel kernel, std::size_t offset, std::initializer_list<Descriptor> more) {
-        dispatchIndirect(commands, pipelines.all[kernel], b.counts, argument(offset), push, with(more));
+    auto indirect = [&](Kernel kernel, uint32_t arguments, const std::vector<Descriptor>& more) {
+        VkDeviceSize offset = offsetof(MesherCounts, groups) + arguments * sizeof(gpu::DispatchArguments);
+        dispatchIndirect(commands, pipelines.all[kernel], b.counts, offset, push, with(more));
         barrier(commands);
     };
-    auto direct = [&](Kernel kernel, uint32_t groups, std::initializer_list<Descriptor> more) {
+    auto direct = [&](Kernel kernel, uint32_t groups, const std::vector<Descriptor>& more) {
         glm::uvec3 size(std::min<uint32_t>(groups, kGroupsAlongX), chunksOf(groups, kGroupsAlongX), 1);
         dispatch(commands, pipelines.all[kernel], size, push, with(more));
         barrier(commands);
     };
+    uint32_t vertexChunks = chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK);
+    uint32_t triangleChunks = chunksOf(push.triangleCapacity, MESHER_TRIANGLE_CHUNK);
 
     beginStage(commands, "cull");
     fill(commands, b.counts, 0);
-    if (blocksFirst) fill(commands, b.rows, 0);
+    if (push.blocksListed) fill(commands, b.rows, 0);
     barrier(commands);
-    if (blocksFirst) {
+    std::vector<Descriptor> cullBuffers = {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}};
+    if (push.blocksListed) {
         direct(blocks, 1, {{1, b.blockList}, {2, b.blockAlive}});
-        indirect(cull, offsetof(MesherCounts, blockGroups),
-                 {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}});
+        indirect(cull, MESHER_BLOCKS, cullBuffers);
     } else {
-        direct(cullAll, push.blocks.x * push.blocks.y * push.blocks.z,
-               {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}});
+        direct(cull, push.blocks.x * push.blocks.y * push.blocks.z, cullBuffers);
     }
     beginStage(commands, "compact");
-    direct(blocksFirst ? topBricks : topBricksAll, 1, {{4, b.blockSums}});
-    indirect(blocksFirst ? compact : compactAll, offsetof(MesherCounts, compactGroups),
-             {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}, {5, b.brickList}});
-    indirect(link, offsetof(MesherCounts, linkGroups), {{3, b.rows}, {5, b.brickList}, {6, b.links}});
+    direct(topBricks, 1, {{4, b.blockSums}});
+    indirect(compact, MESHER_COMPACT, {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}, {5, b.brickList}});
+    indirect(link, MESHER_LINKS, {{3, b.rows}, {5, b.brickList}, {6, b.links}});
     beginStage(commands, "sample");
-    indirect(sample, offsetof(MesherCounts, brickGroups), {{5, b.brickList}, {7, b.planes}});
+    indirect(sample, MESHER_BRICKS, {{5, b.brickList}, {7, b.planes}});
     beginStage(commands, "count");
-    indirect(count, offsetof(MesherCounts, brickGroups),
-             {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}});
-    direct(topStrips, 1, {{4, b.sums}});
+    indirect(count, MESHER_BRICKS, {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}});
+    direct(vertexChunks > 1 || triangleChunks > 1 ? topStripsChunked : topStrips, 1, {{4, b.sums}});
     beginStage(commands, "emit");
-    indirect(emit, offsetof(MesherCounts, emitGroups),
-             {{4, b.sums},
-              {7, b.planes},
-              {8, b.edges[0]},
-              {9, b.edges[1]},
-              {10, b.edges[2]},
-              {11, b.vertexList},
-              {12, b.stripList}});
+    indirect(emit, MESHER_EMIT,
+             {{4, b.sums}, {7, b.planes}, {8, b.edges}, {11, b.vertexList}, {12, b.stripList}});
     beginStage(commands, "vertices");
-    for (push.chunk = 0; push.chunk < chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK); ++push.chunk) {
-        std::size_t offset =
-            offsetof(MesherCounts, vertexGroups) + push.chunk * sizeof(gpu::DispatchArguments);
+    for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk) {
+        uint32_t arguments = MESHER_VERTICES + push.chunk;
         Descriptor target = chunkOf(device, 13, b.vertices, push.chunk,
                                     uint64_t(MESHER_VERTEX_CHUNK) * sizeof(gpu::MeshVertex));
-        indirect(vertices, offset, {{5, b.brickList}, {11, b.vertexList}, target});
+        indirect(vertices, arguments, {{5, b.brickList}, {11, b.vertexList}, target});
         if (config.colors)
-            indirect(colors, offset,
+            indirect(colors, arguments,
                      {target, chunkOf(device, 14, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
     }
     beginStage(commands, "indices");
-    for (push.chunk = 0; push.chunk < chunksOf(push.triangleCapacity, MESHER_TRIANGLE_CHUNK); ++push.chunk) {
-        std::size_t offset =
-            offsetof(MesherCounts, stripGroups) + push.chunk * sizeof(gpu::DispatchArguments);
-        indirect(indices, offset,
+    for (push.chunk = 0; push.chunk < triangleChunks; ++push.chunk) {
+        indirect(indices, MESHER_STRIPS + push.chunk,
                  {{6, b.links},
                   {7, b.planes},
-                  {8, b.edges[0]},
-                  {9, b.edges[1]},
-                  {10, b.edges[2]},
+                  {8, b.edges},
                   {11, b.table},
                   {12, b.stripList},
                   chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
@@ -185,16 +171,14 @@ MesherPipelines createMesherPipelines(const Device& device, std::string_view fie
         shaders[kernel] = {.name = name, .field = field, .constants = std::move(constants)};
     };
     set(blocks, "mesher/blocks.comp");
-    set(cull, "mesher/cull.comp", {1});
-    set(cullAll, "mesher/cull.comp", {0});
-    set(topBricks, "mesher/top_bricks.comp", {1});
-    set(topBricksAll, "mesher/top_bricks.comp", {0});
-    set(compact, "mesher/compact.comp", {1});
-    set(compactAll, "mesher/compact.comp", {0});
+    set(cull, "mesher/cull.comp");
+    set(topBricks, "mesher/top_bricks.comp");
+    set(compact, "mesher/compact.comp");
     set(link, "mesher/link.comp");
     set(sample, "mesher/sample.comp");
     set(count, "mesher/count.comp");
-    set(topStrips, "mesher/top_strips.comp");
+    set(topStrips, "mesher/top_strips.comp", {0});
+    set(topStripsChunked, "mesher/top_strips.comp", {1});
     set(emit, "mesher/emit.comp");
     set(vertices, "mesher/vertices.comp");
     set(indices, "mesher/indices.comp");
@@ -241,6 +225,7 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
     push.cells = cells;
     push.blocks = blockCount;
     push.nudge = nudge;
+    push.blocksListed = longest >= kCellsForBlocks;
     MesherResult result;
     for (result.runs = 1;; ++result.runs) {
         reserveAll(device, buffers, blockCount, config.colors);
@@ -248,22 +233,22 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
         push.vertexCapacity = buffers.vertexCapacity;
         push.triangleCapacity = buffers.triangleCapacity;
         Commands commands(device, config.timed);
-        record(commands, pipelines, buffers, config, push, longest >= kCellsForBlocks);
+        record(commands, pipelines, buffers, config, push);
         submit(commands);
         result.stages = commands.stages;
         MesherCounts counts = download<MesherCounts>(device, buffers.counts, 1)[0];
-        constexpr uint64_t kMostVertices = uint64_t(MESHER_VERTEX_CHUNK) * (MESHER_CHUNKS - 1);
-        constexpr uint64_t kMostTriangles = uint64_t(MESHER_TRIANGLE_CHUNK) * (MESHER_CHUNKS - 1);
+        constexpr uint64_t kMostVertices = uint64_t(MESHER_VERTEX_CHUNK) * MESHER_CHUNKS;
+        constexpr uint64_t kMostTriangles = uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS;
         if (counts.bricks > kMostBricks)
             return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, kMostBricks);
-        if (counts.vertices > kMostVertices) return tooLarge("vertices", counts.vertices, kMostVertices);
-        if (counts.triangles > kMostTriangles) return tooLarge("triangles", counts.triangles, kMostTriangles);
-        bool fits = counts.bricks <= buffers.brickCapacity && counts.vertices <= buffers.vertexCapacity &&
-                    counts.triangles <= buffers.triangleCapacity;
+        if (counts.emitted.x > kMostVertices) return tooLarge("vertices", counts.emitted.x, kMostVertices);
+        if (counts.emitted.y > kMostTriangles) return tooLarge("triangles", counts.emitted.y, kMostTriangles);
+        bool fits = counts.bricks <= buffers.brickCapacity && counts.emitted.x <= buffers.vertexCapacity &&
+                    counts.emitted.y <= buffers.triangleCapacity;
         if (!fits) {
             buffers.brickCapacity = std::min(kMostBricks, grown(buffers.brickCapacity, counts.bricks));
-            buffers.vertexCapacity = grown(buffers.vertexCapacity, counts.vertices);
-            buffers.triangleCapacity = grown(buffers.triangleCapacity, counts.triangles);
+            buffers.vertexCapacity = grown(buffers.vertexCapacity, counts.emitted.x);
+            buffers.triangleCapacity = grown(buffers.triangleCapacity, counts.emitted.y);
             continue;
         }
         if (counts.leaks) {
@@ -276,8 +261,8 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
                 push.margin = std::numeric_limits<float>::infinity();
             continue;
         }
-        result.vertices = counts.vertices;
-        result.triangles = counts.triangles;
+        result.vertices = counts.emitted.x;
+        result.triangles = counts.emitted.y;
         result.bricks = counts.bricks;
         result.capped = counts.caps != 0;
         return result;

@@ -59,8 +59,8 @@ struct MesherBuffers {
     Buffer colors;     ///< vec3 each, if asked for
     Buffer triangles;  ///< three uint32 indices each
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
-    Buffer table, blockList, blockAlive, blockSums, rows, brickList, links, planes, sums, edges[3],
-        vertexList, stripList;
+    Buffer table, blockList, blockAlive, blockSums, rows, brickList, links, planes, sums, edges, vertexList,
+        stripList;
     uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;
 };
 

@@ -28,8 +28,9 @@ using vec4 = glm::vec4;
 
 #define MESHER_VERTEX_CHUNK 8388608u     // vertices that one dispatch writes: 16 bytes each make 128 MiB
 #define MESHER_TRIANGLE_CHUNK 11000000u  // triangles that one dispatch starts: 12 bytes each and some slack, ditto
-#define MESHER_CHUNKS 17                 // dispatches at most: 2 GiB, the largest allocation
-#define MESHER_GROUP_BRICKS 8            // bricks of one work group of the kernels over planes
+#define MESHER_CHUNKS 16                 // dispatches at most: 2 GiB, the largest allocation
+#define MESHER_GROUP_BRICKS 8            // bricks of one work group of the kernels over planes and strips
+#define MESHER_GROUP_LINKS 64            // bricks, vertices and strips of one work group of the kernels over those
 #define MESHER_GROUP_VERTICES 64
 #define MESHER_GROUP_STRIPS 64
 
@@ -41,6 +42,7 @@ struct MesherPush {
     float margin;           // an interval this close to zero counts as reaching it
     uvec3 blocks;           // of the grid, which has one layer of outside samples around the region
     float nudge;            // least distance of a vertex from the ends of its grid edge, in cells
+    uint blocksListed;      // 1: the blocks to look into are listed; 0: all are meant
     uint brickCapacity;
     uint vertexCapacity;
     uint triangleCapacity;
@@ -51,27 +53,26 @@ struct DispatchArguments {
     uint x, y, z;
 };
 
-struct DrawIndexedArguments {
-    uint indexCount, instanceCount, firstIndex;
-    int vertexOffset;
-    uint firstInstance;
-};
+// Places in MesherCounts::groups.
+#define MESHER_BLOCKS 0    // a work group for each block
+#define MESHER_COMPACT 1   // the same, none if there are too many bricks
+#define MESHER_LINKS 2     // over bricks
+#define MESHER_BRICKS 3    // over bricks
+#define MESHER_EMIT 4      // the same, none if there is too much to emit
+#define MESHER_VERTICES 5  // over vertices, one for each chunk
+#define MESHER_STRIPS (MESHER_VERTICES + MESHER_CHUNKS)  // over strips, one for each chunk of triangles
+#define MESHER_GROUPS (MESHER_STRIPS + MESHER_CHUNKS)
 
 // What the kernels count, and the arguments of the indirect dispatches and of the draw that follow.
 struct MesherCounts {
-    uint blocks;     // that may hold surface
-    uint bricks;     // the same
-    uint vertices;
-    uint triangles;
-    uint strips;     // that hold active cells
-    uint caps;       // vertices made by closing the surface at the region's boundary
-    uint leaks;      // planes whose surface runs on into a brick that was culled: the mesh is then not usable
-    uint unused;
-    DispatchArguments blockGroups, compactGroups, linkGroups, brickGroups, emitGroups;
-    DispatchArguments vertexGroups[MESHER_CHUNKS];
-    DispatchArguments stripGroups[MESHER_CHUNKS];
+    uint blocks;  // that may hold surface
+    uint bricks;  // the same
+    uint caps;    // not 0 if the surface was closed at the region's boundary
+    uint leaks;   // not 0 if surface runs on into a brick that was culled: the mesh is then not usable
+    uvec3 emitted;  // vertices, triangles, strips with active cells
+    DispatchArguments groups[MESHER_GROUPS];
     uint stripStart[MESHER_CHUNKS + 1];  // first strip of each chunk of triangles
-    DrawIndexedArguments draw;
+    uint draw[5];                        // arguments of vkCmdDrawIndexedIndirect
 };
 
 // A vertex of the mesh as the device stores it; the normal is octahedral, two 16-bit signed fractions.

@@ -2,18 +2,18 @@
 //
 // The talk's histopyramid sums counts level by level and walks down again for each output. Here the base level is the
 // work group (its counts never leave registers), the level above it one sum a group, and the top is summed by one
-// group alone (topSums.glsl). Reading down is two additions, and the places are the same on every run.
+// group alone (mesher/top.glsl). Reading down is two additions, and the places are the same on every run.
 //
-// Needs: HISTOPYRAMID_LANES, the size of the work group.
+// Needs: HISTOPYRAMID_LANES, the size of the work group, and HISTOPYRAMID_TYPE, what is counted: uint to uvec4.
 
-shared uvec4 histopyramidSums[HISTOPYRAMID_LANES / 4];  // no device has subgroups of less than four
+shared HISTOPYRAMID_TYPE histopyramidSums[HISTOPYRAMID_LANES / 4];  // no device has subgroups of less than four
 
 /// Sum over the lanes before this one; `total` is that of all lanes. Every lane of the group must call it.
-uvec4 sumBefore(uvec4 value, out uvec4 total) {
-    uvec4 before = subgroupExclusiveAdd(value);
+HISTOPYRAMID_TYPE sumBefore(HISTOPYRAMID_TYPE value, out HISTOPYRAMID_TYPE total) {
+    HISTOPYRAMID_TYPE before = subgroupExclusiveAdd(value);
     if (gl_SubgroupInvocationID == gl_SubgroupSize - 1) histopyramidSums[gl_SubgroupID] = before + value;
     barrier();
-    uvec4 sum = uvec4(0), mine = uvec4(0);
+    HISTOPYRAMID_TYPE sum = HISTOPYRAMID_TYPE(0), mine = HISTOPYRAMID_TYPE(0);
     uint i = 0;
     do {
         if (i == gl_SubgroupID) mine = sum;

@@ -1,5 +1,6 @@
 // Culls blocks of 64^3 cells and lists the survivors in order. One work group: there are few blocks.
 #define HISTOPYRAMID_LANES 256
+#define HISTOPYRAMID_TYPE uint
 #include "mesher/mesher.glsl"
 #include "mesher/alive.glsl"
 #include "lib/histopyramid.glsl"
@@ -10,20 +11,19 @@ layout(binding = 2, scalar) buffer BlockAlive { uint blockAlive[]; };
 
 void main() {
     fieldBegin();
-    uint all = push.blocks.x * push.blocks.y * push.blocks.z;
+    uint all = blockCount();
     uint each = (all + HISTOPYRAMID_LANES - 1) / HISTOPYRAMID_LANES;
     uint first = min(gl_LocalInvocationIndex * each, all), last = min(first + each, all);
     uint found = 0;
     uint i = 0;
     do {  // each >= 1
         uint block = min(first + i, all - 1);
-        uvec3 at = uvec3(block % push.blocks.x, block / push.blocks.x % push.blocks.y, block / (push.blocks.x * push.blocks.y));
-        bool alive = first + i < last && mayHoldSurface(at * 64, 64);
+        bool alive = first + i < last && mayHoldSurface(blockAt(block) * 64, 64);
         if (first + i < last) blockAlive[first + i] = alive ? 1 : 0;
         found += alive ? 1 : 0;
     } while (++i < each);
-    uvec4 total;
-    uint place = sumBefore(uvec4(found, 0, 0, 0), total).x;
+    uint total;
+    uint place = sumBefore(found, total);
     i = first;
     do {
         bool alive = i < last && blockAlive[min(i, all - 1)] != 0;
@@ -31,7 +31,7 @@ void main() {
         place += alive ? 1 : 0;
     } while (++i < first + each);
     if (gl_LocalInvocationIndex == 0) {
-        counts.blocks = total.x;
-        counts.blockGroups = groupsFor(total.x, 1);
+        counts.blocks = total;
+        counts.groups[MESHER_BLOCKS] = groupsFor(total, 1);
     }
 }

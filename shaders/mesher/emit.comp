@@ -1,6 +1,10 @@
 // Writes the edge -> vertex lookup, the list of edges that get a vertex and the list of strips that get triangles. A
 // lane takes one plane of cells, as in the count.
+//
+// The strips of a group are listed by their number of active cells, in four classes: the lanes of a subgroup run
+// as long as the longest among them when they write the triangles.
 #define HISTOPYRAMID_LANES (8 * MESHER_GROUP_BRICKS)
+#define HISTOPYRAMID_TYPE uvec2
 #include "mesher/mesher.glsl"
 #include "mesher/strips.glsl"
 #include "mesher/edges.glsl"
@@ -8,53 +12,61 @@
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
 layout(binding = 4, scalar) readonly buffer Sums { uvec4 sums[]; };
-layout(binding = 11, scalar) writeonly buffer VertexList { uint vertexList[]; };  // brick, strip, z, bit
+layout(binding = 11, scalar) writeonly buffer VertexList { uint vertexList[]; };  // strip, axis, bit
 layout(binding = 12, scalar) writeonly buffer StripList { uvec2 stripList[]; };   // strip, first triangle
+
+/// Where the strips of a class are counted: a byte for each class, that of most cells lowest. (128 strips at most in a group.)
+uint classShift(uint cells) { return cells > 16 ? 0 : cells > 8 ? 8 : cells > 4 ? 16 : 24; }
 
 void main() {
     uint slot = linearGroup() * MESHER_GROUP_BRICKS + (gl_LocalInvocationIndex >> 3);
     uint z = gl_LocalInvocationIndex & 7;
     bool valid = slot < counts.bricks;
-    uint from = valid ? slot : 0;
-    PlaneSigns low = planeSigns(planes[from * 9 + z]), high = planeSigns(planes[from * 9 + z + 1]);
-    ActiveEdges edges = activeEdges(low, high);
-    uvec2 triangles = triangleCount(low, high);
-    uvec2 cells = activeCells(low, high);
-    uvec2 nx = uvec2(bitCount(edges.x)), ny = uvec2(bitCount(edges.y)), nz = uvec2(bitCount(edges.z));
-    uint vertices = nx.x + nx.y + ny.x + ny.y + nz.x + nz.y;
-    uint strips = (cells.x != 0 ? 1 : 0) + (cells.y != 0 ? 1 : 0);
-    uvec4 total;
-    uvec4 before = sumBefore(valid ? uvec4(vertices, triangles.x + triangles.y, strips, 0) : uvec4(0), total);
-    before += sums[linearGroup()];
-
-    uint first = before.x;
-    if (valid) {
-        uvec2 x = uvec2(first, first + nx.x);
-        uvec2 y = uvec2(x.y + nx.y, x.y + nx.y + ny.x);
-        uvec2 w = uvec2(y.y + ny.y, y.y + ny.y + nz.x);
-        uint plane = slot * 8 + z;
-        edgesX[plane] = uvec4(edges.x.x, x.x, edges.x.y, x.y);
-        edgesY[plane] = uvec4(edges.y.x, y.x, edges.y.y, y.y);
-        edgesZ[plane] = uvec4(edges.z.x, w.x, edges.z.y, w.y);
-        uint strip = plane * 2;
-        if (cells.x != 0) stripList[before.z] = uvec2(strip, before.y);
-        if (cells.y != 0) stripList[before.z + (cells.x != 0 ? 1 : 0)] = uvec2(strip + 1, before.y + triangles.x);
+    uint plane = (valid ? slot : 0) * 9 + z;
+    uvec3 a = planes[plane], b = planes[plane + 1];
+    uvec3 crossed[2];
+    uint cells[2], triangles[2];
+    uvec2 own = uvec2(0);  // vertices and triangles << 16; strips by class
+    [[unroll]] for (int side = 0; side < 2; ++side) {
+        StripSigns low = stripSigns(a, side), high = stripSigns(b, side);
+        crossed[side] = valid ? activeEdges(low, high) : uvec3(0);
+        cells[side] = valid ? bitCount(activeCells(low, high)) : 0;
+        triangles[side] = valid ? triangleCount(low, high) : 0;
+        ivec3 n = bitCount(crossed[side]);
+        own.x += n.x + n.y + n.z + (triangles[side] << 16);
+        own.y += cells[side] != 0 ? 1u << classShift(cells[side]) : 0;
     }
-    // One loop over the six strips of edges: the lanes of a subgroup then wait for the longest plane, not for the longest strip.
-    uint end = valid ? first + vertices : first;
-    uint word = slot << 11 | z << 5;
-    uint current = edges.x.x;
-    uint k = first;
+    uvec2 total;
+    uvec2 before = sumBefore(own, total);
+    uvec4 base = sums[linearGroup()];
+    uint ofLarger = total.y << 8;  // in each byte the count of the classes before
+    ofLarger += ofLarger << 8;
+    ofLarger += ofLarger << 16;
+    uint first = base.x + (before.x & 0xffff), triangle = base.y + (before.x >> 16);
+    uint k = first, end = first + (own.x & 0xffff);
+    uint strip = slot * 16 + z * 2;
+    [[unroll]] for (int side = 0; side < 2; ++side) {
+        ivec3 n = bitCount(crossed[side]);
+        if (valid) edges[strip + side] = uvec4(crossed[side], first);
+        uint shift = classShift(cells[side]);
+        uint place = base.z + (ofLarger >> shift & 255) + (before.y >> shift & 255);
+        if (cells[side] != 0) stripList[place] = uvec2(strip + side, triangle);
+        before.y += cells[side] != 0 ? 1u << shift : 0;
+        first += n.x + n.y + n.z;
+        triangle += triangles[side];
+    }
+
+    uint word = strip << 7;
     do {
-        bool next = current == 0;
-        current = next ? edges.x.y : current;
-        edges.x.y = next ? edges.y.x : edges.x.y;
-        edges.y.x = next ? edges.y.y : edges.y.x;
-        edges.y.y = next ? edges.z.x : edges.y.y;
-        edges.z.x = next ? edges.z.y : edges.z.x;
-        edges.z.y = next ? 0 : edges.z.y;
-        word += next ? 256 : 0;
-        if (current != 0 && k < end) vertexList[k++] = word | findLSB(current);
-        current &= current - 1;
+        bool next = crossed[0].x == 0;
+        crossed[0].x = next ? crossed[0].y : crossed[0].x;
+        crossed[0].y = next ? crossed[0].z : crossed[0].y;
+        crossed[0].z = next ? crossed[1].x : crossed[0].z;
+        crossed[1].x = next ? crossed[1].y : crossed[1].x;
+        crossed[1].y = next ? crossed[1].z : crossed[1].y;
+        crossed[1].z = next ? 0 : crossed[1].z;
+        word += next ? ((word & 96) == 64 ? 64 : 32) : 0;  // after axis 2, axis 0 of the other side
+        if (crossed[0].x != 0) vertexList[k++] = word | findLSB(crossed[0].x);
+        crossed[0].x &= crossed[0].x - 1;
     } while (k < end);
 }

@@ -1,27 +1,25 @@
-// Finds each brick's neighbours: the slots that the triangles of its upper faces need (X, Y, Z, XY, XZ, YZ), its own
-// where there is no brick, and which of the six faces have a neighbour.
+// Finds each brick's neighbours, in one loop over nine of them: the look-up is then compiled once.
 #include "mesher/mesher.glsl"
 #include "mesher/rows.glsl"
+#include "mesher/links.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = MESHER_GROUP_LINKS) in;
 layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 6, scalar) writeonly buffer Links { uvec4 links[]; };  // two a brick
 
 void main() {
-    uint slot = linearGroup() * 64 + gl_LocalInvocationIndex;
+    uint slot = linearGroup() * MESHER_GROUP_LINKS + gl_LocalInvocationIndex;
     bool valid = slot < counts.bricks;
     uvec3 brick = unpackBrick(brickList[valid ? slot : 0]);
     const uint kNone = ~0u;
-    uint x = slotOf(brick + uvec3(1, 0, 0), kNone), y = slotOf(brick + uvec3(0, 1, 0), kNone);
-    uint z = slotOf(brick + uvec3(0, 0, 1), kNone), xy = slotOf(brick + uvec3(1, 1, 0), slot);
-    uint xz = slotOf(brick + uvec3(1, 0, 1), slot), yz = slotOf(brick + uvec3(0, 1, 1), slot);
-    // Subtracting from 0 wraps to a huge number, which is not of the grid.
-    uint faces = (x != kNone ? 1 : 0) | (y != kNone ? 2 : 0) | (z != kNone ? 4 : 0) |
-                 (slotOf(brick - uvec3(1, 0, 0), kNone) != kNone ? 8 : 0) |
-                 (slotOf(brick - uvec3(0, 1, 0), kNone) != kNone ? 16 : 0) |
-                 (slotOf(brick - uvec3(0, 0, 1), kNone) != kNone ? 32 : 0);
-    if (valid) {
-        links[slot * 2] = uvec4(x == kNone ? slot : x, y == kNone ? slot : y, z == kNone ? slot : z, faces);
-        links[slot * 2 + 1] = uvec4(xy, xz, yz, 0);
-    }
+    uint faces = 0;
+    uint i = 0;
+    [[dont_unroll]] do {
+        // 0 to 6: along the axes of its bits. 7 to 9: back along x, y, z; 0 - 1 wraps to what is not of the grid.
+        uvec3 forward = uvec3(i & 1, i >> 1 & 1, i >> 2);
+        uvec3 back = uvec3(equal(uvec3(i), uvec3(7, 8, 9)));
+        uint found = slotOf(i < 7 ? brick + forward : brick - back, kNone);
+        uint bit = i == 1 || i == 2 ? i : i == 4 ? 4 : i >= 7 ? 8u << (i - 7) : 0;
+        faces |= found != kNone ? bit : 0;
+        if (valid) links[slot * 8 + min(i, 7)] = i >= 7 ? faces : found == kNone ? slot : found;
+    } while (++i < 10);
 }

@@ -12,6 +12,12 @@ DispatchArguments groupsFor(uint items, uint perGroup) {
     return DispatchArguments(min(groups, kGroupsAlongX), (groups + kGroupsAlongX - 1) / kGroupsAlongX, 1);
 }
 
+uint blockCount() { return push.blocks.x * push.blocks.y * push.blocks.z; }
+uvec3 blockAt(uint block) {
+    uint area = push.blocks.x * push.blocks.y;
+    return uvec3(block % push.blocks.x, block / push.blocks.x % push.blocks.y, block / area);
+}
+
 /// Sample i along an axis stands at origin + (i - 1) cells: samples 0 and cells + 2 are the outside layer around the
 /// region, which closes every surface. All kernels must compute a position in this one way, to the same bits.
 float samplePosition(int axis, uint i) { return push.origin[axis] + float(int(i) - 1) * push.cellSize; }

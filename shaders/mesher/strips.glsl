@@ -3,71 +3,65 @@
 // A strip is four columns of eight cells: bit (x & 3) * 8 + y. A plane has two of them, x < 4 and x >= 4. All below is
 // bit-parallel over the cells of a strip.
 
-layout(binding = 7, scalar) readonly buffer Planes { uvec3 planes[]; };
+layout(binding = 7, scalar) readonly buffer Planes { uvec3 planes[]; };  // sample.comp tells what the words hold
 
-/// Signs of the samples of a plane at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) of each cell of both strips.
-struct PlaneSigns {
-    uvec2 at, x, y, xy;
+/// Signs of the samples of a plane at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) of each cell of a strip.
+struct StripSigns {
+    uint at, x, y, xy;
 };
 
 /// Puts bit i of the low four bits into bit 7 of byte i.
 uint spreadToTop(uint bits) { return ((bits & 1) << 7) | ((bits & 2) << 14) | ((bits & 4) << 21) | ((bits & 8) << 28); }
 
-PlaneSigns planeSigns(uvec3 plane) {
-    uint columnEight = plane.z & 511, rowEight = plane.z >> 9;
-    PlaneSigns s;
-    s.at = plane.xy;
-    s.x = uvec2(plane.x >> 8 | plane.y << 24, plane.y >> 8 | columnEight << 24);
-    s.y = (s.at >> 1 & 0x7f7f7f7fu) | uvec2(spreadToTop(rowEight), spreadToTop(rowEight >> 4));
-    s.xy = (s.x >> 1 & 0x7f7f7f7fu) | uvec2(spreadToTop(rowEight >> 1), spreadToTop(rowEight >> 5));
+StripSigns stripSigns(uvec3 plane, uint strip) {
+    uint columnFive = strip == 0 ? plane.y : plane.z;  // its low byte
+    uint rowEight = plane.z >> (9 + 4 * strip);
+    StripSigns s;
+    s.at = strip == 0 ? plane.x : plane.y;
+    s.x = s.at >> 8 | columnFive << 24;
+    s.y = (s.at >> 1 & 0x7f7f7f7fu) | spreadToTop(rowEight);
+    s.xy = (s.x >> 1 & 0x7f7f7f7fu) | spreadToTop(rowEight >> 1);
     return s;
 }
 
-/// Edges of the brick's own cells from (x, y, z) along each axis that cross the surface, for both strips of a plane.
-struct ActiveEdges {
-    uvec2 x, y, z;
-};
-ActiveEdges activeEdges(PlaneSigns a, PlaneSigns b) { return ActiveEdges(a.at ^ a.x, a.at ^ a.y, a.at ^ b.at); }
+/// Edges from (x, y, z) along each axis that cross the surface.
+uvec3 activeEdges(StripSigns a, StripSigns b) { return uvec3(a.at ^ a.x, a.at ^ a.y, a.at ^ b.at); }
 
-uvec2 activeCells(PlaneSigns a, PlaneSigns b) {
+uint activeCells(StripSigns a, StripSigns b) {
     return (a.at | a.x | a.y | a.xy | b.at | b.x | b.y | b.xy) & ~(a.at & a.x & a.y & a.xy & b.at & b.x & b.y & b.xy);
 }
 
-/// Inside corners none of whose three neighbours is inside.
-uvec2 lonely(uvec2 corner, uvec2 n0, uvec2 n1, uvec2 n2) { return corner & ~(n0 | n1 | n2); }
+/// Two edges across a cell from each other, both ends of each inside and the other four corners outside.
+uint opposite(uint p, uint q, uint r, uint s, uint t, uint u, uint v, uint w) {
+    return (p & q & r & s & ~(t | u | v | w)) | (t & u & v & w & ~(p | q | r | s));
+}
 
-/// Number of triangles in each strip. A cell whose edges cross the surface e times in c closed loops has e - 2 c
+/// Number of triangles of a strip. A cell whose edges cross the surface e times in c closed loops has e - 2 c
 /// triangles. Loops are counted by the regions that they part on the cell's boundary, a sphere: c = inside regions +
 /// outside regions - 1. Inside corners join along edges only: a region is a lonely corner, or there is one of several
 /// corners, or two of those, which are then opposite edges. Outside corners join across faces too, so that there
 /// is one region unless just two opposite corners are outside. (The table has the same by construction, a test compares.)
-uvec2 triangleCount(PlaneSigns a, PlaneSigns b) {
-    uvec2 lonely0 = lonely(a.at, a.x, a.y, b.at), lonely1 = lonely(a.x, a.at, a.xy, b.x);
-    uvec2 lonely2 = lonely(a.y, a.at, a.xy, b.y), lonely3 = lonely(a.xy, a.x, a.y, b.xy);
-    uvec2 lonely4 = lonely(b.at, b.x, b.y, a.at), lonely5 = lonely(b.x, b.at, b.xy, a.x);
-    uvec2 lonely6 = lonely(b.y, b.at, b.xy, a.y), lonely7 = lonely(b.xy, b.x, b.y, a.xy);
-    uvec2 anyInside = a.at | a.x | a.y | a.xy | b.at | b.x | b.y | b.xy;
-    uvec2 allInside = a.at & a.x & a.y & a.xy & b.at & b.x & b.y & b.xy;
-    uvec2 joined = (a.at & ~lonely0) | (a.x & ~lonely1) | (a.y & ~lonely2) | (a.xy & ~lonely3) | (b.at & ~lonely4) |
-                   (b.x & ~lonely5) | (b.y & ~lonely6) | (b.xy & ~lonely7);
-    // Two opposite edges: both ends of each inside, the other four corners outside.
-    uvec2 ax = a.at & a.x, ax1 = a.y & a.xy, bx = b.at & b.x, bx1 = b.y & b.xy;
-    uvec2 nax = ~(a.at | a.x), nax1 = ~(a.y | a.xy), nbx = ~(b.at | b.x), nbx1 = ~(b.y | b.xy);
-    uvec2 opposite = (ax & bx1 & nax1 & nbx) | (ax1 & bx & nax & nbx1);
-    uvec2 ay = a.at & a.y, ay1 = a.x & a.xy, by = b.at & b.y, by1 = b.x & b.xy;
-    uvec2 nay = ~(a.at | a.y), nay1 = ~(a.x | a.xy), nby = ~(b.at | b.y), nby1 = ~(b.x | b.xy);
-    opposite |= (ay & by1 & nay1 & nby) | (ay1 & by & nay & nby1);
-    uvec2 az = a.at & b.at, az3 = a.xy & b.xy, az1 = a.x & b.x, az2 = a.y & b.y;
-    uvec2 naz = ~(a.at | b.at), naz3 = ~(a.xy | b.xy), naz1 = ~(a.x | b.x), naz2 = ~(a.y | b.y);
-    opposite |= (az & az3 & naz1 & naz2) | (az1 & az2 & naz & naz3);
+uint triangleCount(StripSigns a, StripSigns b) {
+    uint lonely0 = a.at & ~(a.x | a.y | b.at), lonely1 = a.x & ~(a.at | a.xy | b.x);
+    uint lonely2 = a.y & ~(a.at | a.xy | b.y), lonely3 = a.xy & ~(a.x | a.y | b.xy);
+    uint lonely4 = b.at & ~(b.x | b.y | a.at), lonely5 = b.x & ~(b.at | b.xy | a.x);
+    uint lonely6 = b.y & ~(b.at | b.xy | a.y), lonely7 = b.xy & ~(b.x | b.y | a.xy);
+    uint everyCorner = a.at & a.x & a.y & a.xy & b.at & b.x & b.y & b.xy;
+    uint joined = (a.at & ~lonely0) | (a.x & ~lonely1) | (a.y & ~lonely2) | (a.xy & ~lonely3) | (b.at & ~lonely4) |
+                  (b.x & ~lonely5) | (b.y & ~lonely6) | (b.xy & ~lonely7);
+    uint pairs = opposite(a.at, a.x, b.y, b.xy, a.y, a.xy, b.at, b.x) |
+                 opposite(a.at, a.y, b.x, b.xy, a.x, a.xy, b.at, b.y) |
+                 opposite(a.at, b.at, a.xy, b.xy, a.x, b.x, a.y, b.y);
     // Two opposite corners outside, all others inside.
-    uvec2 holes = (~a.at & a.x & ax1 & bx & b.y & ~b.xy) | (a.at & ~a.x & ax1 & bx & ~b.y & b.xy) |
-                  (ax & ~a.y & a.xy & b.at & ~b.x & bx1) | (ax & a.y & ~a.xy & ~b.at & b.x & bx1);
-    uvec2 loops = uvec2(bitCount(lonely0)) + bitCount(lonely1) + bitCount(lonely2) + bitCount(lonely3) +
-                  bitCount(lonely4) + bitCount(lonely5) + bitCount(lonely6) + bitCount(lonely7) + bitCount(joined) +
-                  bitCount(opposite) + bitCount(holes) - bitCount(allInside);
-    uvec2 edges = uvec2(bitCount(a.at ^ a.x)) + bitCount(a.y ^ a.xy) + bitCount(b.at ^ b.x) + bitCount(b.y ^ b.xy) +
-                  bitCount(a.at ^ a.y) + bitCount(a.x ^ a.xy) + bitCount(b.at ^ b.y) + bitCount(b.x ^ b.xy) +
-                  bitCount(a.at ^ b.at) + bitCount(a.x ^ b.x) + bitCount(a.y ^ b.y) + bitCount(a.xy ^ b.xy);
+    uint holes = a.x & a.y & a.xy & b.at & b.x & b.y & ~(a.at | b.xy);
+    holes |= a.at & a.y & a.xy & b.at & b.x & b.xy & ~(a.x | b.y);
+    holes |= a.at & a.x & a.xy & b.at & b.y & b.xy & ~(a.y | b.x);
+    holes |= a.at & a.x & a.y & b.x & b.y & b.xy & ~(a.xy | b.at);
+    uint loops = bitCount(lonely0) + bitCount(lonely1) + bitCount(lonely2) + bitCount(lonely3) + bitCount(lonely4) +
+                 bitCount(lonely5) + bitCount(lonely6) + bitCount(lonely7) + bitCount(joined) + bitCount(pairs) +
+                 bitCount(holes) - bitCount(everyCorner);
+    uint edges = bitCount(a.at ^ a.x) + bitCount(a.y ^ a.xy) + bitCount(b.at ^ b.x) + bitCount(b.y ^ b.xy) +
+                 bitCount(a.at ^ a.y) + bitCount(a.x ^ a.xy) + bitCount(b.at ^ b.y) + bitCount(b.x ^ b.xy) +
+                 bitCount(a.at ^ b.at) + bitCount(a.x ^ b.x) + bitCount(a.y ^ b.y) + bitCount(a.xy ^ b.xy);
     return edges - 2 * loops;
 }

@@ -1,26 +1,27 @@
 // The top of the histopyramid: one work group sums the counts of all groups below, in place. Each lane walks a
 // contiguous part twice, once for its sum and once to write the sums before each entry.
 #define HISTOPYRAMID_LANES 256
+#define HISTOPYRAMID_TYPE uvec3
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
 layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
 
 /// Replaces sums[0..count) by the sums before each; returns the sum of all.
-uvec4 sumUp(uint count) {
+uvec3 sumUp(uint count) {
     uint each = max((count + HISTOPYRAMID_LANES - 1) / HISTOPYRAMID_LANES, 1);
     uint first = min(gl_LocalInvocationIndex * each, count), last = min(first + each, count);
-    uvec4 part = uvec4(0);
+    uvec3 part = uvec3(0);
     uint i = first;
     do {
-        if (i < last) part += sums[i];
+        if (i < last) part += sums[i].xyz;
     } while (++i < first + each);
-    uvec4 total;
-    uvec4 before = sumBefore(part, total);
+    uvec3 total;
+    uvec3 before = sumBefore(part, total);
     i = first;
     do {
-        uvec4 own = i < last ? sums[i] : uvec4(0);
-        if (i < last) sums[i] = before;
+        uvec3 own = i < last ? sums[i].xyz : uvec3(0);
+        if (i < last) sums[i] = uvec4(before, 0);
         before += own;
     } while (++i < first + each);
     return total;

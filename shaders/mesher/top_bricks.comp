@@ -2,17 +2,14 @@
 #include "mesher/mesher.glsl"
 #include "mesher/top.glsl"
 
-layout(constant_id = 0) const bool kListed = true;  // blocks were culled and listed; else all are meant
-
 void main() {
-    uint blocks = kListed ? counts.blocks : push.blocks.x * push.blocks.y * push.blocks.z;
-    uvec4 total = sumUp(blocks);
-    if (gl_LocalInvocationIndex == 0) {
-        uint bricks = total.x;
-        bool fits = bricks <= push.brickCapacity;
-        counts.bricks = bricks;
-        counts.compactGroups = groupsFor(fits ? blocks : 0, 1);
-        counts.linkGroups = groupsFor(fits ? bricks : 0, 64);
-        counts.brickGroups = groupsFor(fits ? bricks : 0, MESHER_GROUP_BRICKS);
-    }
+    uint blocks = push.blocksListed != 0 ? counts.blocks : blockCount();
+    uint bricks = sumUp(blocks).x;
+    bool fits = bricks <= push.brickCapacity;
+    uint lane = gl_LocalInvocationIndex;
+    if (lane == 0) counts.bricks = bricks;
+    // Three lanes write the arguments of three kernels.
+    uint items = lane == 0 ? blocks : bricks;
+    uint perGroup = lane == 0 ? 1 : lane == 1 ? MESHER_GROUP_LINKS : MESHER_GROUP_BRICKS;
+    if (lane < 3) counts.groups[MESHER_COMPACT + lane] = groupsFor(fits ? items : 0, perGroup);
 }

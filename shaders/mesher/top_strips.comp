@@ -2,46 +2,50 @@
 #include "mesher/mesher.glsl"
 #include "mesher/top.glsl"
 
-layout(constant_id = 1) const uint kChunks = 1;  // of vertices and of triangles that the buffers have room for
+layout(constant_id = 0) const bool kChunked = false;  // the buffers have room for more than one chunk
 
 shared uint chunkStart[MESHER_CHUNKS + 1];
 
+/// First strip of a chunk of triangles: the first of the first group whose first triangle is not before the chunk.
+uint firstStrip(uint chunk, uint groups, uint strips) {
+    uint low = 0, high = groups;
+    do {
+        uint middle = (low + high) / 2;
+        bool before = low < high && sums[min(middle, max(groups, 1) - 1)].y < chunk * MESHER_TRIANGLE_CHUNK;
+        low = before ? middle + 1 : low;
+        high = before ? high : middle;
+    } while (low < high);
+    return low < groups ? sums[low].z : strips;
+}
+
 void main() {
-    uint groups = counts.brickGroups.x * counts.brickGroups.y * counts.brickGroups.z;
-    uint needed = (min(counts.bricks, push.brickCapacity) + MESHER_GROUP_BRICKS - 1) / MESHER_GROUP_BRICKS;
-    needed = min(groups, needed);
-    uvec4 total = sumUp(needed);
-    bool fits = counts.bricks <= push.brickCapacity && total.x <= push.vertexCapacity && total.y <= push.triangleCapacity;
-    memoryBarrierBuffer();
-    barrier();
-    // A chunk of triangles starts with the first group whose first triangle is not before it.
-    if (gl_LocalInvocationIndex <= kChunks) {
-        uint first = gl_LocalInvocationIndex * MESHER_TRIANGLE_CHUNK;
-        uint low = 0, high = needed;
-        do {
-            uint middle = (low + high) / 2;
-            bool before = low < high && sums[min(middle, max(needed, 1) - 1)].y < first;
-            low = before ? middle + 1 : low;
-            high = before ? high : middle;
-        } while (low < high);
-        chunkStart[gl_LocalInvocationIndex] = low < needed && gl_LocalInvocationIndex < kChunks ? sums[low].z : total.z;
+    bool bricksFit = counts.bricks <= push.brickCapacity;
+    uint groups = bricksFit ? (counts.bricks + MESHER_GROUP_BRICKS - 1) / MESHER_GROUP_BRICKS : 0;
+    uvec3 total = sumUp(groups);  // vertices, triangles, strips
+    bool fits = bricksFit && total.x <= push.vertexCapacity && total.y <= push.triangleCapacity;
+    uint lane = gl_LocalInvocationIndex;
+    uint start = lane == 0 ? 0 : total.z;
+    if (kChunked) {
+        memoryBarrierBuffer();
+        barrier();
+        start = lane < MESHER_CHUNKS ? firstStrip(lane, groups, total.z) : total.z;
+    }
+    if (lane <= MESHER_CHUNKS) {
+        chunkStart[lane] = start;
+        counts.stripStart[lane] = start;
     }
     barrier();
-    if (gl_LocalInvocationIndex < kChunks) {
-        uint chunk = gl_LocalInvocationIndex;
-        uint vertexStart = chunk * MESHER_VERTEX_CHUNK;
-        uint vertices = fits && total.x > vertexStart ? min(total.x - vertexStart, MESHER_VERTEX_CHUNK) : 0;
-        counts.vertexGroups[chunk] = groupsFor(vertices, MESHER_GROUP_VERTICES);
-        counts.stripStart[chunk] = chunkStart[chunk];
-        counts.stripGroups[chunk] = groupsFor(fits ? chunkStart[chunk + 1] - chunkStart[chunk] : 0, MESHER_GROUP_STRIPS);
+
+    // One lane for each set of arguments: emit, the chunks of vertices, the chunks of triangles.
+    uint chunk = (lane - 1) % MESHER_CHUNKS;
+    uint items = groups * MESHER_GROUP_BRICKS, perGroup = MESHER_GROUP_BRICKS;
+    if (lane >= 1) {
+        bool overStrips = lane > MESHER_CHUNKS;
+        uint vertices = min(total.x - min(total.x, chunk * MESHER_VERTEX_CHUNK), MESHER_VERTEX_CHUNK);
+        items = overStrips ? chunkStart[chunk + 1] - chunkStart[chunk] : vertices;
+        perGroup = overStrips ? MESHER_GROUP_STRIPS : MESHER_GROUP_VERTICES;
     }
-    if (gl_LocalInvocationIndex == 0) {
-        counts.stripStart[kChunks] = total.z;
-        counts.vertices = total.x;
-        counts.triangles = total.y;
-        counts.strips = total.z;
-        counts.emitGroups = counts.brickGroups;
-        if (!fits) counts.emitGroups = DispatchArguments(0, 0, 0);
-        counts.draw = DrawIndexedArguments(fits ? total.y * 3 : 0, 1, 0, 0, 0);
-    }
+    if (lane < 1 + 2 * MESHER_CHUNKS) counts.groups[MESHER_EMIT + lane] = groupsFor(fits ? items : 0, perGroup);
+    if (lane < 5) counts.draw[lane] = lane == 0 && fits ? total.y * 3 : lane == 1 ? 1 : 0;
+    if (lane == 0) counts.emitted = total;
 }

@@ -15,45 +15,43 @@ layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
 layout(binding = 11, scalar) readonly buffer VertexList { uint vertexList[]; };
 layout(binding = 13, scalar) writeonly buffer Vertices { uvec4 vertices[]; };  // MeshVertex in one store
 
-const uint kMostEvaluations = 9;
-const float kTolerance = 0.01;  // of the value's range over the edge; the Newton step squares what is left
+const uint kMostSteps = 6;
+const float kTolerance = 0.02;  // of the value's range over the edge; the Newton step at the end squares what is left
 
 void main() {
     fieldBegin();
     uint chunkStart = push.chunk * MESHER_VERTEX_CHUNK;
     uint index = linearGroup() * MESHER_GROUP_VERTICES + gl_LocalInvocationIndex;
-    bool valid = chunkStart + index < counts.vertices && index < MESHER_VERTEX_CHUNK;
+    bool valid = chunkStart + index < counts.emitted.x && index < MESHER_VERTEX_CHUNK;
     uint word = vertexList[chunkStart + (valid ? index : 0)];
-    uint bit = word & 31, z = word >> 5 & 7, strip = word >> 8 & 7;
-    uint axis = strip >> 1;
-    uvec3 begin = unpackBrick(brickList[word >> 11]) * 8 + uvec3((strip & 1) * 4 + (bit >> 3), bit & 7, z);
+    uint bit = word & 31, axis = word >> 5 & 3, side = word >> 7 & 1, z = word >> 8 & 7;
+    uvec3 begin = unpackBrick(brickList[word >> 11]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);
     uvec3 along = uvec3(equal(uvec3(axis), uvec3(0, 1, 2)));
     vec3 p = samplePosition(begin);
     vec3 edge = samplePosition(begin + along) - p;
 
-    float a = 0.0, b = 1.0, fa = 0.0, fb = 0.0;  // the bracket, and the (possibly halved) values at its ends
-    float t = 0.0, scale = 0.0, f;
-    bool wasAtA = false;
+    float fa = fieldValue(p), fb = fieldValue(p + edge);
+    float a = 0.0, b = 1.0, scale = abs(fa) + abs(fb);
+    float t = fa / (fa - fb), next = clamp(t, 0.0, 1.0);
+    next = t == t ? next : 0.5;
+    vec4 gradient;
+    bool done;
     uint i = 0;
     do {
-        f = fieldValue(p + t * edge);
-        bool first = i == 0, second = i == 1;
+        t = next;
+        gradient = fieldGradient(p + t * edge);
+        float f = gradient.w;
         bool atA = (f < 0.0) == (fa < 0.0);  // the new point replaces the end whose sign it has
-        float halve = i > 2 && atA == wasAtA ? 0.5 : 1.0;  // an end that stays twice is pulled in
-        wasAtA = atA;
-        fb = first ? fb : second || !atA ? f : fb * halve;
-        b = first || second || atA ? b : t;
-        fa = first || (!second && atA) ? f : second ? fa : fa * halve;
-        a = !first && !second && atA ? t : a;
-        scale += first || second ? abs(f) : 0.0;
-        float secant = (a * fb - b * fa) / (fb - fa);
-        bool usable = secant >= a && secant <= b;  // false for NaN
-        t = first ? 1.0 : usable ? secant : 0.5 * (a + b);
-    } while (++i < 3 || (i < kMostEvaluations && abs(f) > kTolerance * scale));
-
-    vec4 gradient = fieldGradient(p + t * edge);
-    float newton = t - gradient.w / dot(gradient.xyz, edge);
-    t = newton >= a && newton <= b ? newton : t;
+        a = atA ? t : a;
+        fa = atA ? f : fa;
+        b = atA ? b : t;
+        fb = atA ? fb : f;
+        float newton = t - f / dot(gradient.xyz, edge), secant = (a * fb - b * fa) / (fb - fa);
+        next = i < 3 && secant >= a && secant <= b ? secant : 0.5 * (a + b);
+        next = newton >= a && newton <= b ? newton : next;
+        done = abs(f) <= kTolerance * scale;
+    } while (++i < kMostSteps && !done);
+    t = next;
     t = clamp(t, push.nudge, 1.0 - push.nudge);
 
     // An edge to the outside layer has its vertex on the region's boundary, a nudge away from the region's edges: the

@@ -112,15 +112,21 @@ TEST(MarchingCubesTable, AllPairsAcrossAFaceMeetWithoutGapOrFlip) {
 
 TEST(MarchingCubesTable, PackedTableHoldsTheSame) {
     for (int pattern = 0; pattern < 256; ++pattern) {
-        glm::uvec2 packed = packedCellPolygons()[pattern];
-        std::size_t codes = packed.x >> 30 | packed.y >> 30 << 2, at = 0;
+        glm::uvec3 packed = packedCellPolygons()[pattern];
+        std::size_t at = 0, all = 0;
+        for (const CellPolygon& polygon : cellPolygons(pattern)) all += polygon.size();
         for (const CellPolygon& polygon : cellPolygons(pattern)) {
             for (std::size_t i = 0; i < polygon.size(); ++i, ++at) {
-                uint32_t code = at < 6 ? packed.x >> 5 * at : packed.y >> 5 * (at - 6);
-                EXPECT_EQ(code & 31, polygon[i] | (i == 0 ? 16u : 0u));
+                uint32_t code = packed[int(at / 4)] >> at % 4 * 8 & 255;
+                CellEdge edge = cellEdge(polygon[i]);
+                EXPECT_EQ(code >> 5 & 1, edge.corner.x);
+                EXPECT_EQ(code & 1, edge.corner.y);
+                EXPECT_EQ(code >> 2 & 1, edge.corner.z);
+                EXPECT_EQ(int(code >> 3 & 3), edge.axis);
+                EXPECT_EQ((code & 64) != 0, i == 0);
+                EXPECT_EQ((code & 128) != 0, at + 1 == all);
             }
         }
-        EXPECT_EQ(codes, at);
     }
 }
 
