@@ -455,6 +455,12 @@ void readSettings(const Graph& graph, const Node& output, Program& program) {
     if (lo.size() == 3 && hi.size() == 3) program.region = Box{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
 }
 
+/// The number with as few digits as name it.
+std::string shortest(double number) {
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
 Error errorAt(const Graph& graph, const Node* node, std::string message) {
     Error error;
     error.message = std::move(message);
@@ -564,9 +570,9 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
     }
     for (double number : numbers)
         if (number < lo || number > hi)
-            return errorAt(graph, node,
-                           "the parameter '" + name + "' takes values from " + std::to_string(lo) + " to " +
-                               std::to_string(hi));
+            return errorAt(
+                graph, node,
+                "the parameter '" + name + "' takes values from " + shortest(lo) + " to " + shortest(hi));
     InputValue value;
     if (numbers.size() == 1)
         value.value = numbers[0];
