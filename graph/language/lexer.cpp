@@ -16,6 +16,13 @@ bool startsName(char c) { return std::isalpha(static_cast<unsigned char>(c)) || 
 bool continuesName(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
 
+/// The first character of UTF-8 text.
+std::string_view wholeCharacter(std::string_view text) {
+    std::size_t length = 1;
+    while (length < text.size() && length < 4 && (text[length] & 0xC0) == 0x80) ++length;
+    return text.substr(0, length);
+}
+
 }  // namespace
 
 Error codeError(Place place, std::string message) {
@@ -73,8 +80,7 @@ Result<std::vector<Token>> tokenize(std::string_view code) {
             length = end - (code.data() + at);
             const std::string_view digits = code.substr(at, length);
             if (failure != std::errc{} || !std::isfinite(token.value))
-                return codeError(place,
-                                 "the number '" + std::string(digits.substr(0, 40)) + "' is out of range");
+                return codeError(place, "the number " + inQuotes(digits) + " is out of range");
             token.kind = digits.find_first_of(".eE") == std::string_view::npos ? Token::Kind::integer
                                                                                : Token::Kind::number;
             if (at + length < code.size() && (code[at + length] == 'f' || code[at + length] == 'F')) {
@@ -82,8 +88,8 @@ Result<std::vector<Token>> tokenize(std::string_view code) {
                 ++length;
             }
             if (at + length < code.size() && continuesName(code[at + length]))
-                return codeError(place, "'" + std::string(code.substr(at, length + 1)) +
-                                            "' is neither a number nor a name");
+                return codeError(place,
+                                 inQuotes(code.substr(at, length + 1)) + " is neither a number nor a name");
         } else if (first == '"') {
             const std::size_t end = code.find('"', at + 1);
             if (end == std::string_view::npos)
@@ -98,7 +104,8 @@ Result<std::vector<Token>> tokenize(std::string_view code) {
                     break;
                 }
             if (length == 0)
-                return codeError(place, "the character '" + std::string(1, first) + "' has no meaning here");
+                return codeError(
+                    place, "the character " + inQuotes(wholeCharacter(rest())) + " has no meaning here");
             token.kind = Token::Kind::symbol;
         }
         if (token.kind != Token::Kind::string) token.text = code.substr(at, length);

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "graph/language/builtins.h"
@@ -20,6 +21,7 @@ struct Failure {
 struct Variable {
     std::string name;
     Value value;
+    bool constant = false;  ///< declared const: may not be assigned to
 };
 
 /// Conditions under which a loop's body was left early.
@@ -54,11 +56,16 @@ int swizzleIndex(char c) {
 class Run {
   public:
     Run(Lowering& state_, const Tree& tree_, const Scope& scope_)
-        : state(state_), ir(state_.ir), tree(tree_), scope(scope_) {}
+        : state(state_), ir(state_.ir), tree(tree_), scope(scope_) {
+        for (const Stmt& s : tree.statements)
+            if (s.kind == Stmt::Kind::assign && !s.declares) {
+                assignedTargets.insert(s.target);
+                if (s.target == "pos") assignedTargets.insert("p");
+            }
+    }
 
     std::vector<Value> outputs() {
-        Frame frame;
-        frame.live = ir.constant(1.0);
+        Frame frame = newFrame();
         for (StmtId id : tree.body) statement(frame, id);
 
         const Place end{1, 1};
@@ -66,7 +73,7 @@ class Run {
         if (scope.outputs.size() > 1) {
             for (const OutputSpec& output : scope.outputs) {
                 const Value* value = find(frame, output.name);
-                if (!value) fail(end, "the code assigns no '" + output.name + "'");
+                if (!value) fail(end, "the code assigns no " + inQuotes(output.name));
                 values.push_back(converted(*value, output.type, end));
             }
             return values;
@@ -107,6 +114,14 @@ class Run {
         return checked(convert(state, value, type), place);
     }
 
+    /// `value` as a variable of `type` holds it: an int truncates.
+    Value stored(const Value& value, Type type, Place place) {
+        Value made = converted(value, type, place);
+        if (type == Type::integer && value.type != Type::integer)
+            made.ids[0] = ir.add(Op::truncate, made.ids[0]);
+        return made;
+    }
+
     void step(Place place) {
         if (++state.steps > kMaxSteps)
             fail(place, "the code runs more than " + std::to_string(kMaxSteps) + " steps: shorten its loops");
@@ -118,10 +133,27 @@ class Run {
     // ---- variables
     // -------------------------------------------------------------------------------------------
 
-    static Value* find(Frame& frame, std::string_view name) {
+    /// A frame in which the inputs and `p` that the code assigns to are variables from the start: what an if
+    /// or a loop assigns to them lasts.
+    Frame newFrame() {
+        Frame frame;
+        frame.live = ir.constant(1.0);
+        for (const std::string& target : assignedTargets)
+            if (const Value* input = findInput(target))
+                frame.variables.push_back({target, *input});
+            else if (target == "p")
+                frame.variables.push_back({target, positionValue()});
+        return frame;
+    }
+
+    static Variable* findVariable(Frame& frame, std::string_view name) {
         for (auto it = frame.variables.rbegin(); it != frame.variables.rend(); ++it)
-            if (it->name == name) return &it->value;
+            if (it->name == name) return &*it;
         return nullptr;
+    }
+    static Value* find(Frame& frame, std::string_view name) {
+        Variable* variable = findVariable(frame, name);
+        return variable ? &variable->value : nullptr;
     }
     const Value* findInput(std::string_view name) const {
         for (const auto& [known, value] : scope.inputs)
@@ -202,24 +234,25 @@ class Run {
             if (s.expression == kNothing)
                 value = constantValue(state, s.type, std::array{0.0, 0.0, 0.0});
             else
-                value = converted(expression(frame, s.expression), s.type, s.place);
-            if (s.type == Type::integer && s.expression != kNothing)
-                value.ids[0] = ir.add(Op::truncate, value.ids[0]);
-            frame.variables.push_back({s.target, value});
+                value = stored(expression(frame, s.expression), s.type, s.place);
+            frame.variables.push_back({s.target, value, s.constant});
             remember(frame, s.target, value);
             return;
         }
         Value value = expression(frame, s.expression);
         std::string target = s.target;
         if (target == "pos" && !find(frame, target) && !findInput(target)) target = "p";
-        Value* variable = find(frame, target);
+        Variable* known = findVariable(frame, target);
+        if (known && known->constant)
+            fail(s.place, inQuotes(target) + " is const: drop the const, or assign to another name");
+        Value* variable = known ? &known->value : nullptr;
         std::optional<Value> old;
         if (variable)
             old = *variable;
         else
             old = named(frame, target);
         if (!old && (!s.operation.empty() || !s.swizzle.empty()))
-            fail(s.place, "'" + target + "' has no value yet");
+            fail(s.place, inQuotes(target) + " has no value yet");
 
         if (!s.swizzle.empty()) {
             value = withComponents(*old, s, value);
@@ -234,7 +267,7 @@ class Run {
             } else if (old->type == Type::scalar && value.type == Type::surface) {
                 // a name declared by a float keeps a surface's material from here on
             } else {
-                value = converted(value, old->type, s.place);
+                value = stored(value, old->type, s.place);
             }
             if (frame.loop && !ir.isConstant(frame.live))
                 value = checked(choose(state, frame.live, value, *old), s.place);
@@ -417,7 +450,7 @@ class Run {
         if (what == "function")
             for (const NodeType& type : nodeTypes()) names.push_back(type.id);
         const std::string near = nearestName(e.text, names);
-        fail(e.place, "unknown " + what + " '" + e.text + "'" +
+        fail(e.place, "unknown " + what + " " + inQuotes(e.text) +
                           (near.empty() ? "" : ": did you mean '" + near + "'?"));
     }
 
@@ -436,7 +469,7 @@ class Run {
         const auto boolean = [](IrId id) { return Value{Type::boolean, {id}}; };
         if (e.text == "&&" || e.text == "||") {
             if (a.type != Type::boolean || b.type != Type::boolean)
-                fail(e.place, "'" + e.text + "' joins comparisons");
+                fail(e.place, inQuotes(e.text) + " joins comparisons");
             return boolean(ir.add(e.text == "&&" ? Op::logicalAnd : Op::logicalOr, a.ids[0], b.ids[0]));
         }
         if (std::string_view("+-*/%").find(e.text) != std::string_view::npos)
@@ -469,14 +502,15 @@ class Run {
         if (name == "roughness") return {roughnessComponent, Type::scalar};
         if (name == "metallic") return {metallicComponent, Type::scalar};
         if (name == "emission") return {emissionComponent, Type::vec3};
-        fail(place, "a surface has no '" + std::string(name) +
-                        "': it has distance, base_color, roughness, metallic and emission");
+        fail(place, "a surface has no " + inQuotes(name) +
+                        ": it has distance, base_color, roughness, metallic and emission");
     }
 
     Value swizzled(const Value& value, std::string_view swizzle, Place place) {
         const int width = std::min(componentCount(value.type), 3);
         if (swizzle.size() > 3 || width == 0 || value.type == Type::surface)
-            fail(place, "a " + std::string(typeName(value.type)) + " has no '." + std::string(swizzle) + "'");
+            fail(place, "a " + std::string(typeName(value.type)) + " has no " +
+                            inQuotes("." + std::string(swizzle)));
         Value result{swizzle.size() == 3 ? Type::vec3 : swizzle.size() == 2 ? Type::vec2 : Type::scalar};
         for (std::size_t i = 0; i < swizzle.size(); ++i) {
             const int index = swizzleIndex(swizzle[i]);
@@ -533,13 +567,15 @@ class Run {
             for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
             type = findNodeType(lower);
         }
-        if (!type || type->body.empty()) unknown(frame, e, "function");
+        if (type && type->body.empty())
+            fail(e.place, "'" + type->id + "' is a node and no function: add it to the graph and link it");
+        if (!type) unknown(frame, e, "function");
         return callNode(*type, arguments, e);
     }
 
     Value atPosition(const Value& field, const std::vector<Value>& arguments, const Expr& e) {
         if (arguments.size() != 1 || componentCount(field.type) == 0)
-            fail(e.place, "'" + e.text + "' is a field: call it with one position, as in " + e.text + "(p)");
+            fail(e.place, inQuotes(e.text) + " is a field: call it with one position, as in a(p)");
         const Value q = converted(arguments[0], Type::vec3, e.place);
         Value result = field;
         for (int i = 0; i < componentCount(field.type); ++i) {
@@ -551,22 +587,22 @@ class Run {
 
     Value callFunction(const Function& function, const std::vector<Value>& arguments, const Expr& e) {
         if (arguments.size() != function.parameters.size())
-            fail(e.place, "'" + e.text + "' takes " + std::to_string(function.parameters.size()) +
+            fail(e.place, inQuotes(e.text) + " takes " + std::to_string(function.parameters.size()) +
                               " arguments, not " + std::to_string(arguments.size()));
         if (state.calls >= kMaxCalls)
-            fail(e.place, "'" + e.text + "' calls itself, or calls are nested deeper than " +
+            fail(e.place, inQuotes(e.text) + " calls itself, or calls are nested deeper than " +
                               std::to_string(kMaxCalls));
-        Frame frame;
-        frame.live = ir.constant(1.0);
+        Frame frame = newFrame();
         for (std::size_t i = 0; i < arguments.size(); ++i)
-            frame.variables.push_back({function.parameters[i].second,
-                                       converted(arguments[i], function.parameters[i].first, e.place)});
+            frame.variables.push_back(
+                {function.parameters[i].second, stored(arguments[i], function.parameters[i].first, e.place)});
         ++state.calls;
         statement(frame, function.body);
         --state.calls;
         if (!frame.result || !ir.isConstant(frame.live, 0.0))
-            fail(function.place, "the function '" + function.name + "' does not return on every path");
-        return converted(*frame.result, function.result, function.place);
+            fail(function.place,
+                 "the function " + inQuotes(function.name) + " does not return on every path");
+        return stored(*frame.result, function.result, function.place);
     }
 
     Value callNode(const NodeType& type, const std::vector<Value>& arguments, const Expr& e) {
@@ -587,7 +623,7 @@ class Run {
                                   std::string(typeName(arguments[i].type)));
             if (!input.options.empty() &&
                 std::find(input.options.begin(), input.options.end(), value->text) == input.options.end())
-                fail(e.place, "'" + value->text + "' is not one of the choices of " + input.name);
+                fail(e.place, inQuotes(value->text) + " is not one of the choices of " + input.name);
             inputs.push_back(*value);
         }
         return checked(firstOf(lowerNode(state, type, std::move(inputs))), e.place);
@@ -604,6 +640,7 @@ class Run {
     Ir& ir;
     const Tree& tree;
     const Scope& scope;
+    std::set<std::string> assignedTargets;  ///< of every assignment that is no declaration
 };
 
 /// The parsed body of a library node; a body that does not parse is a bug.

@@ -59,8 +59,7 @@ class Parser {
         throw Failure{codeError(token.place, message)};
     }
     static std::string shown(const Token& token) {
-        return token.kind == Token::Kind::end ? "the end of the code"
-                                              : "'" + std::string(token.text.substr(0, 40)) + "'";
+        return token.kind == Token::Kind::end ? "the end of the code" : inQuotes(token.text);
     }
     void expect(std::string_view symbol, std::string_view after) {
         if (!accept(symbol))
@@ -117,7 +116,8 @@ class Parser {
         made.result = *typeNamed(take().text);
         const Token& nameToken = peek();
         made.name = newName("a function");
-        if (tree.function(made.name)) fail(nameToken, "the function '" + made.name + "' is defined twice");
+        if (tree.function(made.name))
+            fail(nameToken, "the function " + inQuotes(made.name) + " is defined twice");
         expect("(", "after the function's name");
         if (!peek().is(")")) do {
                 const Token& typeToken = take();
@@ -158,11 +158,12 @@ class Parser {
         if (acceptName("for")) {
             made.kind = Stmt::Kind::loop;
             expect("(", "after for");
-            made.body.push_back(simpleStatement());
+            made.body.push_back(peek().is(";") ? nothing() : simpleStatement());
             expect(";", "after the loop's start");
+            if (peek().is(";")) fail(peek(), "the loop has no condition: it would not end");
             made.expression = expression();
             expect(";", "after the loop's condition");
-            made.body.push_back(simpleStatement());
+            made.body.push_back(peek().is(")") ? nothing() : simpleStatement());
             expect(")", "after the loop's step");
             made.body.push_back(statement());
             return add(std::move(made));
@@ -187,10 +188,12 @@ class Parser {
         return add(std::move(made));
     }
 
+    StmtId nothing() { return add(Stmt{Stmt::Kind::block, peek().place}); }
+
     /// A declaration, an assignment or a bare expression, without its semicolon.
     StmtId simpleStatement() {
         Stmt made{Stmt::Kind::assign, peek().place};
-        acceptName("const");
+        made.constant = acceptName("const");
         if (peek().kind == Token::Kind::name && typeNamed(peek().text) && peek(1).kind == Token::Kind::name) {
             made.declares = true;
             made.type = *typeNamed(take().text);
@@ -242,7 +245,12 @@ class Parser {
 
     void target(Stmt& made) {
         made.target = newName("a variable");
-        if (accept(".")) made.swizzle = std::string(take().text);
+        if (accept(".")) {
+            const Token& member = take();
+            if (member.kind != Token::Kind::name)
+                fail(member, "expected a component (as .x or .xyz) after '.', found " + shown(member));
+            made.swizzle = std::string(member.text);
+        }
         if (peek().is(".")) fail(peek(), "only one swizzle can be assigned to");
     }
 
@@ -319,7 +327,7 @@ class Parser {
                     if (!peek().is(")")) do {
                             made.arguments.push_back(expression());
                         } while (accept(","));
-                    expect(")", "after the arguments of '" + made.text + "'");
+                    expect(")", "after the arguments of " + inQuotes(made.text));
                 }
                 return add(std::move(made));
             case Token::Kind::symbol:

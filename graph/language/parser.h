@@ -55,6 +55,7 @@ struct Stmt {
     Place place;
     // assign
     bool declares = false;
+    bool constant = false;     ///< of a declaration: const
     Type type = Type::scalar;  ///< of a declaration
     std::string target{}, swizzle{};
     std::string operation{};  ///< "" for =, else the operator of +=, -=, …

@@ -87,6 +87,14 @@ int runExport(const ExportOptions& options) {
     if (!options.region.empty()) {
         const std::vector<double>& r = options.region;
         region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(region->lo[axis] < region->hi[axis])) {
+                std::fprintf(stderr,
+                             "fieldwright export: --region has no extent along %c: write its least corner, "
+                             "then its greatest: x0 y0 z0 x1 y1 z1\n",
+                             "xyz"[axis]);
+                return kBadUsage;
+            }
     }
 
     // The device starts while the graph is read: on software Vulkan that takes longer than the rest.

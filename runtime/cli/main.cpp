@@ -1,11 +1,14 @@
 // `fieldwright`: reads the command line and runs one command.
+#include <algorithm>
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <map>
 #include <new>
 
+#include "graph/node_type.h"
 #include "runtime/cli/commands.h"
 #include "tests/bench/bench.h"
 
@@ -17,17 +20,48 @@ namespace {
 
 void onInterrupt(int) { interrupted = true; }
 
+/// Accepts a number that is neither infinite nor a NaN.
+CLI::Validator finite() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            double number = 0.0;
+            const bool fine = CLI::detail::lexical_cast(text, number) && std::isfinite(number);
+            return fine ? std::string() : inQuotes(text) + " is not a finite number";
+        },
+        "NUMBER");
+}
+
+/// The arguments with "-.5" as "-0.5": the parser takes a minus before a point for an option's name.
+std::vector<std::string> readableNumbers(int count, char** arguments) {
+    std::vector<std::string> words(arguments + 1, arguments + count);
+    for (std::string& word : words)
+        if (word.size() > 2 && word[0] == '-' && word[1] == '.' && word[2] >= '0' && word[2] <= '9')
+            word.insert(1, "0");
+    return words;
+}
+
+/// What is wrong with the command line, and where more is said.
+std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
+    std::string command = "fieldwright";
+    for (const CLI::App* used : app->get_subcommands()) command += " " + used->get_name();
+    return command + ": " + error.what() + "\nTry: " + command + " --help\n";
+}
+
 void addGraph(CLI::App* command, GraphOptions& graph) {
     command->add_option("GRAPH", graph.path, "The graph file (*.field.json)")->required();
     command->add_option("--set", graph.assignments, "Set an exposed parameter: name=value, or name=x,y,z")
-        ->take_all();
-    command->add_option("--time", graph.time, "Seconds at which the graph is evaluated")->default_val(0.0);
+        ->take_all()
+        ->allow_extra_args(false);
+    command->add_option("--time", graph.time, "Seconds at which the graph is evaluated")
+        ->default_val(0.0)
+        ->check(finite());
 }
 
 int run(int count, char** arguments) {
-    CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields"};
+    CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields", "fieldwright"};
     app.set_version_flag("--version", "fieldwright " FIELDWRIGHT_VERSION);
     app.require_subcommand(1);
+    app.failure_message(usageMessage);
     app.footer(
         "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 "
         "interrupted.\n"
@@ -50,7 +84,8 @@ int run(int count, char** arguments) {
     exportCommand
         ->add_option("--region", exportOptions.region,
                      "Mesh only this box: x0 y0 z0 x1 y1 z1, in metres (default: found from the field)")
-        ->expected(6);
+        ->expected(6)
+        ->check(finite());
     exportCommand->add_option("--report", exportOptions.report,
                               "Write what the mesh file holds, measured from it, as JSON to this file");
     exportCommand->add_option("--device", exportOptions.device,
@@ -66,12 +101,14 @@ int run(int count, char** arguments) {
         app.add_subcommand("eval", "Evaluate a graph's field on the CPU, in double precision");
     addGraph(evalCommand, evalOptions.graph);
     evalCommand->add_option("--at", evalOptions.at, "The point: x y z. Prints the distance (negative inside)")
-        ->expected(3);
+        ->expected(3)
+        ->check(finite());
     evalCommand->add_flag("--gradient", evalOptions.gradient, "Print the gradient at the point too");
     evalCommand
         ->add_option("--interval", evalOptions.interval,
                      "A box: x0 y0 z0 x1 y1 z1. Prints bounds of the field over it")
-        ->expected(6);
+        ->expected(6)
+        ->check(finite());
 
     CompileCommandOptions compileOptions;
     CLI::App* compileCommand = app.add_subcommand("compile", "Show what a graph compiles to");
@@ -82,7 +119,8 @@ int run(int count, char** arguments) {
     compileCommand
         ->add_option("--live", compileOptions.live,
                      "Keep this input a parameter instead of folding it: node.input")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
 
     NodesFormat nodesFormat = NodesFormat::list;
     CLI::App* nodesCommand = app.add_subcommand("nodes", "List the node library");
@@ -110,8 +148,20 @@ int run(int count, char** arguments) {
 
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
 
+    std::vector<std::string> words = readableNumbers(count, arguments);
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    if (!words.empty() && !words[0].starts_with('-') &&
+        std::find(names.begin(), names.end(), words[0]) == names.end()) {
+        const std::string near = nearestName(words[0], names);
+        std::fprintf(stderr, "fieldwright: there is no command %s%s\nTry: fieldwright --help\n",
+                     inQuotes(words[0]).c_str(),
+                     near.empty() ? "" : (": did you mean '" + near + "'?").c_str());
+        return kBadUsage;
+    }
     try {
-        app.parse(count, arguments);
+        std::reverse(words.begin(), words.end());  // the parser takes them from the back
+        app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
     if (exportCommand->parsed()) {

@@ -107,6 +107,24 @@ TEST(Language, Statements) {
     expectValue("float f(vec2 q) { if (q.x < q.y) return q.x; return q.y; } return f(p.xy) + f(p.yx);", -0.8);
 }
 
+TEST(Language, AssignmentsInBlocksLast) {
+    expectValue("for (int i = 0; i < 3; i++) { p = abs(p) - 0.1; } return p.x + 10 * p.y + 100 * p.z;", 21.0);
+    expectValue("if (p.x > 0.0) { p.y = 7.0; } return p.y;", 7.0);
+    expectValue("if (p.x > 9.0) pos.y = 7.0; return p.y;", -0.4);
+    expectValue("float f(vec3 p) { if (p.x > 0.0) p = -p; return p.x; } return f(p) + p.x;", 0.0);
+    expectValue("float f(float x) { p.x += x; return p.x; } return f(1.0) + f(1.0);", 2.6);
+    expectValue("float a = 1; { float a = 2; a = 3; } { a += 5; } return a;", 6.0);
+    expectValue("{ vec3 p = vec3(9); p.x = 8.0; } return p.x;", 0.3);
+}
+
+TEST(Language, IntegersTruncateWhereverTheyAreStored) {
+    expectValue("int i = 7; i /= 2; return i;", 3.0);
+    expectValue("int i = 0; i = -2.7; return i;", -2.0);
+    expectValue("float f(int n) { return n; } return f(2.9);", 2.0);
+    expectValue("int f() { return 2.9; } return f();", 2.0);
+    expectValue("int i = 0; for (; i < 4;) { i += 2; } return i;", 4.0);
+}
+
 TEST(Language, LeavingALoopWherePositionDecides) {
     const std::string code =
         "float d = 0; for (int i = 0; i < 8; i++) { d += 1; if (d > p.x) break; d += 0.5; } return d;";
@@ -210,10 +228,16 @@ TEST(Language, Diagnostics) {
     expectError("return 1/0;", "code 1:9: division by zero");
     expectError("return p / vec3(1, 0, 1);", "division by zero");
     expectError("float f(float x) { return f(x); } return f(1);", "calls itself");
-    expectError("for (;;) {}", "code 1:6");
-    expectError("for (int i = 0; i < 1; ) d = p.x;", "code 1:24");
+    expectError("for (;;) {}", "code 1:7: the loop has no condition");
+    expectError("for (int i = 0; i < 1; ) d = p.x;", "steps");
     expectError("for (int i = 0; i < 1; i = i) d = p.x;", "steps");
     expectError("for (int i = 0; i < p.x; i++) d = 1.;", "must be known");
+    expectError("const float k = 1; k = 2;", "'k' is const");
+    expectError("return output(p);", "is a node and no function");
+    expectError("p.", "expected a component");
+    expectError("++p.;", "expected a component");
+    expectError(std::string("return 1 \0;", 11), "the character '?' has no meaning");
+    expectError("return é;", "the character 'é' has no meaning");
     expectError("while (true) {}", "'while' is not part of the language");
     expectError("return vec3(1) + vec2(1);", "vec2 and vec3 do not mix");
     expectError("return \"a\";", "string");
