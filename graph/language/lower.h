@@ -10,7 +10,7 @@
 //   * `a(q)`, a field at another position, is a substitution in a's graph.
 //
 // Numbers: an integer literal is a float wherever a float is wanted, `/` always divides as float, and
-// declaring an `int` truncates. A surface stands for its distance in arithmetic; min and max of surfaces keep
+// an `int` truncates what is stored in it. A surface stands for its distance in arithmetic; min and max of surfaces keep
 // the material of the side taken; assigning a float to a variable that holds a surface replaces its distance.
 #pragma once
 
