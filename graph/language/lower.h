@@ -10,8 +10,9 @@
 //   * `a(q)`, a field at another position, is a substitution in a's graph.
 //
 // Numbers: an integer literal is a float wherever a float is wanted, `/` always divides as float, and
-// an `int` truncates what is stored in it. A surface stands for its distance in arithmetic; min and max of surfaces keep
-// the material of the side taken; assigning a float to a variable that holds a surface replaces its distance.
+// an `int` truncates what is stored in it. A surface stands for its distance in arithmetic; min and max of
+// surfaces keep the material of the side taken; assigning a float to a variable that holds a surface replaces
+// its distance.
 #pragma once
 
 #include <memory>

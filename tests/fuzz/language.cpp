@@ -1,0 +1,71 @@
+// libFuzzer: any bytes are read as the code of an expression. What compiles must evaluate at a point and over
+// a box that holds it, the bounds containing the value; what is refused must be refused with a place.
+//
+//   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_language
+//   build/fuzz/fuzz_language -max_total_time=60 -max_len=2048 -rss_limit_mb=500 -timeout=10
+//   -dict=tests/fuzz/language.dict CORPUS
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "graph/evaluate.h"
+#include "graph/language/lower.h"
+
+namespace {
+
+void require(bool condition, const char* what) {
+    if (condition) return;
+    std::fprintf(stderr, "does not hold: %s\n", what);
+    std::abort();
+}
+
+bool isRefusal(const fw::Error& error) {
+    return !error.message.empty() && error.codeLine > 0 && error.codeColumn > 0;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
+    using namespace fw;
+    const std::string_view code(reinterpret_cast<const char*>(data), size);
+    const Result<std::shared_ptr<const language::Tree>> tree = language::parse(code);
+    if (!tree) {
+        require(isRefusal(tree.error()), "an error has a message and a place in the code");
+        return 0;
+    }
+
+    language::Lowering state;
+    state.time = state.ir.constant(0.25);
+    // Loops and copies may cost what a user's may, but here only the last part of it.
+    state.steps = language::kMaxSteps - 20'000;
+    language::Scope scope;
+    scope.anyResult = true;
+    scope.refusesZeroDivision = true;
+    language::Value field{Type::scalar, {state.ir.add(Op::absolute, state.ir.position(0))}};
+    language::Value vector = language::constantValue(state, Type::vec3, std::array{1.0, -2.0, 0.5});
+    scope.inputs = {{"a", field}, {"v", vector}, {"s", language::emptySurface(state)}};
+    const Result<std::vector<language::Value>> values = language::lower(state, **tree, scope);
+    if (!values) {
+        require(isRefusal(values.error()), "an error has a message and a place in the code");
+        return 0;
+    }
+    require(values->size() == 1, "an expression has one result");
+
+    const int count = componentCount(values->front().type);
+    const Point point{0.3, -0.7, 1.1};
+    const Box box{{0.25, -1.0, 1.0}, {0.5, -0.5, 1.25}};
+    for (int i = 0; i < count; ++i) {
+        const IrId root = values->front().ids[i];
+        const double value = evaluate(state.ir, root, {}, point);
+        const Interval range = evaluateInterval(state.ir, root, {}, box);
+        // Bounds are rounded outward in steps that a long sum of large numbers can exceed.
+        const double slack = 1e-6 * (1.0 + std::abs(value));
+        if (std::isfinite(value) && std::abs(value) < 1e6)
+            require(!(value < range.lo - slack) && !(value > range.hi + slack),
+                    "the bounds over a box contain the value at a point of it");
+    }
+    return 0;
+}
