@@ -70,6 +70,8 @@ std::vector<CellPolygon> derive(int pattern) {
 }
 
 glm::uvec3 pack(const std::vector<CellPolygon>& polygons) {
+    // An empty pattern ends at once, wherever the reader starts.
+    if (polygons.empty()) return glm::uvec3(0x80808080u);
     glm::uvec3 words(0);
     unsigned count = 0, last = 0;
     for (const CellPolygon& polygon : polygons) {

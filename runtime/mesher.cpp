@@ -22,12 +22,11 @@ enum Kernel {
     compact,
     link,
     sample,
-    count,
-    topStrips,
-    topStripsChunked,
-    emit,
+    classify,
+    topGroups,
+    topGroupsChunked,
+    triangles,
     vertices,
-    indices,
     colors,
     kernelCount
 };
@@ -35,7 +34,8 @@ enum Kernel {
 /// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
 constexpr int kCellsForBlocks = 512;
 
-constexpr uint32_t kMostBricks = 1u << 19;  // 128 MiB of lookup, what every device can bind
+constexpr uint32_t kMostBricks = 1u << 20;  // twenty bits in the list of vertices
+constexpr uint64_t kLookupBytes = 16 * 16;  // of the edge -> vertex lookup, for a brick
 constexpr float kLeastNudge = 1e-4f;        // cells
 constexpr float kNudgeUlps = 8.0f;          // of the largest coordinate
 constexpr float kMostNudge = 0.05f;
@@ -64,19 +64,47 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.links, bricks * 32);
     reserve(device, buffers.planes, bricks * 9 * 12);
     reserve(device, buffers.sums, spread(chunksOf(bricks, MESHER_GROUP_BRICKS)) * 16);
-    reserve(device, buffers.edges, bricks * 16 * 16);
-    reserve(device, buffers.stripList, bricks * 16 * 8);
+    reserve(device, buffers.edges, bricks * kLookupBytes);
+    reserve(device, buffers.stripList,
+            spread(chunksOf(bricks, MESHER_GROUP_BRICKS)) * MESHER_GROUP_STRIPS * 4);
     reserve(device, buffers.vertexList, uint64_t(buffers.vertexCapacity) * 4);
     reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
     if (wantColors) reserve(device, buffers.colors, uint64_t(buffers.vertexCapacity) * 12);
     reserve(device, buffers.triangles, uint64_t(buffers.triangleCapacity) * 12);
 }
 
+/// What can be numbered and bound.
+struct Limits {
+    uint32_t bricks, vertices, triangles;
+};
+Limits limitsOf(const Device& device) {
+    uint64_t range = device.properties.limits.maxStorageBufferRange;
+    uint64_t listed = range / 4;  // the list of vertices is bound as a whole
+    return {uint32_t(std::min<uint64_t>(kMostBricks, range / kLookupBytes)),
+            uint32_t(std::min<uint64_t>(uint64_t(MESHER_VERTEX_CHUNK) * MESHER_CHUNKS, listed)),
+            uint32_t(uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS)};
+}
+
+constexpr uint64_t kVerticesOfABrick = 72;  // a plane across it and some folds
+
+/// First guesses, from the area of the region's cross sections. Memory of a software device costs nothing
+/// until it is written, so there the guess is for a surface folded as densely as a Menger sponge.
+void guessCapacities(const Device& device, MesherBuffers& buffers, glm::uvec3 cells, const Limits& most) {
+    uint64_t section =
+        (uint64_t(cells.x) * cells.y + uint64_t(cells.y) * cells.z + uint64_t(cells.z) * cells.x) / 3;
+    uint64_t vertices = section * (device.software ? 24 : 8) + 8192;
+    auto raise = [](uint32_t& capacity, uint64_t guess, uint32_t limit) {
+        capacity = std::max(capacity, uint32_t(std::min<uint64_t>(guess, limit)));
+    };
+    raise(buffers.brickCapacity, vertices / 48 + 512, most.bricks);
+    raise(buffers.vertexCapacity, vertices, most.vertices);
+    raise(buffers.triangleCapacity, 2 * vertices, most.triangles);
+}
+
 /// Capacity for a count that turned out larger, with some room so that small changes do not grow it each
 /// time.
-uint32_t grown(uint32_t capacity, uint32_t needed) {
-    return needed <= capacity ? capacity
-                              : uint32_t(std::min<uint64_t>(needed + uint64_t(needed) / 8 + 256, ~0u));
+uint32_t grown(uint32_t capacity, uint64_t needed, uint32_t most) {
+    return needed <= capacity ? capacity : uint32_t(std::min<uint64_t>(needed + needed / 8 + 256, most));
 }
 
 Error tooLarge(const char* what, uint64_t has, uint64_t most) {
@@ -134,31 +162,31 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     indirect(link, MESHER_LINKS, {{3, b.rows}, {5, b.brickList}, {6, b.links}});
     beginStage(commands, "sample");
     indirect(sample, MESHER_BRICKS, {{5, b.brickList}, {7, b.planes}});
-    beginStage(commands, "count");
-    indirect(count, MESHER_BRICKS, {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}});
-    direct(vertexChunks > 1 || triangleChunks > 1 ? topStripsChunked : topStrips, 1, {{4, b.sums}});
-    beginStage(commands, "emit");
-    indirect(emit, MESHER_EMIT,
-             {{4, b.sums}, {7, b.planes}, {8, b.edges}, {11, b.vertexList}, {12, b.stripList}});
+    beginStage(commands, "classify");
+    indirect(classify, MESHER_BRICKS,
+             {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}, {8, b.edges}, {12, b.stripList}});
+    direct(vertexChunks > 1 || triangleChunks > 1 ? topGroupsChunked : topGroups, 1, {{4, b.sums}});
+    beginStage(commands, "triangles");
+    for (push.chunk = 0; push.chunk < triangleChunks; ++push.chunk) {
+        indirect(triangles, MESHER_TRIANGLES + push.chunk,
+                 {{4, b.sums},
+                  {6, b.links},
+                  {7, b.planes},
+                  {8, b.edges},
+                  {10, b.vertexList},
+                  {11, b.table},
+                  {12, b.stripList},
+                  chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
+    }
     beginStage(commands, "vertices");
     for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk) {
         uint32_t arguments = MESHER_VERTICES + push.chunk;
         Descriptor target = chunkOf(device, 13, b.vertices, push.chunk,
                                     uint64_t(MESHER_VERTEX_CHUNK) * sizeof(gpu::MeshVertex));
-        indirect(vertices, arguments, {{5, b.brickList}, {11, b.vertexList}, target});
+        indirect(vertices, arguments, {{5, b.brickList}, {10, b.vertexList}, target});
         if (config.colors)
             indirect(colors, arguments,
                      {target, chunkOf(device, 14, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
-    }
-    beginStage(commands, "indices");
-    for (push.chunk = 0; push.chunk < triangleChunks; ++push.chunk) {
-        indirect(indices, MESHER_STRIPS + push.chunk,
-                 {{6, b.links},
-                  {7, b.planes},
-                  {8, b.edges},
-                  {11, b.table},
-                  {12, b.stripList},
-                  chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
     }
 }
 
@@ -176,12 +204,11 @@ MesherPipelines createMesherPipelines(const Device& device, std::string_view fie
     set(compact, "mesher/compact.comp");
     set(link, "mesher/link.comp");
     set(sample, "mesher/sample.comp");
-    set(count, "mesher/count.comp");
-    set(topStrips, "mesher/top_strips.comp", {0});
-    set(topStripsChunked, "mesher/top_strips.comp", {1});
-    set(emit, "mesher/emit.comp");
+    set(classify, "mesher/classify.comp");
+    set(topGroups, "mesher/top_groups.comp", {0});
+    set(topGroupsChunked, "mesher/top_groups.comp", {1});
+    set(triangles, "mesher/triangles.comp");
     set(vertices, "mesher/vertices.comp");
-    set(indices, "mesher/indices.comp");
     if (wantColors)
         set(colors, "mesher/colors.comp");
     else
@@ -211,14 +238,8 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
 
     glm::uvec3 cells(config.cells);
     glm::uvec3 blockCount = (cells + 2u + 63u) / 64u;
-    // First guesses: a surface of some eight cross sections of the region.
-    uint64_t section =
-        (uint64_t(cells.x) * cells.y + uint64_t(cells.y) * cells.z + uint64_t(cells.z) * cells.x) / 3;
-    auto guess = [](uint64_t items) { return uint32_t(std::min<uint64_t>(items, 1u << 27)); };
-    buffers.brickCapacity = std::max(buffers.brickCapacity, std::min(kMostBricks, guess(section / 8 + 512)));
-    buffers.vertexCapacity = std::max(buffers.vertexCapacity, guess(section * 8 + 8192));
-    buffers.triangleCapacity = std::max(buffers.triangleCapacity, guess(section * 16 + 16384));
-
+    const Limits most = limitsOf(device);
+    guessCapacities(device, buffers, cells, most);
     MesherPush push{};
     push.origin = config.origin;
     push.cellSize = config.cellSize;
@@ -237,18 +258,19 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
         submit(commands);
         result.stages = commands.stages;
         MesherCounts counts = download<MesherCounts>(device, buffers.counts, 1)[0];
-        constexpr uint64_t kMostVertices = uint64_t(MESHER_VERTEX_CHUNK) * MESHER_CHUNKS;
-        constexpr uint64_t kMostTriangles = uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS;
-        if (counts.bricks > kMostBricks)
-            return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, kMostBricks);
-        if (counts.emitted.x > kMostVertices) return tooLarge("vertices", counts.emitted.x, kMostVertices);
-        if (counts.emitted.y > kMostTriangles) return tooLarge("triangles", counts.emitted.y, kMostTriangles);
-        bool fits = counts.bricks <= buffers.brickCapacity && counts.emitted.x <= buffers.vertexCapacity &&
-                    counts.emitted.y <= buffers.triangleCapacity;
+        if (counts.bricks > most.bricks)
+            return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, most.bricks);
+        if (counts.vertices > most.vertices) return tooLarge("vertices", counts.vertices, most.vertices);
+        if (counts.triangles > most.triangles) return tooLarge("triangles", counts.triangles, most.triangles);
+        bool fits = counts.bricks <= buffers.brickCapacity && counts.vertices <= buffers.vertexCapacity &&
+                    counts.triangles <= buffers.triangleCapacity;
         if (!fits) {
-            buffers.brickCapacity = std::min(kMostBricks, grown(buffers.brickCapacity, counts.bricks));
-            buffers.vertexCapacity = grown(buffers.vertexCapacity, counts.emitted.x);
-            buffers.triangleCapacity = grown(buffers.triangleCapacity, counts.emitted.y);
+            // Too many bricks: nothing else was counted yet, so it is estimated.
+            uint64_t perBrick = counts.vertices ? 0 : kVerticesOfABrick * counts.bricks;
+            buffers.brickCapacity = grown(buffers.brickCapacity, counts.bricks, most.bricks);
+            buffers.vertexCapacity = grown(buffers.vertexCapacity, counts.vertices + perBrick, most.vertices);
+            buffers.triangleCapacity =
+                grown(buffers.triangleCapacity, counts.triangles + 2 * perBrick, most.triangles);
             continue;
         }
         if (counts.leaks) {
@@ -261,8 +283,8 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
                 push.margin = std::numeric_limits<float>::infinity();
             continue;
         }
-        result.vertices = counts.emitted.x;
-        result.triangles = counts.emitted.y;
+        result.vertices = counts.vertices;
+        result.triangles = counts.triangles;
         result.bricks = counts.bricks;
         result.capped = counts.caps != 0;
         return result;

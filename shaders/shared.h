@@ -29,10 +29,10 @@ using vec4 = glm::vec4;
 #define MESHER_VERTEX_CHUNK 8388608u     // vertices that one dispatch writes: 16 bytes each make 128 MiB
 #define MESHER_TRIANGLE_CHUNK 11000000u  // triangles that one dispatch starts: 12 bytes each and some slack, ditto
 #define MESHER_CHUNKS 16                 // dispatches at most: 2 GiB, the largest allocation
-#define MESHER_GROUP_BRICKS 8            // bricks of one work group of the kernels over planes and strips
-#define MESHER_GROUP_LINKS 64            // bricks, vertices and strips of one work group of the kernels over those
+#define MESHER_GROUP_BRICKS 8            // bricks of a group: of one work group of the kernels over planes
+#define MESHER_GROUP_STRIPS 128          // strips of one such group: 16 a brick
+#define MESHER_GROUP_LINKS 64            // bricks and vertices of one work group of the kernels over those
 #define MESHER_GROUP_VERTICES 64
-#define MESHER_GROUP_STRIPS 64
 
 // What every mesher kernel is told.
 struct MesherPush {
@@ -58,10 +58,9 @@ struct DispatchArguments {
 #define MESHER_COMPACT 1   // the same, none if there are too many bricks
 #define MESHER_LINKS 2     // over bricks
 #define MESHER_BRICKS 3    // over bricks
-#define MESHER_EMIT 4      // the same, none if there is too much to emit
-#define MESHER_VERTICES 5  // over vertices, one for each chunk
-#define MESHER_STRIPS (MESHER_VERTICES + MESHER_CHUNKS)  // over strips, one for each chunk of triangles
-#define MESHER_GROUPS (MESHER_STRIPS + MESHER_CHUNKS)
+#define MESHER_VERTICES 4  // over vertices, one for each chunk
+#define MESHER_TRIANGLES (MESHER_VERTICES + MESHER_CHUNKS)  // over groups of bricks, one for each chunk of triangles
+#define MESHER_GROUPS (MESHER_TRIANGLES + MESHER_CHUNKS)
 
 // What the kernels count, and the arguments of the indirect dispatches and of the draw that follow.
 struct MesherCounts {
@@ -69,9 +68,10 @@ struct MesherCounts {
     uint bricks;  // the same
     uint caps;    // not 0 if the surface was closed at the region's boundary
     uint leaks;   // not 0 if surface runs on into a brick that was culled: the mesh is then not usable
-    uvec3 emitted;  // vertices, triangles, strips with active cells
+    uint vertices;
+    uint triangles;
     DispatchArguments groups[MESHER_GROUPS];
-    uint stripStart[MESHER_CHUNKS + 1];  // first strip of each chunk of triangles
+    uint groupStart[MESHER_CHUNKS + 1];  // first group of bricks of each chunk of triangles
     uint draw[5];                        // arguments of vkCmdDrawIndexedIndirect
 };
 

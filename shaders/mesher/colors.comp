@@ -10,7 +10,7 @@ layout(binding = 14, scalar) writeonly buffer Colors { vec3 colors[]; };
 void main() {
     fieldBegin();
     uint index = linearGroup() * MESHER_GROUP_VERTICES + gl_LocalInvocationIndex;
-    bool valid = push.chunk * MESHER_VERTEX_CHUNK + index < counts.emitted.x && index < MESHER_VERTEX_CHUNK;
+    bool valid = push.chunk * MESHER_VERTEX_CHUNK + index < counts.vertices && index < MESHER_VERTEX_CHUNK;
     vec3 p = uintBitsToFloat(vertices[valid ? index : 0].xyz);
     vec3 color = clamp(fieldMaterial(p).baseColor, 0.0, 1.0);
     if (valid) colors[index] = color;

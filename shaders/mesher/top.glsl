@@ -1,28 +1,28 @@
 // The top of the histopyramid: one work group sums the counts of all groups below, in place. Each lane walks a
 // contiguous part twice, once for its sum and once to write the sums before each entry.
 #define HISTOPYRAMID_LANES 256
-#define HISTOPYRAMID_TYPE uvec3
+#define HISTOPYRAMID_TYPE uvec2
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
 layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
 
-/// Replaces sums[0..count) by the sums before each; returns the sum of all.
-uvec3 sumUp(uint count) {
+/// Replaces x and y of sums[0..count) by the sums before each; returns the sum of all.
+uvec2 sumUp(uint count) {
     uint each = max((count + HISTOPYRAMID_LANES - 1) / HISTOPYRAMID_LANES, 1);
     uint first = min(gl_LocalInvocationIndex * each, count), last = min(first + each, count);
-    uvec3 part = uvec3(0);
+    uvec2 part = uvec2(0);
     uint i = first;
     do {
-        if (i < last) part += sums[i].xyz;
+        if (i < last) part += sums[i].xy;
     } while (++i < first + each);
-    uvec3 total;
-    uvec3 before = sumBefore(part, total);
+    uvec2 total;
+    uvec2 before = sumBefore(part, total);
     i = first;
     do {
-        uvec3 own = i < last ? sums[i].xyz : uvec3(0);
-        if (i < last) sums[i] = uvec4(before, 0);
-        before += own;
+        uvec4 own = i < last ? sums[i] : uvec4(0);
+        if (i < last) sums[i] = uvec4(before, own.zw);
+        before += own.xy;
     } while (++i < first + each);
     return total;
 }

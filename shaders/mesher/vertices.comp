@@ -12,7 +12,7 @@
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
 layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 11, scalar) readonly buffer VertexList { uint vertexList[]; };
+layout(binding = 10, scalar) readonly buffer VertexList { uint vertexList[]; };
 layout(binding = 13, scalar) writeonly buffer Vertices { uvec4 vertices[]; };  // MeshVertex in one store
 
 const uint kMostSteps = 6;
@@ -22,7 +22,7 @@ void main() {
     fieldBegin();
     uint chunkStart = push.chunk * MESHER_VERTEX_CHUNK;
     uint index = linearGroup() * MESHER_GROUP_VERTICES + gl_LocalInvocationIndex;
-    bool valid = chunkStart + index < counts.emitted.x && index < MESHER_VERTEX_CHUNK;
+    bool valid = chunkStart + index < counts.vertices && index < MESHER_VERTEX_CHUNK;
     uint word = vertexList[chunkStart + (valid ? index : 0)];
     uint bit = word & 31, axis = word >> 5 & 3, side = word >> 7 & 1, z = word >> 8 & 7;
     uvec3 begin = unpackBrick(brickList[word >> 11]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);

@@ -1,0 +1,98 @@
+// From signs to what will be written: the edge -> vertex lookup, the strips with active cells, and how many vertices and
+// triangles each group of eight bricks has. A lane takes one plane of cells; places are counted from the first of the
+// group, the level above (top_groups.comp) sums up the groups. Also finds surface that was closed at the region's
+// boundary, and surface that runs into a brick that was culled.
+//
+// The strips of a group are listed by their number of active cells, in four classes: the lanes of a subgroup run
+// as long as the longest among them when they write the triangles.
+#define HISTOPYRAMID_LANES (8 * MESHER_GROUP_BRICKS)
+#define HISTOPYRAMID_TYPE uvec2
+#include "mesher/mesher.glsl"
+#include "mesher/strips.glsl"
+#include "mesher/edges.glsl"
+#include "mesher/links.glsl"
+#include "lib/histopyramid.glsl"
+
+layout(local_size_x = HISTOPYRAMID_LANES) in;
+layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = 12, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, first triangle << 7
+
+const uint kRow = 0x01010101u;  // y = 0 of every column
+
+/// Whether an edge that starts or ends in the outside layer is active: there the surface was closed.
+bool hasCap(uvec3 first, uint z, uvec3 edges) {
+    uvec3 last = push.cells + 1 - first;  // local index of the last sample of the region, huge if it lies before
+    uint x = (first.x == 0 ? 255 : 0) | (last.x < 4 ? 255u << last.x * 8 : 0);
+    uint y = (first.y == 0 ? kRow : 0) | (last.y < 8 ? kRow << last.y : 0);
+    bool rim = first.z + z == 0 || z == last.z;
+    return ((edges.x & x) | (edges.y & y) | (rim ? edges.z : 0)) != 0;
+}
+
+/// Faces of the brick (bits as in the links) on which an edge of the strip is active.
+uint crossedFaces(uint z, uint side, uvec3 a, uvec3 b, uvec3 edges, StripSigns top) {
+    uint column = a.z & 511, topColumn = b.z & 511, row = a.z >> (9 + 4 * side), topRow = b.z >> (9 + 4 * side);
+    uint columnEdges = side == 1 ? (column ^ column >> 1) & 255 : 0;
+    uint topEdges = (top.at ^ top.x) | (top.at ^ top.y) | ((topRow ^ topRow >> 1) & 15) |
+                    (side == 1 ? (topColumn ^ topColumn >> 1) & 255 : 0);
+    uint rowEdges = (row ^ row >> 1) & 15;
+    uint columnUp = side == 1 ? column ^ topColumn : 0, rowUp = (row ^ topRow) & 15;
+    uvec3 above = uvec3(columnEdges | columnUp, rowEdges | rowUp, z == 7 ? topEdges : 0);
+    uvec3 below = uvec3(side == 0 ? ((edges.y | edges.z) & 255) | (rowUp & 1) : 0,
+                        ((edges.x | edges.z) & kRow) | (columnUp & 1),
+                        z == 0 ? edges.x | edges.y | columnEdges | rowEdges : 0);
+    uvec3 bits = mix(uvec3(0), uvec3(1, 2, 4), notEqual(above, uvec3(0))) |
+                 mix(uvec3(0), uvec3(8, 16, 32), notEqual(below, uvec3(0)));
+    return bits.x | bits.y | bits.z;
+}
+
+/// Where the strips of a class are counted: a byte for each class, that of most cells lowest.
+uint classShift(uint cells) { return cells > 16 ? 0 : cells > 8 ? 8 : cells > 4 ? 16 : 24; }
+
+void main() {
+    uint group = linearGroup();
+    uint slot = group * MESHER_GROUP_BRICKS + (gl_LocalInvocationIndex >> 3);
+    uint z = gl_LocalInvocationIndex & 7;
+    bool valid = slot < counts.bricks;
+    slot = valid ? slot : 0;
+    uvec3 a = planes[slot * 9 + z], b = planes[slot * 9 + z + 1];
+    uvec3 first = unpackBrick(brickList[slot]) * 8;
+    uint faces = links[slot * 8 + 7];
+    uvec3 crossed[2];
+    uint cells[2], triangles[2];
+    uvec2 own = uvec2(0);  // vertices and triangles << 16; strips by class
+    bool cap = false, leak = false;
+    [[unroll]] for (int side = 0; side < 2; ++side) {
+        StripSigns low = stripSigns(a, side), high = stripSigns(b, side);
+        crossed[side] = valid ? activeEdges(low, high) : uvec3(0);
+        cells[side] = valid ? bitCount(activeCells(low, high)) : 0;
+        triangles[side] = valid ? triangleCount(low, high) : 0;
+        ivec3 n = bitCount(crossed[side]);
+        own.x += n.x + n.y + n.z + (triangles[side] << 16);
+        own.y += cells[side] != 0 ? 1u << classShift(cells[side]) : 0;
+        cap = cap || hasCap(first + uvec3(side * 4, 0, 0), z, crossed[side]);
+        leak = leak || (valid && (crossedFaces(z, side, a, b, crossed[side], high) & ~faces) != 0);
+    }
+    uvec2 total;
+    uvec2 before = sumBefore(own, total);
+    uint ofLarger = total.y << 8;  // in each byte the count of the classes before; 128 strips at most in all
+    ofLarger += ofLarger << 8;
+    ofLarger += ofLarger << 16;
+    uint vertex = before.x & 0xffff, triangle = before.x >> 16;
+    uint strip = z * 2 + (gl_LocalInvocationIndex >> 3) * 16;
+    [[unroll]] for (int side = 0; side < 2; ++side) {
+        ivec3 n = bitCount(crossed[side]);
+        if (valid) edges[slot * 16 + z * 2 + side] = uvec4(crossed[side], vertex);
+        uint shift = classShift(cells[side]);
+        uint place = (ofLarger >> shift & 255) + (before.y >> shift & 255);
+        if (cells[side] != 0) stripList[group * MESHER_GROUP_STRIPS + place] = strip + side | triangle << 7;
+        before.y += cells[side] != 0 ? 1u << shift : 0;
+        vertex += n.x + n.y + n.z;
+        triangle += triangles[side];
+    }
+    if (gl_LocalInvocationIndex == 0) {
+        uint strips = (ofLarger >> 24) + (total.y >> 24);
+        sums[group] = uvec4(total.x & 0xffff, total.x >> 16, 0, strips);
+    }
+    if (cap) counts.caps = 1;
+    if (leak) counts.leaks = 1;
+}

@@ -1,0 +1,96 @@
+// Writes the triangles of a group of bricks, a strip of cells a lane, and the list of edges that get a vertex.
+//
+// All that the cells of the strip need of the edge -> vertex lookup is loaded once, from seven strips; an edge's vertex is
+// then arithmetic. The table lists the polygons of a cell's pattern, which become fans: each vertex is looked up once,
+// however many triangles share it.
+#include "mesher/mesher.glsl"
+#include "mesher/strips.glsl"
+#include "mesher/links.glsl"
+#include "mesher/edges.glsl"
+
+const uint kLanes = 64;
+layout(local_size_x = 64) in;
+layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };  // strip, axis, bit
+layout(binding = 11, scalar) readonly buffer Table { uvec3 table[]; };            // marching_cubes_table.h
+layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
+layout(binding = 13, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
+
+// Active edges and first vertex, by axis * 8 + where the strip is: x | y << 1 | z << 2, one further along these axes.
+uvec2 lookup[24];
+
+/// Vertex on the edge that a code of the table tells, of the cell at `cell` = x << 5 | y (x from 0 to 3).
+uint vertexOn(uint code, uint cell) {
+    uint at = cell + (code & 33);  // the edge starts at an offset along x and y
+    // Past the last column or row the edge belongs to the strip there.
+    uvec2 entry = lookup[(code & 28) + (at >> 7) + (at >> 2 & 2)];
+    uint bit = (at >> 2 & 24) | (at & 7);
+    return entry.y + bitCount(entry.x & ((1u << bit) - 1));
+}
+
+void main() {
+    uint group = counts.groupStart[push.chunk] + linearGroup();
+    bool groupValid = group < counts.groupStart[push.chunk + 1];
+    group = groupValid ? group : 0;
+    uvec4 base = sums[group];
+    uint item = gl_LocalInvocationIndex;
+    [[dont_unroll]] do {
+        bool valid = groupValid && item < base.w;
+        uint word = stripList[group * MESHER_GROUP_STRIPS + (item < base.w ? item : 0)];
+        uint own = group * MESHER_GROUP_STRIPS + (word & 127);
+        uint side = own & 1, z = own >> 1 & 7, slot = own >> 4;
+        StripSigns low = stripSigns(planes[slot * 9 + z], side), high = stripSigns(planes[slot * 9 + z + 1], side);
+
+        uint n = 0;
+        uvec4 strip;
+        [[dont_unroll]] do {
+            n = n == 0 ? 6 : n - 1;  // the strip itself comes last
+            uint nextX = n & 1 & side, nextY = n & 2, nextZ = z == 7 ? n & 4 : 0;
+            uint to = links[slot * 8 + (nextX | nextY | nextZ)];
+            strip = edges[to * 16 + (z + (n >> 2) & 7) * 2 + (side ^ n & 1)];
+            strip.w += sums[to / MESHER_GROUP_BRICKS].x;
+            uint firstY = strip.w + bitCount(strip.x);
+            lookup[n] = strip.xw;
+            lookup[8 + n] = uvec2(strip.y, firstY);
+            lookup[16 + n] = uvec2(strip.z, firstY + bitCount(strip.y));
+        } while (n != 0);
+
+        uint cells = activeCells(low, high);
+        uint place = base.y + (word >> 7) - push.chunk * MESHER_TRIANGLE_CHUNK;
+        do {
+            uint bit = findLSB(cells);
+            cells &= cells - 1;
+            uint pattern = (low.at >> bit & 1) | (low.x >> bit & 1) << 1 | (low.y >> bit & 1) << 2 |
+                           (low.xy >> bit & 1) << 3 | (high.at >> bit & 1) << 4 | (high.x >> bit & 1) << 5 |
+                           (high.y >> bit & 1) << 6 | (high.xy >> bit & 1) << 7;
+            uvec3 codes = table[pattern];
+            uint cell = (bit & 24) << 2 | bit & 7;
+            uint first = vertexOn(codes.x, cell);
+            uint before = vertexOn(codes.x >> 8, cell);
+            codes = uvec3(codes.x >> 16 | codes.y << 16, codes.y >> 16 | codes.z << 16, codes.z >> 16);
+            bool open = true;  // two vertices of the current fan are known
+            bool last;
+            do {
+                uint vertex = vertexOn(codes.x, cell);
+                bool starts = (codes.x & 64) != 0;
+                last = (codes.x & 128) != 0;
+                if (!starts && open && valid) triangles[place] = uvec3(first, before, vertex);
+                place += !starts && open ? 1 : 0;
+                first = starts ? vertex : first;
+                open = !starts;
+                before = vertex;
+                codes = uvec3(codes.x >> 8 | codes.y << 24, codes.y >> 8 | codes.z << 24, codes.z >> 8);
+            } while (!last);
+        } while (cells != 0);
+
+        uvec3 crossed = valid ? strip.xyz : uvec3(0);
+        uint k = strip.w, end = k + bitCount(crossed.x) + bitCount(crossed.y) + bitCount(crossed.z);
+        uint entry = own << 7;
+        do {
+            bool next = crossed.x == 0;
+            crossed = next ? uvec3(crossed.yz, 0) : crossed;
+            entry += next ? 32 : 0;
+            if (crossed.x != 0) vertexList[k++] = entry | findLSB(crossed.x);
+            crossed.x &= crossed.x - 1;
+        } while (k < end);
+    } while ((item += kLanes) < base.w);
+}
