@@ -94,10 +94,6 @@ class Emitter {
         if (ir[id].op == Op::parameter) return "vec2(" + scalarOperand(id) + ")";
         return name('i', id);
     }
-    std::string gradientOperand(IrId id) const { return hasGradient(id) ? name('g', id) : "vec3(0.0)"; }
-    bool hasGradient(IrId id) const {
-        return ir[id].positions != 0 && *opInfo(ir[id].op).glslGradient != '\0';
-    }
     static bool isInline(const IrNode& node) { return node.op == Op::constant || node.op == Op::parameter; }
     std::string_view typeOf(IrId id) const { return opInfo(ir[id].op).boolean ? "bool" : "float"; }
 
@@ -121,23 +117,66 @@ class Emitter {
         text += "    return " + scalarOperand(root) + ";\n}\n#endif\n";
     }
 
+    /// The derivative of a value along `direction`: a variable's name or an expression of one, empty if it is
+    /// zero. Emits the statement that defines it, if it takes one.
+    std::string derivative(IrId id, const std::vector<std::string>& known) {
+        const IrNode& node = ir[id];
+        const std::string_view pattern = opInfo(node.op).glslGradient;
+        if (node.positions == 0 || pattern.empty()) return {};
+        const auto of = [&](int i) -> const std::string& { return known[node.operands[i]]; };
+        bool varies = opInfo(node.op).arity == 0;
+        for (int i = 0; i < opInfo(node.op).arity; ++i) varies |= !of(i).empty();
+        if (!varies) return {};
+        // Sums and multiples of constants, the bulk of a field, need no statement or a shorter one.
+        std::string expression;
+        if (node.op == Op::add && (of(0).empty() || of(1).empty())) return of(0) + of(1);
+        if (node.op == Op::subtract && of(1).empty()) return of(0);
+        if (node.op == Op::subtract && of(0).empty()) {
+            expression = "-" + of(1);
+        } else if (node.op == Op::multiply && (of(0).empty() || of(1).empty())) {
+            const int varying = of(0).empty() ? 1 : 0;
+            expression = scalarOperand(node.operands[1 - varying]) + " * " + of(varying);
+        } else {
+            fill(expression, pattern, [&](char letter) -> std::string {
+                if (letter == 'v') return name('v', id);
+                if (letter >= 'a') return scalarOperand(node.operands[letter - 'a']);
+                return of(letter - 'A').empty() ? "0.0" : of(letter - 'A');
+            });
+        }
+        text += "    float " + name('g', id) + " = " + expression + ";\n";
+        return name('g', id);
+    }
+
     void gradient() {
         const IrId root = program.distance();
         const std::vector<bool> needed = neededBy(std::span(&root, 1));
-        text += "#ifdef FIELD_GRADIENT\nvec4 fieldGradient(vec3 p) {\n";
+        std::vector<std::string> derivatives(ir.size());
+        text +=
+            "#if defined(FIELD_TANGENT) || defined(FIELD_GRADIENT)\n"
+            "vec2 fieldTangent(vec3 p, vec3 direction) {\n";
         for (IrId id = 0; id < ir.size(); ++id) {
             if (!needed[id] || isInline(ir[id])) continue;
             scalarStatement(id, opInfo(ir[id].op).glsl);
-            if (!hasGradient(id)) continue;
-            text += "    vec3 " + name('g', id) + " = ";
-            fill(text, opInfo(ir[id].op).glslGradient, [&](char letter) {
-                if (letter == 'v') return name('v', id);
-                return letter < 'a' ? gradientOperand(ir[id].operands[letter - 'A'])
-                                    : scalarOperand(ir[id].operands[letter - 'a']);
-            });
-            text += ";\n";
+            derivatives[id] = derivative(id, derivatives);
         }
-        text += "    return vec4(" + gradientOperand(root) + ", " + scalarOperand(root) + ");\n}\n#endif\n";
+        const std::string& slope = derivatives[root];
+        text += "    return vec2(" + scalarOperand(root) + ", " + (slope.empty() ? "0.0" : slope) +
+                ");\n}\n#endif\n";
+        text += R"(#ifdef FIELD_GRADIENT
+vec4 fieldGradient(vec3 p) {
+    vec3 gradient = vec3(0.0);
+    float value;
+    int axis = 0;
+    do {
+        vec3 direction = vec3(axis == 0, axis == 1, axis == 2);
+        vec2 tangent = fieldTangent(p, direction);
+        gradient += tangent.y * direction;
+        value = tangent.x;
+    } while (++axis < 3);
+    return vec4(gradient, value);
+}
+#endif
+)";
     }
 
     void interval() {
@@ -152,7 +191,8 @@ class Emitter {
                  [&](char letter) { return intervalOperand(ir[id].operands[letter - 'a']); });
             text += ";\n";
         }
-        text += "    return " + intervalOperand(root) + ";\n}\n#endif\n";
+        text += "    vec3 reach = max(abs(lo), abs(hi));\n    return iMargin(" + intervalOperand(root) +
+                ", reach.x + reach.y + reach.z);\n}\n#endif\n";
     }
 
     /// 0: constant along x and y; 1: along y; 2: varies with y.

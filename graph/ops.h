@@ -1,16 +1,17 @@
-// The op table: every scalar operation of the IR with its name, arity and four meanings.
+// The op table: every scalar operation of the IR with its name, arity and meanings.
 //
-//   value     double x double … -> double                         the reference
-//   interval  Interval x Interval … -> Interval                   contains the value of every point of its
-//   operands gradient  forward mode: the derivative of the result from the operands' derivatives, one
-//   component at a time GLSL      the same three as text
+// * value: double x double ... -> double, the reference
+// * interval: Interval x Interval ... -> Interval, containing the value of every point of its operands
+// * gradient: forward mode, the derivative of the result from the operands' derivatives, one direction at a
+// time
+// * the same three as GLSL text
 //
-// Adding an op is one row of the table in ops.cpp (and its name in the enum). Everything else, the folding of
-// constants, the CPU evaluators, the three GLSL emitters and the tests, is driven by the row.
+// Adding an op is one row of the table in ops.cpp, and its name in the enum. Everything else, the folding of
+// constants, the CPU evaluators, the GLSL emitters and the tests, is driven by the row.
 //
-// In the GLSL templates %a %b %c %d are the operands, %v the result's value, and, in gradients, %A %B %C %D
-// are the operands' gradients (vec3). Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals are
-// vec2(0|1, 0|1).
+// In the GLSL templates %a %b %c %d are the operands, %v is the result's value, and %A %B %C %D are the
+// operands' derivatives along a direction. Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals
+// are vec2(0|1, 0|1). Sums and roots round in GLSL intervals as they do in values; see lib/interval.glsl.
 #pragma once
 
 #include <cstdint>

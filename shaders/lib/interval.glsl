@@ -1,13 +1,18 @@
-// Intervals in float, vec2(least, greatest), rounded outwards: the GPU twin of graph/interval.h. "Everything" is
-// ±1e30 so that no infinity or NaN arises, and what transcendental functions may err by on a GPU is added as slack.
+// Intervals in float, vec2(least, greatest): the GPU twin of graph/interval.h. "Everything" is ±1e30 so that no
+// infinity or NaN arises, and what transcendental functions may err by on a GPU is added as slack.
+//
+// Sums, products and roots are not rounded outwards one by one, which would triple the code and its compile time:
+// values round alike, and whoever culls by an interval adds a margin (see iMargin) and can tell a hole from none.
 
 vec2 iOut(vec2 a) { return a + abs(a) * vec2(-1.2e-7, 1.2e-7); }
 vec2 iSlack(vec2 a) { return a + (abs(a) * 1e-5 + 1e-5) * vec2(-1.0, 1.0); }
-vec2 iCut(vec2 a) { return clamp(iOut(a), -1e30, 1e30); }
+vec2 iCut(vec2 a) { return clamp(a, -1e30, 1e30); }
+// The result widened by the rounding that its operations may have gathered, relative to the coordinates `reach` too.
+vec2 iMargin(vec2 a, float reach) { return a + (abs(a) + reach) * vec2(-2e-6, 2e-6); }
 vec2 iAbs(vec2 a) { return vec2(max(0.0, max(a.x, -a.y)), max(-a.x, a.y)); }
 vec2 iSquare(vec2 a) {
-    vec2 m = iAbs(a);
-    return iCut(m * m);
+    vec2 m = min(iAbs(a), 1e15);
+    return m * m;
 }
 vec2 iMultiply(vec2 a, vec2 b) {
     vec4 p = a.xxyy * b.xyxy;

@@ -84,7 +84,7 @@ float worleyNoise(vec3 p, float seed) { return worleyNoiseGradient(p, seed).w; }
 
 float cellHash(vec3 p, float seed) { return unitHash(latticeHash(ivec3(floor(p)), seed)).x; }
 
-vec3 noiseChain(vec4 noise, vec3 dx, vec3 dy, vec3 dz) { return noise.x * dx + noise.y * dy + noise.z * dz; }
+float noiseChain(vec4 noise, float dx, float dy, float dz) { return dot(noise.xyz, vec3(dx, dy, dz)); }
 
 // Interval of cellHash: one value if the box stays within a cell.
 vec2 iCellHash(vec2 x, vec2 y, vec2 z, vec2 seed) {
