@@ -42,11 +42,11 @@ constexpr float kMostNudge = 0.05f;
 
 uint32_t chunksOf(uint64_t items, uint64_t each) { return uint32_t((items + each - 1) / each); }
 
-/// A number of work groups as the kernels see it: spread over two axes beyond 32768 (groupsFor in
-/// mesher.glsl).
-constexpr uint64_t kGroupsAlongX = 32768;
-uint64_t spread(uint64_t groups) {
-    return groups <= kGroupsAlongX ? groups : (groups + kGroupsAlongX - 1) / kGroupsAlongX * kGroupsAlongX;
+/// Work groups spread over two axes, as groupsFor in mesher.glsl does it.
+glm::uvec3 spread(uint64_t groups) {
+    constexpr uint64_t kMostGroups = 65535;
+    uint32_t y = std::max(chunksOf(groups, kMostGroups), 1u);
+    return {chunksOf(groups, y), y, 1};
 }
 
 /// Sizes what depends on the grid, and what depends on how much surface is in it.
@@ -60,13 +60,15 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.blockSums, all * 16);
     reserve(device, buffers.rows, all * 64 * 8);
     uint64_t bricks = buffers.brickCapacity;
+    // Groups of bricks, and as many more as spreading them over two axes may add.
+    uint64_t groups = uint64_t(spread(chunksOf(bricks, MESHER_GROUP_BRICKS)).x) *
+                      spread(chunksOf(bricks, MESHER_GROUP_BRICKS)).y;
     reserve(device, buffers.brickList, bricks * 4);
     reserve(device, buffers.links, bricks * 32);
     reserve(device, buffers.planes, bricks * 9 * 12);
-    reserve(device, buffers.sums, spread(chunksOf(bricks, MESHER_GROUP_BRICKS)) * 16);
+    reserve(device, buffers.sums, groups * 16);
     reserve(device, buffers.edges, bricks * kLookupBytes);
-    reserve(device, buffers.stripList,
-            spread(chunksOf(bricks, MESHER_GROUP_BRICKS)) * MESHER_GROUP_STRIPS * 4);
+    reserve(device, buffers.stripList, groups * MESHER_GROUP_STRIPS * 4);
     reserve(device, buffers.vertexList, uint64_t(buffers.vertexCapacity) * 4);
     reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
     if (wantColors) reserve(device, buffers.colors, uint64_t(buffers.vertexCapacity) * 12);
@@ -138,8 +140,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
         barrier(commands);
     };
     auto direct = [&](Kernel kernel, uint32_t groups, const std::vector<Descriptor>& more) {
-        glm::uvec3 size(std::min<uint32_t>(groups, kGroupsAlongX), chunksOf(groups, kGroupsAlongX), 1);
-        dispatch(commands, pipelines.all[kernel], size, push, with(more));
+        dispatch(commands, pipelines.all[kernel], spread(groups), push, with(more));
         barrier(commands);
     };
     uint32_t vertexChunks = chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK);
@@ -207,7 +208,7 @@ MesherPipelines createMesherPipelines(const Device& device, std::string_view fie
     set(classify, "mesher/classify.comp");
     set(topGroups, "mesher/top_groups.comp", {0});
     set(topGroupsChunked, "mesher/top_groups.comp", {1});
-    set(triangles, "mesher/triangles.comp");
+    set(triangles, "mesher/triangles.comp", {std::clamp(device.subgroupSize, 16u, 64u)});
     set(vertices, "mesher/vertices.comp");
     if (wantColors)
         set(colors, "mesher/colors.comp");

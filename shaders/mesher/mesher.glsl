@@ -4,12 +4,13 @@
 layout(push_constant, scalar) uniform Push { MesherPush push; };
 layout(binding = 0, scalar) buffer Counts { MesherCounts counts; };
 
-/// Work groups of an indirect dispatch over many items are spread over two axes.
-const uint kGroupsAlongX = 32768;
-uint linearGroup() { return gl_WorkGroupID.y * kGroupsAlongX + gl_WorkGroupID.x; }
+/// Work groups of a dispatch over many items are spread evenly over two axes: a group too many runs, if to no effect.
+const uint kMostGroups = 65535;  // along one axis
+uint linearGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 DispatchArguments groupsFor(uint items, uint perGroup) {
     uint groups = (items + perGroup - 1) / perGroup;
-    return DispatchArguments(min(groups, kGroupsAlongX), (groups + kGroupsAlongX - 1) / kGroupsAlongX, 1);
+    uint y = max((groups + kMostGroups - 1) / kMostGroups, 1);
+    return DispatchArguments((groups + y - 1) / y, y, 1);
 }
 
 uint blockCount() { return push.blocks.x * push.blocks.y * push.blocks.z; }

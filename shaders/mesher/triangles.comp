@@ -8,8 +8,9 @@
 #include "mesher/links.glsl"
 #include "mesher/edges.glsl"
 
-const uint kLanes = 64;
-layout(local_size_x = 64) in;
+// A group has some eighty strips; small work groups leave few lanes without one.
+layout(local_size_x_id = 0) in;
+layout(constant_id = 0) const uint kLanes = 32;
 layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };  // strip, axis, bit
 layout(binding = 11, scalar) readonly buffer Table { uvec3 table[]; };            // marching_cubes_table.h
 layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
