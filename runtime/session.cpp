@@ -63,6 +63,7 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     if (stages) stages->push_back({"emit", milliseconds(start)});
     const auto compiling = std::chrono::steady_clock::now();
     pipelines = createMesherPipelines(gpu, field, current.hasMaterial());
+    renderPipelines = {};
     if (stages) stages->push_back({"pipelines", milliseconds(compiling)});
     builtHash = current.structureHash;
     built = true;
@@ -93,6 +94,9 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
         config.cells[axis] = std::clamp(
             static_cast<int>(std::ceil((region->hi[axis] - region->lo[axis]) / cell - 1e-6)), 1, resolution);
     }
+    grid.lo = config.origin;
+    grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
+    grid.cellSize = config.cellSize;
     config.parameters = &parameters;
     config.colors = pipelines.colors;
     config.timed = timed;
@@ -113,6 +117,16 @@ Mesh Session::download(const MesherResult& result) const {
         mesh.emission[i] = constant(emissionComponent + i);
     }
     return mesh;
+}
+
+Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
+    if (!renderPipelines.shade) renderPipelines = createRenderPipelines(gpu, emitField(current));
+    const RenderScene scene{.mesh = buffers,
+                            .vertices = result.vertices,
+                            .grid = grid,
+                            .lipschitz = static_cast<float>(current.exactness.lipschitz),
+                            .parameters = &parameters};
+    return renderPicture(gpu, renderPipelines, scene, options);
 }
 
 }  // namespace fw

@@ -1,8 +1,8 @@
 // The one orchestrator: owns the device objects of a program and runs its stages.
 //
 // Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
-// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), nothing per frame
-// yet.
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), a depth image per
+// picture.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 
 #include "graph/compile.h"
 #include "runtime/mesher.h"
+#include "runtime/render/render.h"
 
 namespace fw {
 
@@ -44,6 +45,9 @@ class Session {
     Mesh download(const MesherResult& result) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
 
+    /// A picture of the last mesh, which has at least one triangle. Errors as renderPicture.
+    Result<Picture> render(const MesherResult& result, const RenderOptions& options);
+
   private:
     Device gpu;
     Program current;
@@ -51,6 +55,8 @@ class Session {
     bool built = false;
     MesherPipelines pipelines;
     MesherBuffers buffers;
+    MeshGrid grid;
+    RenderPipelines renderPipelines;  ///< made by the first picture
     Buffer parameters;
 };
 

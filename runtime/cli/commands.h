@@ -34,13 +34,25 @@ std::optional<Graph> openGraph(const GraphOptions& options);
 std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions);
 void print(const Error& error);
 
-struct ExportOptions {
+/// What every command that meshes a graph takes.
+struct MeshOptions {
     GraphOptions graph;
-    std::string output, method = "marching-cubes", report, device;
+    std::string device;
     std::optional<int> resolution;
     std::vector<double> region;  ///< empty, or x0 y0 z0 x1 y1 z1
 };
+
+struct ExportOptions {
+    MeshOptions mesh;
+    std::string output, method = "marching-cubes", report;
+};
 int runExport(const ExportOptions& options);
+
+struct RenderCommandOptions {
+    MeshOptions mesh;
+    std::string output, size = "1280x720";
+};
+int runRender(const RenderCommandOptions& options);
 
 int runCheck(const std::vector<std::string>& paths);
 

@@ -1,59 +1,20 @@
 // `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <future>
 
-#include "runtime/cli/commands.h"
+#include "runtime/cli/mesh_graph.h"
 #include "runtime/export/export.h"
 #include "runtime/export/output_file.h"
 #include "runtime/mesh_report.h"
-#include "runtime/session.h"
 
 namespace fw::cli {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Times the stages of the run and shows them on a terminal as they start.
-class Progress {
-  public:
-    explicit Progress(bool shown_) : shown(shown_) {}
-    ~Progress() {
-        if (shown) std::fprintf(stderr, "\r\033[K");
-    }
-
-    /// Ends the stage before and starts the next.
-    void start(const char* name, int percent) {
-        finish();
-        current = name;
-        since = Clock::now();
-        if (shown) std::fprintf(stderr, "\r\033[K%3d %%  %s", percent, name), std::fflush(stderr);
-    }
-    void finish() {
-        if (!current.empty())
-            stages.emplace_back(current,
-                                std::chrono::duration<double, std::milli>(Clock::now() - since).count());
-        current.clear();
-    }
-
-    std::vector<std::pair<std::string, double>> stages;
-
-  private:
-    bool shown;
-    std::string current;
-    Clock::time_point since;
-};
-
-int stopped() {
-    std::fprintf(stderr, "fieldwright export: interrupted; nothing was written\n");
-    return kInterrupted;
-}
 
 /// |f| / |gradient f| by the CPU reference.
 FieldError fieldError(const Program& program) {
@@ -83,74 +44,20 @@ Done writeText(const std::string& path, const std::string& text) {
 int runExport(const ExportOptions& options) {
     const auto begin = Clock::now();
     if (const Done known = checkExportPath(options.output); !known) return print(known.error()), kBadUsage;
-    std::optional<Box> region;
-    if (!options.region.empty()) {
-        const std::vector<double>& r = options.region;
-        region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(region->lo[axis] < region->hi[axis])) {
-                std::fprintf(stderr,
-                             "fieldwright export: --region has no extent along %c: write its least corner, "
-                             "then its greatest: x0 y0 z0 x1 y1 z1\n",
-                             "xyz"[axis]);
-                return kBadUsage;
-            }
-    }
-
-    // The device starts while the graph is read: on software Vulkan that takes longer than the rest.
-    Progress progress(isatty(STDERR_FILENO));
-    std::future<Result<Device>> opening =
-        std::async(std::launch::async, [&] { return createDevice({.pick = options.device}); });
-    progress.start("read", 0);
-    const std::optional<Graph> graph = openGraph(options.graph);
-    if (!graph) return kBadInput;
-    progress.start("compile", 5);
-    CompileOptions compileOptions;
-    compileOptions.time = options.graph.time;
-    Result<Program> program = compile(*graph, compileOptions);
-    if (!program) return print(program.error()), kBadInput;
-    progress.start("region", 10);
-    const MeshRequest request{region, options.resolution.value_or(program->resolution)};
-    Result<Box> box = meshRegion(*program, request);
-    if (!box) {
-        Error error = box.error();
-        error.file = options.graph.path;
-        return print(error), kBadInput;
-    }
-    progress.start("device", 15);
-    Result<Device> device = opening.get();
-    if (!device) return print(device.error()), kBadUsage;
-    if (interrupted) return stopped();
-
-    Session session(std::move(*device));
-    progress.finish();
-    progress.start("pipelines", 20);
-    session.setProgram(std::move(*program));
-    if (interrupted) return stopped();
-    progress.start("mesh", 50);
-    const Result<MesherResult> meshed =
-        session.polygonise({*box, request.resolution}, !options.report.empty());
-    if (!meshed) {
-        Error error = meshed.error();
-        error.file = options.graph.path;
-        return print(error), kBadInput;
-    }
-    if (meshed->triangles == 0) {
-        Error error;
-        error.file = options.graph.path;
-        error.message =
-            "the surface does not pass through the region: move or enlarge --region, or raise --resolution";
-        return print(error), kBadInput;
-    }
-    if (interrupted) return stopped();
+    Progress progress;
+    int status = kDone;
+    std::optional<MeshedGraph> opened = meshGraph(options.mesh, progress, !options.report.empty(), status);
+    if (!opened) return status;
+    Session& session = opened->session;
+    const MesherResult& meshed = opened->mesh;
     progress.start("download", 60);
-    const Mesh mesh = session.download(*meshed);
+    const Mesh mesh = session.download(meshed);
     progress.start("write", 70);
     const Result<ExportedFiles> written = exportMesh(mesh, options.output, {.cancel = &interrupted});
     if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
     progress.finish();
 
-    if (meshed->capped)
+    if (meshed.capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());
     if (!options.report.empty()) {
@@ -160,9 +67,9 @@ int runExport(const ExportOptions& options) {
         Result<Report> report = reportOnFile(options.output, fieldError(session.program()));
         if (!report) return print(report.error()), kSystemFailure;
         progress.finish();
-        report->capped = meshed->capped;
+        report->capped = meshed.capped;
         report->stages = progress.stages;
-        for (const StageTime& stage : meshed->stages)
+        for (const StageTime& stage : meshed.stages)
             report->stages.emplace_back("mesh." + stage.name, stage.milliseconds);
         report->totalMs = total;
         report->peakMemoryBytes = peak;

@@ -57,6 +57,30 @@ void addGraph(CLI::App* command, GraphOptions& graph) {
         ->check(finite());
 }
 
+void addMesh(CLI::App* command, MeshOptions& mesh) {
+    addGraph(command, mesh.graph);
+    command
+        ->add_option("--resolution", mesh.resolution,
+                     "Cells along the region's longest side (default: the output node's, else 128)")
+        ->check(CLI::Range(1, 4096));
+    command
+        ->add_option("--region", mesh.region,
+                     "Mesh only this box: x0 y0 z0 x1 y1 z1, in metres (default: found from the field)")
+        ->expected(6)
+        ->check(finite());
+    command->add_option("--device", mesh.device,
+                        "Index or part of the name of the device (see fieldwright info)");
+}
+
+/// Ctrl-C asks the running command to stop; a second one ends the process at once.
+void listenForInterrupt() {
+    struct sigaction action {};
+    action.sa_handler = onInterrupt;
+    action.sa_flags = SA_RESETHAND;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
 int run(int count, char** arguments) {
     CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields", "fieldwright"};
     app.set_version_flag("--version", "fieldwright " FIELDWRIGHT_VERSION);
@@ -69,27 +93,23 @@ int run(int count, char** arguments) {
 
     ExportOptions exportOptions;
     CLI::App* exportCommand = app.add_subcommand("export", "Turn a graph into a mesh file");
-    addGraph(exportCommand, exportOptions.graph);
+    addMesh(exportCommand, exportOptions.mesh);
     exportCommand
         ->add_option("-o,--output", exportOptions.output,
                      "The mesh file; its ending says the format: .glb .gltf .obj .stl .ply")
         ->required();
-    exportCommand
-        ->add_option("--resolution", exportOptions.resolution,
-                     "Cells along the region's longest side (default: the output node's, else 128)")
-        ->check(CLI::Range(1, 4096));
     exportCommand->add_option("--method", exportOptions.method, "How the surface becomes triangles")
         ->check(CLI::IsMember({"marching-cubes"}))
         ->default_str("marching-cubes");
-    exportCommand
-        ->add_option("--region", exportOptions.region,
-                     "Mesh only this box: x0 y0 z0 x1 y1 z1, in metres (default: found from the field)")
-        ->expected(6)
-        ->check(finite());
     exportCommand->add_option("--report", exportOptions.report,
                               "Write what the mesh file holds, measured from it, as JSON to this file");
-    exportCommand->add_option("--device", exportOptions.device,
-                              "Index or part of the name of the device (see fieldwright info)");
+
+    RenderCommandOptions renderOptions;
+    CLI::App* renderCommand = app.add_subcommand("render", "Make a picture of a graph");
+    addMesh(renderCommand, renderOptions.mesh);
+    renderCommand->add_option("-o,--output", renderOptions.output, "The picture, a .png file")->required();
+    renderCommand->add_option("--size", renderOptions.size, "Width and height in pixels: WxH")
+        ->default_str(renderOptions.size);
 
     std::vector<std::string> checkPaths;
     CLI::App* checkCommand =
@@ -164,14 +184,9 @@ int run(int count, char** arguments) {
         app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
-    if (exportCommand->parsed()) {
-        struct sigaction action {};
-        action.sa_handler = onInterrupt;
-        action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends the process at once
-        sigaction(SIGINT, &action, nullptr);
-        sigaction(SIGTERM, &action, nullptr);
-        return runExport(exportOptions);
-    }
+    if (exportCommand->parsed() || renderCommand->parsed()) listenForInterrupt();
+    if (exportCommand->parsed()) return runExport(exportOptions);
+    if (renderCommand->parsed()) return runRender(renderOptions);
     if (checkCommand->parsed()) return runCheck(checkPaths);
     if (evalCommand->parsed()) return runEval(evalOptions);
     if (compileCommand->parsed()) return runCompile(compileOptions);

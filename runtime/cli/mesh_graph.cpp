@@ -1,0 +1,103 @@
+#include "runtime/cli/mesh_graph.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <future>
+
+namespace fw::cli {
+
+Progress::Progress() : shown(isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+    if (shown) std::fprintf(stderr, "\r\033[K");
+}
+
+void Progress::start(const char* name, int percent) {
+    finish();
+    current = name;
+    since = std::chrono::steady_clock::now();
+    show(percent);
+}
+
+void Progress::show(int percent) const {
+    if (shown) std::fprintf(stderr, "\r\033[K%3d %%  %s", percent, current.c_str()), std::fflush(stderr);
+}
+
+void Progress::finish() {
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    if (!current.empty())
+        stages.emplace_back(current, Milliseconds(std::chrono::steady_clock::now() - since).count());
+    current.clear();
+}
+
+int badInput(const MeshOptions& options, Error error) {
+    error.file = options.graph.path;
+    print(error);
+    return kBadInput;
+}
+
+int stopped() {
+    std::fprintf(stderr, "fieldwright: interrupted; nothing was written\n");
+    return kInterrupted;
+}
+
+std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
+                                     int& status) {
+    const auto fail = [&status](int with) {
+        status = with;
+        return std::nullopt;
+    };
+    std::optional<Box> region;
+    if (!options.region.empty()) {
+        const std::vector<double>& r = options.region;
+        region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(region->lo[axis] < region->hi[axis])) {
+                std::fprintf(stderr,
+                             "fieldwright: --region has no extent along %c: write its least corner, then its "
+                             "greatest: x0 y0 z0 x1 y1 z1\n",
+                             "xyz"[axis]);
+                return fail(kBadUsage);
+            }
+    }
+
+    // The device starts while the graph is read: on software Vulkan that takes longer than the rest.
+    std::future<Result<Device>> opening =
+        std::async(std::launch::async, [&] { return createDevice({.pick = options.device}); });
+    progress.start("read", 0);
+    const std::optional<Graph> graph = openGraph(options.graph);
+    if (!graph) return fail(kBadInput);
+    progress.start("compile", 5);
+    CompileOptions compileOptions;
+    compileOptions.time = options.graph.time;
+    Result<Program> program = compile(*graph, compileOptions);
+    if (!program) return print(program.error()), fail(kBadInput);
+    progress.start("region", 10);
+    const MeshRequest request{region, options.resolution.value_or(program->resolution)};
+    const Result<Box> box = meshRegion(*program, request);
+    if (!box) return fail(badInput(options, box.error()));
+    progress.start("device", 15);
+    Result<Device> device = opening.get();
+    if (!device) return print(device.error()), fail(kBadUsage);
+    if (interrupted) return fail(stopped());
+
+    MeshedGraph meshed{Session(std::move(*device)), {}};
+    progress.start("pipelines", 20);
+    meshed.session.setProgram(std::move(*program));
+    if (interrupted) return fail(stopped());
+    progress.start("mesh", 50);
+    Result<MesherResult> mesh = meshed.session.polygonise({*box, request.resolution}, timed);
+    if (!mesh) return fail(badInput(options, mesh.error()));
+    if (mesh->triangles == 0) {
+        Error error;
+        error.message =
+            "the surface does not pass through the region: move or enlarge --region, or raise --resolution";
+        return fail(badInput(options, error));
+    }
+    if (interrupted) return fail(stopped());
+    meshed.mesh = std::move(*mesh);
+    return meshed;
+}
+
+}  // namespace fw::cli

@@ -1,0 +1,26 @@
+// Pictures to PNG files.
+#include <stb/stb_image_write.h>
+
+#include "runtime/export/output_file.h"
+#include "runtime/render/render.h"
+
+namespace fw {
+
+Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel) {
+    Result<OutputFile> file = OutputFile::open(path, cancel);
+    if (!file) return file.error();
+    std::vector<uint8_t> rgb;
+    rgb.reserve(picture.pixels.size() / 4 * 3);
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
+        rgb.insert(rgb.end(), picture.pixels.begin() + i, picture.pixels.begin() + i + 3);
+    const auto append = [](void* to, void* data, int size) {
+        static_cast<OutputFile*>(to)->write(data, static_cast<std::size_t>(size));
+    };
+    // The only failure that is not the file's: the encoder has no memory left.
+    if (!stbi_write_png_to_func(append, &*file, picture.width, picture.height, 3, rgb.data(),
+                                3 * picture.width))
+        throw std::bad_alloc();
+    return file->commit();
+}
+
+}  // namespace fw

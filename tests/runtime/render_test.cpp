@@ -1,0 +1,258 @@
+// Pictures: what they show, that they are the same every time, and what `fieldwright render` says when there
+// can be none. Images are judged by where the solid is and how light falls, not pixel by pixel.
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+
+#include "graph/json.h"
+#include "runtime/session.h"
+#include "tests/support/gpu.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+using test::TempDir;
+
+constexpr int kWidth = 160, kHeight = 120;
+
+std::string graphText(const std::string& nodes) { return R"({"fieldwright": 1, "nodes": [)" + nodes + "]}"; }
+
+/// A red ball; the backdrop is grey, so that redness tells the two apart.
+const std::string kBall = graphText(R"(
+    {"id": "ball", "type": "sphere", "inputs": {"radius": 0.7}},
+    {"id": "red", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": [0.8, 0.02, 0.02]}},
+    {"id": "out", "type": "output", "inputs": {"surface": {"from": "red"}}})");
+
+Result<Picture> draw(const std::string& text, MeshRequest request = {{}, 48},
+                     RenderOptions options = {.width = kWidth, .height = kHeight}) {
+    const Result<Graph> graph = parseGraph(text, "", nullptr);
+    EXPECT_TRUE(graph) << format(graph.error());
+    Result<Program> program = compile(*graph);
+    EXPECT_TRUE(program) << format(program.error());
+    Result<Device> device = createDevice({.validation = true});
+    EXPECT_TRUE(device);
+    const auto record = device->record;
+    Result<Picture> picture = [&] {
+        Session session(std::move(*device));
+        session.setProgram(std::move(*program));
+        const Result<MesherResult> mesh = session.polygonise(request);
+        EXPECT_TRUE(mesh) << format(mesh.error());
+        return session.render(*mesh, options);
+    }();
+    for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+    return picture;
+}
+
+glm::ivec3 pixel(const Picture& picture, int x, int y) {
+    const uint8_t* at =
+        picture.pixels.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+    return {at[0], at[1], at[2]};
+}
+bool red(const Picture& picture, int x, int y) {
+    const glm::ivec3 p = pixel(picture, x, y);
+    return p.r > 2 * p.g && p.r > 2 * p.b;
+}
+int brightness(glm::ivec3 p) { return p.r + p.g + p.b; }
+
+TEST(Render, ABallIsARoundDiscInTheMiddle) {
+    const Result<Picture> picture = draw(kBall);
+    ASSERT_TRUE(picture) << format(picture.error());
+    ASSERT_EQ(picture->pixels.size(), 4u * kWidth * kHeight);
+    double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    for (int j = 0; j < kHeight; ++j)
+        for (int i = 0; i < kWidth; ++i)
+            if (red(*picture, i, j)) {
+                const double u = i + 0.5 - 0.5 * kWidth, v = j + 0.5 - 0.5 * kHeight;
+                count += 1, x += u, y += v, xx += u * u, yy += v * v, xy += u * v;
+            }
+    // It fills its share of the picture's height, is centred, and as wide as high: a disc's second moment is
+    // r^2 / 4.
+    const double radius = std::sqrt(count / 3.14159265);
+    EXPECT_NEAR(radius, 0.5 * kHeight * 0.81, 2.0);
+    EXPECT_NEAR(x / count, 0.0, 0.75);
+    EXPECT_NEAR(y / count, 0.0, 0.75);
+    EXPECT_NEAR(xx / count, radius * radius / 4, 0.03 * radius * radius);
+    EXPECT_NEAR(yy / count, radius * radius / 4, 0.03 * radius * radius);
+    EXPECT_NEAR(xy / count, 0.0, 0.01 * radius * radius);
+    // Its outline is the same to the left and to the right, to within the edge's own pixel.
+    int unequal = 0;
+    for (int j = 0; j < kHeight; ++j)
+        for (int i = 0; i < kWidth / 2; ++i)
+            unequal += red(*picture, i, j) != red(*picture, kWidth - 1 - i, j);
+    EXPECT_LT(unequal, kHeight);
+}
+
+TEST(Render, TheSunStandsLeftAndTheShadowLiesRight) {
+    const Result<Picture> picture = draw(kBall);
+    ASSERT_TRUE(picture);
+    const int middle = kHeight / 2, inside = int(0.3 * kHeight);
+    EXPECT_GT(brightness(pixel(*picture, kWidth / 2 - inside, middle)),
+              1.3 * brightness(pixel(*picture, kWidth / 2 + inside, middle)));
+    // The ground right of the ball is darker than left of it, and both are grey.
+    const int ground = int(0.7 * kHeight), outside = int(0.47 * kHeight);
+    const glm::ivec3 lit = pixel(*picture, kWidth / 2 - outside, ground),
+                     dark = pixel(*picture, kWidth / 2 + outside, ground);
+    EXPECT_GT(brightness(lit), 1.15 * brightness(dark));
+    EXPECT_LT(std::abs(lit.r - lit.b), 30);
+    // No light is lost and none is burnt out on the backdrop.
+    for (int i = 0; i < kWidth; ++i) {
+        EXPECT_GT(brightness(pixel(*picture, i, 0)), 3 * 90);
+        EXPECT_LT(brightness(pixel(*picture, i, kHeight - 1)), 3 * 250);
+    }
+}
+
+TEST(Render, ShadesSmoothlyWithoutAcne) {
+    const Result<Picture> picture = draw(kBall);
+    ASSERT_TRUE(picture);
+    // Well within the disc neighbours differ little: no speckles, no bands. The highlight is the steepest
+    // part.
+    const int inner = int(0.3 * kHeight);
+    for (int v = -inner; v < inner; ++v)
+        for (int u = -inner; u < inner; ++u) {
+            if (u * u + v * v > inner * inner) continue;
+            const glm::ivec3 here = pixel(*picture, kWidth / 2 + u, kHeight / 2 + v);
+            const glm::ivec3 next = pixel(*picture, kWidth / 2 + u + 1, kHeight / 2 + v);
+            const glm::ivec3 below = pixel(*picture, kWidth / 2 + u, kHeight / 2 + v + 1);
+            ASSERT_LT(std::abs(here.r - next.r), 22) << u << ' ' << v;
+            ASSERT_LT(std::abs(here.r - below.r), 22) << u << ' ' << v;
+        }
+}
+
+TEST(Render, IsTheSameBytesEachTime) {
+    const Result<Picture> a = draw(kBall), b = draw(kBall);
+    ASSERT_TRUE(a && b);
+    EXPECT_EQ(a->pixels, b->pixels);
+}
+
+TEST(Render, FramesEveryPointOfAnyMeshInAnyFormat) {
+    const glm::vec3 sizes[] = {
+        {1, 1, 1}, {8, 0.1f, 0.1f}, {0.1f, 30, 0.1f}, {5, 0.01f, 9}, {1e-3f, 1e-3f, 2e-3f}};
+    for (const glm::vec3 size : sizes)
+        for (const float aspect : {0.25f, 1.0f, 16.0f / 9, 5.0f}) {
+            std::vector<gpu::MeshVertex> corners;
+            for (int i = 0; i < 8; ++i)
+                corners.push_back({glm::vec3(i & 1, i >> 1 & 1, i >> 2) * size + glm::vec3(3, -2, 1), 0});
+            const gpu::RenderPush view = frame(corners, aspect);
+            float reached = 0;
+            for (const gpu::MeshVertex& corner : corners) {
+                const glm::vec3 v = corner.position - view.eye;
+                const float along = glm::dot(v, view.forward);
+                EXPECT_GT(along, view.near);
+                reached = std::max({reached, std::abs(glm::dot(v, view.right)) / along,
+                                    std::abs(glm::dot(v, view.up)) / along});
+            }
+            EXPECT_LT(reached, 0.9f);
+            EXPECT_GT(reached, 0.7f);
+            EXPECT_EQ(view.ground, -2.0f);
+        }
+}
+
+TEST(Render, LiveParametersReachTheShading) {
+    // The material's colour is live: another value, another colour, no new pipeline.
+    const Result<Graph> graph = parseGraph(kBall, "", nullptr);
+    ASSERT_TRUE(graph);
+    CompileOptions options;
+    options.live = {"red.base_color"};
+    Result<Program> program = compile(*graph, options);
+    ASSERT_TRUE(program) << format(program.error());
+    Result<Device> device = createDevice({.validation = true});
+    ASSERT_TRUE(device);
+    Session session(std::move(*device));
+    session.setProgram(std::move(*program));
+    const Result<MesherResult> mesh = session.polygonise({{}, 24});
+    ASSERT_TRUE(mesh);
+    const RenderOptions small{.width = 64, .height = 64};
+    EXPECT_TRUE(red(*session.render(*mesh, small), 32, 32));
+    session.setParameter(0, 0.02);
+    session.setParameter(1, 0.8);
+    const Result<Picture> green = session.render(*mesh, small);
+    ASSERT_TRUE(green);
+    EXPECT_GT(pixel(*green, 32, 32).g, 2 * pixel(*green, 32, 32).r);
+    EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
+}
+
+TEST(Render, ASolidThatWasCutIsShadedAtTheCut) {
+    // A ball cut at z = 0: the cut faces the camera and is flat, so it has one brightness.
+    const Result<Picture> picture = draw(kBall, {Box{{-1, -1, -1}, {1, 1, 0}}, 48});
+    ASSERT_TRUE(picture);
+    const int reference = pixel(*picture, kWidth / 2, kHeight / 2).r;
+    EXPECT_GT(reference, 100);
+    for (int u = -8; u <= 8; ++u)
+        EXPECT_NEAR(pixel(*picture, kWidth / 2 + u, kHeight / 2).r, reference, 12) << u;
+}
+
+TEST(Render, SizesOutOfRangeAndCancelling) {
+    EXPECT_TRUE(checkPictureSize(16, 16));
+    EXPECT_TRUE(checkPictureSize(7680, 4320));
+    for (const auto& [width, height] : {std::pair{15, 100}, {100, 0}, {-5, 20}, {8193, 100}, {8192, 8192}})
+        EXPECT_FALSE(checkPictureSize(width, height)) << width << 'x' << height;
+    const std::atomic<bool> cancel = true;
+    const Result<Picture> picture = draw(kBall, {{}, 16}, {.width = 32, .height = 32, .cancel = &cancel});
+    ASSERT_FALSE(picture);
+    EXPECT_NE(picture.error().message.find("cancelled"), std::string::npos);
+}
+
+/// Runs `fieldwright render` on a graph's text.
+test::ProgramResult command(const TempDir& folder, const std::string& text, const std::string& rest) {
+    test::writeText(folder.path("graph.field.json"), text);
+    return test::runProgram("cd '" + folder.folder.string() + "' && FIELDWRIGHT_VALIDATION=1 '" +
+                            FIELDWRIGHT_BINARY_DIR "/fieldwright' render graph.field.json " + rest);
+}
+
+TEST(RenderCommand, WritesAPngOfTheSizeAskedFor) {
+    const TempDir folder;
+    const auto result = command(folder, kBall, "-o ball.png --size 80x48 --resolution 24");
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_EQ(result.output, "");
+    int width = 0, height = 0, channels = 0;
+    uint8_t* pixels = stbi_load(folder.path("ball.png").c_str(), &width, &height, &channels, 0);
+    ASSERT_NE(pixels, nullptr);
+    EXPECT_EQ(width, 80);
+    EXPECT_EQ(height, 48);
+    EXPECT_EQ(channels, 3);
+    const uint8_t* centre = pixels + 3 * (24 * 80 + 40);
+    EXPECT_GT(centre[0], 2 * centre[1]);
+    stbi_image_free(pixels);
+}
+
+TEST(RenderCommand, SaysWhatIsWrong) {
+    const struct {
+        const char* nodes;  ///< empty: the ball
+        const char* arguments;
+        int status;
+        const char* message;
+    } rows[] = {
+        {"", "-o a.png --size 100", 2, "--size 100: write width x height"},
+        {"", "-o a.png --size 100x", 2, "--size 100x: write width x height"},
+        {"", "-o a.png --size 100x50x2", 2, "write width x height"},
+        {"", "-o a.png --size 99999999999x9", 2, "write width x height"},
+        {"", "-o a.png --size 0x50", 2, "sides are from 16 to 8192 pixels"},
+        {"", "-o a.png --size -5x50", 2, "sides are from 16 to 8192 pixels"},
+        {"", "-o a.png --size 8192x8192", 2, "at most 33554432 in all"},
+        {"", "-o a.jpg", 2, "a name that ends in .png"},
+        {"", "--size 64x64", 2, "--output"},
+        {"", "-o a.png --device nosuch", 2, "nosuch"},
+        {"", "-o missing/a.png --size 32x32", 3, "missing/a.png: cannot create a file in folder 'missing'"},
+        {"", "-o a.png --region 5 5 5 6 6 6", 1, "does not pass through the region"},
+        {R"({"id": "floor", "type": "plane"},
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "floor"}}})",
+         "-o a.png", 1, "graph.field.json: error: the solid has no bounds"},
+        {R"({"id": "out", "type": "output", "inputs": {"surface": {"from": "nobody"}}})", "-o a.png", 1,
+         "nobody"},
+    };
+    for (const auto& row : rows) {
+        const TempDir folder;
+        const auto result = command(folder, *row.nodes ? graphText(row.nodes) : kBall, row.arguments);
+        EXPECT_EQ(result.status, row.status) << row.arguments << ": " << result.output;
+        EXPECT_NE(result.output.find(row.message), std::string::npos)
+            << row.arguments << ": " << result.output;
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"graph.field.json"}) << row.arguments;
+    }
+}
+
+}  // namespace
+}  // namespace fw
