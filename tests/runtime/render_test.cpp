@@ -54,7 +54,7 @@ glm::ivec3 pixel(const Picture& picture, int x, int y) {
 }
 bool red(const Picture& picture, int x, int y) {
     const glm::ivec3 p = pixel(picture, x, y);
-    return p.r > 2 * p.g && p.r > 2 * p.b;
+    return p.r > p.g + 25 && p.r > p.b + 25;
 }
 int brightness(glm::ivec3 p) { return p.r + p.g + p.b; }
 
@@ -236,7 +236,8 @@ TEST(RenderCommand, SaysWhatIsWrong) {
         {"", "-o a.jpg", 2, "a name that ends in .png"},
         {"", "--size 64x64", 2, "--output"},
         {"", "-o a.png --device nosuch", 2, "nosuch"},
-        {"", "-o missing/a.png --size 32x32", 3, "missing/a.png: cannot create a file in folder 'missing'"},
+        {"", "-o missing/a.png --size 32x32", 3,
+         "missing/a.png: error: cannot create a file in folder 'missing'"},
         {"", "-o a.png --region 5 5 5 6 6 6", 1, "does not pass through the region"},
         {R"({"id": "floor", "type": "plane"},
             {"id": "out", "type": "output", "inputs": {"surface": {"from": "floor"}}})",
