@@ -8,8 +8,9 @@ namespace fw {
 namespace {
 
 constexpr std::size_t kBatch = 64;
+using Batch = std::array<double, kBatch>;
 
-/// Runs visit(id, node, operands' ids) for each non-leaf and fill(id, node) for each leaf, up to `root`.
+/// Runs leaf(id, node) for each leaf and operation(id, node, info) for the rest, up to `root`.
 template <class Leaf, class Operation>
 void scan(const Ir& ir, IrId root, Leaf leaf, Operation operation) {
     for (IrId id = 0; id <= root; ++id) {
@@ -27,27 +28,37 @@ double leafValue(const IrNode& node, std::span<const double> parameters) {
 
 bool isPosition(const IrNode& node) { return node.op >= Op::positionX && node.op <= Op::positionZ; }
 
+/// The arrays of a node's operands; what lies beyond its arity repeats the first.
+std::array<const double*, kMaxArity> gather(const std::vector<Batch>& registers, const IrNode& node,
+                                            int arity) {
+    std::array<const double*, kMaxArity> operands;
+    for (int i = 0; i < kMaxArity; ++i) operands[i] = registers[node.operands[i < arity ? i : 0]].data();
+    return operands;
+}
+
+/// Values of all operations up to `root` at points[first, first + count).
+void evaluateBatch(const Ir& ir, IrId root, std::span<const double> parameters, std::span<const Point> points,
+                   std::size_t first, std::size_t count, std::vector<Batch>& registers) {
+    scan(
+        ir, root,
+        [&](IrId id, const IrNode& node) {
+            for (std::size_t k = 0; k < count; ++k)
+                registers[id][k] = isPosition(node) ? points[first + k][id] : leafValue(node, parameters);
+        },
+        [&](IrId id, const IrNode& node, const OpInfo& info) {
+            info.values(gather(registers, node, info.arity).data(), registers[id].data(), count);
+        });
+}
+
 }  // namespace
 
 void evaluate(const Ir& ir, IrId root, std::span<const double> parameters, std::span<const Point> points,
               std::span<double> values) {
     assert(values.size() >= points.size());
-    std::vector<std::array<double, kBatch>> registers(root + 1);
+    std::vector<Batch> registers(root + 1);
     for (std::size_t first = 0; first < points.size(); first += kBatch) {
         const std::size_t count = std::min(kBatch, points.size() - first);
-        scan(
-            ir, root,
-            [&](IrId id, const IrNode& node) {
-                for (std::size_t k = 0; k < count; ++k)
-                    registers[id][k] = isPosition(node) ? points[first + k][id] : leafValue(node, parameters);
-            },
-            [&](IrId id, const IrNode& node, const OpInfo& info) {
-                double operands[kMaxArity];
-                for (std::size_t k = 0; k < count; ++k) {
-                    for (int i = 0; i < info.arity; ++i) operands[i] = registers[node.operands[i]][k];
-                    registers[id][k] = info.value(operands);
-                }
-            });
+        evaluateBatch(ir, root, parameters, points, first, count, registers);
         std::copy_n(registers[root].begin(), count, values.begin() + first);
     }
 }
@@ -61,27 +72,21 @@ double evaluate(const Ir& ir, IrId root, std::span<const double> parameters, con
 void evaluateGradient(const Ir& ir, IrId root, std::span<const double> parameters,
                       std::span<const Point> points, std::span<ValueGradient> results) {
     assert(results.size() >= points.size());
-    std::vector<ValueGradient> registers(root + 1);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        scan(
-            ir, root,
-            [&](IrId id, const IrNode& node) {
-                registers[id] = {isPosition(node) ? points[k][id] : leafValue(node, parameters), {}};
-                if (isPosition(node)) registers[id].gradient[id] = 1.0;
-            },
-            [&](IrId id, const IrNode& node, const OpInfo& info) {
-                double operands[kMaxArity], derivatives[kMaxArity];
-                for (int i = 0; i < info.arity; ++i) operands[i] = registers[node.operands[i]].value;
-                ValueGradient& result = registers[id];
-                result.value = info.value(operands);
-                for (int axis = 0; axis < 3; ++axis) {
-                    for (int i = 0; i < info.arity; ++i)
-                        derivatives[i] = registers[node.operands[i]].gradient[axis];
-                    result.gradient[axis] =
-                        node.positions ? info.gradient(operands, result.value, derivatives) : 0.0;
-                }
-            });
-        results[k] = registers[root];
+    std::vector<Batch> registers(root + 1), slopes(root + 1);
+    for (std::size_t first = 0; first < points.size(); first += kBatch) {
+        const std::size_t count = std::min(kBatch, points.size() - first);
+        evaluateBatch(ir, root, parameters, points, first, count, registers);
+        for (std::size_t k = 0; k < count; ++k) results[first + k].value = registers[root][k];
+        for (int axis = 0; axis < 3; ++axis) {
+            scan(
+                ir, root, [&](IrId id, const IrNode&) { slopes[id].fill(id == IrId(axis) ? 1.0 : 0.0); },
+                [&](IrId id, const IrNode& node, const OpInfo& info) {
+                    if (!(node.positions >> axis & 1)) return slopes[id].fill(0.0);
+                    info.gradients(gather(registers, node, info.arity).data(), registers[id].data(),
+                                   gather(slopes, node, info.arity).data(), slopes[id].data(), count);
+                });
+            for (std::size_t k = 0; k < count; ++k) results[first + k].gradient[axis] = slopes[root][k];
+        }
     }
 }
 

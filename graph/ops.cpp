@@ -16,9 +16,33 @@ using I = const Interval*;  // operands' intervals
 
 constexpr double kTiny = 1e-30;  // least argument of a logarithm
 
-double zeroSlope(V, double, D) { return 0.0; }
-double leaf(V) { return assert(false), 0.0; }
-Interval leafInterval(I) { return assert(false), Interval{}; }
+constexpr auto zeroSlope = [](V, double, D) { return 0.0; };
+constexpr auto leaf = [](V) { return assert(false), 0.0; };
+constexpr auto leafInterval = [](I) { return assert(false), Interval{}; };
+
+/// A row of the table. The loops over arrays are made from the scalar meanings, which compile into them.
+template <class Value, class Range, class Slope>
+constexpr OpInfo row(Op op, const char* name, int arity, bool boolean, bool commutative, Value value,
+                     Range interval, Slope gradient, const char* glsl, const char* glslInterval,
+                     const char* glslGradient) {
+    constexpr auto values = [](const double* const* operands, double* results, std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const double x[kMaxArity] = {operands[0][k], operands[1][k], operands[2][k], operands[3][k]};
+            results[k] = Value{}(x);
+        }
+    };
+    constexpr auto gradients = [](const double* const* operands, const double* results,
+                                  const double* const* derivatives, double* slopes, std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const double x[kMaxArity] = {operands[0][k], operands[1][k], operands[2][k], operands[3][k]};
+            const double d[kMaxArity] = {derivatives[0][k], derivatives[1][k], derivatives[2][k],
+                                         derivatives[3][k]};
+            slopes[k] = Slope{}(x, results[k], d);
+        }
+    };
+    return {op,       name,   arity,     boolean, commutative,  value,       interval,
+            gradient, values, gradients, glsl,    glslInterval, glslGradient};
+}
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
     const double lo = f(a.lo), hi = f(a.hi);
@@ -49,188 +73,230 @@ Interval hashInterval(I x) {
     return {value, value};
 }
 
-// clang-format off: one row an op, read across
 constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
-    {Op::constant, "constant", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""},
-    {Op::parameter, "parameter", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""},
-    {Op::positionX, "x", 0, false, false, leaf, leafInterval, zeroSlope, "p.x", "vec2(lo.x, hi.x)",
-     "direction.x"},
-    {Op::positionY, "y", 0, false, false, leaf, leafInterval, zeroSlope, "p.y", "vec2(lo.y, hi.y)",
-     "direction.y"},
-    {Op::positionZ, "z", 0, false, false, leaf, leafInterval, zeroSlope, "p.z", "vec2(lo.z, hi.z)",
-     "direction.z"},
+    row(Op::constant, "constant", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""),
+    row(Op::parameter, "parameter", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""),
+    row(Op::positionX, "x", 0, false, false, leaf, leafInterval, zeroSlope, "p.x", "vec2(lo.x, hi.x)",
+        "direction.x"),
+    row(Op::positionY, "y", 0, false, false, leaf, leafInterval, zeroSlope, "p.y", "vec2(lo.y, hi.y)",
+        "direction.y"),
+    row(Op::positionZ, "z", 0, false, false, leaf, leafInterval, zeroSlope, "p.z", "vec2(lo.z, hi.z)",
+        "direction.z"),
 
-    {Op::negate, "negate", 1, false, false, [](V x) { return -x[0]; }, [](I x) { return -x[0]; },
-     [](V, double, D d) { return -d[0]; }, "-%a", "-%a.yx", "-%A"},
-    {Op::absolute, "abs", 1, false, false, [](V x) { return std::abs(x[0]); },
-     [](I x) { return absolute(x[0]); }, [](V x, double, D d) { return x[0] < 0.0 ? -d[0] : d[0]; },
-     "abs(%a)", "iAbs(%a)", "%a < 0.0 ? -%A : %A"},
-    {Op::sign, "sign", 1, false, false, [](V x) { return double(x[0] > 0.0) - double(x[0] < 0.0); },
-     [](I x) {
-         return Interval{double(x[0].lo > 0.0) - double(x[0].lo < 0.0),
-                         double(x[0].hi > 0.0) - double(x[0].hi < 0.0)};
-     },
-     zeroSlope, "sign(%a)", "sign(%a)", ""},
-    {Op::floor, "floor", 1, false, false, [](V x) { return std::floor(x[0]); },
-     [](I x) {
-         return Interval{std::floor(x[0].lo), std::floor(x[0].hi)};
-     },
-     zeroSlope, "floor(%a)", "floor(%a)", ""},
-    {Op::ceil, "ceil", 1, false, false, [](V x) { return std::ceil(x[0]); },
-     [](I x) {
-         return Interval{std::ceil(x[0].lo), std::ceil(x[0].hi)};
-     },
-     zeroSlope, "ceil(%a)", "ceil(%a)", ""},
-    {Op::round, "round", 1, false, false, [](V x) { return std::floor(x[0] + 0.5); },
-     [](I x) {
-         return Interval{std::floor(x[0].lo + 0.5), std::floor(x[0].hi + 0.5)};
-     },
-     zeroSlope, "floor(%a + 0.5)", "floor(%a + 0.5)", ""},
-    {Op::truncate, "trunc", 1, false, false, [](V x) { return std::trunc(x[0]); },
-     [](I x) {
-         return Interval{std::trunc(x[0].lo), std::trunc(x[0].hi)};
-     },
-     zeroSlope, "trunc(%a)", "trunc(%a)", ""},
-    {Op::squareRoot, "sqrt", 1, false, false, [](V x) { return std::sqrt(std::max(x[0], 0.0)); },
-     [](I x) { return monotone([](double v) { return std::sqrt(std::max(v, 0.0)); }, x[0], 0.0); },
-     [](V, double v, D d) { return v > 0.0 ? 0.5 * d[0] / v : 0.0; }, "sqrt(max(%a, 0.0))",
-     "iOut(sqrt(max(%a, 0.0)))", "%v > 0.0 ? (0.5 / %v) * %A : 0.0"},
-    {Op::square, "square", 1, false, false, [](V x) { return x[0] * x[0]; }, [](I x) { return square(x[0]); },
-     [](V x, double, D d) { return 2.0 * x[0] * d[0]; }, "%a * %a", "iSquare(%a)", "(2.0 * %a) * %A"},
-    {Op::exponential, "exp", 1, false, false, [](V x) { return std::exp(x[0]); },
-     [](I x) { return monotone([](double v) { return std::exp(v); }, x[0], 1e-13); },
-     [](V, double v, D d) { return v * d[0]; }, "exp(%a)", "iExp(%a)", "%v * %A"},
-    {Op::logarithm, "log", 1, false, false, [](V x) { return std::log(std::max(x[0], kTiny)); },
-     [](I x) { return monotone([](double v) { return std::log(std::max(v, kTiny)); }, x[0], 1e-13); },
-     [](V x, double, D d) { return x[0] > kTiny ? d[0] / x[0] : 0.0; }, "log(max(%a, 1e-30))",
-     "iSlack(log(max(%a, 1e-30)))", "%a > 1e-30 ? %A / %a : 0.0"},
-    {Op::sine, "sin", 1, false, false, [](V x) { return std::sin(x[0]); }, [](I x) { return sine(x[0]); },
-     [](V x, double, D d) { return std::cos(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)", "cos(%a) * %A"},
-    {Op::cosine, "cos", 1, false, false, [](V x) { return std::cos(x[0]); },
-     [](I x) {
-         return sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
-     },
-     [](V x, double, D d) { return -std::sin(x[0]) * d[0]; }, "cos(%a)", "iSin(%a + 1.57079633)",
-     "-sin(%a) * %A"},
-    {Op::tangent, "tan", 1, false, false, [](V x) { return std::tan(x[0]); },
-     [](I x) {
-         return sine(x[0]) / sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
-     },
-     [](V, double v, D d) { return (1.0 + v * v) * d[0]; }, "tan(%a)",
-     "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A"},
-    {Op::arcSine, "asin", 1, false, false, [](V x) { return std::asin(clampUnit(x[0])); },
-     [](I x) { return monotone([](double v) { return std::asin(clampUnit(v)); }, x[0], 1e-13); },
-     [](V x, double, D d) { return std::abs(x[0]) < 1.0 ? d[0] / std::sqrt(1.0 - x[0] * x[0]) : 0.0; },
-     "asin(clamp(%a, -1.0, 1.0))", "iSlack(asin(clamp(%a, -1.0, 1.0)))",
-     "abs(%a) < 1.0 ? %A / sqrt(1.0 - %a * %a) : 0.0"},
-    {Op::arcCosine, "acos", 1, false, false, [](V x) { return std::acos(clampUnit(x[0])); },
-     [](I x) {
-         return outward(std::acos(clampUnit(x[0].hi)) - 1e-13, std::acos(clampUnit(x[0].lo)) + 1e-13);
-     },
-     [](V x, double, D d) { return std::abs(x[0]) < 1.0 ? -d[0] / std::sqrt(1.0 - x[0] * x[0]) : 0.0; },
-     "acos(clamp(%a, -1.0, 1.0))", "iSlack(acos(clamp(%a.yx, -1.0, 1.0)))",
-     "abs(%a) < 1.0 ? -%A / sqrt(1.0 - %a * %a) : 0.0"},
-    {Op::arcTangent, "atan", 1, false, false, [](V x) { return std::atan(x[0]); },
-     [](I x) { return monotone([](double v) { return std::atan(v); }, x[0], 1e-13); },
-     [](V x, double, D d) { return d[0] / (1.0 + x[0] * x[0]); }, "atan(%a)", "iSlack(atan(%a))",
-     "%A / (1.0 + %a * %a)"},
-    {Op::logicalNot, "not", 1, true, false, [](V x) { return 1.0 - x[0]; },
-     [](I x) {
-         return Interval{1.0 - x[0].hi, 1.0 - x[0].lo};
-     },
-     zeroSlope, "!%a", "1.0 - %a.yx", ""},
+    row(
+        Op::negate, "negate", 1, false, false, [](V x) { return -x[0]; }, [](I x) { return -x[0]; },
+        [](V, double, D d) { return -d[0]; }, "-%a", "-%a.yx", "-%A"),
+    row(
+        Op::absolute, "abs", 1, false, false, [](V x) { return std::abs(x[0]); },
+        [](I x) { return absolute(x[0]); }, [](V x, double, D d) { return x[0] < 0.0 ? -d[0] : d[0]; },
+        "abs(%a)", "iAbs(%a)", "%a < 0.0 ? -%A : %A"),
+    row(
+        Op::sign, "sign", 1, false, false, [](V x) { return double(x[0] > 0.0) - double(x[0] < 0.0); },
+        [](I x) {
+            return Interval{double(x[0].lo > 0.0) - double(x[0].lo < 0.0),
+                            double(x[0].hi > 0.0) - double(x[0].hi < 0.0)};
+        },
+        zeroSlope, "sign(%a)", "sign(%a)", ""),
+    row(
+        Op::floor, "floor", 1, false, false, [](V x) { return std::floor(x[0]); },
+        [](I x) {
+            return Interval{std::floor(x[0].lo), std::floor(x[0].hi)};
+        },
+        zeroSlope, "floor(%a)", "floor(%a)", ""),
+    row(
+        Op::ceil, "ceil", 1, false, false, [](V x) { return std::ceil(x[0]); },
+        [](I x) {
+            return Interval{std::ceil(x[0].lo), std::ceil(x[0].hi)};
+        },
+        zeroSlope, "ceil(%a)", "ceil(%a)", ""),
+    row(
+        Op::round, "round", 1, false, false, [](V x) { return std::floor(x[0] + 0.5); },
+        [](I x) {
+            return Interval{std::floor(x[0].lo + 0.5), std::floor(x[0].hi + 0.5)};
+        },
+        zeroSlope, "floor(%a + 0.5)", "floor(%a + 0.5)", ""),
+    row(
+        Op::truncate, "trunc", 1, false, false, [](V x) { return std::trunc(x[0]); },
+        [](I x) {
+            return Interval{std::trunc(x[0].lo), std::trunc(x[0].hi)};
+        },
+        zeroSlope, "trunc(%a)", "trunc(%a)", ""),
+    row(
+        Op::squareRoot, "sqrt", 1, false, false, [](V x) { return std::sqrt(std::max(x[0], 0.0)); },
+        [](I x) { return monotone([](double v) { return std::sqrt(std::max(v, 0.0)); }, x[0], 0.0); },
+        [](V, double v, D d) { return v > 0.0 ? 0.5 * d[0] / v : 0.0; }, "sqrt(max(%a, 0.0))",
+        "iOut(sqrt(max(%a, 0.0)))", "%v > 0.0 ? (0.5 / %v) * %A : 0.0"),
+    row(
+        Op::square, "square", 1, false, false, [](V x) { return x[0] * x[0]; },
+        [](I x) { return square(x[0]); }, [](V x, double, D d) { return 2.0 * x[0] * d[0]; }, "%a * %a",
+        "iSquare(%a)", "(2.0 * %a) * %A"),
+    row(
+        Op::exponential, "exp", 1, false, false, [](V x) { return std::exp(x[0]); },
+        [](I x) { return monotone([](double v) { return std::exp(v); }, x[0], 1e-13); },
+        [](V, double v, D d) { return v * d[0]; }, "exp(%a)", "iExp(%a)", "%v * %A"),
+    row(
+        Op::logarithm, "log", 1, false, false, [](V x) { return std::log(std::max(x[0], kTiny)); },
+        [](I x) { return monotone([](double v) { return std::log(std::max(v, kTiny)); }, x[0], 1e-13); },
+        [](V x, double, D d) { return x[0] > kTiny ? d[0] / x[0] : 0.0; }, "log(max(%a, 1e-30))",
+        "iSlack(log(max(%a, 1e-30)))", "%a > 1e-30 ? %A / %a : 0.0"),
+    row(
+        Op::sine, "sin", 1, false, false, [](V x) { return std::sin(x[0]); }, [](I x) { return sine(x[0]); },
+        [](V x, double, D d) { return std::cos(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)", "cos(%a) * %A"),
+    row(
+        Op::cosine, "cos", 1, false, false, [](V x) { return std::cos(x[0]); },
+        [](I x) {
+            return sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
+        },
+        [](V x, double, D d) { return -std::sin(x[0]) * d[0]; }, "cos(%a)", "iSin(%a + 1.57079633)",
+        "-sin(%a) * %A"),
+    row(
+        Op::tangent, "tan", 1, false, false, [](V x) { return std::tan(x[0]); },
+        [](I x) {
+            return sine(x[0]) / sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
+        },
+        [](V, double v, D d) { return (1.0 + v * v) * d[0]; }, "tan(%a)",
+        "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A"),
+    row(
+        Op::arcSine, "asin", 1, false, false, [](V x) { return std::asin(clampUnit(x[0])); },
+        [](I x) { return monotone([](double v) { return std::asin(clampUnit(v)); }, x[0], 1e-13); },
+        [](V x, double, D d) { return std::abs(x[0]) < 1.0 ? d[0] / std::sqrt(1.0 - x[0] * x[0]) : 0.0; },
+        "asin(clamp(%a, -1.0, 1.0))", "iSlack(asin(clamp(%a, -1.0, 1.0)))",
+        "abs(%a) < 1.0 ? %A / sqrt(1.0 - %a * %a) : 0.0"),
+    row(
+        Op::arcCosine, "acos", 1, false, false, [](V x) { return std::acos(clampUnit(x[0])); },
+        [](I x) {
+            return outward(std::acos(clampUnit(x[0].hi)) - 1e-13, std::acos(clampUnit(x[0].lo)) + 1e-13);
+        },
+        [](V x, double, D d) { return std::abs(x[0]) < 1.0 ? -d[0] / std::sqrt(1.0 - x[0] * x[0]) : 0.0; },
+        "acos(clamp(%a, -1.0, 1.0))", "iSlack(acos(clamp(%a.yx, -1.0, 1.0)))",
+        "abs(%a) < 1.0 ? -%A / sqrt(1.0 - %a * %a) : 0.0"),
+    row(
+        Op::arcTangent, "atan", 1, false, false, [](V x) { return std::atan(x[0]); },
+        [](I x) { return monotone([](double v) { return std::atan(v); }, x[0], 1e-13); },
+        [](V x, double, D d) { return d[0] / (1.0 + x[0] * x[0]); }, "atan(%a)", "iSlack(atan(%a))",
+        "%A / (1.0 + %a * %a)"),
+    row(
+        Op::logicalNot, "not", 1, true, false, [](V x) { return 1.0 - x[0]; },
+        [](I x) {
+            return Interval{1.0 - x[0].hi, 1.0 - x[0].lo};
+        },
+        zeroSlope, "!%a", "1.0 - %a.yx", ""),
 
-    {Op::add, "add", 2, false, true, [](V x) { return x[0] + x[1]; }, [](I x) { return x[0] + x[1]; },
-     [](V, double, D d) { return d[0] + d[1]; }, "%a + %b", "%a + %b", "%A + %B"},
-    {Op::subtract, "subtract", 2, false, false, [](V x) { return x[0] - x[1]; },
-     [](I x) { return x[0] - x[1]; }, [](V, double, D d) { return d[0] - d[1]; }, "%a - %b",
-     "iOut(%a - %b.yx)", "%A - %B"},
-    {Op::multiply, "multiply", 2, false, true, [](V x) { return x[0] * x[1]; },
-     [](I x) { return x[0] * x[1]; }, [](V x, double, D d) { return x[1] * d[0] + x[0] * d[1]; }, "%a * %b",
-     "iMultiply(%a, %b)", "%b * %A + %a * %B"},
-    {Op::divide, "divide", 2, false, false, [](V x) { return x[0] / x[1]; }, [](I x) { return x[0] / x[1]; },
-     [](V x, double v, D d) { return x[1] != 0.0 ? (d[0] - v * d[1]) / x[1] : 0.0; }, "%a / %b",
-     "iDivide(%a, %b)", "%b != 0.0 ? (%A - %v * %B) / %b : 0.0"},
-    {Op::minimum, "min", 2, false, true, [](V x) { return std::min(x[0], x[1]); },
-     [](I x) { return minimum(x[0], x[1]); }, [](V x, double, D d) { return x[0] <= x[1] ? d[0] : d[1]; },
-     "min(%a, %b)", "min(%a, %b)", "%a <= %b ? %A : %B"},
-    {Op::maximum, "max", 2, false, true, [](V x) { return std::max(x[0], x[1]); },
-     [](I x) { return maximum(x[0], x[1]); }, [](V x, double, D d) { return x[0] >= x[1] ? d[0] : d[1]; },
-     "max(%a, %b)", "max(%a, %b)", "%a >= %b ? %A : %B"},
-    {Op::power, "pow", 2, false, false, [](V x) { return std::pow(std::max(x[0], 0.0), x[1]); },
-     [](I x) { return power(x[0], x[1]); },
-     [](V x, double v, D d) { return x[0] > 0.0 ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : 0.0; },
-     "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0"},
-    {Op::modulo, "mod", 2, false, false, [](V x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
-     [](I x) { return modulo(x[0], x[1]); },
-     [](V x, double, D d) { return d[0] - std::floor(x[0] / x[1]) * d[1]; }, "mod(%a, %b)", "iModulo(%a, %b)",
-     "%A - floor(%a / %b) * %B"},
-    {Op::truncatedModulo, "fmod", 2, false, false, [](V x) { return x[0] - x[1] * std::trunc(x[0] / x[1]); },
-     [](I x) { return truncatedModulo(x[0], x[1]); },
-     [](V x, double, D d) { return d[0] - std::trunc(x[0] / x[1]) * d[1]; }, "(%a - %b * trunc(%a / %b))",
-     "iTruncatedModulo(%a, %b)", "%A - trunc(%a / %b) * %B"},
-    {Op::arcTangent2, "atan2", 2, false, false, [](V x) { return std::atan2(x[0], x[1]); },
-     [](I x) { return arcTangent2(x[0], x[1]); },
-     [](V x, double, D d) {
-         const double squared = x[0] * x[0] + x[1] * x[1];
-         return squared > 0.0 ? (x[1] * d[0] - x[0] * d[1]) / squared : 0.0;
-     },
-     "fieldArcTangent2(%a, %b)", "iArcTangent2(%a, %b)",
-     "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0"},
-    {Op::less, "less", 2, true, false, [](V x) { return double(x[0] < x[1]); },
-     [](I x) { return truth(x[0].hi < x[1].lo, x[0].lo >= x[1].hi); }, zeroSlope, "(%a < %b)",
-     "vec2(%a.y < %b.x, %a.x < %b.y)", ""},
-    {Op::lessEqual, "lessEqual", 2, true, false, [](V x) { return double(x[0] <= x[1]); },
-     [](I x) { return truth(x[0].hi <= x[1].lo, x[0].lo > x[1].hi); }, zeroSlope, "(%a <= %b)",
-     "vec2(%a.y <= %b.x, %a.x <= %b.y)", ""},
-    {Op::equal, "equal", 2, true, true, [](V x) { return double(x[0] == x[1]); },
-     [](I x) {
-         return truth(x[0].isPoint() && x[1].isPoint() && x[0].lo == x[1].lo,
-                      x[0].hi < x[1].lo || x[1].hi < x[0].lo);
-     },
-     zeroSlope, "(%a == %b)", "iEqual(%a, %b)", ""},
-    {Op::logicalAnd, "and", 2, true, true, [](V x) { return x[0] * x[1]; },
-     [](I x) { return minimum(x[0], x[1]); }, zeroSlope, "(%a && %b)", "min(%a, %b)", ""},
-    {Op::logicalOr, "or", 2, true, true, [](V x) { return std::max(x[0], x[1]); },
-     [](I x) { return maximum(x[0], x[1]); }, zeroSlope, "(%a || %b)", "max(%a, %b)", ""},
+    row(
+        Op::add, "add", 2, false, true, [](V x) { return x[0] + x[1]; }, [](I x) { return x[0] + x[1]; },
+        [](V, double, D d) { return d[0] + d[1]; }, "%a + %b", "%a + %b", "%A + %B"),
+    row(
+        Op::subtract, "subtract", 2, false, false, [](V x) { return x[0] - x[1]; },
+        [](I x) { return x[0] - x[1]; }, [](V, double, D d) { return d[0] - d[1]; }, "%a - %b",
+        "iOut(%a - %b.yx)", "%A - %B"),
+    row(
+        Op::multiply, "multiply", 2, false, true, [](V x) { return x[0] * x[1]; },
+        [](I x) { return x[0] * x[1]; }, [](V x, double, D d) { return x[1] * d[0] + x[0] * d[1]; },
+        "%a * %b", "iMultiply(%a, %b)", "%b * %A + %a * %B"),
+    row(
+        Op::divide, "divide", 2, false, false, [](V x) { return x[0] / x[1]; },
+        [](I x) { return x[0] / x[1]; },
+        [](V x, double v, D d) { return x[1] != 0.0 ? (d[0] - v * d[1]) / x[1] : 0.0; }, "%a / %b",
+        "iDivide(%a, %b)", "%b != 0.0 ? (%A - %v * %B) / %b : 0.0"),
+    row(
+        Op::minimum, "min", 2, false, true, [](V x) { return std::min(x[0], x[1]); },
+        [](I x) { return minimum(x[0], x[1]); }, [](V x, double, D d) { return x[0] <= x[1] ? d[0] : d[1]; },
+        "min(%a, %b)", "min(%a, %b)", "%a <= %b ? %A : %B"),
+    row(
+        Op::maximum, "max", 2, false, true, [](V x) { return std::max(x[0], x[1]); },
+        [](I x) { return maximum(x[0], x[1]); }, [](V x, double, D d) { return x[0] >= x[1] ? d[0] : d[1]; },
+        "max(%a, %b)", "max(%a, %b)", "%a >= %b ? %A : %B"),
+    row(
+        Op::power, "pow", 2, false, false, [](V x) { return std::pow(std::max(x[0], 0.0), x[1]); },
+        [](I x) { return power(x[0], x[1]); },
+        [](V x, double v, D d) {
+            return x[0] > 0.0 ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : 0.0;
+        },
+        "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0"),
+    row(
+        Op::modulo, "mod", 2, false, false, [](V x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
+        [](I x) { return modulo(x[0], x[1]); },
+        [](V x, double, D d) { return d[0] - std::floor(x[0] / x[1]) * d[1]; }, "mod(%a, %b)",
+        "iModulo(%a, %b)", "%A - floor(%a / %b) * %B"),
+    row(
+        Op::truncatedModulo, "fmod", 2, false, false,
+        [](V x) { return x[0] - x[1] * std::trunc(x[0] / x[1]); },
+        [](I x) { return truncatedModulo(x[0], x[1]); },
+        [](V x, double, D d) { return d[0] - std::trunc(x[0] / x[1]) * d[1]; }, "(%a - %b * trunc(%a / %b))",
+        "iTruncatedModulo(%a, %b)", "%A - trunc(%a / %b) * %B"),
+    row(
+        Op::arcTangent2, "atan2", 2, false, false, [](V x) { return std::atan2(x[0], x[1]); },
+        [](I x) { return arcTangent2(x[0], x[1]); },
+        [](V x, double, D d) {
+            const double squared = x[0] * x[0] + x[1] * x[1];
+            return squared > 0.0 ? (x[1] * d[0] - x[0] * d[1]) / squared : 0.0;
+        },
+        "fieldArcTangent2(%a, %b)", "iArcTangent2(%a, %b)",
+        "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0"),
+    row(
+        Op::less, "less", 2, true, false, [](V x) { return double(x[0] < x[1]); },
+        [](I x) { return truth(x[0].hi < x[1].lo, x[0].lo >= x[1].hi); }, zeroSlope, "(%a < %b)",
+        "vec2(%a.y < %b.x, %a.x < %b.y)", ""),
+    row(
+        Op::lessEqual, "lessEqual", 2, true, false, [](V x) { return double(x[0] <= x[1]); },
+        [](I x) { return truth(x[0].hi <= x[1].lo, x[0].lo > x[1].hi); }, zeroSlope, "(%a <= %b)",
+        "vec2(%a.y <= %b.x, %a.x <= %b.y)", ""),
+    row(
+        Op::equal, "equal", 2, true, true, [](V x) { return double(x[0] == x[1]); },
+        [](I x) {
+            return truth(x[0].isPoint() && x[1].isPoint() && x[0].lo == x[1].lo,
+                         x[0].hi < x[1].lo || x[1].hi < x[0].lo);
+        },
+        zeroSlope, "(%a == %b)", "iEqual(%a, %b)", ""),
+    row(
+        Op::logicalAnd, "and", 2, true, true, [](V x) { return x[0] * x[1]; },
+        [](I x) { return minimum(x[0], x[1]); }, zeroSlope, "(%a && %b)", "min(%a, %b)", ""),
+    row(
+        Op::logicalOr, "or", 2, true, true, [](V x) { return std::max(x[0], x[1]); },
+        [](I x) { return maximum(x[0], x[1]); }, zeroSlope, "(%a || %b)", "max(%a, %b)", ""),
 
-    {Op::select, "select", 3, false, false, [](V x) { return x[0] != 0.0 ? x[1] : x[2]; },
-     [](I x) { return x[0].lo > 0.5   ? x[1]
-                      : x[0].hi < 0.5 ? x[2]
-                                      : hull(x[1], x[2]); },
-     [](V x, double, D d) { return x[0] != 0.0 ? d[1] : d[2]; }, "%a ? %b : %c", "iSelect(%a, %b, %c)",
-     "%a ? %B : %C"},
+    row(
+        Op::select, "select", 3, false, false, [](V x) { return x[0] != 0.0 ? x[1] : x[2]; },
+        [](I x) { return x[0].lo > 0.5   ? x[1]
+                         : x[0].hi < 0.5 ? x[2]
+                                         : hull(x[1], x[2]); },
+        [](V x, double, D d) { return x[0] != 0.0 ? d[1] : d[2]; }, "%a ? %b : %c", "iSelect(%a, %b, %c)",
+        "%a ? %B : %C"),
 
-    {Op::gradientNoise, "perlin", 4, false, false,
-     [](V x) { return gradientNoise(x[0], x[1], x[2], x[3]).value; },
-     [](I x) {
-         return noiseInterval(x, gradientNoise, kGradientNoiseSlope, -kGradientNoiseRange,
-                              kGradientNoiseRange);
-     },
-     [](V x, double, D d) { return noiseSlope(gradientNoise(x[0], x[1], x[2], x[3]), d); },
-     "gradientNoise(vec3(%a, %b, %c), %d)",
-     "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)",
-     "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"},
-    {Op::simplexNoise, "simplex", 4, false, false,
-     [](V x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
-     [](I x) {
-         return noiseInterval(x, simplexNoise, kSimplexNoiseSlope, -kSimplexNoiseRange, kSimplexNoiseRange);
-     },
-     [](V x, double, D d) { return noiseSlope(simplexNoise(x[0], x[1], x[2], x[3]), d); },
-     "simplexNoise(vec3(%a, %b, %c), %d)",
-     "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)",
-     "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"},
-    {Op::worleyNoise, "worley", 4, false, false,
-     [](V x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
-     [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
-     [](V x, double, D d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
-     "worleyNoise(vec3(%a, %b, %c), %d)",
-     "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)",
-     "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"},
-    {Op::cellHash, "hash", 4, false, false, [](V x) { return cellHash(x[0], x[1], x[2], x[3]); },
-     hashInterval, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)", "iCellHash(%a, %b, %c, %d)", ""},
+    row(
+        Op::gradientNoise, "perlin", 4, false, false,
+        [](V x) { return gradientNoise(x[0], x[1], x[2], x[3]).value; },
+        [](I x) {
+            return noiseInterval(x, gradientNoise, kGradientNoiseSlope, -kGradientNoiseRange,
+                                 kGradientNoiseRange);
+        },
+        [](V x, double, D d) { return noiseSlope(gradientNoise(x[0], x[1], x[2], x[3]), d); },
+        "gradientNoise(vec3(%a, %b, %c), %d)",
+        "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)",
+        "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+    row(
+        Op::simplexNoise, "simplex", 4, false, false,
+        [](V x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
+        [](I x) {
+            return noiseInterval(x, simplexNoise, kSimplexNoiseSlope, -kSimplexNoiseRange,
+                                 kSimplexNoiseRange);
+        },
+        [](V x, double, D d) { return noiseSlope(simplexNoise(x[0], x[1], x[2], x[3]), d); },
+        "simplexNoise(vec3(%a, %b, %c), %d)",
+        "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)",
+        "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+    row(
+        Op::worleyNoise, "worley", 4, false, false,
+        [](V x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
+        [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
+        [](V x, double, D d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
+        "worleyNoise(vec3(%a, %b, %c), %d)",
+        "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)",
+        "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+    row(
+        Op::cellHash, "hash", 4, false, false, [](V x) { return cellHash(x[0], x[1], x[2], x[3]); },
+        hashInterval, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)", "iCellHash(%a, %b, %c, %d)", ""),
 }};
-// clang-format on
 
 constexpr bool inOrder() {
     for (size_t i = 0; i < kTable.size(); ++i)

@@ -14,6 +14,7 @@
 // are vec2(0|1, 0|1). Sums and roots round in GLSL intervals as they do in values; see lib/interval.glsl.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -87,6 +88,10 @@ struct OpInfo {
     Interval (*interval)(const Interval* operands);
     /// One component of the result's derivative, from the operands' values, the result and their derivatives.
     double (*gradient)(const double* operands, double result, const double* derivatives);
+    /// value and gradient over arrays: `operands[i]` and `derivatives[i]` hold `count` numbers each.
+    void (*values)(const double* const* operands, double* results, std::size_t count);
+    void (*gradients)(const double* const* operands, const double* results, const double* const* derivatives,
+                      double* slopes, std::size_t count);
     const char* glsl;
     const char* glslInterval;
     const char* glslGradient;  ///< "" where the derivative is zero everywhere
