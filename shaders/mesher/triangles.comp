@@ -11,7 +11,7 @@
 // A group has some eighty strips; small work groups leave few lanes without one.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLanes = 32;
-layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };  // strip, axis, bit
+layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };  // sign, strip, axis, bit
 layout(binding = 11, scalar) readonly buffer Table { uvec3 table[]; };            // marching_cubes_table.h
 layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
 layout(binding = 13, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
@@ -90,7 +90,8 @@ void main() {
             bool next = crossed.x == 0;
             crossed = next ? uvec3(crossed.yz, 0) : crossed;
             entry += next ? 32 : 0;
-            if (crossed.x != 0) vertexList[k++] = entry | findLSB(crossed.x);
+            uint bit = findLSB(crossed.x);
+            if (crossed.x != 0) vertexList[k++] = entry | bit | (low.at >> (bit & 31)) << 31;
             crossed.x &= crossed.x - 1;
         } while (k < end);
     } while ((item += kLanes) < base.w);

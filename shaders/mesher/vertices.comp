@@ -1,11 +1,11 @@
 // Places a vertex on each active edge: the root of the field along the edge, and the field's gradient there.
 //
-// Bracketing by the Illinois variant of the secant method until the value is small beside those at the edge's ends,
-// then one Newton step with the gradient that the normal needs anyway. The field is evaluated in one loop, so that it is
-// compiled once. A vertex keeps a small distance from the ends of its edge: no two vertices then coincide, no
+// Newton's method from the middle of the edge, kept within a bracket that starts as the edge (its ends differ in sign)
+// and falls back to halving it. The derivative along the edge is one component of the gradient that the normal needs; the
+// two others follow at the root. All of it calls the field, with one derivative, from one place in one loop, so that
+// the field is compiled once. A vertex keeps a small distance from the ends of its edge: no two vertices then coincide, no
 // triangle collapses, and the topology is the table's even where a sample is exactly zero.
-#define FIELD_VALUE
-#define FIELD_GRADIENT
+#define FIELD_TANGENT
 #include "mesher/mesher.glsl"
 #include "field.glsl"
 #include "lib/octahedral.glsl"
@@ -15,8 +15,8 @@ layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
 layout(binding = 10, scalar) readonly buffer VertexList { uint vertexList[]; };
 layout(binding = 13, scalar) writeonly buffer Vertices { uvec4 vertices[]; };  // MeshVertex in one store
 
-const uint kMostSteps = 6;
-const float kTolerance = 0.02;  // of the value's range over the edge; the Newton step at the end squares what is left
+const uint kMostSteps = 10;       // halving alone then reaches a thousandth of the edge
+const float kTolerance = 0.02;   // of the edge; the Newton step at the end squares what is left
 
 void main() {
     fieldBegin();
@@ -25,34 +25,35 @@ void main() {
     bool valid = chunkStart + index < counts.vertices && index < MESHER_VERTEX_CHUNK;
     uint word = vertexList[chunkStart + (valid ? index : 0)];
     uint bit = word & 31, axis = word >> 5 & 3, side = word >> 7 & 1, z = word >> 8 & 7;
-    uvec3 begin = unpackBrick(brickList[word >> 11]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);
+    bool insideAtA = (word >> 31) != 0;
+    uvec3 begin = unpackBrick(brickList[word >> 11 & 0xfffff]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);
     uvec3 along = uvec3(equal(uvec3(axis), uvec3(0, 1, 2)));
     vec3 p = samplePosition(begin);
     vec3 edge = samplePosition(begin + along) - p;
 
-    float fa = fieldValue(p), fb = fieldValue(p + edge);
-    float a = 0.0, b = 1.0, scale = abs(fa) + abs(fb);
-    float t = fa / (fa - fb), next = clamp(t, 0.0, 1.0);
-    next = t == t ? next : 0.5;
-    vec4 gradient;
-    bool done;
-    uint i = 0;
+    float a = 0.0, b = 1.0, t = 0.5, root;
+    uint component = axis;  // of the gradient; the first one, along the edge, until the root is found
+    vec3 gradient;
+    bool searching = true, last;
+    uint steps = 0;
     do {
-        t = next;
-        gradient = fieldGradient(p + t * edge);
-        float f = gradient.w;
-        bool atA = (f < 0.0) == (fa < 0.0);  // the new point replaces the end whose sign it has
-        a = atA ? t : a;
-        fa = atA ? f : fa;
-        b = atA ? b : t;
-        fb = atA ? fb : f;
-        float newton = t - f / dot(gradient.xyz, edge), secant = (a * fb - b * fa) / (fb - fa);
-        next = i < 3 && secant >= a && secant <= b ? secant : 0.5 * (a + b);
-        next = newton >= a && newton <= b ? newton : next;
-        done = abs(f) <= kTolerance * scale;
-    } while (++i < kMostSteps && !done);
-    t = next;
-    t = clamp(t, push.nudge, 1.0 - push.nudge);
+        vec3 direction = vec3(component == 0, component == 1, component == 2);
+        vec2 f = fieldTangent(p + t * edge, direction);
+        gradient[component] = f.y;
+        bool insideAtT = f.x < 0.0;
+        a = searching && insideAtT == insideAtA ? t : a;
+        b = searching && insideAtT != insideAtA ? t : b;
+        float slope = f.y * push.cellSize;  // by t
+        float newton = f.x == 0.0 ? t : t - f.x / slope;
+        float next = newton >= a && newton <= b ? newton : 0.5 * (a + b);
+        root = searching ? next : root;
+        bool found = abs(f.x) <= kTolerance * abs(slope) || ++steps >= kMostSteps;
+        t = searching && !found ? next : t;
+        last = !searching && component == (axis + 2) % 3;
+        component = searching && !found ? component : (component + 1) % 3;
+        searching = searching && !found;
+    } while (!last);
+    t = clamp(root, push.nudge, 1.0 - push.nudge);
 
     // An edge to the outside layer has its vertex on the region's boundary, a nudge away from the region's edges: the
     // vertices of two boundary faces must not meet there.
