@@ -230,11 +230,13 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
     glm::vec3 reach = glm::max(glm::abs(config.origin), glm::abs(farCorner));
     float largest = std::max({reach.x, reach.y, reach.z});
     float ulp = std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest;
-    float nudge = std::max(kLeastNudge, kNudgeUlps * ulp / config.cellSize);
-    if (!(config.cellSize > 0) || !(nudge <= kMostNudge))
+    float smallest = std::min({config.cellSize.x, config.cellSize.y, config.cellSize.z});
+    float widest = std::max({config.cellSize.x, config.cellSize.y, config.cellSize.z});
+    float nudge = std::max(kLeastNudge, kNudgeUlps * ulp / smallest);
+    if (!(smallest > 0) || !(nudge <= kMostNudge))
         return Error{.message =
-                         "cells of " + std::to_string(config.cellSize) +
-                         " m are too small for coordinates up to " + std::to_string(largest) +
+                         "cells of " + std::to_string(smallest) + " m are too small for coordinates up to " +
+                         std::to_string(largest) +
                          " m in single precision; choose a lower resolution or move the model to the origin"};
 
     glm::uvec3 cells(config.cells);
@@ -278,10 +280,9 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
             // The interval of some brick missed surface that is there (rounding, or a field at fault). The
             // mesh has a hole, so cull less: each time with a wider margin, in the end not at all.
             push.margin = std::isinf(push.margin) ? push.margin
-                          : push.margin == 0      ? config.cellSize / 8
+                          : push.margin == 0      ? widest / 8
                                                   : push.margin * 16;
-            if (push.margin > 16 * longest * config.cellSize)
-                push.margin = std::numeric_limits<float>::infinity();
+            if (push.margin > 16 * longest * widest) push.margin = std::numeric_limits<float>::infinity();
             continue;
         }
         result.vertices = counts.vertices;

@@ -34,7 +34,7 @@ namespace fw {
 
 struct MesherConfig {
     glm::vec3 origin{-1.0f};      ///< least corner of the region, metres
-    float cellSize = 2.0f / 128;  ///< metres
+    glm::vec3 cellSize{2.0f / 128};  ///< metres along each axis
     glm::ivec3 cells{128};        ///< of the region along each axis, any number from 1 to kMostMesherCells
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
     bool colors = false;  ///< also the base colour at each vertex; the pipelines must have been made for it

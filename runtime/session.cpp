@@ -86,17 +86,17 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     MesherConfig config;
     double longest = 0.0;
     for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region->hi[axis] - region->lo[axis]);
-    const double cell = longest / resolution;
-    config.cellSize = static_cast<float>(cell);
     for (int axis = 0; axis < 3; ++axis) {
+        // A whole number of cells along each side, as near to cubes as that allows.
+        const double side = region->hi[axis] - region->lo[axis];
+        config.cells[axis] =
+            std::clamp(static_cast<int>(std::lround(resolution * side / longest)), 1, resolution);
         config.origin[axis] = static_cast<float>(region->lo[axis]);
-        // The other sides take whole cells, at least what the region asks for.
-        config.cells[axis] = std::clamp(
-            static_cast<int>(std::ceil((region->hi[axis] - region->lo[axis]) / cell - 1e-6)), 1, resolution);
+        config.cellSize[axis] = static_cast<float>(side / config.cells[axis]);
     }
     grid.lo = config.origin;
     grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
-    grid.cellSize = config.cellSize;
+    grid.cellSize = static_cast<float>(longest / resolution);
     config.parameters = &parameters;
     config.colors = pipelines.colors;
     config.timed = timed;

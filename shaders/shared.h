@@ -37,7 +37,7 @@ using vec4 = glm::vec4;
 // What every mesher kernel is told.
 struct MesherPush {
     vec3 origin;            // of the region, metres
-    float cellSize;         // metres
+    vec3 cellSize;          // metres along each axis
     uvec3 cells;            // of the region
     float margin;           // an interval this close to zero counts as reaching it
     uvec3 blocks;           // of the grid, which has one layer of outside samples around the region

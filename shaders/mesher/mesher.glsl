@@ -21,7 +21,7 @@ uvec3 blockAt(uint block) {
 
 /// Sample i along an axis stands at origin + (i - 1) cells: samples 0 and cells + 2 are the outside layer around the
 /// region, which closes every surface. All kernels must compute a position in this one way, to the same bits.
-float samplePosition(int axis, uint i) { return push.origin[axis] + float(int(i) - 1) * push.cellSize; }
+float samplePosition(int axis, uint i) { return push.origin[axis] + float(int(i) - 1) * push.cellSize[axis]; }
 vec3 samplePosition(uvec3 i) { return push.origin + vec3(ivec3(i) - 1) * push.cellSize; }
 
 uint packBrick(uvec3 brick) { return brick.x | brick.y << 10 | brick.z << 20; }

@@ -43,7 +43,7 @@ void main() {
         bool insideAtT = f.x < 0.0;
         a = searching && insideAtT == insideAtA ? t : a;
         b = searching && insideAtT != insideAtA ? t : b;
-        float slope = f.y * push.cellSize;  // by t
+        float slope = f.y * push.cellSize[axis];  // by t
         float newton = f.x == 0.0 ? t : t - f.x / slope;
         float next = newton >= a && newton <= b ? newton : 0.5 * (a + b);
         root = searching ? next : root;
@@ -59,7 +59,7 @@ void main() {
     // vertices of two boundary faces must not meet there.
     uint rim = begin[axis] == 0 ? 1 : begin[axis] == push.cells[axis] + 1 ? 2 : 0;
     vec3 low = samplePosition(uvec3(1)), high = samplePosition(push.cells + 1);
-    vec3 inset = vec3(push.nudge * push.cellSize);
+    vec3 inset = push.nudge * push.cellSize;
     vec3 onRim = clamp(rim == 1 ? p + edge : p, low + inset, high - inset);
     vec3 position = rim == 0 ? p + t * edge : mix(onRim, rim == 1 ? low : high, vec3(along));
     float size = length(gradient.xyz);

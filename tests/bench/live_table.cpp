@@ -99,7 +99,7 @@ void liveTable(Bench& bench) {
     MesherBuffers buffers;
     const float half = regionHalf(Field::tower);
     const MesherConfig config{.origin = glm::vec3(-half),
-                              .cellSize = 2 * half / kCells,
+                              .cellSize = glm::vec3(2 * half / kCells),
                               .cells = glm::ivec3(kCells),
                               .parameters = &parameters};
     MesherResult results[2];
@@ -150,7 +150,9 @@ void compileTable(Bench& bench) {
             const double built = millisecondsSince(start);
             MesherResult result;
             meshOnce(bench, pipelines, buffers,
-                     {.origin = glm::vec3(-2.5f), .cellSize = 5.0f / kCells, .cells = glm::ivec3(kCells)},
+                     {.origin = glm::vec3(-2.5f),
+                      .cellSize = glm::vec3(5.0f / kCells),
+                      .cells = glm::ivec3(kCells)},
                      result);
             const double total = millisecondsSince(start);
             compiling.runs.push_back(compiled);

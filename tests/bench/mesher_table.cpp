@@ -36,7 +36,7 @@ struct Ours {
 std::optional<Ours> timeMesher(Bench& bench, const MesherPipelines& pipelines, MesherBuffers& buffers,
                                Field field, int cells) {
     MesherConfig config{.origin = glm::vec3(-regionHalf(field)),
-                        .cellSize = 2 * regionHalf(field) / float(cells),
+                        .cellSize = glm::vec3(2 * regionHalf(field) / float(cells)),
                         .cells = glm::ivec3(cells)};
     const std::string name = std::string(fieldName(field)) + " at " + std::to_string(cells);
     const auto run = [&] {

@@ -79,8 +79,9 @@ void talkTableAt(Bench& bench, int cells) {
     const MesherPipelines pipelines = createMesherPipelines(bench.device(), field);
     const Pipeline pass = createMeshPass(bench.device(), sizeof(gpu::MeshVertex) / sizeof(float));
     MesherBuffers buffers;
-    const MesherConfig config{
-        .origin = glm::vec3(-half), .cellSize = 2 * half / float(cells), .cells = glm::ivec3(cells)};
+    const MesherConfig config{.origin = glm::vec3(-half),
+                              .cellSize = glm::vec3(2 * half / float(cells)),
+                              .cells = glm::ivec3(cells)};
     Row ours{"ours: sparse bricks, indexed", "–", {}, {}};
     ours.generate = measure(bench.options.repeats, [&] {
         const auto start = Clock::now();

@@ -365,6 +365,27 @@ TEST(AnalyticSolids, APolygonizeNodeGivesRegionAndResolution) {
     EXPECT_TRUE(program->exactness.exact());
 }
 
+TEST(AnalyticSolids, ASurfaceThatLeavesTheRegionIsClosedOnItsFaces) {
+    Result<Program> program = compile(single("sphere", {}));
+    ASSERT_TRUE(program);
+    Result<Device> device = createDevice({.validation = true});
+    ASSERT_TRUE(device);
+    Session session(std::move(*device));
+    session.setProgram(std::move(*program));
+    const Box region{{-0.31, -1.3, -0.57}, {0.42, 0.123, 1.2}};  // no side a multiple of the cell
+    const Result<MesherResult> result = session.polygonise({region, 61});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->capped);
+    const Mesh mesh = session.download(*result);
+    const Report report = reportOnMesh(mesh.positions, mesh.indices);
+    EXPECT_TRUE(report.closedManifold());
+    const double lo[] = {-0.31, -1.0, -0.57}, hi[] = {0.42, 0.123, 1.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(report.boundsMin[axis], lo[axis], 1e-3);
+        EXPECT_NEAR(report.boundsMax[axis], hi[axis], 1e-3);
+    }
+}
+
 TEST(AnalyticSolids, ErrorFallsWithTheSquareOfTheCell) {
     const double exact = 4.0 / 3.0 * kPi * 0.343;
     double errors[3], cells[3];

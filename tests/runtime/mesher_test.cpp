@@ -79,7 +79,9 @@ Meshed polygonise(const std::string& field, const MesherConfig& config) {
 }
 
 MesherConfig cube(float low, float high, int cells) {
-    return {.origin = glm::vec3(low), .cellSize = (high - low) / float(cells), .cells = glm::ivec3(cells)};
+    return {.origin = glm::vec3(low),
+            .cellSize = glm::vec3((high - low) / float(cells)),
+            .cells = glm::ivec3(cells)};
 }
 
 Report expectClosed(const Mesh& mesh) {
@@ -116,8 +118,10 @@ struct SignField {
         text = "#define N " + std::to_string(n) + "\n" + text;
         Buffer buffer = createBuffer(test::device(), inside.size() * 4);
         upload(test::device(), buffer, inside);
-        MesherConfig config{
-            .origin = glm::vec3(0), .cellSize = 1, .cells = glm::ivec3(n - 1), .parameters = &buffer};
+        MesherConfig config{.origin = glm::vec3(0),
+                            .cellSize = glm::vec3(1),
+                            .cells = glm::ivec3(n - 1),
+                            .parameters = &buffer};
         return fw::polygonise(text, config);
     }
 
@@ -265,7 +269,8 @@ TEST(Mesher, TowerAtManyResolutions) {
 TEST(Mesher, TwoLevelsOfCullingGiveTheSameMeshAsOne) {
     // A slab of few cells across, long enough for blocks to be culled, against its short halves.
     std::string field = lipschitzField("length(p.yz) - 0.05 - 0.02 * sin(p.x * 9.0)", "1.1");
-    MesherConfig longGrid{.origin = {-1, -0.1f, -0.1f}, .cellSize = 2.0f / 640, .cells = {640, 64, 70}};
+    MesherConfig longGrid{
+        .origin = {-1, -0.1f, -0.1f}, .cellSize = glm::vec3(2.0f / 640), .cells = {640, 64, 70}};
     Meshed meshed = polygonise(field, longGrid);
     Report report = expectClosed(meshed.mesh);
     EXPECT_EQ(report.eulerCharacteristic, 2);
@@ -371,9 +376,9 @@ TEST(Mesher, ImpossibleRegionsAreErrors) {
     };
     EXPECT_NE(message({.cells = {0, 4, 4}}).find("cells"), std::string::npos);
     EXPECT_NE(message({.cells = {4, 4, 100'000}}).find("100000"), std::string::npos);
-    EXPECT_NE(
-        message({.origin = glm::vec3(1e6f), .cellSize = 0.01f, .cells = {4, 4, 4}}).find("single precision"),
-        std::string::npos);
+    EXPECT_NE(message({.origin = glm::vec3(1e6f), .cellSize = glm::vec3(0.01f), .cells = {4, 4, 4}})
+                  .find("single precision"),
+              std::string::npos);
 }
 
 TEST(Mesher, StagesAreNamed) {

@@ -85,7 +85,7 @@ TEST(Baseline, HasTheMeshersTriangles) {
         MesherBuffers buffers;
         MesherConfig config;
         config.origin = grid.origin;
-        config.cellSize = grid.spacing;
+        config.cellSize = glm::vec3(grid.spacing);
         config.cells = glm::ivec3(kCells);
         const Result<MesherResult> result =
             runMesher(device(), createMesherPipelines(device(), emitField(*program)), buffers, config);
