@@ -30,6 +30,10 @@ enum Kernel {
     colors,
     kernelCount
 };
+constexpr const char* kNames[kernelCount] = {
+    "mesher/blocks.comp",     "mesher/cull.comp",      "mesher/top_bricks.comp", "mesher/compact.comp",
+    "mesher/link.comp",       "mesher/sample.comp",    "mesher/classify.comp",   "mesher/top_groups.comp",
+    "mesher/top_groups.comp", "mesher/triangles.comp", "mesher/vertices.comp",   "mesher/colors.comp"};
 
 /// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
 constexpr int kCellsForBlocks = 512;
@@ -124,6 +128,11 @@ Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer,
             std::min<uint64_t>(buffer.size - offset, device.properties.limits.maxStorageBufferRange)};
 }
 
+/// The mesh may be larger than one dispatch of the last two kernels can write.
+bool isChunked(const MesherPush& push) {
+    return push.vertexCapacity > MESHER_VERTEX_CHUNK || push.triangleCapacity > MESHER_TRIANGLE_CHUNK;
+}
+
 void record(Commands& commands, const MesherPipelines& pipelines, const MesherBuffers& b,
             const MesherConfig& config, MesherPush push) {
     const Device& device = commands.device;
@@ -166,7 +175,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     beginStage(commands, "classify");
     indirect(classify, MESHER_BRICKS,
              {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}, {8, b.edges}, {12, b.stripList}});
-    direct(vertexChunks > 1 || triangleChunks > 1 ? topGroupsChunked : topGroups, 1, {{4, b.sums}});
+    direct(isChunked(push) ? topGroupsChunked : topGroups, 1, {{4, b.sums}});
     beginStage(commands, "triangles");
     for (push.chunk = 0; push.chunk < triangleChunks; ++push.chunk) {
         indirect(triangles, MESHER_TRIANGLES + push.chunk,
@@ -191,35 +200,41 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     }
 }
 
-}  // namespace
-
-MesherPipelines createMesherPipelines(const Device& device, std::string_view field, bool wantColors,
-                                      CompileTimes* times) {
-    std::vector<ShaderOptions> shaders(kernelCount);
-    auto set = [&](Kernel kernel, const char* name, std::vector<uint32_t> constants = {}) {
-        shaders[kernel] = {.name = name, .field = field, .constants = std::move(constants)};
-    };
-    set(blocks, "mesher/blocks.comp");
-    set(cull, "mesher/cull.comp");
-    set(topBricks, "mesher/top_bricks.comp");
-    set(compact, "mesher/compact.comp");
-    set(link, "mesher/link.comp");
-    set(sample, "mesher/sample.comp");
-    set(classify, "mesher/classify.comp");
-    set(topGroups, "mesher/top_groups.comp", {0});
-    set(topGroupsChunked, "mesher/top_groups.comp", {1});
-    set(triangles, "mesher/triangles.comp", {std::clamp(device.subgroupSize, 16u, 64u)});
-    set(vertices, "mesher/vertices.comp");
-    if (wantColors)
-        set(colors, "mesher/colors.comp");
-    else
-        shaders.pop_back();
-    return {createComputePipelines(device, shaders, times), wantColors};
+/// Builds those of `kernels` that are not built yet.
+void build(const Device& device, MesherPipelines& pipelines, std::initializer_list<Kernel> kernels,
+           CompileTimes* times = nullptr) {
+    pipelines.all.resize(kernelCount);
+    std::vector<ShaderOptions> shaders;
+    std::vector<Kernel> missing;
+    for (Kernel kernel : kernels) {
+        if (pipelines.all[kernel] || std::find(missing.begin(), missing.end(), kernel) != missing.end())
+            continue;
+        ShaderOptions options{.name = kNames[kernel], .field = pipelines.field};
+        if (kernel == topGroups || kernel == topGroupsChunked)
+            options.constants = {kernel == topGroupsChunked};
+        if (kernel == triangles) options.constants = {std::clamp(device.subgroupSize, 16u, 64u)};
+        shaders.push_back(std::move(options));
+        missing.push_back(kernel);
+    }
+    if (missing.empty()) return;
+    std::vector<Pipeline> built = createComputePipelines(device, shaders, times);
+    for (std::size_t i = 0; i < missing.size(); ++i) pipelines.all[missing[i]] = std::move(built[i]);
 }
 
-Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipelines, MesherBuffers& buffers,
+}  // namespace
+
+MesherPipelines createMesherPipelines(const Device& device, std::string field, bool wantColors,
+                                      CompileTimes* times) {
+    MesherPipelines pipelines{{}, std::move(field)};
+    build(device, pipelines,
+          {cull, topBricks, compact, link, sample, classify, topGroups, triangles, vertices,
+           wantColors ? colors : vertices},
+          times);
+    return pipelines;
+}
+
+Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines, MesherBuffers& buffers,
                                const MesherConfig& config) {
-    assert(!config.colors || pipelines.colors);
     int longest = std::max({config.cells.x, config.cells.y, config.cells.z});
     if (std::min({config.cells.x, config.cells.y, config.cells.z}) < 1 || longest > kMostMesherCells)
         return Error{.message = "a grid of " + std::to_string(config.cells.x) + " x " +
@@ -250,12 +265,15 @@ Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipe
     push.blocks = blockCount;
     push.nudge = nudge;
     push.blocksListed = longest >= kCellsForBlocks;
+    if (push.blocksListed) build(device, pipelines, {blocks});
+    if (config.colors) build(device, pipelines, {colors});
     MesherResult result;
     for (result.runs = 1;; ++result.runs) {
         reserveAll(device, buffers, blockCount, config.colors);
         push.brickCapacity = buffers.brickCapacity;
         push.vertexCapacity = buffers.vertexCapacity;
         push.triangleCapacity = buffers.triangleCapacity;
+        if (isChunked(push)) build(device, pipelines, {topGroupsChunked});
         Commands commands(device, config.timed);
         record(commands, pipelines, buffers, config, push);
         submit(commands);

@@ -24,7 +24,7 @@
 // needs more and hold the last mesh), the configuration to one run.
 #pragma once
 
-#include <string_view>
+#include <string>
 
 #include "runtime/gpu/commands.h"
 #include "runtime/mesh.h"
@@ -33,24 +33,25 @@
 namespace fw {
 
 struct MesherConfig {
-    glm::vec3 origin{-1.0f};      ///< least corner of the region, metres
+    glm::vec3 origin{-1.0f};         ///< least corner of the region, metres
     glm::vec3 cellSize{2.0f / 128};  ///< metres along each axis
-    glm::ivec3 cells{128};        ///< of the region along each axis, any number from 1 to kMostMesherCells
+    glm::ivec3 cells{128};           ///< of the region along each axis, any number from 1 to kMostMesherCells
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
-    bool colors = false;  ///< also the base colour at each vertex; the pipelines must have been made for it
-    bool timed = false;   ///< fill MesherResult::stages (see commands.h for what that costs)
+    bool colors = false;                 ///< also the base colour at each vertex
+    bool timed = false;                  ///< fill MesherResult::stages (see commands.h for what that costs)
 };
 
 inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits
 
-/// The kernels for one field.
+/// The kernels for one field. Those that only long grids or large meshes need are built at their first use.
 struct MesherPipelines {
-    std::vector<Pipeline> all;  ///< in the order of mesher.cpp's Kernel
-    bool colors = false;
+    std::vector<Pipeline> all;  ///< in the order of mesher.cpp's Kernel; some may be empty
+    std::string field;
 };
 
-/// Compiles the kernels. `field` is the text that answers #include "field.glsl", empty for the default field.
-MesherPipelines createMesherPipelines(const Device& device, std::string_view field, bool colors = false,
+/// Compiles the kernels, with `colors` the one for colours too. `field` is the text that answers #include
+/// "field.glsl", empty for the default field.
+MesherPipelines createMesherPipelines(const Device& device, std::string field, bool colors = false,
                                       CompileTimes* times = nullptr);
 
 /// Everything the kernels write. Made empty; runMesher sizes it.
@@ -75,7 +76,7 @@ struct MesherResult {
 /// Polygonises the field over the region into `buffers`. Errors: a region without cells or with too many,
 /// cells too small for the precision of positions, a surface too large to number. Throws SystemError if
 /// memory runs out.
-Result<MesherResult> runMesher(const Device& device, const MesherPipelines& pipelines, MesherBuffers& buffers,
+Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines, MesherBuffers& buffers,
                                const MesherConfig& config);
 
 /// Copies the last mesh to the host.

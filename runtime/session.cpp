@@ -98,7 +98,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
     grid.cellSize = static_cast<float>(longest / resolution);
     config.parameters = &parameters;
-    config.colors = pipelines.colors;
+    config.colors = current.hasMaterial();
     config.timed = timed;
     return runMesher(gpu, pipelines, buffers, config);
 }

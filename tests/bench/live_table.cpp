@@ -58,8 +58,8 @@ Graph chainOf(int nodes, double difference) {
 }
 
 /// Meshes and checks; ms of the run.
-double meshOnce(Bench& bench, const MesherPipelines& pipelines, MesherBuffers& buffers,
-                const MesherConfig& config, MesherResult& result) {
+double meshOnce(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers, const MesherConfig& config,
+                MesherResult& result) {
     const auto start = Clock::now();
     Result<MesherResult> made = runMesher(bench.device(), pipelines, buffers, config);
     const double elapsed = millisecondsSince(start);
@@ -94,7 +94,7 @@ void liveTable(Bench& bench) {
     const std::string field = emitField(*program);
     if (emitField(*changed) != field) bench.fail("a live parameter changed the code");
 
-    const MesherPipelines pipelines = createMesherPipelines(device, field);
+    MesherPipelines pipelines = createMesherPipelines(device, field);
     const Buffer parameters = createBuffer(device, 4 * program->live.size(), Memory::upload);
     MesherBuffers buffers;
     const float half = regionHalf(Field::tower);
@@ -146,7 +146,7 @@ void compileTable(Bench& bench) {
             const double compiled = millisecondsSince(start);
             const std::string field = emitField(*program);
             const double emitted = millisecondsSince(start);
-            const MesherPipelines pipelines = createMesherPipelines(device, field);
+            MesherPipelines pipelines = createMesherPipelines(device, field);
             const double built = millisecondsSince(start);
             MesherResult result;
             meshOnce(bench, pipelines, buffers,

@@ -33,8 +33,8 @@ struct Ours {
 };
 
 /// Meshes the field, checks the mesh against what is expected of it, and times it.
-std::optional<Ours> timeMesher(Bench& bench, const MesherPipelines& pipelines, MesherBuffers& buffers,
-                               Field field, int cells) {
+std::optional<Ours> timeMesher(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers, Field field,
+                               int cells) {
     MesherConfig config{.origin = glm::vec3(-regionHalf(field)),
                         .cellSize = glm::vec3(2 * regionHalf(field) / float(cells)),
                         .cells = glm::ivec3(cells)};
@@ -124,7 +124,7 @@ void mesherTable(Bench& bench) {
     for (Field field : kFields) {
         const std::optional<Program> program = benchProgram(bench, field);
         if (!program) continue;
-        const MesherPipelines pipelines = createMesherPipelines(bench.device(), emitField(*program));
+        MesherPipelines pipelines = createMesherPipelines(bench.device(), emitField(*program));
         for (int cells : bench.sizes({128, 256, 512, 1024})) {
             const std::string name = std::string(fieldName(field)) + " at " + std::to_string(cells);
             const double side = cells + 1;

@@ -76,7 +76,7 @@ void talkTableAt(Bench& bench, int cells) {
         rows.push_back(std::move(row));
     }
 
-    const MesherPipelines pipelines = createMesherPipelines(bench.device(), field);
+    MesherPipelines pipelines = createMesherPipelines(bench.device(), field);
     const Pipeline pass = createMeshPass(bench.device(), sizeof(gpu::MeshVertex) / sizeof(float));
     MesherBuffers buffers;
     const MesherConfig config{.origin = glm::vec3(-half),

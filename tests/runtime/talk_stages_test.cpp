@@ -83,12 +83,12 @@ TEST(Baseline, HasTheMeshersTriangles) {
         const float half = regionHalf(field);
         const GridEdges grid{.origin = glm::vec3(-half), .spacing = 2 * half / kCells};
         MesherBuffers buffers;
+        MesherPipelines pipelines = createMesherPipelines(device(), emitField(*program));
         MesherConfig config;
         config.origin = grid.origin;
         config.cellSize = glm::vec3(grid.spacing);
         config.cells = glm::ivec3(kCells);
-        const Result<MesherResult> result =
-            runMesher(device(), createMesherPipelines(device(), emitField(*program)), buffers, config);
+        const Result<MesherResult> result = runMesher(device(), pipelines, buffers, config);
         ASSERT_TRUE(result) << format(result.error());
         const Mesh mesh = downloadMesh(device(), buffers, *result);
         baseline.run(field);
