@@ -22,31 +22,33 @@ using vec4 = glm::vec4;
 
 #define FIELD_PARAMETERS 15  // binding of the live parameters, in every shader that includes field.glsl
 
-// ---- Mesher ------------------------------------------------------------------------------------------------------
-// Words used: sample, a grid point; cell, between eight samples; brick, 8^3 cells; block, 8^3 bricks; row, 8 bricks
-// along x; plane, the 9x9 samples of a brick at one z; strip, 4x8 cells (x, y) of a brick at one z.
+// ---- Mesher
+// ------------------------------------------------------------------------------------------------------
+// Words used: sample, a grid point; cell, between eight samples; brick, 8^3 cells; block, 8^3 bricks; row, 8
+// bricks along x; plane, the 9x9 samples of a brick at one z; strip, 4x8 cells (x, y) of a brick at one z.
 
-#define MESHER_VERTEX_CHUNK 8388608u     // vertices that one dispatch writes: 16 bytes each make 128 MiB
-#define MESHER_TRIANGLE_CHUNK 11000000u  // triangles that one dispatch starts: 12 bytes each and some slack, ditto
-#define MESHER_CHUNKS 16                 // dispatches at most: 2 GiB, the largest allocation
-#define MESHER_GROUP_BRICKS 8            // bricks of a group: of one work group of the kernels over planes
-#define MESHER_GROUP_STRIPS 128          // strips of one such group: 16 a brick
-#define MESHER_GROUP_LINKS 64            // bricks and vertices of one work group of the kernels over those
+#define MESHER_VERTEX_CHUNK 8388608u  // vertices that one dispatch writes: 16 bytes each make 128 MiB
+#define MESHER_TRIANGLE_CHUNK \
+    11000000u                    // triangles that one dispatch starts: 12 bytes each and some slack, ditto
+#define MESHER_CHUNKS 16         // dispatches at most: 2 GiB, the largest allocation
+#define MESHER_GROUP_BRICKS 8    // bricks of a group: of one work group of the kernels over planes
+#define MESHER_GROUP_STRIPS 128  // strips of one such group: 16 a brick
+#define MESHER_GROUP_LINKS 64    // bricks and vertices of one work group of the kernels over those
 #define MESHER_GROUP_VERTICES 64
 
 // What every mesher kernel is told.
 struct MesherPush {
-    vec3 origin;            // of the region, metres
-    vec3 cellSize;          // metres along each axis
-    uvec3 cells;            // of the region
-    float margin;           // an interval this close to zero counts as reaching it
-    uvec3 blocks;           // of the grid, which has one layer of outside samples around the region
-    float nudge;            // least distance of a vertex from the ends of its grid edge, in cells
-    uint blocksListed;      // 1: the blocks to look into are listed; 0: all are meant
+    vec3 origin;        // of the region, metres
+    vec3 cellSize;      // metres along each axis
+    uvec3 cells;        // of the region
+    float margin;       // an interval this close to zero counts as reaching it
+    uvec3 blocks;       // of the grid, which has one layer of outside samples around the region
+    float nudge;        // least distance of a vertex from the ends of its grid edge, in cells
+    uint blocksListed;  // 1: the blocks to look into are listed; 0: all are meant
     uint brickCapacity;
     uint vertexCapacity;
     uint triangleCapacity;
-    uint chunk;             // of vertices or triangles, for kernels that run once a chunk
+    uint chunk;  // of vertices or triangles, for kernels that run once a chunk
 };
 
 struct DispatchArguments {
@@ -59,7 +61,8 @@ struct DispatchArguments {
 #define MESHER_LINKS 2     // over bricks
 #define MESHER_BRICKS 3    // over bricks
 #define MESHER_VERTICES 4  // over vertices, one for each chunk
-#define MESHER_TRIANGLES (MESHER_VERTICES + MESHER_CHUNKS)  // over groups of bricks, one for each chunk of triangles
+#define MESHER_TRIANGLES \
+    (MESHER_VERTICES + MESHER_CHUNKS)  // over groups of bricks, one for each chunk of triangles
 #define MESHER_GROUPS (MESHER_TRIANGLES + MESHER_CHUNKS)
 
 // What the kernels count, and the arguments of the indirect dispatches and of the draw that follow.

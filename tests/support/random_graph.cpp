@@ -5,8 +5,8 @@
 #include <random>
 
 #include "graph/check.h"
-#include "graph/sockets.h"
 #include "graph/node_type.h"
+#include "graph/sockets.h"
 
 namespace fw::test {
 
@@ -126,7 +126,8 @@ class Generator {
             made.code = codes[random() % std::size(codes)];
             made.set("r", {0.5 + unit()});
             auto other = link(Type::scalar, 0.7);
-            if (other && typeOf(*other) != Type::scalar) other.reset();  // a surface would make the result one
+            if (other && typeOf(*other) != Type::scalar)
+                other.reset();  // a surface would make the result one
             made.set("s", other ? InputValue{*other} : InputValue{unit()});
             sources.push_back({id, "", Type::scalar});
             return made;
