@@ -529,7 +529,8 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
     while (at < end) {
         double number = 0.0;
         const auto [next, failure] = std::from_chars(at, end, number);
-        if (failure != std::errc{} || !std::isfinite(number) || (next < end && *next != ','))
+        if (failure != std::errc{} || !std::isfinite(number) ||
+            (next < end && (*next != ',' || next + 1 == end)))
             return errorAt(graph, nullptr,
                            "'" + text + "' is no value for the parameter '" + name +
                                "': write a number, or numbers with commas between them");

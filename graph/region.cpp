@@ -14,7 +14,7 @@ struct Field {
     IrId root;
     std::span<const double> parameters;
 
-    bool outside(const Box& box) const { return evaluateInterval(ir, root, parameters, box).lo > 0.0; }
+    bool outside(const Box& box) const { return evaluateInterval(ir, root, parameters, box).lo >= 0.0; }
 };
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
@@ -128,7 +128,8 @@ bool reachesBeyond(const Field& field, const Box& box) {
     double size = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         size = std::max({size, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
-    for (int i = 0; i < 20'000; ++i) {
+    const std::size_t samples = std::clamp<std::size_t>(20'000'000 / (field.root + 1), 500, 20'000);
+    for (std::size_t i = 0; i < samples; ++i) {
         const double reach = size * std::pow(kFarthest / size, unit(random));
         // Copies may run along a line or a plane: a random set of axes is left at the box.
         const unsigned displaced = 1 + random() % 7;
@@ -152,8 +153,8 @@ bool reachesBeyond(const Field& field, const Box& box) {
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
     const Field field{ir, distance, parameters};
     if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
-    // About 20 ms of interval arithmetic at most.
-    const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 512, 20'000);
+    // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
+    const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
         for (int axis = 0; axis < 3; ++axis)
             if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};

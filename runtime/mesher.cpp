@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -43,6 +44,12 @@ constexpr uint64_t kLookupBytes = 16 * 16;  // of the edge -> vertex lookup, for
 constexpr float kLeastNudge = 1e-4f;        // cells
 constexpr float kNudgeUlps = 8.0f;          // of the largest coordinate
 constexpr float kMostNudge = 0.05f;
+
+std::string brief(float number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", double(number));
+    return text;
+}
 
 uint32_t chunksOf(uint64_t items, uint64_t each) { return uint32_t((items + each - 1) / each); }
 
@@ -250,8 +257,8 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     float nudge = std::max(kLeastNudge, kNudgeUlps * ulp / smallest);
     if (!(smallest > 0) || !(nudge <= kMostNudge))
         return Error{.message =
-                         "cells of " + std::to_string(smallest) + " m are too small for coordinates up to " +
-                         std::to_string(largest) +
+                         "cells of " + brief(smallest) + " m are too small for coordinates up to " +
+                         brief(largest) +
                          " m in single precision; choose a lower resolution or move the model to the origin"};
 
     glm::uvec3 cells(config.cells);

@@ -10,6 +10,9 @@ namespace fw {
 
 namespace {
 
+/// Beyond these, in metres, squares of lengths leave the range of single precision.
+constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
+
 Error problem(std::string message) {
     Error error;
     error.message = std::move(message);
@@ -37,11 +40,14 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
     const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
     const Region found = findRegion(program.ir, program.distance(), program.parameters());
     switch (found.extent) {
-        case Extent::empty: return problem("the solid is empty: no point has a negative distance");
+        case Extent::empty:
+            return problem(
+                "the solid is empty: no point within 16 km of the origin has a negative distance (give a "
+                "region if it lies farther out)");
         case Extent::unbounded:
             return problem(
-                "the solid has no bounds: give a region (--region x0 y0 z0 x1 y1 z1), or intersect it with a "
-                "box");
+                "the solid has no bounds within 16 km of the origin: give a region (--region x0 y0 z0 x1 y1 "
+                "z1), or intersect it with a box");
         case Extent::bounded: break;
     }
     return padded(found.box, resolution, 1.5);
@@ -84,8 +90,15 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     if (!region) return region.error();
 
     MesherConfig config;
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region->hi[axis] - region->lo[axis]);
+    double longest = 0.0, farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        longest = std::max(longest, region->hi[axis] - region->lo[axis]);
+        farthest = std::max({farthest, std::abs(region->lo[axis]), std::abs(region->hi[axis])});
+    }
+    const double cell = longest / resolution;
+    if (!(cell >= kLeastCell) || !(farthest <= kFarthestCorner))
+        return problem("the region is too " + std::string(cell < kLeastCell ? "small" : "large") +
+                       " for single precision, in which lengths are squared: scale the model");
     for (int axis = 0; axis < 3; ++axis) {
         // A whole number of cells along each side, as near to cubes as that allows.
         const double side = region->hi[axis] - region->lo[axis];

@@ -454,13 +454,16 @@ class Run {
                           (near.empty() ? "" : ": did you mean '" + near + "'?"));
     }
 
+    /// An Error where a divisor of the user's code is the constant 0.
+    void refuseZero(const Value& divisor, Place place) {
+        if (!scope.refusesZeroDivision) return;
+        const int width = divisor.type == Type::surface ? 1 : componentCount(divisor.type);
+        for (int i = 0; i < width; ++i)
+            if (ir.isConstant(divisor.ids[i], 0.0)) fail(place, "division by zero");
+    }
+
     Value combine(char operation, const Value& a, const Value& b, Place place) {
-        if (operation == '/' && scope.refusesZeroDivision) {
-            for (int i = 0; i < std::min(componentCount(b.type), 3); ++i)
-                if ((i == 0 || b.type == Type::vec2 || b.type == Type::vec3) &&
-                    ir.isConstant(b.ids[i], 0.0) && i < componentCount(b.type))
-                    fail(place, "division by zero");
-        }
+        if (operation == '/' || operation == '%') refuseZero(b, place);
         return checked(arithmetic(state, operation, a, b), place);
     }
 
@@ -559,6 +562,7 @@ class Run {
         const Value* field = find(frame, e.text);
         if (!field) field = findInput(e.text);
         if (field) return atPosition(*field, arguments, e);
+        if ((e.text == "mod" || e.text == "fmod") && arguments.size() == 2) refuseZero(arguments[1], e.place);
         if (isBuiltin(e.text)) return checked(callBuiltin(state, e.text, arguments), e.place);
 
         const NodeType* type = findNodeType(e.text);

@@ -16,9 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// |f| / |gradient f| by the CPU reference.
-FieldError fieldError(const Program& program) {
-    return [&program](std::span<const glm::dvec3> points, std::span<double> errors) {
+/// |f| / |gradient f| by the CPU reference; none on the faces of `region`, where a solid that leaves it was
+/// closed.
+FieldError fieldError(const Program& program, const Box& region) {
+    return [&program, region](std::span<const glm::dvec3> points, std::span<double> errors) {
         std::vector<Point> positions(points.size());
         for (std::size_t i = 0; i < points.size(); ++i)
             positions[i] = {points[i].x, points[i].y, points[i].z};
@@ -28,6 +29,11 @@ FieldError fieldError(const Program& program) {
             const Point& g = results[i].gradient;
             const double slope = std::hypot(g[0], g[1], g[2]);
             errors[i] = std::abs(results[i].value) / (slope > 1e-12 ? slope : 1.0);
+            double beyond = -INFINITY;
+            for (int axis = 0; axis < 3; ++axis)
+                beyond = std::max(
+                    {beyond, region.lo[axis] - positions[i][axis], positions[i][axis] - region.hi[axis]});
+            if (results[i].value < 0.0) errors[i] = std::min(errors[i], std::abs(beyond));
         }
     };
 }
@@ -64,7 +70,7 @@ int runExport(const ExportOptions& options) {
         const double total = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
         const uint64_t peak = peakMemoryBytes();
         progress.start("report", 85);
-        Result<Report> report = reportOnFile(options.output, fieldError(session.program()));
+        Result<Report> report = reportOnFile(options.output, fieldError(session.program(), opened->region));
         if (!report) return print(report.error()), kSystemFailure;
         progress.finish();
         report->capped = meshed.capped;

@@ -82,7 +82,7 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     if (!device) return print(device.error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
 
-    MeshedGraph meshed{Session(std::move(*device)), {}};
+    MeshedGraph meshed{Session(std::move(*device)), {}, *box};
     progress.start("pipelines", 20);
     meshed.session.setProgram(std::move(*program));
     if (interrupted) return fail(stopped());

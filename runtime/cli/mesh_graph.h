@@ -36,6 +36,7 @@ class Progress {
 struct MeshedGraph {
     Session session;
     MesherResult mesh;  ///< has triangles
+    Box region;         ///< what it was meshed in
 };
 
 /// Reads, compiles and meshes; the stages take the first 60 % of the progress. If that cannot be done, says

@@ -26,6 +26,20 @@ bool isRefusal(const fw::Error& error) {
     return !error.message.empty() && error.codeLine > 0 && error.codeColumn > 0;
 }
 
+bool everyOperationIsFinite(const fw::Ir& ir, const fw::Point& point) {
+    std::vector<double> values;
+    for (fw::IrId id = 0; id < ir.size(); ++id) {
+        const fw::IrNode& node = ir[id];
+        double operands[fw::kMaxArity] = {};
+        for (int i = 0; i < fw::opInfo(node.op).arity; ++i) operands[i] = values[node.operands[i]];
+        values.push_back(id < 3                        ? point[id]
+                         : node.op == fw::Op::constant ? node.number
+                                                       : fw::opInfo(node.op).value(operands));
+        if (!std::isfinite(values.back())) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
@@ -57,6 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     const int count = componentCount(values->front().type);
     const Point point{0.3, -0.7, 1.1};
     const Box box{{0.25, -1.0, 1.0}, {0.5, -0.5, 1.25}};
+    // Where an intermediate result is no number (x % 0, 0/0 of fields), comparisons of it have no meaning.
+    if (!everyOperationIsFinite(state.ir, point)) return 0;
     for (int i = 0; i < count; ++i) {
         const IrId root = values->front().ids[i];
         const double value = evaluate(state.ir, root, {}, point);

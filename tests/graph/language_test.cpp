@@ -227,6 +227,9 @@ TEST(Language, Diagnostics) {
     expectError("x = 3 +", "code 1:8: expected a value, found the end of the code");
     expectError("return 1/0;", "code 1:9: division by zero");
     expectError("return p / vec3(1, 0, 1);", "division by zero");
+    expectError("return p % 0;", "code 1:10: division by zero");
+    expectError("return mod(p, 0);", "division by zero");
+    expectError("p /= 0;", "division by zero");
     expectError("float f(float x) { return f(x); } return f(1);", "calls itself");
     expectError("for (;;) {}", "code 1:7: the loop has no condition");
     expectError("for (int i = 0; i < 1; ) d = p.x;", "steps");

@@ -1,0 +1,182 @@
+// The command line of the real program: usage errors, help, and what goes to which stream.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/command.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+using test::CommandResult;
+using test::expectRefusal;
+using test::runCommand;
+using test::TempDir;
+
+constexpr const char* kBall = R"({"fieldwright": 1,
+  "nodes": [{"id": "ball", "type": "sphere"},
+            {"id": "size", "type": "parameter", "inputs": {"name": "size", "value": 1, "min": -2, "max": 2}},
+            {"id": "fat", "type": "offset", "inputs": {"surface": {"from": "ball"}, "distance": {"from": "size"}}},
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "fat"}, "resolution": 16}}],
+  "parameters": [{"name": "radius", "node": "ball", "input": "radius", "min": 0.125, "max": 4}]})";
+
+struct Command : testing::Test {
+    TempDir folder;
+    std::string graph = folder.path("ball.field.json"), mesh = folder.path("ball.stl");
+    void SetUp() override { test::writeText(graph, kBall); }
+
+    /// Runs an export with these further arguments, expects it to be refused and no file to be made.
+    void expectBadUsage(std::vector<std::string> arguments, const std::vector<std::string>& parts) {
+        arguments.insert(arguments.begin(), {"export", graph, "-o", mesh});
+        expectRefusal(runCommand(arguments), 2, parts);
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"ball.field.json"});
+    }
+    double valueAt(const std::vector<std::string>& arguments) {
+        std::vector<std::string> words = {"eval", graph};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const CommandResult result = runCommand(words);
+        EXPECT_EQ(result.status, 0) << result.errors;
+        EXPECT_EQ(result.errors, "");
+        return std::atof(result.output.c_str());
+    }
+};
+
+TEST_F(Command, WithoutAKnownCommandIsUsage) {
+    expectRefusal(runCommand({}), 2, {"fieldwright: A subcommand is required", "Try: fieldwright --help"});
+    expectRefusal(runCommand({"frobnicate"}), 2, {"there is no command 'frobnicate'"});
+    expectRefusal(runCommand({"exprot"}), 2, {"'exprot': did you mean 'export'?"});
+    expectRefusal(runCommand({"--frobnicate"}), 2, {"fieldwright: "});
+    expectRefusal(runCommand({std::string(100'000, 'x')}), 2, {"there is no command 'xxx", "…'"});
+}
+
+TEST_F(Command, MissingArgumentsAndUnknownOptionsAreUsage) {
+    expectRefusal(runCommand({"export"}), 2, {"fieldwright export: GRAPH is required", "export --help"});
+    expectRefusal(runCommand({"export", graph}), 2, {"--output is required"});
+    expectRefusal(runCommand({"check"}), 2, {"GRAPH is required"});
+    expectRefusal(runCommand({"eval", graph}), 2, {"--at x y z"});
+    expectRefusal(runCommand({"info", "extra"}), 2, {"not expected: extra"});
+    expectRefusal(runCommand({"nodes", "--json", "--markdown"}), 2, {"--json excludes --markdown"});
+    expectRefusal(runCommand({"compile", graph, "--emit", "hlsl"}), 2, {"--emit", "hlsl", "glsl,ir,spirv"});
+    expectRefusal(runCommand({"bench", "nosuch"}), 2, {"'nosuch'"});
+    expectBadUsage({"--bogus"}, {"not expected: --bogus"});
+    expectBadUsage({"extra"}, {"not expected: extra"});
+    expectBadUsage({"-o", mesh}, {"--output"});
+    expectBadUsage({"--method", "dual"}, {"--method", "marching-cubes"});
+    expectBadUsage({"--device", "nosuch"}, {"no device matches 'nosuch'"});
+}
+
+TEST_F(Command, OutputsThatAreNoMeshFileAreUsage) {
+    expectRefusal(runCommand({"export", graph, "-o", folder.path("ball.xyz")}), 2,
+                  {"unknown format '.xyz'", ".glb, .gltf, .obj, .stl and .ply"});
+    expectRefusal(runCommand({"export", graph, "-o", folder.path("ball")}), 2, {"needs an extension"});
+    expectRefusal(runCommand({"export", graph, "-o", ""}), 2, {"needs an extension"});
+}
+
+TEST_F(Command, ResolutionsOutOfRangeAreUsage) {
+    for (const char* resolution :
+         {"0", "-1", "1000000000", "99999999999999999999", "4097", "many", "1.5", "nan"})
+        expectBadUsage({"--resolution", resolution}, {"--resolution", resolution, "1 to 4096"});
+}
+
+TEST_F(Command, RegionsThatAreNoBoxAreUsage) {
+    expectBadUsage({"--region", "0", "0", "0", "1", "1"}, {"--region", "6 required but received 5"});
+    expectBadUsage({"--region", "0", "0", "0", "1", "1", "1", "1"}, {"6 required but received 7"});
+    expectBadUsage({"--region", "0", "0", "0", "1", "1", "nan"},
+                   {"--region", "'nan' is not a finite number"});
+    expectBadUsage({"--region", "0", "0", "0", "1", "inf", "1"}, {"--region", "'inf' is not a finite"});
+    expectBadUsage({"--region", "0", "0", "0", "1", "1e999", "1"}, {"'1e999' is not a finite number"});
+    expectBadUsage({"--region", "0", "0", "0", "1", "one", "1"}, {"'one' is not a finite number"});
+    expectBadUsage({"--region", "0", "1", "0", "1", "0", "1"}, {"no extent along y", "least corner"});
+    expectBadUsage({"--region", "0", "0", "2", "1", "1", "2"}, {"no extent along z"});
+}
+
+TEST_F(Command, NumbersAreReadInEveryWayOfWritingThem) {
+    EXPECT_DOUBLE_EQ(valueAt({"--at", "-.25", "-0.0", ".0"}), -1.75);
+    EXPECT_DOUBLE_EQ(valueAt({"--at", "-.3e1", "+4", "0"}), 3.0);
+    EXPECT_DOUBLE_EQ(valueAt({"--at", "-3", "4e0", "-0"}), 3.0);
+    EXPECT_DOUBLE_EQ(valueAt({"--time", "-.5", "--at", "3", "4", "0"}), 3.0);
+    EXPECT_DOUBLE_EQ(valueAt({"--set", "size=-.5", "--at", "3", "4", "0"}), 4.5);
+    for (const char* number : {"nan", "inf", "-inf", "1e999", "0x", "--", "1,5", ""})
+        expectRefusal(runCommand({"eval", graph, "--at", number, "0", "0"}), 2, {});
+    expectRefusal(runCommand({"eval", graph, "--at", "0", "0", "0", "--time", "nan"}), 2, {"--time"});
+    const CommandResult corner = runCommand(
+        {"export", graph, "-o", mesh, "--region", "-.5", "-.5", "-.5", "5", "5", "5", "--resolution", "16"});
+    EXPECT_EQ(corner.status, 0) << corner.errors;
+}
+
+TEST_F(Command, AssignmentsTakeOneWordAndKnowTheParameters) {
+    EXPECT_DOUBLE_EQ(valueAt({"--set", "radius=2", "--set", "size=0", "--at", "3", "4", "0"}), 3.0);
+    const CommandResult before =
+        runCommand({"eval", "--set", "size=0", "--set", "radius=0.5", graph, "--at", "1", "0", "0"});
+    EXPECT_EQ(before.status, 0) << before.errors;
+    EXPECT_DOUBLE_EQ(std::atof(before.output.c_str()), 0.5);
+    const auto refused = [&](const std::string& assignment, const std::vector<std::string>& parts) {
+        expectRefusal(runCommand({"eval", graph, "--at", "0", "0", "0", "--set", assignment}), 1, parts);
+    };
+    refused("radius", {"--set radius", "name=value"});
+    refused("radios=1", {"no parameter 'radios'", "did you mean 'radius'?"});
+    refused("=1", {"no parameter ''"});
+    refused("radius=", {"given no value"});
+    refused("radius=big", {"'big' is no value"});
+    refused("radius=nan", {"'nan' is no value"});
+    refused("radius=1e999", {"'1e999' is no value"});
+    refused("radius=9", {"'radius' takes values from 0.125 to 4"});
+    refused("radius=1,2,3", {"radius"});
+    refused("radius=1,", {"radius"});
+    refused("size=-3", {"'size' takes values from -2 to 2"});
+}
+
+TEST_F(Command, HelpOfEveryCommandSaysWhatThereIs) {
+    const auto help = [](std::vector<std::string> words, const std::vector<std::string>& parts) {
+        words.push_back("--help");
+        const CommandResult result = runCommand(words);
+        EXPECT_EQ(result.status, 0);
+        EXPECT_EQ(result.errors, "");
+        for (const std::string& part : parts)
+            EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
+    };
+    help({}, {"export", "check", "eval", "compile", "nodes", "info", "bench", "Exit status", "130", "Try:"});
+    help({"export"}, {"Usage: fieldwright export", "-o,--output", ".glb .gltf .obj .stl .ply", "--resolution",
+                      "4096", "--region", "x0 y0 z0 x1 y1 z1", "metres", "--set", "name=value", "--time",
+                      "--report", "--device", "Exit status"});
+    help({"check"}, {"GRAPH...", "file:line:column"});
+    help({"eval"}, {"--at", "--gradient", "--interval", "negative inside"});
+    help({"compile"}, {"--emit", "glsl", "spirv", "--live", "node.input"});
+    help({"nodes"}, {"--json", "--markdown"});
+    help({"info"}, {"Show the version"});
+    help({"bench"}, {"mesher", "--repeats"});
+}
+
+TEST_F(Command, ResultsAloneGoToStandardOutput) {
+    const CommandResult exported =
+        runCommand({"export", graph, "-o", mesh, "--report", folder.path("report.json")});
+    EXPECT_EQ(exported.status, 0) << exported.errors;
+    EXPECT_EQ(exported.output, "");
+    EXPECT_EQ(exported.errors, "");
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"ball.field.json", "ball.stl", "report.json"}));
+    const auto report = nlohmann::json::parse(test::readText(folder.path("report.json")));
+    EXPECT_EQ(report["boundaryEdges"], 0);
+    EXPECT_EQ(report["capped"], false);
+
+    const CommandResult value = runCommand({"eval", graph, "--at", "3", "4", "0", "--gradient"});
+    EXPECT_EQ(value.output, "3\n0.59999999999999998 0.80000000000000004 0\n");
+    EXPECT_EQ(value.errors, "");
+
+    const CommandResult compiled = runCommand({"compile", graph, "--emit", "ir"});
+    EXPECT_EQ(compiled.status, 0);
+    EXPECT_TRUE(compiled.output.starts_with("%0 = ")) << compiled.output;
+    EXPECT_NE(compiled.errors.find("operations"), std::string::npos);
+
+    const CommandResult listed = runCommand({"nodes", "--json"});
+    EXPECT_EQ(listed.status, 0);
+    EXPECT_FALSE(nlohmann::json::parse(listed.output, nullptr, false).is_discarded());
+
+    EXPECT_EQ(runCommand({"--version"}).output.find("fieldwright "), 0u);
+    EXPECT_EQ(runCommand({"info"}).status, 0);
+    EXPECT_EQ(runCommand({"check", graph}).status, 0);
+}
+
+}  // namespace
+}  // namespace fw

@@ -1,0 +1,110 @@
+#include "tests/support/command.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+#include "tests/support/temp_dir.h"
+
+namespace fw::test {
+
+namespace {
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+    std::vector<char*> list;
+    for (std::string& word : words) list.push_back(word.data());
+    list.push_back(nullptr);
+    return list;
+}
+
+/// This process's own memory now: a child starts with as much, and its peak counts it.
+double residentMegabytes() {
+    long total = 0, resident = 0;
+    FILE* file = std::fopen("/proc/self/statm", "r");
+    if (!file || std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
+    if (file) std::fclose(file);
+    return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+CommandResult runCommand(const std::vector<std::string>& arguments, const CommandOptions& options) {
+    static const TempDir caches;
+    const TempDir streams;
+    const std::string output = streams.path("output"), errors = streams.path("errors");
+
+    std::vector<std::string> words = options.wrapper;
+    words.push_back(FIELDWRIGHT_BINARY_DIR "/fieldwright");
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> environment = {"XDG_CACHE_HOME=" + caches.folder.string()};
+    for (char** entry = environ; *entry; ++entry)
+        if (!std::string(*entry).starts_with("XDG_CACHE_HOME=")) environment.emplace_back(*entry);
+    for (const std::string& entry : options.environment) {
+        const std::string name = entry.substr(0, entry.find('=') + 1);
+        std::erase_if(environment, [&](const std::string& known) { return known.starts_with(name); });
+        environment.push_back(entry);
+    }
+    const std::vector<char*> argv = pointers(words), envp = pointers(environment);
+
+    for (const std::string& stream : {output, errors}) writeText(stream, "");
+    const double own = residentMegabytes();
+    const pid_t child = fork();
+    if (child == 0) {
+        const int in = open("/dev/null", O_RDONLY);
+        const int out = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int err = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        if (dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) _exit(125);
+        if (options.maxFileBytes >= 0) {
+            const rlimit limit{static_cast<rlim_t>(options.maxFileBytes),
+                               static_cast<rlim_t>(options.maxFileBytes)};
+            setrlimit(RLIMIT_FSIZE, &limit);
+        }
+        execvpe(argv[0], argv.data(), envp.data());
+        _exit(126);
+    }
+    CommandResult result;
+    if (child < 0) return result;
+    if (options.interruptAfterMs >= 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(options.interruptAfterMs));
+        kill(child, SIGINT);
+    }
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    result.killed = WIFSIGNALED(status);
+    result.status = result.killed ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    result.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    const double peak = static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;
+    result.peakMegabytes = peak > own * 1.05 ? peak : std::min(peak, 300.0);
+    result.output = readText(output);
+    result.errors = readText(errors);
+    return result;
+}
+
+void expectRefusal(const CommandResult& result, int status, const std::vector<std::string>& parts) {
+    EXPECT_FALSE(result.killed) << "by signal " << result.status - 128;
+    EXPECT_EQ(result.status, status) << result.errors;
+    for (const std::string& part : parts)
+        EXPECT_NE(result.errors.find(part), std::string::npos)
+            << "standard error does not say \"" << part << "\" but:\n"
+            << result.errors.substr(0, 2000);
+    EXPECT_EQ(result.output, "");
+    const auto lines = std::count(result.errors.begin(), result.errors.end(), '\n');
+    EXPECT_GE(lines, 1);
+    EXPECT_LE(lines, 5) << result.errors.substr(0, 2000);
+    EXPECT_LT(result.cpuSeconds, 2.0);
+    EXPECT_LT(result.peakMegabytes, 500.0);
+}
+
+}  // namespace fw::test

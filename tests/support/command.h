@@ -1,0 +1,35 @@
+// Runs the real `fieldwright` as a user would and says what came of it: status, both streams, and what it
+// cost.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace fw::test {
+
+struct CommandOptions {
+    std::vector<std::string> wrapper = {};      ///< words before the program: {"unshare", "-rm", …}
+    std::vector<std::string> environment = {};  ///< "NAME=value" entries over the test's own
+    int interruptAfterMs = -1;                  ///< sends SIGINT after this time, if not negative
+    long maxFileBytes = -1;                     ///< RLIMIT_FSIZE, if not negative
+};
+
+struct CommandResult {
+    int status = -1;  ///< exit status; 128 + signal if it was killed
+    bool killed = false;
+    std::string output, errors;
+    double cpuSeconds = 0.0;  ///< user and system time
+    double peakMegabytes = 0.0;
+};
+
+/// `fieldwright` with these arguments. Its caches lie in a folder of the test program's own unless the
+/// options' environment says otherwise.
+CommandResult runCommand(const std::vector<std::string>& arguments, const CommandOptions& options = {});
+
+/// Expects that the command ended by itself with this status, said all of `parts` on standard error in at
+/// most five lines, printed no result, and took little: 2 s of processor time, 500 MB.
+void expectRefusal(const CommandResult& result, int status, const std::vector<std::string>& parts);
+
+}  // namespace fw::test
