@@ -4,6 +4,7 @@
 #include <exception>
 #include <thread>
 
+#include "runtime/gpu/commands.h"
 #include "runtime/gpu/shader.h"
 
 namespace fw {
@@ -111,12 +112,54 @@ Pipeline::~Pipeline() {
     vkDestroyDescriptorSetLayout(device, setLayout, nullptr);
 }
 
+namespace {
+
+/// A software device turns a kernel into machine code when it first runs, on the queue's one thread. An empty
+/// dispatch of each pipeline as soon as it is made lets that go on beside the compiling of the other shaders.
+class FirstRuns {
+  public:
+    explicit FirstRuns(const Device& owner) : device(owner) {
+        if (device.software) nothing = createBuffer(device, 256);
+    }
+    ~FirstRuns() {
+        if (!recorded.empty()) vkQueueWaitIdle(device.queue);
+    }
+
+    /// One call at a time.
+    void start(const Pipeline& pipeline) {
+        if (!device.software) return;
+        std::vector<Descriptor> descriptors;
+        for (const ShaderBinding& binding : pipeline.shader.bindings) {
+            if (binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) return;
+            descriptors.push_back({binding.binding, nothing});
+        }
+        Commands& commands = *recorded.emplace_back(std::make_unique<Commands>(device));
+        const std::array<std::byte, 256> push{};
+        dispatch(commands, pipeline, {0, 0, 0}, push.data(), pipeline.shader.pushConstantSize, descriptors);
+        check(vkEndCommandBuffer(commands.handle), "recording a first run");
+        auto buffer = zeroed<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
+        buffer.commandBuffer = commands.handle;
+        auto info = zeroed<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
+        info.commandBufferInfoCount = 1;
+        info.pCommandBufferInfos = &buffer;
+        check(vkQueueSubmit2(device.queue, 1, &info, VK_NULL_HANDLE), "submitting a first run");
+    }
+
+  private:
+    const Device& device;
+    Buffer nothing;
+    std::vector<std::unique_ptr<Commands>> recorded;
+};
+
+}  // namespace
+
 std::vector<Pipeline> createComputePipelines(const Device& device, std::span<const ShaderOptions> shaders,
                                              CompileTimes* times) {
     std::vector<Pipeline> pipelines(shaders.size());
     std::atomic<std::size_t> next = 0;
     std::mutex mutex;
     std::exception_ptr failure;
+    FirstRuns firstRuns(device);
     auto work = [&] {
         for (std::size_t i; (i = next++) < shaders.size();) {
             try {
@@ -125,6 +168,7 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
                 double compiled = since(start);
                 pipelines[i] = build(device, shaders[i], spirv);
                 std::lock_guard lock(mutex);
+                firstRuns.start(pipelines[i]);
                 if (times) {
                     times->spirv += compiled;
                     times->pipeline += since(start) - compiled;

@@ -36,6 +36,13 @@ uint opposite(uint p, uint q, uint r, uint s, uint t, uint u, uint v, uint w) {
     return (p & q & r & s & ~(t | u | v | w)) | (t & u & v & w & ~(p | q | r | s));
 }
 
+/// Sum of three bits in each place: (its low bit, its high bit). Counting by adders first leaves few words to
+/// count the bits of, which is dear where it is not one instruction.
+uvec2 add(uint a, uint b, uint c) {
+    uint either = a ^ b;
+    return uvec2(either ^ c, (a & b) | (either & c));
+}
+
 /// Number of triangles of a strip. A cell whose edges cross the surface e times in c closed loops has e - 2 c
 /// triangles. Loops are counted by the regions that they part on the cell's boundary, a sphere: c = inside regions +
 /// outside regions - 1. Inside corners join along edges only: a region is a lonely corner, or there is one of several
@@ -57,11 +64,16 @@ uint triangleCount(StripSigns a, StripSigns b) {
     holes |= a.at & a.y & a.xy & b.at & b.x & b.xy & ~(a.x | b.y);
     holes |= a.at & a.x & a.xy & b.at & b.y & b.xy & ~(a.y | b.x);
     holes |= a.at & a.x & a.y & b.x & b.y & b.xy & ~(a.xy | b.at);
-    uint loops = bitCount(lonely0) + bitCount(lonely1) + bitCount(lonely2) + bitCount(lonely3) + bitCount(lonely4) +
-                 bitCount(lonely5) + bitCount(lonely6) + bitCount(lonely7) + bitCount(joined) + bitCount(pairs) +
-                 bitCount(holes) - bitCount(everyCorner);
-    uint edges = bitCount(a.at ^ a.x) + bitCount(a.y ^ a.xy) + bitCount(b.at ^ b.x) + bitCount(b.y ^ b.xy) +
-                 bitCount(a.at ^ a.y) + bitCount(a.x ^ a.xy) + bitCount(b.at ^ b.y) + bitCount(b.x ^ b.xy) +
-                 bitCount(a.at ^ b.at) + bitCount(a.x ^ b.x) + bitCount(a.y ^ b.y) + bitCount(a.xy ^ b.xy);
+    uvec2 l0 = add(lonely0, lonely1, lonely2), l1 = add(lonely3, lonely4, lonely5), l2 = add(lonely6, lonely7, joined);
+    uvec2 l3 = add(l0.x, l1.x, l2.x), l4 = add(l3.x, pairs, holes);
+    uvec2 m0 = add(l0.y, l1.y, l2.y), m1 = add(m0.x, l3.y, l4.y);
+    uint loops = bitCount(l4.x) + 2 * bitCount(m1.x) + 4 * bitCount(m0.y ^ m1.y) - bitCount(everyCorner);
+
+    uvec2 e0 = add(a.at ^ a.x, a.y ^ a.xy, b.at ^ b.x), e1 = add(b.y ^ b.xy, a.at ^ a.y, a.x ^ a.xy);
+    uvec2 e2 = add(b.at ^ b.y, b.x ^ b.xy, a.at ^ b.at), e3 = add(a.x ^ b.x, a.y ^ b.y, a.xy ^ b.xy);
+    uvec2 e4 = add(e0.x, e1.x, e2.x), e5 = add(e4.x, e3.x, 0);
+    uvec2 f0 = add(e0.y, e1.y, e2.y), f1 = add(e3.y, e4.y, e5.y), f2 = add(f0.x, f1.x, 0);
+    uvec2 g = add(f0.y, f1.y, f2.y);
+    uint edges = bitCount(e5.x) + 2 * bitCount(f2.x) + 4 * bitCount(g.x) + 8 * bitCount(g.y);
     return edges - 2 * loops;
 }
