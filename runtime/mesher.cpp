@@ -152,11 +152,11 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     };
     auto indirect = [&](Kernel kernel, uint32_t arguments, const std::vector<Descriptor>& more) {
         VkDeviceSize offset = offsetof(MesherCounts, groups) + arguments * sizeof(gpu::DispatchArguments);
-        dispatchIndirect(commands, pipelines.all[kernel], b.counts, offset, push, with(more));
+        dispatchIndirect(commands, *pipelines.all[kernel], b.counts, offset, push, with(more));
         barrier(commands);
     };
     auto direct = [&](Kernel kernel, uint32_t groups, const std::vector<Descriptor>& more) {
-        dispatch(commands, pipelines.all[kernel], spread(groups), push, with(more));
+        dispatch(commands, *pipelines.all[kernel], spread(groups), push, with(more));
         barrier(commands);
     };
     uint32_t vertexChunks = chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK);
@@ -210,7 +210,6 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
 /// Builds those of `kernels` that are not built yet.
 void build(const Device& device, MesherPipelines& pipelines, std::initializer_list<Kernel> kernels,
            CompileTimes* times = nullptr) {
-    pipelines.all.resize(kernelCount);
     std::vector<ShaderOptions> shaders;
     std::vector<Kernel> missing;
     for (Kernel kernel : kernels) {
@@ -225,16 +224,19 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
     }
     if (missing.empty()) return;
     std::vector<Pipeline> built = createComputePipelines(device, shaders, times);
-    for (std::size_t i = 0; i < missing.size(); ++i) pipelines.all[missing[i]] = std::move(built[i]);
+    for (std::size_t i = 0; i < missing.size(); ++i)
+        pipelines.all[missing[i]] = std::make_shared<Pipeline>(std::move(built[i]));
 }
 
 }  // namespace
 
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool wantColors,
-                                      CompileTimes* times) {
-    MesherPipelines pipelines{{}, std::move(field)};
+                                      const MesherPipelines& previous, CompileTimes* times) {
+    MesherPipelines pipelines{previous.all, std::move(field)};
+    pipelines.all.resize(kernelCount);
+    for (Kernel kernel : {blocks, cull, sample, vertices, colors}) pipelines.all[kernel] = nullptr;
     build(device, pipelines,
-          {cull, topBricks, compact, link, sample, classify, topGroups, triangles, vertices,
+          {cull, sample, vertices, topBricks, compact, link, classify, topGroups, triangles,
            wantColors ? colors : vertices},
           times);
     return pipelines;

@@ -24,6 +24,7 @@
 // needs more and hold the last mesh), the configuration to one run.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "runtime/gpu/commands.h"
@@ -43,16 +44,17 @@ struct MesherConfig {
 
 inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits
 
-/// The kernels for one field. Those that only long grids or large meshes need are built at their first use.
+/// The kernels for one field. Most do not depend on it and are shared between fields; those that only long
+/// grids or large meshes need are built at their first use.
 struct MesherPipelines {
-    std::vector<Pipeline> all;  ///< in the order of mesher.cpp's Kernel; some may be empty
+    std::vector<std::shared_ptr<Pipeline>> all;  ///< in the order of mesher.cpp's Kernel; some may be empty
     std::string field;
 };
 
 /// Compiles the kernels, with `colors` the one for colours too. `field` is the text that answers #include
-/// "field.glsl", empty for the default field.
+/// "field.glsl", empty for the default field. What does not depend on the field is taken from `previous`.
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool colors = false,
-                                      CompileTimes* times = nullptr);
+                                      const MesherPipelines& previous = {}, CompileTimes* times = nullptr);
 
 /// Everything the kernels write. Made empty; runMesher sizes it.
 struct MesherBuffers {

@@ -68,7 +68,7 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     const std::string field = emitField(current);
     if (stages) stages->push_back({"emit", milliseconds(start)});
     const auto compiling = std::chrono::steady_clock::now();
-    pipelines = createMesherPipelines(gpu, field, current.hasMaterial());
+    pipelines = createMesherPipelines(gpu, field, current.hasMaterial(), pipelines);
     renderPipelines = {};
     if (stages) stages->push_back({"pipelines", milliseconds(compiling)});
     builtHash = current.structureHash;

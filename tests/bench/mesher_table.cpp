@@ -96,14 +96,15 @@ struct Work {
 
 Work leastWork(const std::string& stage, const MesherResult& mesh, double gridBricks, FieldOperations field) {
     const double bricks = mesh.bricks, vertices = mesh.vertices, triangles = mesh.triangles;
-    const double rows = gridBricks, planes = bricks * 9 * 12, lookup = bricks * 8 * 3 * 16;
+    const double rows = gridBricks, planes = bricks * 9 * 12, lookup = bricks * 16 * 16;
     if (stage == "cull") return {rows, gridBricks * 2 * field.all};
     if (stage == "compact") return {rows + bricks * 36, 0};
     if (stage == "sample") return {planes, bricks * field.brick};
-    if (stage == "count") return {planes, 0};
-    if (stage == "emit") return {planes + lookup + 4 * vertices, 0};
-    if (stage == "vertices") return {20 * vertices, vertices * (3 + 4) * field.all};
-    if (stage == "indices") return {planes + lookup + 12 * triangles, 0};
+    if (stage == "classify") return {planes + lookup, 0};
+    if (stage == "triangles") return {planes + lookup + 12 * triangles + 4 * vertices, 0};
+    // Two evaluations find the root and one component of the gradient, two the others, each with a
+    // derivative.
+    if (stage == "vertices") return {20 * vertices, vertices * 4 * 2 * field.all};
     return {};
 }
 
@@ -201,8 +202,8 @@ void mesherTable(Bench& bench) {
                       text(peaks.gigabytes) + " · 10⁹ bytes/s copied between buffers.",
                   "The least work counts the bytes that must pass between stages and the field's operations "
                   "(each as one, at the "
-                  "multiply-add rate), and no integer or bit operations, of which the stages count, emit and "
-                  "indices consist."};
+                  "multiply-add rate), and no integer or bit operations, of which the stages classify and "
+                  "triangles consist."};
     print(speed, bench.options.markdown);
     print(stages, bench.options.markdown);
     print(peak, bench.options.markdown);
