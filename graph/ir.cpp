@@ -53,6 +53,20 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
                (nodes[y].op == Op::logicalNot && nodes[y].operands[0] == x);
     };
     const IrId a = operands[0], b = operands.size() > 1 ? operands[1] : 0;
+    // x + c, where x is itself a sum with a constant, as one sum: chains of translations stay short.
+    const auto shifted = [&](IrId x, double by) -> IrId {
+        const IrNode node = nodes[x];
+        if (node.op != Op::add && node.op != Op::subtract) return kNone;
+        const double sign = node.op == Op::add ? 1.0 : -1.0;
+        for (int i : {0, 1}) {
+            if (!isConstant(node.operands[i]) || (i == 0 && node.op == Op::subtract)) continue;
+            const double sum = sign * number(node.operands[i]) + by;
+            if (!std::isfinite(sum)) return kNone;
+            return sum < 0.0 ? add(Op::subtract, node.operands[1 - i], constant(-sum))
+                             : add(Op::add, node.operands[1 - i], constant(sum));
+        }
+        return kNone;
+    };
     switch (op) {
         case Op::negate:
             if (made(0, Op::negate)) return inner(0, 0);
@@ -76,12 +90,18 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
             if (is(1, 0.0)) return a;
             if (made(1, Op::negate)) return add(Op::subtract, a, inner(1, 0));
             if (made(0, Op::negate)) return add(Op::subtract, b, inner(0, 0));
+            for (int i : {0, 1})
+                if (isConstant(operands[i]))
+                    if (const IrId moved = shifted(operands[1 - i], number(operands[i])); moved != kNone)
+                        return moved;
             break;
         case Op::subtract:
             if (a == b) return constant(0.0);
             if (is(1, 0.0)) return a;
             if (is(0, 0.0)) return add(Op::negate, b);
             if (made(1, Op::negate)) return add(Op::add, a, inner(1, 0));
+            if (isConstant(b))
+                if (const IrId moved = shifted(a, -number(b)); moved != kNone) return moved;
             break;
         case Op::multiply:
             if (a == b) return add(Op::square, a);
@@ -174,6 +194,8 @@ IrId Ir::add(Op op, std::span<const IrId> operands) {
 
 IrId Ir::substitute(IrId root, std::array<IrId, 3> position) {
     if (position == std::array<IrId, 3>{0, 1, 2} || nodes[root].positions == 0) return root;
+    // What is remembered saves work, not correctness: it may go when it takes tens of megabytes.
+    if (remembered > 500'000) substitutions.clear(), remembered = 0;
     auto& done = substitutions[Key{Op::count, {position[0], position[1], position[2], 0}, 0}];
     const auto find = [&](IrId id) -> IrId {
         if (id < 3) return position[id];
@@ -199,6 +221,7 @@ IrId Ir::substitute(IrId root, std::array<IrId, 3> position) {
         if (!ready) continue;
         pending.pop_back();
         done[id] = add(node.op, std::span<const IrId>(operands.data(), arity));
+        ++remembered, ++visited;
     }
     return find(root);
 }

@@ -62,6 +62,9 @@ class Ir {
     /// The value `root` has where the position is (x, y, z): each of those is a field itself. Memoised.
     IrId substitute(IrId root, std::array<IrId, 3> position);
 
+    /// Operations visited by all substitutions so far: their cost.
+    std::size_t substituted() const { return visited; }
+
     /// A copy with only what `roots` need, in a stable order; `roots` are renumbered. The three position
     /// leaves stay ids 0, 1, 2.
     Ir compact(std::span<IrId> roots) const;
@@ -90,6 +93,8 @@ class Ir {
     std::vector<IrNode> nodes;
     std::unordered_map<Key, IrId, KeyHash> known;
     std::unordered_map<Key, std::unordered_map<IrId, IrId>, KeyHash> substitutions;
+    std::size_t remembered = 0;  ///< entries in `substitutions`
+    std::size_t visited = 0;
 };
 
 }  // namespace fw

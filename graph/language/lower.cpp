@@ -585,6 +585,9 @@ class Run {
         for (int i = 0; i < componentCount(field.type); ++i) {
             step(e.place);
             result.ids[i] = ir.substitute(field.ids[i], {q.ids[0], q.ids[1], q.ids[2]});
+            if (ir.substituted() > kMaxSubstituted)
+                fail(e.place, "the graph moves its fields " + std::to_string(kMaxSubstituted) +
+                                  " operations' worth: use fewer or less nested copies, repeats and moves");
         }
         return result;
     }

@@ -54,6 +54,8 @@ struct Lowering {
 
 inline constexpr std::size_t kMaxSteps = 4'000'000;
 inline constexpr int kMaxCalls = 64;
+/// Operations visited by moving fields to other positions, in one compilation.
+inline constexpr std::size_t kMaxSubstituted = 2'000'000;
 
 /// Runs `tree` in `scope`; one value for each output. The Error names the place inside the code.
 Result<std::vector<Value>> lower(Lowering& state, const Tree& tree, const Scope& scope);

@@ -137,6 +137,22 @@ IrId randomExpression(Ir& ir, std::mt19937& random, int operations) {
     return numbers.back();
 }
 
+TEST(Ir, SumsWithConstantsAreOneSum) {
+    Ir ir;
+    const IrId x = ir.position(0), one = ir.constant(1.0), three = ir.constant(3.0);
+    const IrId more = ir.add(Op::add, x, ir.constant(2.0)), less = ir.add(Op::subtract, x, ir.constant(2.0));
+    EXPECT_EQ(ir.add(Op::subtract, ir.add(Op::add, x, three), one), more);
+    EXPECT_EQ(ir.add(Op::add, one, ir.add(Op::add, one, x)), more);
+    EXPECT_EQ(ir.add(Op::subtract, ir.add(Op::subtract, x, one), one), less);
+    EXPECT_EQ(ir.add(Op::add, ir.add(Op::subtract, x, three), one), less);
+    EXPECT_EQ(ir.add(Op::add, ir.add(Op::subtract, x, three), three), x);
+    IrId chain = x;
+    for (int i = 0; i < 1000; ++i) chain = ir.add(Op::subtract, chain, one);
+    EXPECT_EQ(chain, ir.add(Op::subtract, x, ir.constant(1000.0)));
+    const IrId reversed = ir.add(Op::subtract, one, x);  // 1 - x keeps its sign
+    EXPECT_DOUBLE_EQ(evaluate(ir, ir.add(Op::add, reversed, one), {}, Point{5, 0, 0}), -3.0);
+}
+
 TEST(Ir, SubstitutionIsEvaluationElsewhere) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-2.0, 2.0);

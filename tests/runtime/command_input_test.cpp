@@ -147,6 +147,12 @@ TEST(CommandInput, CodeThatMultipliesItsCost) {
     expectBadGraph(code(variables + branches + "return nothing;"), {"code 1:"});
     expectBadGraph(code(functions + repeated("v = f0(p.x);", 12'000) + "return nothing;"), {"code 1:"});
     expectBadGraph(code(chain + "return f39(1);"), {"code 1:"});
+    // A long field looked up at many constant positions leaves nothing but work.
+    expectBadGraph(document(R"({"id": "long", "type": "expression", "code": "d = p.x; )" +
+                            repeated("d = floor(d * 0.5);", 1'000) +
+                            R"("}, {"id": "a", "type": "expression", "inputs": {"f": {"from": "long"}},
+                     "code": "s = 0; for (int i = 0; i < 90000; i++) s += f(vec3(i)); return s;"})"),
+                   {"node 'a', code 1:", "moves its fields"});
 }
 
 TEST(CommandInput, SolidsThatCannotBeMeshed) {
