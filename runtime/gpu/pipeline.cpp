@@ -130,7 +130,7 @@ class FirstRuns {
         if (!device.software) return;
         std::vector<Descriptor> descriptors;
         for (const ShaderBinding& binding : pipeline.shader.bindings) {
-            if (binding.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) return;
+            if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) return;
             descriptors.push_back({binding.binding, nothing});
         }
         Commands& commands = *recorded.emplace_back(std::make_unique<Commands>(device));

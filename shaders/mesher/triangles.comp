@@ -12,7 +12,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLanes = 32;
 layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };  // sign, strip, axis, bit
-layout(binding = 11, scalar) readonly buffer Table { uvec3 table[]; };            // marching_cubes_table.h
+layout(binding = 11, scalar) uniform Table { uvec3 table[256]; };                 // marching_cubes_table.h
 layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
 layout(binding = 13, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
 
