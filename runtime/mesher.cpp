@@ -230,6 +230,8 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
 
 }  // namespace
 
+void prepareMesher(const std::string& field) { (void)compileShader({.name = kNames[cull], .field = field}); }
+
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool wantColors,
                                       const MesherPipelines& previous, CompileTimes* times) {
     MesherPipelines pipelines{previous.all, std::move(field)};

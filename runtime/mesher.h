@@ -56,6 +56,10 @@ struct MesherPipelines {
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool colors = false,
                                       const MesherPipelines& previous = {}, CompileTimes* times = nullptr);
 
+/// Translates one kernel to SPIR-V and into the cache. That needs no device, and the first translation of a
+/// process takes some 70 ms more than any later one: worth doing while the device opens.
+void prepareMesher(const std::string& field);
+
 /// Everything the kernels write. Made empty; runMesher sizes it.
 struct MesherBuffers {
     Buffer vertices;   ///< gpu::MeshVertex each

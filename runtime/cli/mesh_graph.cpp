@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <future>
 
+#include "graph/glsl.h"
+
 namespace fw::cli {
 
 Progress::Progress() : shown(isatty(STDERR_FILENO)) {}
@@ -62,7 +64,7 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
             }
     }
 
-    // The device starts while the graph is read: on software Vulkan that takes longer than the rest.
+    // The device starts while the graph is read: on software Vulkan that takes longer than reading.
     std::future<Result<Device>> opening =
         std::async(std::launch::async, [&] { return createDevice({.pick = options.device}); });
     progress.start("read", 0);
@@ -77,6 +79,7 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     const MeshRequest request{region, options.resolution.value_or(program->resolution)};
     const Result<Box> box = meshRegion(*program, request);
     if (!box) return fail(badInput(options, box.error()));
+    prepareMesher(emitField(*program));
     progress.start("device", 15);
     Result<Device> device = opening.get();
     if (!device) return print(device.error()), fail(kBadUsage);

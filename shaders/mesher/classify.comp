@@ -48,6 +48,12 @@ uint crossedFaces(uint z, uint side, uvec3 a, uvec3 b, uvec3 edges, StripSigns t
 /// Where the strips of a class are counted: a byte for each class, that of most cells lowest.
 uint classShift(uint cells) { return cells > 16 ? 0 : cells > 8 ? 8 : cells > 4 ? 16 : 24; }
 
+/// What is kept of a strip while the group sums up.
+struct Strip {
+    uvec3 crossed;
+    uint cells, triangles;
+};
+
 void main() {
     uint group = linearGroup();
     uint slot = group * MESHER_GROUP_BRICKS + (gl_LocalInvocationIndex >> 3);
@@ -55,39 +61,44 @@ void main() {
     bool valid = slot < counts.bricks;
     slot = valid ? slot : 0;
     uvec3 a = planes[slot * 9 + z], b = planes[slot * 9 + z + 1];
+    a = valid ? a : uvec3(0);
+    b = valid ? b : uvec3(0);
     uvec3 first = unpackBrick(brickList[slot]) * 8;
     uint faces = links[slot * 8 + 7];
-    uvec3 crossed[2];
-    uint cells[2], triangles[2];
+    Strip strips[2];
     uvec2 own = uvec2(0);  // vertices and triangles << 16; strips by class
     bool cap = false, leak = false;
-    [[unroll]] for (int side = 0; side < 2; ++side) {
+    uint side = 0;
+    [[dont_unroll]] do {  // a loop, so that it is translated once
         StripSigns low = stripSigns(a, side), high = stripSigns(b, side);
-        crossed[side] = valid ? activeEdges(low, high) : uvec3(0);
-        cells[side] = valid ? bitCount(activeCells(low, high)) : 0;
-        triangles[side] = valid ? triangleCount(low, high) : 0;
-        ivec3 n = bitCount(crossed[side]);
-        own.x += n.x + n.y + n.z + (triangles[side] << 16);
-        own.y += cells[side] != 0 ? 1u << classShift(cells[side]) : 0;
-        cap = cap || hasCap(first + uvec3(side * 4, 0, 0), z, crossed[side]);
-        leak = leak || (valid && (crossedFaces(z, side, a, b, crossed[side], high) & ~faces) != 0);
-    }
+        Strip strip = Strip(activeEdges(low, high), bitCount(activeCells(low, high)), triangleCount(low, high));
+        ivec3 n = bitCount(strip.crossed);
+        own.x += n.x + n.y + n.z + (strip.triangles << 16);
+        own.y += strip.cells != 0 ? 1u << classShift(strip.cells) : 0;
+        cap = cap || hasCap(first + uvec3(side * 4, 0, 0), z, strip.crossed);
+        leak = leak || (crossedFaces(z, side, a, b, strip.crossed, high) & ~faces) != 0;
+        strips[0].crossed = side == 0 ? strip.crossed : strips[0].crossed;
+        strips[0].cells = side == 0 ? strip.cells : strips[0].cells;
+        strips[0].triangles = side == 0 ? strip.triangles : strips[0].triangles;
+        strips[1] = strip;
+    } while (++side < 2);
     uvec2 total;
     uvec2 before = sumBefore(own, total);
     uint ofLarger = total.y << 8;  // in each byte the count of the classes before; 128 strips at most in all
     ofLarger += ofLarger << 8;
     ofLarger += ofLarger << 16;
     uint vertex = before.x & 0xffff, triangle = before.x >> 16;
-    uint strip = z * 2 + (gl_LocalInvocationIndex >> 3) * 16;
-    [[unroll]] for (int side = 0; side < 2; ++side) {
-        ivec3 n = bitCount(crossed[side]);
-        if (valid) edges[slot * 16 + z * 2 + side] = uvec4(crossed[side], vertex);
-        uint shift = classShift(cells[side]);
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        Strip strip = strips[i];
+        ivec3 n = bitCount(strip.crossed);
+        if (valid) edges[slot * 16 + z * 2 + i] = uvec4(strip.crossed, vertex);
+        uint shift = classShift(strip.cells);
         uint place = (ofLarger >> shift & 255) + (before.y >> shift & 255);
-        if (cells[side] != 0) stripList[group * MESHER_GROUP_STRIPS + place] = strip + side | triangle << 7;
-        before.y += cells[side] != 0 ? 1u << shift : 0;
+        uint word = gl_LocalInvocationIndex << 1 | i | triangle << 7;
+        if (strip.cells != 0) stripList[group * MESHER_GROUP_STRIPS + place] = word;
+        before.y += strip.cells != 0 ? 1u << shift : 0;
         vertex += n.x + n.y + n.z;
-        triangle += triangles[side];
+        triangle += strip.triangles;
     }
     if (gl_LocalInvocationIndex == 0) {
         uint strips = (ofLarger >> 24) + (total.y >> 24);
