@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "runtime/marching_cubes_table.h"
+#include "runtime/mesher_host.h"
 
 namespace fw {
 namespace {
@@ -164,13 +165,18 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
 
     beginStage(commands, "cull");
     fill(commands, b.counts, 0);
+    if (config.host) {
+        const MesherHost::Culled culled = config.host->cull(push);
+        upload(device, b.rows, culled.rows);
+        upload(device, b.blockSums, culled.blockCounts);
+    }
     if (push.blocksListed) fill(commands, b.rows, 0);
     barrier(commands);
     std::vector<Descriptor> cullBuffers = {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}};
     if (push.blocksListed) {
         direct(blocks, 1, {{1, b.blockList}, {2, b.blockAlive}});
         indirect(cull, MESHER_BLOCKS, cullBuffers);
-    } else {
+    } else if (!config.host) {
         direct(cull, push.blocks.x * push.blocks.y * push.blocks.z, cullBuffers);
     }
     beginStage(commands, "compact");
@@ -178,7 +184,15 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     indirect(compact, MESHER_COMPACT, {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}, {5, b.brickList}});
     indirect(link, MESHER_LINKS, {{3, b.rows}, {5, b.brickList}, {6, b.links}});
     beginStage(commands, "sample");
-    indirect(sample, MESHER_BRICKS, {{5, b.brickList}, {7, b.planes}});
+    std::vector<uint32_t> brickList;
+    if (config.host) {
+        flush(commands);
+        const uint32_t bricks = download<MesherCounts>(device, b.counts, 1)[0].bricks;
+        if (bricks <= push.brickCapacity) brickList = download<uint32_t>(device, b.brickList, bricks);
+        upload(device, b.planes, config.host->sample(push, brickList));
+    } else {
+        indirect(sample, MESHER_BRICKS, {{5, b.brickList}, {7, b.planes}});
+    }
     beginStage(commands, "classify");
     indirect(classify, MESHER_BRICKS,
              {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}, {8, b.edges}, {12, b.stripList}});
@@ -196,6 +210,14 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
                   chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
     }
     beginStage(commands, "vertices");
+    if (config.host) {
+        flush(commands);
+        const MesherCounts counts = download<MesherCounts>(device, b.counts, 1)[0];
+        if (counts.groups[MESHER_VERTICES].x == 0) return;  // there was not enough room
+        const auto vertexList = download<uint32_t>(device, b.vertexList, counts.vertices);
+        upload(device, b.vertices, config.host->vertices(push, brickList, vertexList));
+        return;
+    }
     for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk) {
         uint32_t arguments = MESHER_VERTICES + push.chunk;
         Descriptor target = chunkOf(device, 13, b.vertices, push.chunk,
@@ -210,6 +232,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
 /// Builds those of `kernels` that are not built yet.
 void build(const Device& device, MesherPipelines& pipelines, std::initializer_list<Kernel> kernels,
            CompileTimes* times = nullptr) {
+    pipelines.all.resize(kernelCount);
     std::vector<ShaderOptions> shaders;
     std::vector<Kernel> missing;
     for (Kernel kernel : kernels) {
@@ -275,12 +298,14 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     push.cells = cells;
     push.blocks = blockCount;
     push.nudge = nudge;
-    push.blocksListed = longest >= kCellsForBlocks;
+    if (config.host) build(device, pipelines, {topBricks, compact, link, classify, topGroups, triangles});
+    push.blocksListed = longest >= kCellsForBlocks && !config.host;
     if (push.blocksListed) build(device, pipelines, {blocks});
-    if (config.colors) build(device, pipelines, {colors});
+    const bool wantColors = config.colors && !config.host;
+    if (wantColors) build(device, pipelines, {colors});
     MesherResult result;
     for (result.runs = 1;; ++result.runs) {
-        reserveAll(device, buffers, blockCount, config.colors);
+        reserveAll(device, buffers, blockCount, wantColors);
         push.brickCapacity = buffers.brickCapacity;
         push.vertexCapacity = buffers.vertexCapacity;
         push.triangleCapacity = buffers.triangleCapacity;

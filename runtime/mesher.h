@@ -33,13 +33,17 @@
 
 namespace fw {
 
+class MesherHost;
+
 struct MesherConfig {
     glm::vec3 origin{-1.0f};         ///< least corner of the region, metres
     glm::vec3 cellSize{2.0f / 128};  ///< metres along each axis
     glm::ivec3 cells{128};           ///< of the region along each axis, any number from 1 to kMostMesherCells
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
     bool colors = false;                 ///< also the base colour at each vertex
-    bool timed = false;                  ///< fill MesherResult::stages (see commands.h for what that costs)
+    MesherHost* host =
+        nullptr;         ///< evaluates the field instead of kernels, which then need not be built; no colours
+    bool timed = false;  ///< fill MesherResult::stages (see commands.h for what that costs)
 };
 
 inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits

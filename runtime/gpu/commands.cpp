@@ -70,13 +70,17 @@ void beginStage(Commands& commands, const char* name) {
         writeTimestamp(commands);
     } else {
         // What is recorded so far belongs to the stage before, or to none.
-        double elapsed = run(commands);
-        if (commands.stageOpen) commands.stages.back().milliseconds = elapsed;
-        vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
-        allocate(commands);
+        flush(commands);
     }
     commands.stages.push_back({name, 0});
     commands.stageOpen = true;
+}
+
+void flush(Commands& commands) {
+    double elapsed = run(commands);
+    if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
+    vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
+    allocate(commands);
 }
 
 void barrier(Commands& commands) {
@@ -162,7 +166,7 @@ void submit(Commands& commands) {
     double elapsed = run(commands);
     if (!commands.stageOpen) return;
     if (!commands.queries) {
-        commands.stages.back().milliseconds = elapsed;
+        commands.stages.back().milliseconds += elapsed;
         return;
     }
     std::vector<uint64_t> ticks(commands.stages.size() + 1);

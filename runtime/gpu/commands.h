@@ -92,6 +92,10 @@ void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer
     dispatchIndirect(commands, pipeline, arguments, offset, &push, sizeof(Push), descriptors);
 }
 
+/// Runs what is recorded so far and waits for it; recording goes on. For a stage that the host does in
+/// between.
+void flush(Commands& commands);
+
 /// Ends the recording, runs it and waits for it. Fills `commands.stages` if it is timed. Throws SystemError
 /// if the device is lost.
 void submit(Commands& commands);

@@ -5,6 +5,7 @@
 #include "graph/glsl.h"
 #include "graph/json.h"
 #include "runtime/mesher.h"
+#include "runtime/mesher_host.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/verify.h"
 
@@ -132,52 +133,61 @@ void compileTable(Bench& bench) {
     const Device& device = bench.device();
     Table table{.title = "A structure changes: from the graph to the first mesh at " +
                          std::to_string(kCells) + " cells, no cache knows the code (ms)",
-                .header = {"nodes", "check and compile", "emit GLSL", "pipelines", "first mesh", "total"}};
+                .header = {"nodes", "check and compile", "first mesh, by the host", "total", "emit GLSL",
+                           "pipelines", "mesh by its kernels"}};
     std::random_device seed;
     double total200 = 0;
     for (int nodes : {10, 50, 100, kStructureNodes}) {
         MesherBuffers buffers;
         MesherPipelines pipelines;  // of the structure before, as a session has them
-        Figure compiling, emitting, building, meshing;
+        Figure compiling, hosting, emitting, building, meshing;
         const auto measured = measure(bench.options.repeats, [&] {
             const Graph graph = chainOf(nodes, double(seed()) * 1e-11);
             const auto start = Clock::now();
             const Result<Program> program = compile(graph);
             if (!program) throw SystemError(format(program.error()));
             const double compiled = millisecondsSince(start);
-            const std::string field = emitField(*program);
-            const double emitted = millisecondsSince(start);
-            pipelines = createMesherPipelines(device, field, false, pipelines);
-            const double built = millisecondsSince(start);
+            const MesherConfig config{.origin = glm::vec3(-2.5f),
+                                      .cellSize = glm::vec3(5.0f / kCells),
+                                      .cells = glm::ivec3(kCells)};
             MesherResult result;
-            meshOnce(bench, pipelines, buffers,
-                     {.origin = glm::vec3(-2.5f),
-                      .cellSize = glm::vec3(5.0f / kCells),
-                      .cells = glm::ivec3(kCells)},
-                     result);
+            MesherHost host(program->ir, program->distance(), program->parameters());
+            MesherConfig byHost = config;
+            byHost.host = &host;
+            meshOnce(bench, pipelines, buffers, byHost, result);
             const double total = millisecondsSince(start);
+            if (compiling.runs.empty()) checkMesh(bench, "chain of boxes, by the host", buffers, result);
+
+            // What goes on behind the first mesh.
+            const auto behind = Clock::now();
+            const std::string field = emitField(*program);
+            const double emitted = millisecondsSince(behind);
+            pipelines = createMesherPipelines(device, field, false, pipelines);
+            const double built = millisecondsSince(behind);
+            meshOnce(bench, pipelines, buffers, config, result);
             compiling.runs.push_back(compiled);
-            emitting.runs.push_back(emitted - compiled);
+            hosting.runs.push_back(total - compiled);
+            emitting.runs.push_back(emitted);
             building.runs.push_back(built - emitted);
-            meshing.runs.push_back(total - built);
+            meshing.runs.push_back(millisecondsSince(behind) - built);
             if (compiling.runs.size() == 1) checkMesh(bench, "chain of boxes", buffers, result);
             return total;
         });
         std::vector<std::string> row = {std::to_string(nodes)};
-        for (Figure* part : {&compiling, &emitting, &building, &meshing}) {
+        for (Figure* part : {&compiling, &hosting, &emitting, &building, &meshing}) {
             part->runs.erase(part->runs.begin(), part->runs.begin() + 2);  // those to warm up
             std::ranges::sort(part->runs);
             row.push_back(number(part->median()));
+            if (part == &hosting) row.push_back(text(measured));
         }
-        row.push_back(text(measured));
         table.rows.push_back(row);
         if (nodes == kStructureNodes) total200 = measured.median();
     }
-    table.notes = {"Wanted for " + std::to_string(kStructureNodes) + " nodes: at most " +
-                       number(kMostStructureMs) + " ms, " +
-                       (total200 <= kMostStructureMs ? "met." : "missed."),
-                   "The driver translates a kernel when it first runs, so a part of compiling stands under "
-                   "\"first mesh\"."};
+    table.notes = {
+        "Wanted for " + std::to_string(kStructureNodes) + " nodes: at most " + number(kMostStructureMs) +
+            " ms, " + (total200 <= kMostStructureMs ? "met." : "missed."),
+        "The first mesh comes from shortened tapes on the host; kernels are compiled behind it and take "
+        "over when they are ready."};
     print(table, bench.options.markdown);
 }
 

@@ -1,0 +1,123 @@
+// The mesher with the field evaluated on the host: as sound as the kernels' mesh, and the same up to
+// rounding.
+#include "runtime/mesher_host.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "graph/glsl.h"
+#include "graph/json.h"
+#include "runtime/mesh_report.h"
+#include "runtime/mesher.h"
+#include "runtime/session.h"
+#include "tests/support/gpu.h"
+
+namespace fw {
+namespace {
+
+struct Meshed {
+    MesherResult result;
+    Mesh mesh;
+};
+
+MesherConfig gridOf(const Box& box, int cells) {
+    const glm::dvec3 lo(box.lo[0], box.lo[1], box.lo[2]), hi(box.hi[0], box.hi[1], box.hi[2]);
+    const double size = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}) / cells;
+    return {.origin = glm::vec3(lo),
+            .cellSize = glm::vec3(float(size)),
+            .cells = glm::max(glm::ivec3((hi - lo) / size), glm::ivec3(1))};
+}
+
+Meshed run(MesherPipelines pipelines, MesherConfig config, MesherHost* host) {
+    MesherBuffers buffers;
+    config.host = host;
+    Result<MesherResult> result = runMesher(test::device(), pipelines, buffers, config);
+    if (!result) throw SystemError(format(result.error()));
+    return {*result, downloadMesh(test::device(), buffers, *result)};
+}
+
+Program programOf(const std::string& path) {
+    const Result<Graph> graph = readGraph(path, nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<Program> program = compile(*graph);
+    if (!program) throw SystemError(format(program.error()));
+    return std::move(*program);
+}
+
+TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
+    int samples = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples")) {
+        if (!entry.path().string().ends_with(".field.json")) continue;
+        SCOPED_TRACE(entry.path().filename().string());
+        const Program program = programOf(entry.path());
+        const Result<Box> box = meshRegion(program, {std::nullopt, 40});
+        ASSERT_TRUE(box);
+        const MesherConfig config = gridOf(*box, 40);
+        const Meshed kernels =
+            run(createMesherPipelines(test::device(), emitField(program)), config, nullptr);
+        MesherHost host(program.ir, program.distance(), program.parameters());
+        const Meshed ours = run({}, config, &host);
+
+        const Report report = reportOnMesh(ours.mesh.positions, ours.mesh.indices);
+        EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.nonManifoldVertices, 0u);
+        EXPECT_EQ(report.flippedEdges + report.degenerateTriangles, 0u);
+        const Report expected = reportOnMesh(kernels.mesh.positions, kernels.mesh.indices);
+        EXPECT_NEAR(report.volume, expected.volume, 2e-3 * expected.volume);
+        EXPECT_NEAR(report.area, expected.area, 1e-2 * expected.area);
+        // Where a face lies on the grid, single and double precision may take different sides.
+        EXPECT_NEAR(double(ours.mesh.positions.size()), double(kernels.mesh.positions.size()),
+                    0.1 * double(kernels.mesh.positions.size()));
+        ++samples;
+    }
+    EXPECT_GE(samples, 10);
+}
+
+TEST(MesherHost, ASphereIsTheSameVertexForVertex) {
+    Ir ir;
+    IrId squares = ir.constant(0);
+    for (int axis = 0; axis < 3; ++axis)
+        squares = ir.add(Op::add, squares, ir.add(Op::square, ir.position(axis)));
+    const IrId root = ir.add(Op::subtract, ir.add(Op::squareRoot, squares), ir.parameter(0));
+    MesherHost host(ir, root, {0.77});
+    // Two blocks along each axis, and a part of the last one.
+    const MesherConfig config{
+        .origin = glm::vec3(-1), .cellSize = glm::vec3(2.0f / 70), .cells = glm::ivec3(70)};
+    const Meshed ours = run({}, config, &host);
+    EXPECT_EQ(reportOnMesh(ours.mesh.positions, ours.mesh.indices).eulerCharacteristic, 2);
+    for (std::size_t i = 0; i < ours.mesh.positions.size(); ++i) {
+        ASSERT_NEAR(glm::length(ours.mesh.positions[i]), 0.77f, 1e-5f);
+        ASSERT_GT(glm::dot(glm::normalize(ours.mesh.positions[i]), ours.mesh.normals[i]), 0.9999f);
+    }
+}
+
+TEST(MesherHost, ASolidThatFillsTheRegionIsCapped) {
+    Ir ir;
+    MesherHost host(ir, ir.constant(-1), {});
+    const MesherConfig config{.origin = glm::vec3(0), .cellSize = glm::vec3(0.1f), .cells = {10, 5, 3}};
+    const Meshed ours = run({}, config, &host);
+    EXPECT_TRUE(ours.result.capped);
+    const Report report = reportOnMesh(ours.mesh.positions, ours.mesh.indices);
+    EXPECT_EQ(report.boundaryEdges + report.nonManifoldVertices + report.degenerateTriangles, 0u);
+    EXPECT_NEAR(report.volume, 0.15, 1e-3);
+}
+
+TEST(MesherHost, AnEmptyFieldGivesAnEmptyMesh) {
+    Ir ir;
+    MesherHost host(ir, ir.constant(1), {});
+    EXPECT_EQ(run({}, {.cells = glm::ivec3(20)}, &host).mesh.indices.size(), 0u);
+}
+
+TEST(MesherHost, BuffersGrowUntilTheSurfaceFits) {
+    const Program program = programOf(FIELDWRIGHT_SOURCE_DIR "/samples/gyroid_sphere.field.json");
+    const Result<Box> box = meshRegion(program, {std::nullopt, 96});
+    ASSERT_TRUE(box);
+    MesherHost host(program.ir, program.distance(), program.parameters());
+    const Meshed ours = run({}, gridOf(*box, 96), &host);
+    EXPECT_EQ(reportOnMesh(ours.mesh.positions, ours.mesh.indices).boundaryEdges, 0u);
+    EXPECT_GT(ours.mesh.positions.size(), 10000u);
+}
+
+}  // namespace
+}  // namespace fw
