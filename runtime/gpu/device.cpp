@@ -309,6 +309,7 @@ Device& Device::operator=(Device&& other) noexcept {
 }
 
 Device::~Device() {
+    if (instance && record) record->sibling.reset();  // before the instance that it was made with
     if (handle) {
         vkDeviceWaitIdle(handle);
         if (pipelineCache) {
@@ -377,6 +378,22 @@ Result<Device> createDevice(const DeviceOptions& options) {
     createLogicalDevice(device, options);
     createPools(device);
     return device;
+}
+
+const Device& siblingOf(const Device& device) {
+    std::lock_guard lock(device.record->mutex);
+    if (!device.record->sibling) {
+        auto sibling = std::make_unique<Device>();
+        static_cast<DeviceState&>(*sibling) = device;
+        sibling->instance = VK_NULL_HANDLE;  // the device's own
+        sibling->messenger = VK_NULL_HANDLE;
+        sibling->handle = VK_NULL_HANDLE;
+        sibling->record = std::make_shared<DeviceRecord>();
+        createLogicalDevice(*sibling, {});
+        createPools(*sibling);
+        device.record->sibling = std::move(sibling);
+    }
+    return *device.record->sibling;
 }
 
 void waitIdle(const Device& device) { check(vkDeviceWaitIdle(device.handle), "waiting for the device"); }

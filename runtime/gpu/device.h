@@ -37,11 +37,14 @@ struct DeviceInfo {
     bool usable = false;      ///< has all that Fieldwright needs
 };
 
-/// What the validation layer said, and the bytes of device memory that are and were in use.
+struct Device;
+
+/// What the validation layer said, the bytes of device memory that are and were in use, and the sibling.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
     std::atomic<uint64_t> allocated = 0, peak = 0;
+    std::unique_ptr<Device> sibling;
 };
 
 /// The plain part of a Device, so that moving it is one exchange.
@@ -89,6 +92,11 @@ std::vector<DeviceInfo> listDevices();
 /// Opens the preferred usable device, or the one that `options.pick` names; an Error where nothing matches
 /// it. Throws SystemError where Vulkan or a usable device is missing.
 Result<Device> createDevice(const DeviceOptions& options = {});
+
+/// Another logical device on the same physical one, opened at the first call. A software device translates
+/// kernels on the one thread of its queue; the sibling's queue has a thread of its own, and what it
+/// translated is in the driver's disk cache.
+const Device& siblingOf(const Device& device);
 
 /// Waits for the device to be idle.
 void waitIdle(const Device& device);

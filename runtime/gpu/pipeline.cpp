@@ -1,7 +1,9 @@
 // Pipelines from compiled shaders (see shader.h).
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <exception>
+#include <optional>
 #include <thread>
 
 #include "runtime/gpu/commands.h"
@@ -116,24 +118,60 @@ namespace {
 
 /// A software device turns a kernel into machine code when it first runs, on the queue's one thread. An empty
 /// dispatch of each pipeline as soon as it is made lets that go on beside the compiling of the other shaders.
+/// About half of the pipelines run first on the device's sibling, on another thread, and are then found in
+/// the driver's disk cache.
 class FirstRuns {
   public:
-    explicit FirstRuns(const Device& owner) : device(owner) {
-        if (device.software) nothing = createBuffer(device, 256);
-    }
-    ~FirstRuns() {
-        if (!recorded.empty()) vkQueueWaitIdle(device.queue);
+    explicit FirstRuns(const Device& device) : own(device), sibling(siblingOf(device)) {}
+
+    /// One call at a time. `pipeline` must stay where it is.
+    void start(const Pipeline& pipeline, const ShaderOptions& options, const Spirv& spirv) {
+        for (const ShaderBinding& binding : pipeline.shader.bindings)
+            if (!isBuffer(binding)) return;
+        Lane& lane = sibling.words < own.words ? sibling : own;
+        lane.words += spirv.size();
+        if (&lane == &own) return run(own, pipeline);
+        translated.push_back(build(sibling.device, options, spirv));
+        run(sibling, translated.back());
+        later.push_back(&pipeline);
     }
 
-    /// One call at a time.
-    void start(const Pipeline& pipeline) {
-        if (!device.software) return;
-        std::vector<Descriptor> descriptors;
-        for (const ShaderBinding& binding : pipeline.shader.bindings) {
-            if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) return;
-            descriptors.push_back({binding.binding, nothing});
+    /// Waits until every pipeline has run.
+    void finish() {
+        for (std::size_t i = 0; i < later.size(); ++i) {
+            check(vkWaitForFences(sibling.device.handle, 1, &sibling.fences[i], VK_TRUE, UINT64_MAX),
+                  "waiting for a first run");
+            run(own, *later[i]);
         }
-        Commands& commands = *recorded.emplace_back(std::make_unique<Commands>(device));
+        wait(own);
+        wait(sibling);
+    }
+
+  private:
+    struct Lane {
+        explicit Lane(const Device& laneDevice) : device(laneDevice), nothing(createBuffer(device, 256)) {}
+        ~Lane() {
+            vkDeviceWaitIdle(device.handle);
+            for (VkFence fence : fences) vkDestroyFence(device.handle, fence, nullptr);
+        }
+        const Device& device;
+        Buffer nothing;
+        std::size_t words = 0;  // of SPIR-V so far: a measure of its work
+        std::vector<std::unique_ptr<Commands>> recorded = {};
+        std::vector<VkFence> fences = {};
+    };
+
+    static bool isBuffer(const ShaderBinding& binding) {
+        return binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
+               binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    }
+    static void wait(Lane& lane) { check(vkQueueWaitIdle(lane.device.queue), "waiting for first runs"); }
+
+    static void run(Lane& lane, const Pipeline& pipeline) {
+        std::vector<Descriptor> descriptors;
+        for (const ShaderBinding& binding : pipeline.shader.bindings)
+            descriptors.push_back({binding.binding, lane.nothing});
+        Commands& commands = *lane.recorded.emplace_back(std::make_unique<Commands>(lane.device));
         const std::array<std::byte, 256> push{};
         dispatch(commands, pipeline, {0, 0, 0}, push.data(), pipeline.shader.pushConstantSize, descriptors);
         check(vkEndCommandBuffer(commands.handle), "recording a first run");
@@ -142,13 +180,15 @@ class FirstRuns {
         auto info = zeroed<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
         info.commandBufferInfoCount = 1;
         info.pCommandBufferInfos = &buffer;
-        check(vkQueueSubmit2(device.queue, 1, &info, VK_NULL_HANDLE), "submitting a first run");
+        auto fence = zeroed<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+        check(vkCreateFence(lane.device.handle, &fence, nullptr, &lane.fences.emplace_back()),
+              "creating a fence");
+        check(vkQueueSubmit2(lane.device.queue, 1, &info, lane.fences.back()), "submitting a first run");
     }
 
-  private:
-    const Device& device;
-    Buffer nothing;
-    std::vector<std::unique_ptr<Commands>> recorded;
+    std::deque<Pipeline> translated;  // on the sibling
+    std::vector<const Pipeline*> later;
+    Lane own, sibling;  // last: their work ends before the pipelines do
 };
 
 }  // namespace
@@ -159,7 +199,8 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
     std::atomic<std::size_t> next = 0;
     std::mutex mutex;
     std::exception_ptr failure;
-    FirstRuns firstRuns(device);
+    std::optional<FirstRuns> firstRuns;
+    if (device.software) firstRuns.emplace(device);
     auto work = [&] {
         for (std::size_t i; (i = next++) < shaders.size();) {
             try {
@@ -168,7 +209,7 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
                 double compiled = since(start);
                 pipelines[i] = build(device, shaders[i], spirv);
                 std::lock_guard lock(mutex);
-                firstRuns.start(pipelines[i]);
+                if (firstRuns) firstRuns->start(pipelines[i], shaders[i], spirv);
                 if (times) {
                     times->spirv += compiled;
                     times->pipeline += since(start) - compiled;
@@ -186,6 +227,7 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
     work();
     workers.clear();
     if (failure) std::rethrow_exception(failure);
+    if (firstRuns) firstRuns->finish();
     return pipelines;
 }
 
