@@ -1,6 +1,7 @@
 #include "graph/glsl.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -117,14 +118,15 @@ class Emitter {
         text += "    return " + scalarOperand(root) + ";\n}\n#endif\n";
     }
 
-    /// The derivative of a value along `direction`: a variable's name or an expression of one, empty if it is
+    /// The derivative of a value along an axis: a number, a variable's name or an expression of one, empty if it is
     /// zero. Emits the statement that defines it, if it takes one.
-    std::string derivative(IrId id, const std::vector<std::string>& known) {
+    std::string derivative(IrId id, int axis, const std::vector<std::string>& known) {
         const IrNode& node = ir[id];
         const std::string_view pattern = opInfo(node.op).glslGradient;
-        if (node.positions == 0 || pattern.empty()) return {};
+        if (!(node.positions >> axis & 1) || pattern.empty()) return {};
+        if (opInfo(node.op).arity == 0) return std::string(pattern);
         const auto of = [&](int i) -> const std::string& { return known[node.operands[i]]; };
-        bool varies = opInfo(node.op).arity == 0;
+        bool varies = false;
         for (int i = 0; i < opInfo(node.op).arity; ++i) varies |= !of(i).empty();
         if (!varies) return {};
         // Sums and multiples of constants, the bulk of a field, need no statement or a shorter one.
@@ -143,40 +145,28 @@ class Emitter {
                 return of(letter - 'A').empty() ? "0.0" : of(letter - 'A');
             });
         }
-        text += "    float " + name('g', id) + " = " + expression + ";\n";
-        return name('g', id);
+        const std::string result = std::string("g") + "xyz"[axis] + std::to_string(id);
+        text += "    float " + result + " = " + expression + ";\n";
+        return result;
     }
 
     void gradient() {
         const IrId root = program.distance();
         const std::vector<bool> needed = neededBy(std::span(&root, 1));
-        std::vector<std::string> derivatives(ir.size());
-        text +=
-            "#if defined(FIELD_TANGENT) || defined(FIELD_GRADIENT)\n"
-            "vec2 fieldTangent(vec3 p, vec3 direction) {\n";
+        std::array<std::vector<std::string>, 3> derivatives;
+        derivatives.fill(std::vector<std::string>(ir.size()));
+        text += "#ifdef FIELD_GRADIENT\nvec4 fieldGradient(vec3 p) {\n";
         for (IrId id = 0; id < ir.size(); ++id) {
             if (!needed[id] || isInline(ir[id])) continue;
             scalarStatement(id, opInfo(ir[id].op).glsl);
-            derivatives[id] = derivative(id, derivatives);
+            for (int axis = 0; axis < 3; ++axis) derivatives[axis][id] = derivative(id, axis, derivatives[axis]);
         }
-        const std::string& slope = derivatives[root];
-        text += "    return vec2(" + scalarOperand(root) + ", " + (slope.empty() ? "0.0" : slope) +
-                ");\n}\n#endif\n";
-        text += R"(#ifdef FIELD_GRADIENT
-vec4 fieldGradient(vec3 p) {
-    vec3 gradient = vec3(0.0);
-    float value;
-    int axis = 0;
-    do {
-        vec3 direction = vec3(axis == 0, axis == 1, axis == 2);
-        vec2 tangent = fieldTangent(p, direction);
-        gradient += tangent.y * direction;
-        value = tangent.x;
-    } while (++axis < 3);
-    return vec4(gradient, value);
-}
-#endif
-)";
+        text += "    return vec4(";
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::string& slope = derivatives[axis][root];
+            text += (slope.empty() ? "0.0" : slope) + ", ";
+        }
+        text += scalarOperand(root) + ");\n}\n#endif\n";
     }
 
     void interval() {

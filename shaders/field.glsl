@@ -4,7 +4,6 @@
 // A shader asks for what it needs by defining, before the include, any of
 //   FIELD_VALUE     float fieldValue(vec3 p)                    distance: < 0 inside, >= 0 outside
 //   FIELD_GRADIENT  vec4 fieldGradient(vec3 p)                  xyz = gradient, w = value
-//   FIELD_TANGENT   vec2 fieldTangent(vec3 p, vec3 direction)   value, and derivative along the direction
 //   FIELD_INTERVAL  vec2 fieldInterval(vec3 lo, vec3 hi)        (least, greatest) bound of the value over a box
 //   FIELD_ROWS      FieldPlane fieldPlane(float z); FieldRow fieldRow(FieldPlane plane, float x);
 //                   float fieldAt(FieldRow row, float y)        the value, with what does not depend on y hoisted
@@ -34,7 +33,7 @@ float fieldValue(vec3 p) {
 }
 #endif
 
-#if defined(FIELD_TANGENT) || defined(FIELD_GRADIENT)
+#ifdef FIELD_GRADIENT
 // Distance with its gradient, forward mode, of each intermediate result.
 vec4 fieldMax(vec4 a, vec4 b) { return a.w >= b.w ? a : b; }
 vec4 fieldMin(vec4 a, vec4 b) { return a.w <= b.w ? a : b; }
@@ -48,10 +47,6 @@ vec4 fieldGradient(vec3 p) {
     m = mod(p + vec3(0, 0.25, 0), vec3(1.0)) - 0.5;
     a = fieldAbsOffset(m.x, X, 0.45), b = fieldAbsOffset(m.y, Y, 0.2), c = fieldAbsOffset(m.z, Z, 0.45);
     return fieldMax(d, -fieldMax(a, fieldMax(b, c)));
-}
-vec2 fieldTangent(vec3 p, vec3 direction) {
-    vec4 g = fieldGradient(p);
-    return vec2(g.w, dot(g.xyz, direction));
 }
 #endif
 

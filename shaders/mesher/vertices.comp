@@ -1,11 +1,12 @@
 // Places a vertex on each active edge: the root of the field along the edge, and the field's gradient there.
 //
 // Newton's method from the middle of the edge, kept within a bracket that starts as the edge (its ends differ in sign)
-// and falls back to halving it. The derivative along the edge is one component of the gradient that the normal needs; the
-// two others follow at the root. All of it calls the field, with one derivative, from one place in one loop, so that
-// the field is compiled once. A vertex keeps a small distance from the ends of its edge: no two vertices then coincide, no
-// triangle collapses, and the topology is the table's even where a sample is exactly zero.
-#define FIELD_TANGENT
+// and falls back to halving it. The derivative along the edge is a component of the gradient that the normal needs, and
+// most of a field's operations depend on one axis or two, so that a gradient costs little more than one derivative.
+// The field is called from one place, in a loop: it is compiled once. A vertex keeps a small distance from the ends
+// of its edge: no two vertices then coincide, no triangle collapses, and the topology is the table's even where a
+// sample is exactly zero.
+#define FIELD_GRADIENT
 #include "mesher/mesher.glsl"
 #include "field.glsl"
 #include "lib/octahedral.glsl"
@@ -32,27 +33,21 @@ void main() {
     vec3 edge = samplePosition(begin + along) - p;
 
     float a = 0.0, b = 1.0, t = 0.5, root;
-    uint component = axis;  // of the gradient; the first one, along the edge, until the root is found
-    vec3 gradient;
-    bool searching = true, last;
+    vec4 f;  // gradient and value at t
+    bool found = false;
     uint steps = 0;
     do {
-        vec3 direction = vec3(component == 0, component == 1, component == 2);
-        vec2 f = fieldTangent(p + t * edge, direction);
-        gradient[component] = f.y;
-        bool insideAtT = f.x < 0.0;
-        a = searching && insideAtT == insideAtA ? t : a;
-        b = searching && insideAtT != insideAtA ? t : b;
-        float slope = f.y * push.cellSize[axis];  // by t
-        float newton = f.x == 0.0 ? t : t - f.x / slope;
+        f = fieldGradient(p + t * edge);
+        bool insideAtT = f.w < 0.0;
+        a = !found && insideAtT == insideAtA ? t : a;
+        b = !found && insideAtT != insideAtA ? t : b;
+        float slope = dot(f.xyz, edge);  // by t
+        float newton = f.w == 0.0 ? t : t - f.w / slope;
         float next = newton >= a && newton <= b ? newton : 0.5 * (a + b);
-        root = searching ? next : root;
-        bool found = abs(f.x) <= kTolerance * abs(slope) || ++steps >= kMostSteps;
-        t = searching && !found ? next : t;
-        last = !searching && component == (axis + 2) % 3;
-        component = searching && !found ? component : (component + 1) % 3;
-        searching = searching && !found;
-    } while (!last);
+        root = found ? root : next;
+        found = found || abs(f.w) <= kTolerance * abs(slope) || ++steps >= kMostSteps;
+        t = found ? t : next;
+    } while (!found);
     t = clamp(root, push.nudge, 1.0 - push.nudge);
 
     // An edge to the outside layer has its vertex on the region's boundary, a nudge away from the region's edges: the
@@ -62,8 +57,8 @@ void main() {
     vec3 inset = push.nudge * push.cellSize;
     vec3 onRim = clamp(rim == 1 ? p + edge : p, low + inset, high - inset);
     vec3 position = rim == 0 ? p + t * edge : mix(onRim, rim == 1 ? low : high, vec3(along));
-    float size = length(gradient.xyz);
+    float size = length(f.xyz);
     vec3 outwards = vec3(along) * (rim == 1 ? -1.0 : 1.0);
-    vec3 normal = rim == 0 && size > 0.0 && size < 1e30 ? gradient.xyz / size : outwards;
+    vec3 normal = rim == 0 && size > 0.0 && size < 1e30 ? f.xyz / size : outwards;
     if (valid) vertices[index] = uvec4(floatBitsToUint(position), packOctahedral(normal));
 }

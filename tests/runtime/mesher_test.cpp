@@ -26,7 +26,7 @@ float fieldValueOf(vec3 p) { return )" +
 #ifdef FIELD_VALUE
 float fieldValue(vec3 p) { return fieldValueOf(p); }
 #endif
-#ifdef FIELD_TANGENT
+#ifdef FIELD_GRADIENT
 vec4 fieldGradient(vec3 p) {
     const float e = 1.0 / 1024.0;
     vec3 g;
@@ -36,10 +36,6 @@ vec4 fieldGradient(vec3 p) {
         g[i] = (fieldValueOf(p + d) - fieldValueOf(p - d)) / (2.0 * e);
     }
     return vec4(g, fieldValueOf(p));
-}
-vec2 fieldTangent(vec3 p, vec3 direction) {
-    vec4 g = fieldGradient(p);
-    return vec2(g.w, dot(g.xyz, direction));
 }
 #endif
 #ifdef FIELD_INTERVAL
