@@ -118,8 +118,8 @@ class Emitter {
         text += "    return " + scalarOperand(root) + ";\n}\n#endif\n";
     }
 
-    /// The derivative of a value along an axis: a number, a variable's name or an expression of one, empty if it is
-    /// zero. Emits the statement that defines it, if it takes one.
+    /// The derivative of a value along an axis: a number, a variable's name or an expression of one, empty if
+    /// it is zero. Emits the statement that defines it, if it takes one.
     std::string derivative(IrId id, int axis, const std::vector<std::string>& known) {
         const IrNode& node = ir[id];
         const std::string_view pattern = opInfo(node.op).glslGradient;
@@ -159,7 +159,8 @@ class Emitter {
         for (IrId id = 0; id < ir.size(); ++id) {
             if (!needed[id] || isInline(ir[id])) continue;
             scalarStatement(id, opInfo(ir[id].op).glsl);
-            for (int axis = 0; axis < 3; ++axis) derivatives[axis][id] = derivative(id, axis, derivatives[axis]);
+            for (int axis = 0; axis < 3; ++axis)
+                derivatives[axis][id] = derivative(id, axis, derivatives[axis]);
         }
         text += "    return vec4(";
         for (int axis = 0; axis < 3; ++axis) {

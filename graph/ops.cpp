@@ -76,12 +76,9 @@ Interval hashInterval(I x) {
 constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
     row(Op::constant, "constant", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""),
     row(Op::parameter, "parameter", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""),
-    row(Op::positionX, "x", 0, false, false, leaf, leafInterval, zeroSlope, "p.x", "vec2(lo.x, hi.x)",
-        "1.0"),
-    row(Op::positionY, "y", 0, false, false, leaf, leafInterval, zeroSlope, "p.y", "vec2(lo.y, hi.y)",
-        "1.0"),
-    row(Op::positionZ, "z", 0, false, false, leaf, leafInterval, zeroSlope, "p.z", "vec2(lo.z, hi.z)",
-        "1.0"),
+    row(Op::positionX, "x", 0, false, false, leaf, leafInterval, zeroSlope, "p.x", "vec2(lo.x, hi.x)", "1.0"),
+    row(Op::positionY, "y", 0, false, false, leaf, leafInterval, zeroSlope, "p.y", "vec2(lo.y, hi.y)", "1.0"),
+    row(Op::positionZ, "z", 0, false, false, leaf, leafInterval, zeroSlope, "p.z", "vec2(lo.z, hi.z)", "1.0"),
 
     row(
         Op::negate, "negate", 1, false, false, [](V x) { return -x[0]; }, [](I x) { return -x[0]; },
