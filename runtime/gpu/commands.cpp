@@ -143,6 +143,7 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
         write.descriptorType = declared.type;
         write.pBufferInfo = &given->buffer;
         write.pImageInfo = &given->image;
+        write.pTexelBufferView = &given->texels;
     }
     if (count)
         commands.device.pushDescriptors(commands.handle, point, pipeline.layout, 0, count, writes.data());

@@ -40,11 +40,14 @@ struct Descriptor {
     uint32_t binding = 0;
     VkDescriptorBufferInfo buffer = {};
     VkDescriptorImageInfo image = {};
+    VkBufferView texels = VK_NULL_HANDLE;
 
     /// The whole buffer, or `size` bytes from `offset`. At most maxStorageBufferRange bytes can be bound.
     Descriptor(uint32_t bindingNumber, const Buffer& b, VkDeviceSize offset = 0,
                VkDeviceSize size = VK_WHOLE_SIZE)
-        : binding(bindingNumber), buffer{b.handle, offset, size == VK_WHOLE_SIZE ? b.size - offset : size} {}
+        : binding(bindingNumber),
+          buffer{b.handle, offset, size == VK_WHOLE_SIZE ? b.size - offset : size},
+          texels(b.texels) {}
     Descriptor(uint32_t bindingNumber, VkImageView view, VkImageLayout layout,
                VkSampler sampler = VK_NULL_HANDLE)
         : binding(bindingNumber), image{sampler, view, layout} {}

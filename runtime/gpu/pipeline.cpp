@@ -163,7 +163,8 @@ class FirstRuns {
 
     static bool isBuffer(const ShaderBinding& binding) {
         return binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
-               binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+               binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
+               binding.type == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
     }
     static void wait(Lane& lane) { check(vkQueueWaitIdle(lane.device.queue), "waiting for first runs"); }
 

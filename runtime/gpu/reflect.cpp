@@ -53,6 +53,7 @@ VkDescriptorType descriptorType(Ids& ids, const Id& variable) {
         case spv::OpTypeSampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         case spv::OpTypeSampler: return VK_DESCRIPTOR_TYPE_SAMPLER;
         case spv::OpTypeImage:  // operand 5 says whether it is used with a sampler (1) or as storage (2)
+            if (element.operands[1] == spv::DimBuffer) return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
             return element.operands[5] == 1 ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
                                             : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         default:

@@ -58,6 +58,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 Buffer::~Buffer() {
     if (!device) return;
+    if (texels) vkDestroyBufferView(device, texels, nullptr);
     vkDestroyBuffer(device, handle, nullptr);
     vkFreeMemory(device, memory, nullptr);
     record->allocated -= allocated;
@@ -77,7 +78,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                  VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     if (device.deviceAddresses) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     check(vkCreateBuffer(device.handle, &info, nullptr, &buffer.handle), "creating a buffer");
     VkMemoryRequirements needs;
@@ -106,6 +107,15 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory))
         check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
               "mapping a buffer");
+    const VkDeviceSize texels = buffer.size / 16;
+    if (texels && texels <= device.properties.limits.maxTexelBufferElements) {
+        auto view = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+        view.buffer = buffer.handle;
+        view.format = VK_FORMAT_R32G32B32A32_UINT;
+        view.range = texels * 16;
+        check(vkCreateBufferView(device.handle, &view, nullptr, &buffer.texels),
+              "creating a view of a buffer");
+    }
     if (device.deviceAddresses) {
         auto address = zeroed<VkBufferDeviceAddressInfo>(VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO);
         address.buffer = buffer.handle;

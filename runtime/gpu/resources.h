@@ -24,10 +24,11 @@ struct BufferState {
     VkDevice device = VK_NULL_HANDLE;
     VkBuffer handle = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkDeviceSize size = 0;        ///< bytes that may be used
-    VkDeviceSize allocated = 0;   ///< bytes that were allocated for it
-    void* mapped = nullptr;       ///< host address, null if the memory is not host-visible
-    VkDeviceAddress address = 0;  ///< 0 where the device has no buffer addresses
+    VkDeviceSize size = 0;                 ///< bytes that may be used
+    VkDeviceSize allocated = 0;            ///< bytes that were allocated for it
+    void* mapped = nullptr;                ///< host address, null if the memory is not host-visible
+    VkDeviceAddress address = 0;           ///< 0 where the device has no buffer addresses
+    VkBufferView texels = VK_NULL_HANDLE;  ///< all of it as texels of four 32-bit words, where it has so many
     std::shared_ptr<DeviceRecord> record;
 };
 

@@ -6,7 +6,9 @@
 #include "mesher/mesher.glsl"
 #include "mesher/strips.glsl"
 #include "mesher/links.glsl"
-#include "mesher/edges.glsl"
+// edges.glsl says what these hold. As texels they come in one load each, without a branch a lane on software devices.
+layout(binding = 8, rgba32ui) readonly uniform uimageBuffer edges;
+layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
 
 // A group has some eighty strips; small work groups leave few lanes without one.
 layout(local_size_x_id = 0) in;
@@ -47,7 +49,7 @@ void main() {
             n = n == 0 ? 6 : n - 1;  // the strip itself comes last
             uint nextX = n & 1 & side, nextY = n & 2, nextZ = z == 7 ? n & 4 : 0;
             uint to = links[slot * 8 + (nextX | nextY | nextZ)];
-            strip = edges[to * 16 + (z + (n >> 2) & 7) * 2 + (side ^ n & 1)];
+            strip = imageLoad(edges, int(to * 16 + (z + (n >> 2) & 7) * 2 + (side ^ n & 1)));
             strip.w += sums[to / MESHER_GROUP_BRICKS].x;
             uint firstY = strip.w + bitCount(strip.x);
             lookup[n] = strip.xw;
