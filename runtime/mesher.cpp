@@ -94,7 +94,8 @@ struct Limits {
 Limits limitsOf(const Device& device) {
     uint64_t range = device.properties.limits.maxStorageBufferRange;
     uint64_t listed = range / 4;  // the list of vertices is bound as a whole
-    return {uint32_t(std::min<uint64_t>(kMostBricks, range / kLookupBytes)),
+    uint64_t texels = device.properties.limits.maxTexelBufferElements;  // the lookup is read as texels
+    return {uint32_t(std::min<uint64_t>({kMostBricks, range / kLookupBytes, texels * 16 / kLookupBytes})),
             uint32_t(std::min<uint64_t>(uint64_t(MESHER_VERTEX_CHUNK) * MESHER_CHUNKS, listed)),
             uint32_t(uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS)};
 }
