@@ -232,7 +232,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
 
 /// Builds those of `kernels` that are not built yet.
 void build(const Device& device, MesherPipelines& pipelines, std::initializer_list<Kernel> kernels,
-           CompileTimes* times = nullptr) {
+           CompileTimes* times = nullptr, Compile when = Compile::now) {
     pipelines.all.resize(kernelCount);
     std::vector<ShaderOptions> shaders;
     std::vector<Kernel> missing;
@@ -247,7 +247,7 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
         missing.push_back(kernel);
     }
     if (missing.empty()) return;
-    std::vector<Pipeline> built = createComputePipelines(device, shaders, times);
+    std::vector<Pipeline> built = createComputePipelines(device, shaders, times, when);
     for (std::size_t i = 0; i < missing.size(); ++i)
         pipelines.all[missing[i]] = std::make_shared<Pipeline>(std::move(built[i]));
 }
@@ -257,14 +257,14 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
 void prepareMesher(const std::string& field) { (void)compileShader({.name = kNames[cull], .field = field}); }
 
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool wantColors,
-                                      const MesherPipelines& previous, CompileTimes* times) {
+                                      const MesherPipelines& previous, CompileTimes* times, Compile when) {
     MesherPipelines pipelines{previous.all, std::move(field)};
     pipelines.all.resize(kernelCount);
     for (Kernel kernel : {blocks, cull, sample, vertices, colors}) pipelines.all[kernel] = nullptr;
     build(device, pipelines,
           {cull, sample, vertices, topBricks, compact, link, classify, topGroups, triangles,
            wantColors ? colors : vertices},
-          times);
+          times, when);
     return pipelines;
 }
 

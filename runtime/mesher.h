@@ -58,7 +58,8 @@ struct MesherPipelines {
 /// Compiles the kernels, with `colors` the one for colours too. `field` is the text that answers #include
 /// "field.glsl", empty for the default field. What does not depend on the field is taken from `previous`.
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool colors = false,
-                                      const MesherPipelines& previous = {}, CompileTimes* times = nullptr);
+                                      const MesherPipelines& previous = {}, CompileTimes* times = nullptr,
+                                      Compile when = Compile::now);
 
 /// Translates one kernel to SPIR-V and into the cache. That needs no device, and the first translation of a
 /// process takes some 70 ms more than any later one: worth doing while the device opens.

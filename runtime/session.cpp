@@ -5,6 +5,7 @@
 
 #include "graph/glsl.h"
 #include "graph/region.h"
+#include "runtime/mesher_host.h"
 
 namespace fw {
 
@@ -53,22 +54,26 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
     return padded(found.box, resolution, 1.5);
 }
 
-Session::Session(Device device) : gpu(std::move(device)) {}
+Session::Session(Device device) : gpu(std::make_unique<Device>(std::move(device))) {}
 
-bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
+void Session::take(Program program) {
     current = std::move(program);
     std::vector<float> values;
     for (double value : current.parameters()) values.push_back(static_cast<float>(value));
     values.resize(std::max<std::size_t>(values.size(), 1));
-    reserve(gpu, parameters, values.size() * sizeof(float), Memory::upload);
-    upload(gpu, parameters, values);
+    reserve(*gpu, parameters, values.size() * sizeof(float), Memory::upload);
+    upload(*gpu, parameters, values);
+}
+
+bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
+    take(std::move(program));
     if (built && builtHash == current.structureHash) return false;
 
     const auto start = std::chrono::steady_clock::now();
     const std::string field = emitField(current);
     if (stages) stages->push_back({"emit", milliseconds(start)});
     const auto compiling = std::chrono::steady_clock::now();
-    pipelines = createMesherPipelines(gpu, field, current.hasMaterial(), pipelines);
+    pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
     renderPipelines = {};
     if (stages) stages->push_back({"pipelines", milliseconds(compiling)});
     builtHash = current.structureHash;
@@ -76,10 +81,37 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     return true;
 }
 
+void Session::replaceProgram(Program program) {
+    take(std::move(program));
+    compiling();
+}
+
+bool Session::compiling() {
+    const auto isBuilt = [&] { return built && builtHash == current.structureHash; };
+    if (next.valid() && next.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        MesherPipelines made = next.get();
+        if (nextHash == current.structureHash && !isBuilt()) {
+            pipelines = std::move(made);
+            renderPipelines = {};
+            builtHash = nextHash;
+            built = true;
+        }
+    }
+    if (isBuilt()) return false;
+    if (!next.valid()) {  // one structure at a time; what was replaced meanwhile is passed over
+        nextHash = current.structureHash;
+        next = std::async(std::launch::async, [device = gpu.get(), field = emitField(current),
+                                               colors = current.hasMaterial(), previous = pipelines] {
+            return createMesherPipelines(*device, field, colors, previous, nullptr, Compile::behind);
+        });
+    }
+    return true;
+}
+
 void Session::setParameter(std::size_t slot, double value) {
     current.live.at(slot).value = value;
     const auto narrow = static_cast<float>(value);
-    uploadBytes(gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
+    uploadBytes(*gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
 }
 
 Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed) {
@@ -113,11 +145,13 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.parameters = &parameters;
     config.colors = current.hasMaterial();
     config.timed = timed;
-    return runMesher(gpu, pipelines, buffers, config);
+    std::optional<MesherHost> host;
+    if (compiling()) config.host = &host.emplace(current.ir, current.distance(), current.parameters());
+    return runMesher(*gpu, pipelines, buffers, config);
 }
 
 Mesh Session::download(const MesherResult& result) const {
-    Mesh mesh = downloadMesh(gpu, buffers, result);
+    Mesh mesh = downloadMesh(*gpu, buffers, result);
     const auto constant = [&](int component) {
         const IrId id = current.surface[component];
         return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
@@ -133,13 +167,13 @@ Mesh Session::download(const MesherResult& result) const {
 }
 
 Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
-    if (!renderPipelines.shade) renderPipelines = createRenderPipelines(gpu, emitField(current));
+    if (!renderPipelines.shade) renderPipelines = createRenderPipelines(*gpu, emitField(current));
     const RenderScene scene{.mesh = buffers,
                             .vertices = result.vertices,
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
                             .parameters = &parameters};
-    return renderPicture(gpu, renderPipelines, scene, options);
+    return renderPicture(*gpu, renderPipelines, scene, options);
 }
 
 }  // namespace fw

@@ -5,6 +5,8 @@
 // picture.
 #pragma once
 
+#include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,12 +29,19 @@ class Session {
   public:
     explicit Session(Device device);
 
-    const Device& device() const { return gpu; }
+    const Device& device() const { return *gpu; }
 
     /// Makes `program` the one that is meshed. Builds pipelines only if the structure changed; returns
     /// whether it did. Stage times go to `stages`.
     bool setProgram(Program program, std::vector<StageTime>* stages = nullptr);
     const Program& program() const { return current; }
+
+    /// The same without waiting: kernels of a new structure are compiled on a thread of their own. Until they
+    /// are there, polygonise() evaluates the field on the host (runtime/mesher_host.h), and its mesh has no
+    /// colours.
+    void replaceProgram(Program program);
+    /// Whether the next polygonise() would do without the program's kernels.
+    bool compiling();
 
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
@@ -49,7 +58,9 @@ class Session {
     Result<Picture> render(const MesherResult& result, const RenderOptions& options);
 
   private:
-    Device gpu;
+    void take(Program program);
+
+    std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
     Program current;
     uint64_t builtHash = 0;
     bool built = false;
@@ -58,6 +69,8 @@ class Session {
     MeshGrid grid;
     RenderPipelines renderPipelines;  ///< made by the first picture
     Buffer parameters;
+    std::future<MesherPipelines> next;  ///< being compiled, for the structure nextHash
+    uint64_t nextHash = 0;
 };
 
 /// The region that a program is meshed in: the request's, the program's own, or the solid's bounds with a

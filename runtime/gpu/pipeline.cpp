@@ -119,18 +119,29 @@ namespace {
 /// A software device turns a kernel into machine code when it first runs, on the queue's one thread. An empty
 /// dispatch of each pipeline as soon as it is made lets that go on beside the compiling of the other shaders.
 /// About half of the pipelines run first on the device's sibling, on another thread, and are then found in
-/// the driver's disk cache.
+/// the driver's disk cache. With `Compile::behind` all do, and the device's own queue is left alone.
 class FirstRuns {
   public:
-    explicit FirstRuns(const Device& device) : own(device), sibling(siblingOf(device)) {}
+    FirstRuns(const Device& device, Compile when)
+        : behind(when == Compile::behind),
+          siblingUse(siblingOf(device).record->mutex, std::defer_lock),
+          own(device),
+          sibling(siblingOf(device)) {
+        // One at a time may use the sibling; who must not wait does without.
+        if (behind)
+            siblingUse.lock();
+        else
+            (void)siblingUse.try_lock();
+    }
 
     /// One call at a time. `pipeline` must stay where it is.
     void start(const Pipeline& pipeline, const ShaderOptions& options, const Spirv& spirv) {
         for (const ShaderBinding& binding : pipeline.shader.bindings)
             if (!isBuffer(binding)) return;
-        Lane& lane = sibling.words < own.words ? sibling : own;
+        const bool toSibling = behind || (siblingUse.owns_lock() && sibling.words < own.words);
+        Lane& lane = toSibling ? sibling : own;
         lane.words += spirv.size();
-        if (&lane == &own) return run(own, pipeline);
+        if (!toSibling) return run(own, pipeline);
         translated.push_back(build(sibling.device, options, spirv));
         run(sibling, translated.back());
         later.push_back(&pipeline);
@@ -141,17 +152,16 @@ class FirstRuns {
         for (std::size_t i = 0; i < later.size(); ++i) {
             check(vkWaitForFences(sibling.device.handle, 1, &sibling.fences[i], VK_TRUE, UINT64_MAX),
                   "waiting for a first run");
-            run(own, *later[i]);
+            if (!behind) run(own, *later[i]);
         }
-        wait(own);
-        wait(sibling);
+        if (!behind) wait(own);
     }
 
   private:
     struct Lane {
         explicit Lane(const Device& laneDevice) : device(laneDevice), nothing(createBuffer(device, 256)) {}
         ~Lane() {
-            vkDeviceWaitIdle(device.handle);
+            if (!fences.empty()) vkQueueWaitIdle(device.queue);
             for (VkFence fence : fences) vkDestroyFence(device.handle, fence, nullptr);
         }
         const Device& device;
@@ -187,21 +197,23 @@ class FirstRuns {
         check(vkQueueSubmit2(lane.device.queue, 1, &info, lane.fences.back()), "submitting a first run");
     }
 
+    const bool behind;
+    std::unique_lock<std::mutex> siblingUse;
     std::deque<Pipeline> translated;  // on the sibling
     std::vector<const Pipeline*> later;
-    Lane own, sibling;  // last: their work ends before the pipelines do
+    Lane own, sibling;  // after the pipelines: their work ends before those do
 };
 
 }  // namespace
 
 std::vector<Pipeline> createComputePipelines(const Device& device, std::span<const ShaderOptions> shaders,
-                                             CompileTimes* times) {
+                                             CompileTimes* times, Compile when) {
     std::vector<Pipeline> pipelines(shaders.size());
     std::atomic<std::size_t> next = 0;
     std::mutex mutex;
     std::exception_ptr failure;
     std::optional<FirstRuns> firstRuns;
-    if (device.software) firstRuns.emplace(device);
+    if (device.software) firstRuns.emplace(device, when);
     auto work = [&] {
         for (std::size_t i; (i = next++) < shaders.size();) {
             try {
@@ -221,8 +233,8 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
             }
         }
     };
-    std::size_t threads =
-        std::min<std::size_t>(std::max(2u, std::thread::hardware_concurrency()), shaders.size());
+    const unsigned most = when == Compile::behind ? 1 : std::max(2u, std::thread::hardware_concurrency());
+    const std::size_t threads = std::min<std::size_t>(most, shaders.size());
     std::vector<std::jthread> workers;
     for (std::size_t i = 1; i < threads; ++i) workers.emplace_back(work);
     work();

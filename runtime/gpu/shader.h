@@ -85,10 +85,14 @@ struct CompileTimes {
            pipeline = 0;  ///< ms, added up over shaders (on several threads: more than the wall clock)
 };
 
-/// Compiles and builds one pipeline for each entry, on all processors. A shader that does not compile throws
+/// Whether work on the device waits for a compilation, or goes on while one thread compiles behind it.
+enum class Compile { now, behind };
+
+/// Compiles and builds one pipeline for each entry, now on all processors; behind on the calling thread
+/// alone, which may then be another than the one that submits work. A shader that does not compile throws
 /// SystemError with its message, for its text came from this program.
 std::vector<Pipeline> createComputePipelines(const Device& device, std::span<const ShaderOptions> shaders,
-                                             CompileTimes* times = nullptr);
+                                             CompileTimes* times = nullptr, Compile when = Compile::now);
 Pipeline createComputePipeline(const Device& device, const ShaderOptions& shader);
 
 /// A pipeline for dynamic rendering without vertex attributes: vertex shaders fetch from storage buffers.
