@@ -51,8 +51,9 @@ float gradientNoise(vec3 p, float seed) {
 vec4 simplexNoiseGradient(vec3 p, float seed) {
     vec3 base = floor(p + dot(p, vec3(1.0 / 3.0)));
     vec3 d0 = p - base + dot(base, vec3(1.0 / 6.0));
-    vec3 g = step(d0.yzx, d0.xyz), l = 1.0 - g;
-    vec3 first = min(g, l.zxy), second = max(g, l.zxy);
+    // x >= y, y >= z, x >= z: an order even where all three are equal.
+    vec3 g = vec3(greaterThanEqual(d0.xyx, d0.yzz)), l = 1.0 - g;
+    vec3 first = vec3(g.x * g.z, l.x * g.y, l.y * l.z), second = vec3(max(g.x, g.z), max(l.x, g.y), max(l.y, l.z));
     vec4 sum = vec4(0.0);
     int corner = 0;
     do {
