@@ -87,9 +87,12 @@ Agreement compare(const Program& program, int count, uint32_t seed, float reach 
             else
                 note(result.firstFailure, i, "value", samples[i].value);
         }
-        const double slack = 1e-6 * (1.0 + std::abs(values[i]));
-        if (near(samples[i].value) && (samples[i].interval[0] > samples[i].value + slack ||
-                                       samples[i].interval[1] < samples[i].value - slack))
+        const auto within = [&](double slack) {
+            return samples[i].interval[0] <= samples[i].value + slack &&
+                   samples[i].interval[1] >= samples[i].value - slack;
+        };
+        if (near(samples[i].value) && !within(1e-6 * (1.0 + std::abs(values[i]))) &&
+            !within(4e-7 * largestWithin(program, parameters, reference[i])))
             note(result.firstFailure, i, "interval", samples[i].value);
     }
     return result;
