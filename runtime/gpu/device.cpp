@@ -1,9 +1,13 @@
 #include "runtime/gpu/device.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <optional>
+#include <set>
 
 #include "runtime/gpu/cache_file.h"
 
@@ -211,6 +215,32 @@ std::string pipelineCachePath(const VkPhysicalDeviceProperties& properties) {
     return cachePath("pipelines", name);
 }
 
+std::set<pid_t> threadsOfProcess() {
+    std::set<pid_t> threads;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task", error))
+        threads.insert(std::atoi(entry.path().filename().c_str()));
+    return threads;
+}
+
+/// Gives each thread that is not in `before` a processor of its own, in turn. The workers of a software
+/// device wake at the same moment from the same thread, and Linux then tends to leave both of two on one
+/// processor: half the speed, for as long as the program runs.
+void spreadThreads(const std::set<pid_t>& before) {
+    cpu_set_t allowed;
+    if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
+    int processor = -1;
+    for (pid_t thread : threadsOfProcess()) {
+        if (before.contains(thread)) continue;
+        do processor = (processor + 1) % CPU_SETSIZE;
+        while (!CPU_ISSET(processor, &allowed));
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(processor, &one);
+        sched_setaffinity(thread, sizeof one, &one);
+    }
+}
+
 void createLogicalDevice(Device& device, const DeviceOptions& options) {
     Features has, wanted;
     vkGetPhysicalDeviceFeatures2(device.physical, &has.core);
@@ -242,7 +272,9 @@ void createLogicalDevice(Device& device, const DeviceOptions& options) {
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
+    const std::set<pid_t> threads = threadsOfProcess();
     check(vkCreateDevice(device.physical, &info, nullptr, &device.handle), "opening the Vulkan device");
+    if (device.software) spreadThreads(threads);
     vkGetDeviceQueue(device.handle, device.queueFamily, 0, &device.queue);
     device.pushDescriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
         vkGetDeviceProcAddr(device.handle, "vkCmdPushDescriptorSetKHR"));

@@ -1,7 +1,11 @@
 // The Vulkan layer: devices, buffers, submission, stage times, and what is said when something is missing.
 #include <gtest/gtest.h>
+#include <sched.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <numeric>
+#include <set>
 
 #include "tests/support/gpu.h"
 
@@ -152,6 +156,21 @@ void main() { imageStore(target, ivec3(gl_GlobalInvocationID), vec4(dot(vec3(gl_
     barrier(commands);
     submit(commands);
     EXPECT_EQ(download<float>(device, pixels, 1, (5 * 64 + 3 * 8 + 2) * 4)[0], 532.0f);
+}
+
+TEST(Device, WorkersOfASoftwareDeviceHaveProcessorsOfTheirOwn) {
+    if (!test::device().software) GTEST_SKIP() << "a hardware device";
+    cpu_set_t allowed;
+    ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+    if (CPU_COUNT(&allowed) < 2) GTEST_SKIP() << "one processor";
+    std::set<int> processors;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+        cpu_set_t own;
+        if (sched_getaffinity(std::stoi(entry.path().filename()), sizeof own, &own) != 0) continue;
+        for (int i = 0; CPU_COUNT(&own) == 1 && i < CPU_SETSIZE; ++i)
+            if (CPU_ISSET(i, &own)) processors.insert(i);
+    }
+    EXPECT_GE(int(processors.size()), std::min(CPU_COUNT(&allowed), 8));
 }
 
 }  // namespace
