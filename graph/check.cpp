@@ -3,6 +3,7 @@
 #include "graph/check_parts.h"
 #include "graph/check_value.h"
 #include "graph/compile.h"
+#include "graph/timeline.h"
 
 namespace fw {
 
@@ -169,6 +170,7 @@ std::vector<Error> checkStructure(const Graph& graph) {
         checkEnds(inside, findings);
     }
     checkParameters(graph, top, findings);
+    checkTimeline(graph, top, findings);
     return findings.take();
 }
 
@@ -181,6 +183,12 @@ std::vector<Error> check(const Graph& graph) {
     std::vector<Error> findings = checkStructure(graph);
     if (hasErrors(findings)) return findings;
     for (Error& error : compileErrors(graph)) findings.push_back(std::move(error));
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (hasErrors(findings) || timeline->tracks.empty()) return findings;
+    CompileOptions playing;  // code can ask for constants where the timeline has values that move
+    playing.live = animatedInputs(graph, *timeline);
+    playing.live.insert("time");
+    for (Error& error : compileErrors(graph, playing)) findings.push_back(std::move(error));
     return findings;
 }
 

@@ -425,18 +425,6 @@ const Node* outputNode(const Graph& graph) {
     return found == graph.nodes.end() ? nullptr : &*found;
 }
 
-/// The number or numbers that a node gives for an input; its default if it gives none.
-std::vector<double> settings(const Node& node, std::string_view input) {
-    const InputValue* value = node.input(input);
-    if (value) {
-        if (const auto* number = std::get_if<double>(&value->value)) return {*number};
-        if (const auto* numbers = std::get_if<std::vector<double>>(&value->value)) return *numbers;
-    }
-    const NodeType* type = findNodeType(node.type);
-    const int index = inputIndex(*type, input);
-    return index < 0 ? std::vector<double>{} : type->inputs[index].value.numbers;
-}
-
 /// The node that feeds this input, reroutes passed over; nullptr if none does.
 const Node* feeding(const Graph& graph, const Node& node, std::string_view name) {
     const InputValue* input = node.input(name);
@@ -449,9 +437,9 @@ const Node* feeding(const Graph& graph, const Node& node, std::string_view name)
 void readSettings(const Graph& graph, const Node& output, Program& program) {
     const Node* source = feeding(graph, output, "mesh");
     const Node* stage = source && source->type == "polygonize" ? source : &output;
-    if (const auto resolution = settings(*stage, "resolution"); !resolution.empty())
+    if (const auto resolution = inputNumbers(*stage, "resolution"); !resolution.empty())
         program.resolution = static_cast<int>(resolution[0]);
-    const auto lo = settings(*stage, "region_min"), hi = settings(*stage, "region_max");
+    const auto lo = inputNumbers(*stage, "region_min"), hi = inputNumbers(*stage, "region_max");
     if (lo.size() == 3 && hi.size() == 3) program.region = Box{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
 }
 
@@ -481,6 +469,57 @@ std::vector<double> Program::parameters() const {
     std::vector<double> values;
     for (const LiveParameter& parameter : live) values.push_back(parameter.value);
     return values;
+}
+
+std::vector<double> inputNumbers(const Node& node, std::string_view input) {
+    const InputValue* value = node.input(input);
+    if (value) {
+        if (const auto* number = std::get_if<double>(&value->value)) return {*number};
+        if (const auto* numbers = std::get_if<std::vector<double>>(&value->value)) return *numbers;
+    }
+    const NodeType* type = findNodeType(node.type);
+    const int index = type ? inputIndex(*type, input) : -1;
+    return index < 0 ? std::vector<double>{} : type->inputs[index].value.numbers;
+}
+
+namespace {
+
+NamedParameter named(const ExposedParameter& parameter) {
+    NamedParameter result{parameter.name, parameter.node, parameter.input};
+    result.min = parameter.min.value_or(result.min), result.max = parameter.max.value_or(result.max);
+    return result;
+}
+
+/// The name that a node of type parameter gives itself; empty for any other.
+std::string_view parameterName(const Node& node) {
+    const InputValue* name = node.type == "parameter" ? node.input("name") : nullptr;
+    const std::string* text = name ? std::get_if<std::string>(&name->value) : nullptr;
+    return text ? std::string_view(*text) : std::string_view();
+}
+
+NamedParameter named(const Node& node) {
+    NamedParameter result{std::string(parameterName(node)), node.id, "value"};
+    if (const auto least = inputNumbers(node, "min"); !least.empty()) result.min = least[0];
+    if (const auto most = inputNumbers(node, "max"); !most.empty()) result.max = most[0];
+    return result;
+}
+
+}  // namespace
+
+std::vector<NamedParameter> namedParameters(const Graph& graph) {
+    std::vector<NamedParameter> list;
+    for (const ExposedParameter& parameter : graph.parameters) list.push_back(named(parameter));
+    for (const Node& node : graph.nodes)
+        if (!parameterName(node).empty()) list.push_back(named(node));
+    return list;
+}
+
+std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view name) {
+    for (const ExposedParameter& parameter : graph.parameters)
+        if (parameter.name == name) return named(parameter);
+    for (const Node& node : graph.nodes)
+        if (!name.empty() && parameterName(node) == name) return named(node);
+    return std::nullopt;
 }
 
 Result<Program> compile(const Graph& graph, const CompileOptions& options) {
@@ -513,9 +552,8 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     return program;
 }
 
-std::vector<Error> compileErrors(const Graph& graph) {
-    const CompileOptions nothingLive;
-    Compiler compiler(graph, nothingLive);
+std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& options) {
+    Compiler compiler(graph, options);
     std::vector<const Node*> all;
     for (const Node& node : graph.nodes) all.push_back(&node);
     compiler.lowerAll(graph.nodes, "", nullptr, all);
@@ -540,26 +578,11 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
     if (numbers.empty())
         return errorAt(graph, nullptr, "the parameter '" + name + "' is given no value: write name=value");
 
-    std::vector<std::string> names;
-    Node* node = nullptr;
-    std::string input;
-    double lo = -INFINITY, hi = INFINITY;
-    for (const ExposedParameter& parameter : graph.parameters) {
-        names.push_back(parameter.name);
-        if (parameter.name != name) continue;
-        node = graph.node(parameter.node), input = parameter.input;
-        lo = parameter.min.value_or(lo), hi = parameter.max.value_or(hi);
-    }
-    for (Node& candidate : graph.nodes) {
-        const InputValue* label = candidate.type == "parameter" ? candidate.input("name") : nullptr;
-        if (!label || !std::holds_alternative<std::string>(label->value)) continue;
-        names.push_back(std::get<std::string>(label->value));
-        if (names.back() != name || node) continue;
-        node = &candidate, input = "value";
-        if (const auto least = settings(candidate, "min"); !least.empty()) lo = least[0];
-        if (const auto most = settings(candidate, "max"); !most.empty()) hi = most[0];
-    }
+    const std::optional<NamedParameter> target = findParameter(graph, name);
+    Node* const node = target ? graph.node(target->node) : nullptr;
     if (!node) {
+        std::vector<std::string> names;
+        for (const NamedParameter& parameter : namedParameters(graph)) names.push_back(parameter.name);
         const std::string near = nearestName(name, names);
         std::string known;
         for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
@@ -570,16 +593,16 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
                                             : ": it has " + known));
     }
     for (double number : numbers)
-        if (number < lo || number > hi)
-            return errorAt(
-                graph, node,
-                "the parameter '" + name + "' takes values from " + shortest(lo) + " to " + shortest(hi));
+        if (number < target->min || number > target->max)
+            return errorAt(graph, node,
+                           "the parameter '" + name + "' takes values from " + shortest(target->min) +
+                               " to " + shortest(target->max));
     InputValue value;
     if (numbers.size() == 1)
         value.value = numbers[0];
     else
         value.value = numbers;
-    node->set(input, std::move(value));
+    node->set(target->input, std::move(value));
     return done();
 }
 

@@ -10,6 +10,7 @@
 // faster than loads, so live is asked for, not the default.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -69,7 +70,23 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options = {});
 
 /// Every error that lowering the graph's nodes finds (code that does not compile, fields that are too large):
 /// the part of check() that needs the compiler. Expects a graph whose structure is sound.
-std::vector<Error> compileErrors(const Graph& graph);
+std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& options = {});
+
+/// A parameter that whoever plays the graph may change: an exposed one, or a node of type parameter.
+struct NamedParameter {
+    std::string name;
+    std::string node, input;
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+};
+
+/// All of them, the exposed ones first; of two with one name the first counts.
+std::vector<NamedParameter> namedParameters(const Graph& graph);
+
+/// The one with this name.
+std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view name);
+
+/// The number or numbers that a node gives for an input, else its default; empty if there are none.
+std::vector<double> inputNumbers(const Node& node, std::string_view input);
 
 /// Sets the exposed parameter `name` to the numbers in `text` ("1.5" or "1,2,3"). Errors: no such parameter
 /// (with the nearest name), not a number, out of its range.

@@ -38,6 +38,13 @@ struct TextPosition {
     }  // where a value stood is not part of the value
 };
 
+/// Where the values of JSON that is kept as written stood: one entry a value, in the order of the text (see
+/// placed_json.h). Empty for a document that was not read from text.
+struct TextPlaces {
+    std::vector<TextPosition> list = {};
+    bool operator==(const TextPlaces&) const { return true; }
+};
+
 /// An input's source: the named output of another node; the first output if `output` is empty.
 struct Link {
     std::string node, output;
@@ -116,8 +123,9 @@ struct Graph {
     std::vector<Group> groups;
     std::vector<ExposedParameter> parameters;
     Json scene, timeline, frames;  ///< kept as written; null if absent
-    Json extra;                    ///< unknown top-level keys
-    std::string path;              ///< file it was read from; empty if none
+    TextPlaces scenePlaces, timelinePlaces;
+    Json extra;        ///< unknown top-level keys
+    std::string path;  ///< file it was read from; empty if none
     bool operator==(const Graph&) const = default;
 
     const Node* node(std::string_view id) const;

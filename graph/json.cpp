@@ -47,8 +47,9 @@ class Reader {
             if (key == "nodes") return hasNodes = true, readNodes(value, graph.nodes);
             if (key == "groups") return readList(value, key, graph.groups, &Reader::readGroup);
             if (key == "parameters") return readList(value, key, graph.parameters, &Reader::readParameter);
-            if (key == "scene") return keep(value, key, Kind::object, graph.scene);
-            if (key == "timeline") return keep(value, key, Kind::object, graph.timeline);
+            if (key == "scene") return keep(value, key, Kind::object, graph.scene, &graph.scenePlaces);
+            if (key == "timeline")
+                return keep(value, key, Kind::object, graph.timeline, &graph.timelinePlaces);
             if (key == "frames") return keep(value, key, Kind::array, graph.frames);
             return unknown(keyAt, graph.extra,
                            {"nodes", "groups", "parameters", "scene", "timeline", "frames"});
@@ -138,9 +139,11 @@ class Reader {
         return true;
     }
 
-    bool keep(uint32_t value, std::string_view key, Kind kind, Json& to) {
+    bool keep(uint32_t value, std::string_view key, Kind kind, Json& to, TextPlaces* places = nullptr) {
         if (list[value].kind != kind) return failKind(value, key, kindName(kind));
         to = toJson(tokens, value);
+        for (uint32_t i = value; places && i < list[value].next; ++i)
+            if (list[i].kind != Kind::key) places->list.push_back(list[i].at);
         return true;
     }
 

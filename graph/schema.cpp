@@ -4,6 +4,7 @@
 
 #include "graph/graph.h"
 #include "graph/node_type.h"
+#include "graph/timeline.h"
 
 namespace fw {
 
@@ -153,6 +154,39 @@ Json groupSchema() {
         {"id"});
 }
 
+Json timelineSchema() {
+    const Json number = {{"type", "number"}};
+    const Json time = {{"type", "number"}, {"minimum", 0}};
+    const Json interpolation = {{"enum", {"step", "linear", "cubic"}}, {"default", "linear"}};
+    const Json ease = {{"enum", {"none", "in", "out", "in-out"}}, {"default", "none"}};
+    const Json values = {{"type", "array"}, {"items", number}, {"minItems", 1}, {"maxItems", 4}};
+    const Json key = object({{"time", described("Seconds.", time)},
+                             {"value", {{"anyOf", Json::array({number, values})}}},
+                             {"interpolation", interpolation},
+                             {"ease", ease}},
+                            {"time", "value"});
+    const Json keys = {{"type", "array"}, {"items", key}, {"minItems", 1}};
+    const Json text = {{"type", "string"}};
+    Json track =
+        object({{"node", described("Id of the node whose input moves.", refer("id"))},
+                {"input", described("Name of the input; .x, .y or .z behind it for one component.", text)},
+                {"parameter", described("Name of the parameter that moves.", text)},
+                {"scene", described("Dotted path to what moves: camera.position.", text)},
+                {"interpolation", described("Of keys that give none.", interpolation)},
+                {"ease", described("Of keys that give none.", ease)},
+                {"keys", described("In the order of their times.", keys)}},
+               {"keys"});
+    track["anyOf"] = Json::array(
+        {{{"required", {"node", "input"}}}, {{"required", {"parameter"}}}, {{"required", {"scene"}}}});
+    const Json positive = {{"type", "number"}, {"exclusiveMinimum", 0}};
+    return object({{"length", described("Seconds; the last key's time if absent.", positive)},
+                   {"loop", described("What follows the end.",
+                                      {{"enum", {"once", "repeat", "ping-pong"}}, {"default", "repeat"}})},
+                   {"fps", described("Frames a second, for stepping and for pictures.", positive)},
+                   {"tracks", {{"type", "array"}, {"maxItems", kMaxTracks}, {"items", track}}}},
+                  {});
+}
+
 }  // namespace
 
 std::string fileSchema() {
@@ -195,7 +229,7 @@ std::string fileSchema() {
                     {{"type", "array"}, {"maxItems", kMaxEntries}, {"items", refer("parameter")}})},
          {"frames", described("Comment boxes of the canvas.", {{"type", "array"}})},
          {"scene", described("Camera, lights, sky, post.", {{"type", "object"}})},
-         {"timeline", described("Length, and tracks of keys.", {{"type", "object"}})}},
+         {"timeline", described("Length, and tracks of keys.", timelineSchema())}},
         {"fieldwright", "nodes"}));
     schema["$defs"] = std::move(definitions);
     return schema.dump(2) + "\n";
