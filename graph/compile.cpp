@@ -577,7 +577,10 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
     }
     if (numbers.empty())
         return errorAt(graph, nullptr, "the parameter '" + name + "' is given no value: write name=value");
+    return setParameter(graph, name, numbers);
+}
 
+Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers) {
     const std::optional<NamedParameter> target = findParameter(graph, name);
     Node* const node = target ? graph.node(target->node) : nullptr;
     if (!node) {
@@ -601,7 +604,7 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
     if (numbers.size() == 1)
         value.value = numbers[0];
     else
-        value.value = numbers;
+        value.value = std::vector(numbers.begin(), numbers.end());
     node->set(target->input, std::move(value));
     return done();
 }

@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,5 +92,7 @@ std::vector<double> inputNumbers(const Node& node, std::string_view input);
 /// Sets the exposed parameter `name` to the numbers in `text` ("1.5" or "1,2,3"). Errors: no such parameter
 /// (with the nearest name), not a number, out of its range.
 Done setParameter(Graph& graph, const std::string& name, const std::string& text);
+/// The same with the numbers themselves.
+Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers);
 
 }  // namespace fw

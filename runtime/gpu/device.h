@@ -39,11 +39,12 @@ struct DeviceInfo {
 
 struct Device;
 
-/// What the validation layer said, the bytes of device memory that are and were in use, and the sibling.
+/// What the validation layer said, the bytes of device memory that are and were in use, the number of pipelines
+/// that were built, and the sibling.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
-    std::atomic<uint64_t> allocated = 0, peak = 0;
+    std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0;
     std::unique_ptr<Device> sibling;
 };
 

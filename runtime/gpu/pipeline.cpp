@@ -94,6 +94,7 @@ Pipeline build(const Device& device, const ShaderOptions& options, const Spirv& 
     info.layout = pipeline.layout;
     check(vkCreateComputePipelines(device.handle, device.pipelineCache, 1, &info, nullptr, &pipeline.handle),
           "creating a compute pipeline");
+    ++device.record->pipelines;
     return pipeline;
 }
 
@@ -322,6 +323,7 @@ Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& opt
     info.layout = pipeline.layout;
     check(vkCreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info, nullptr, &pipeline.handle),
           "creating a graphics pipeline");
+    ++device.record->pipelines;
     return pipeline;
 }
 

@@ -1,0 +1,308 @@
+#include "runtime/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+#include "graph/check.h"
+#include "graph/json.h"
+#include "graph/region.h"
+
+namespace fw {
+
+namespace {
+
+/// Where bounds are looked for: this many steps over the timeline, and its keys up to as many again.
+constexpr int kRegionSteps = 32;
+
+Error problem(const Graph& graph, std::string message) {
+    Error error;
+    error.message = std::move(message);
+    error.file = graph.path;
+    return error;
+}
+
+/// The first error that check() finds; the rest goes to `warnings`, which may be null.
+std::optional<Error> firstError(const Graph& graph, std::vector<Error>* warnings) {
+    for (Error& finding : check(graph)) {
+        if (finding.severity == Error::Severity::error) return std::move(finding);
+        if (warnings) warnings->push_back(std::move(finding));
+    }
+    return std::nullopt;
+}
+
+/// Times on the timeline at which the solid's bounds are looked for.
+std::vector<double> regionTimes(const Timeline& timeline) {
+    std::set<double> times;
+    for (int i = 0; i <= kRegionSteps; ++i) times.insert(timeline.length * i / kRegionSteps);
+    for (const Track& track : timeline.tracks)
+        for (const Key& key : track.keys)
+            if (times.size() < 2 * kRegionSteps && key.time <= timeline.length) times.insert(key.time);
+    return {times.begin(), times.end()};
+}
+
+Box joined(const Box& a, const Box& b) {
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
+        box.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
+    }
+    return box;
+}
+
+}  // namespace
+
+Result<Player> Player::open(const std::string& path, const PlayerOptions& options,
+                            std::vector<Error>* warnings) {
+    // The device starts while the graph is read: on software Vulkan that takes longer than the rest.
+    DeviceOptions deviceOptions = options.deviceOptions;
+    deviceOptions.pick = options.device;
+    std::future<Result<Device>> opening =
+        std::async(std::launch::async, [&] { return createDevice(deviceOptions); });
+    Result<Graph> graph = readGraph(path, warnings);
+    if (!graph) return graph.error();
+    if (std::optional<Error> error = firstError(*graph, warnings)) return std::move(*error);
+    Result<Prepared> prepared = prepare(std::move(*graph), options);
+    if (!prepared) return prepared.error();
+    Result<Device> device = opening.get();
+    if (!device) return device.error();
+    Player player(std::move(*device), options);
+    player.adopt(std::move(*prepared));
+    return player;
+}
+
+Result<Player> Player::create(Graph graph, Device device, const PlayerOptions& options) {
+    if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
+    Result<Prepared> prepared = prepare(std::move(graph), options);
+    if (!prepared) return prepared.error();
+    Player player(std::move(device), options);
+    player.adopt(std::move(*prepared));
+    return player;
+}
+
+Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& options) {
+    Prepared made;
+    Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline) return timeline.error();
+    made.timeline = std::move(*timeline);
+
+    CompileOptions compileOptions;
+    compileOptions.live = animatedInputs(graph, made.timeline);
+    compileOptions.live.insert("time");
+    const std::set<std::string> moving = compileOptions.live;
+    if (options.liveParameters)
+        for (const NamedParameter& parameter : namedParameters(graph))
+            compileOptions.live.insert(parameter.node + "." + parameter.input);
+    Result<Program> program = compile(graph, compileOptions);
+    if (!program && compileOptions.live != moving) {
+        // Some code asks for a parameter's value when it is compiled: then set() compiles.
+        compileOptions.live = moving;
+        program = compile(graph, compileOptions);
+    }
+    if (!program) return program.error();
+    made.program = std::move(*program);
+
+    const std::vector<LiveParameter>& live = made.program.live;
+    made.read.assign(live.size(), false);
+    for (IrId id = 0; id < made.program.ir.size(); ++id)
+        if (made.program.ir[id].op == Op::parameter)
+            made.read.at(static_cast<std::size_t>(made.program.ir[id].number)) = true;
+    for (std::size_t slot = 0; slot < live.size(); ++slot) {
+        const std::size_t dot = live[slot].name.rfind('.');
+        const Node* node = dot == std::string::npos ? nullptr : graph.node(live[slot].name.substr(0, dot));
+        if (!node) {  // the time
+            made.fieldMoves = made.fieldMoves || made.read[slot];
+            continue;
+        }
+        LiveInput& input = made.inputs[live[slot].name];
+        if (input.value.empty()) input.value = inputNumbers(*node, live[slot].name.substr(dot + 1));
+        input.slots.resize(input.value.size(), -1);
+        input.slots.at(static_cast<std::size_t>(live[slot].component)) = static_cast<int>(slot);
+    }
+    for (const Track& track : made.timeline.tracks) {
+        const std::optional<AnimatedInput> input = animatedInput(graph, track);
+        const auto found = input ? made.inputs.find(input->node + "." + input->input) : made.inputs.end();
+        if (found == made.inputs.end()) continue;
+        made.motions.push_back({track, *input});
+        for (const int slot : found->second.slots)
+            made.fieldMoves = made.fieldMoves || (slot >= 0 && made.read[static_cast<std::size_t>(slot)]);
+    }
+    made.graph = std::move(graph);
+    if (const Done found = findSharedRegion(made, options); !found) return found.error();
+    return made;
+}
+
+std::vector<double> Player::valuesAt(const Prepared& prepared, double seconds) {
+    std::vector<double> values = prepared.program.parameters();
+    const double time = fw::timelineTime(prepared.timeline, seconds);
+    const auto place = [&](const LiveInput& input, const std::vector<double>& numbers) {
+        for (std::size_t c = 0; c < input.slots.size(); ++c)
+            if (input.slots[c] >= 0) values[static_cast<std::size_t>(input.slots[c])] = numbers[c];
+    };
+    for (const auto& [name, input] : prepared.inputs) place(input, input.value);
+    std::map<std::string, std::vector<double>> moved;  // several tracks may move one vector
+    for (const Motion& motion : prepared.motions) {
+        const std::string name = motion.input.node + "." + motion.input.input;
+        const LiveInput& input = prepared.inputs.at(name);
+        std::vector<double>& numbers = moved.try_emplace(name, input.value).first->second;
+        applyTrack(motion.track, motion.input, time, numbers);
+        place(input, numbers);
+    }
+    for (std::size_t slot = 0; slot < values.size(); ++slot)
+        if (prepared.program.live[slot].name == "time") values[slot] = time;
+    return values;
+}
+
+Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) {
+    Program& program = prepared.program;
+    const int resolution = options.resolution > 0 ? options.resolution : program.resolution;
+    const MeshRequest request{options.region, resolution};
+    prepared.regionFound = !options.region && !program.region;
+    if (!prepared.regionFound || !prepared.fieldMoves) {
+        const std::vector<double> values = valuesAt(prepared, 0.0);
+        for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
+        const Result<Box> box = meshRegion(program, request);
+        if (!box) return problem(prepared.graph, box.error().message);
+        prepared.region = *box;
+        return done();
+    }
+    std::optional<Box> all;
+    for (const double time : regionTimes(prepared.timeline)) {
+        const std::vector<double> values = valuesAt(prepared, time);
+        const Region found = findRegion(program.ir, program.distance(), values);
+        if (found.extent == Extent::unbounded) {
+            for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
+            const Result<Box> box = meshRegion(program, request);
+            return problem(prepared.graph, box.error().message + " (at " + std::to_string(time) + " s)");
+        }
+        if (found.extent == Extent::bounded) all = all ? joined(*all, found.box) : found.box;
+    }
+    if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
+    prepared.region = padded(*all, resolution, 1.5);
+    return done();
+}
+
+void Player::adopt(Prepared prepared) {
+    now = std::move(prepared);
+    const std::vector<double> values = valuesAt(now, seconds);
+    for (std::size_t slot = 0; slot < values.size(); ++slot) now.program.live[slot].value = values[slot];
+    session.setProgram(now.program);
+    meshed.reset();
+}
+
+std::vector<PlayerParameter> Player::parameters() const {
+    std::vector<PlayerParameter> list;
+    const std::set<std::string> moving = animatedInputs(now.graph, now.timeline);
+    for (const NamedParameter& parameter : namedParameters(now.graph)) {
+        const Node* node = now.graph.node(parameter.node);
+        list.push_back({.name = parameter.name,
+                        .value = node ? inputNumbers(*node, parameter.input) : std::vector<double>{},
+                        .min = parameter.min,
+                        .max = parameter.max,
+                        .animated = moving.contains(parameter.node + "." + parameter.input)});
+    }
+    return list;
+}
+
+Done Player::set(std::string_view name, std::span<const double> value) {
+    const std::string parameterName(name);
+    const std::optional<NamedParameter> parameter = findParameter(now.graph, name);
+    if (parameter) {
+        const std::string key = parameter->node + "." + parameter->input;
+        const std::size_t count = inputNumbers(*now.graph.node(parameter->node), parameter->input).size();
+        if (value.size() != count)
+            return problem(now.graph, "the parameter '" + parameterName + "' takes " + std::to_string(count) +
+                                          (count == 1 ? " number" : " numbers") + ", not " +
+                                          std::to_string(value.size()));
+        for (const double number : value)
+            if (!std::isfinite(number))
+                return problem(now.graph,
+                               "the parameter '" + parameterName + "' takes numbers, not NaN or infinity");
+        if (animatedInputs(now.graph, now.timeline).contains(key))
+            return problem(now.graph, "the parameter '" + parameterName + "' is moved by the timeline");
+    }
+    Graph changed = now.graph;
+    if (const Done set = setParameter(changed, parameterName, value); !set) return set.error();
+    const auto input = now.inputs.find(parameter->node + "." + parameter->input);
+    if (input == now.inputs.end()) {
+        if (std::optional<Error> error = firstError(changed, nullptr)) return std::move(*error);
+        Result<Prepared> prepared = prepare(std::move(changed), options);
+        if (!prepared) return prepared.error();
+        adopt(std::move(*prepared));
+    } else {
+        if (input->second.value == std::vector(value.begin(), value.end())) return done();
+        now.graph = std::move(changed);
+        input->second.value.assign(value.begin(), value.end());
+        if (now.regionFound) now.region.reset();
+        seek(seconds);
+    }
+    chosen[parameterName].assign(value.begin(), value.end());
+    return done();
+}
+
+void Player::seek(double to) {
+    seconds = to;
+    const std::vector<double> values = valuesAt(now, seconds);
+    const std::vector<LiveParameter>& live = session.program().live;
+    for (std::size_t slot = 0; slot < values.size(); ++slot) {
+        if (live[slot].value == values[slot]) continue;
+        session.setParameter(slot, values[slot]);
+        if (now.read[slot]) meshed.reset();
+    }
+}
+
+Result<MesherResult> Player::meshOnDevice() {
+    if (meshed) return *meshed;
+    if (!now.region)
+        if (const Done found = findSharedRegion(now, options); !found) return found.error();
+    const double time = timelineTime();
+    const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
+    Result<MesherResult> result =
+        beyond ? MesherResult{.capped = true} : session.polygonise({*now.region, options.resolution});
+    if (result && result->capped && now.regionFound) {
+        // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
+        const Result<Box> own = meshRegion(session.program(), {{}, options.resolution});
+        if (!own) return problem(now.graph, own.error().message);
+        result = session.polygonise({joined(*now.region, *own), options.resolution});
+    }
+    if (!result) return problem(now.graph, result.error().message);
+    meshed = *result;
+    return result;
+}
+
+Result<Mesh> Player::mesh() {
+    const Result<MesherResult> result = meshOnDevice();
+    if (!result) return result.error();
+    return session.download(*result);
+}
+
+Result<Picture> Player::frame(const RenderOptions& renderOptions) {
+    const Result<MesherResult> result = meshOnDevice();
+    if (!result) return result.error();
+    if (result->triangles == 0)
+        return problem(now.graph,
+                       "the solid is empty or smaller than a cell at " + std::to_string(seconds) + " s");
+    Result<Picture> picture = session.render(*result, renderOptions);
+    if (!picture) return problem(now.graph, picture.error().message);
+    return picture;
+}
+
+Done Player::reload(Graph graph) {
+    std::vector<std::pair<std::string, std::vector<double>>> kept;
+    for (const auto& [name, value] : chosen) {
+        const std::optional<NamedParameter> parameter = findParameter(graph, name);
+        const Node* node = parameter ? graph.node(parameter->node) : nullptr;
+        if (node && inputNumbers(*node, parameter->input).size() == value.size() &&
+            setParameter(graph, name, value))
+            kept.emplace_back(name, value);
+    }
+    if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
+    Result<Prepared> prepared = prepare(std::move(graph), options);
+    if (!prepared) return prepared.error();
+    adopt(std::move(*prepared));
+    chosen.clear();
+    for (auto& [name, value] : kept) chosen.emplace(std::move(name), std::move(value));
+    return done();
+}
+
+}  // namespace fw

@@ -1,0 +1,136 @@
+// A saved graph, played: what a program embeds that wants the mesh or the picture of a graph at a time.
+//
+//     fw::Result<fw::Player> player = fw::Player::open("cube.field.json");
+//     if (!player) return std::puts(format(player.error()).c_str()), 1;
+//     player->set("roundness", 0.2);
+//     for (int frame = 0; frame < 60; ++frame) {
+//         player->advance(1.0 / 60);
+//         const fw::Result<fw::Mesh> mesh = player->mesh();
+//         …
+//     }
+//
+// What the timeline moves, what the graph exposes and the time itself are live parameters of the compiled
+// program: a seek evaluates the tracks and uploads their values, and never compiles. The mesh is made when it
+// is asked for, and again only once a value that the field reads has changed.
+//
+// All times of the timeline share one region, so that the grid does not swim under a moving solid: bounds are
+// found at its keys and at even steps between. A frame whose solid leaves it nevertheless gets a region of
+// its own. So a frame depends on its time and on the parameters alone, not on those that came before it.
+//
+// Lifetime: a Player owns its device unless it was given one; a mesh or picture that it returned is the
+// caller's. It is not safe to call from several threads at once. A failure of the device or the system is
+// thrown as SystemError; every other is a returned Error, after which the player is as it was before.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/timeline.h"
+#include "runtime/session.h"
+
+namespace fw {
+
+struct PlayerOptions {
+    std::string device = {};           ///< index or part of the name of the device; empty: chosen
+    std::optional<Box> region = {};    ///< metres; none: found
+    int resolution = 0;                ///< cells along the region's longest side; 0: the graph's
+    bool liveParameters = true;        ///< set() uploads; otherwise it compiles, and the field is faster
+    DeviceOptions deviceOptions = {};  ///< further wishes, for a device that presents
+};
+
+/// A parameter that set() takes.
+struct PlayerParameter {
+    std::string name;
+    std::vector<double> value;  ///< 1 to 3 numbers
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+    bool animated = false;  ///< the timeline moves it: set() has no lasting effect
+};
+
+class Player {
+  public:
+    /// Reads, checks and compiles the graph and opens a device. `warnings`, which may be null, gets what
+    /// check() has to say beside errors. Errors: the first of the file, of check() and of the region; no such
+    /// device.
+    static Result<Player> open(const std::string& path, const PlayerOptions& options = {},
+                               std::vector<Error>* warnings = nullptr);
+    /// The same with a document that was read, on a device that is given.
+    static Result<Player> create(Graph graph, Device device, const PlayerOptions& options = {});
+
+    const Graph& graph() const { return now.graph; }
+    const Timeline& timeline() const { return now.timeline; }
+    /// Whether anything moves: the timeline has tracks, or the field reads the time.
+    bool moves() const { return now.fieldMoves || !now.timeline.tracks.empty(); }
+
+    std::vector<PlayerParameter> parameters() const;
+    /// Changes a parameter until the next set() or reload. Errors: no such parameter (with the nearest name),
+    /// a value out of its range, another number of numbers.
+    Done set(std::string_view name, std::span<const double> value);
+    Done set(std::string_view name, double value) { return set(name, std::span(&value, 1)); }
+
+    /// Seconds since the start, as last sought; and where on the timeline that is.
+    double time() const { return seconds; }
+    double timelineTime() const { return fw::timelineTime(now.timeline, seconds); }
+    void seek(double to);
+    void advance(double by) { seek(seconds + by); }
+
+    /// The mesh now, copied to the host; without triangles where the solid is empty. Errors as
+    /// Session::polygonise.
+    Result<Mesh> mesh();
+    /// The same where the mesher left it on the device: in deviceMesh(), until the next call of anything.
+    Result<MesherResult> meshOnDevice();
+    const MesherBuffers& deviceMesh() const { return session.meshBuffers(); }
+
+    /// A picture of what the graph shows now. Errors as Session::render, and of an empty solid.
+    Result<Picture> frame(const RenderOptions& options = {});
+
+    /// Plays another state of the document, at the same time, with the parameters that were set and still
+    /// fit. If it cannot be played, the Error says why and the player goes on with what it has.
+    Done reload(Graph graph);
+
+    const Device& device() const { return session.device(); }
+    /// Pipelines that the device has built so far: what a seek leaves as it is.
+    uint64_t pipelinesBuilt() const { return session.device().record->pipelines; }
+
+  private:
+    /// Numbers of an input that stand in slots of the parameter buffer.
+    struct LiveInput {
+        std::vector<double> value;  ///< where no track moves it
+        std::vector<int> slots;     ///< one a component; negative where the field has none
+    };
+    struct Motion {
+        Track track;
+        AnimatedInput input;
+    };
+    /// A document made ready to be played.
+    struct Prepared {
+        Graph graph;
+        Timeline timeline;
+        Program program;
+        std::map<std::string, LiveInput> inputs;  ///< by "node.input"
+        std::vector<Motion> motions;
+        std::vector<bool> read;  ///< of each slot: whether the field reads it
+        bool fieldMoves = false;
+        std::optional<Box> region;  ///< shared by all times
+        bool regionFound = false;   ///< rather than given
+    };
+
+    Player(Device device, PlayerOptions options_)
+        : session(std::move(device)), options(std::move(options_)) {}
+    static Result<Prepared> prepare(Graph graph, const PlayerOptions& options);
+    static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
+    static std::vector<double> valuesAt(const Prepared& prepared, double seconds);
+    void adopt(Prepared prepared);
+
+    Session session;
+    PlayerOptions options;
+    Prepared now;
+    std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
+    double seconds = 0.0;
+    std::optional<MesherResult> meshed;  ///< of the values that the session has
+};
+
+}  // namespace fw

@@ -1,0 +1,290 @@
+// The Player: a frame depends on its time alone, a seek never compiles, what is wrong is said and changes
+// nothing.
+#include "runtime/player.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <random>
+
+#include "graph/json.h"
+#include "runtime/mesh_report.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+using test::TempDir;
+
+std::string sample(const std::string& name) {
+    return std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json";
+}
+
+/// A ball of live radius that rises from 0 to 2 m and back; `more` comes after its nodes.
+std::string risingBall(const std::string& more = "") {
+    return R"({"fieldwright": 1, "nodes": [
+      {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+      {"id": "lift", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0, 0, 0]}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "lift"}, "resolution": 48}}],
+      "parameters": [{"name": "radius", "node": "ball", "input": "radius", "min": 0.1, "max": 0.8}],
+      "timeline": {"length": 4, "tracks": [{"node": "lift", "input": "offset.y", "keys": [
+        {"time": 0, "value": 0}, {"time": 2, "value": 2}, {"time": 4, "value": 0}]}]})" +
+           more + "}";
+}
+
+/// A player on a device with the validation layer, whose messages fail the test at the end.
+struct Played {
+    explicit Played(const std::string& text, const PlayerOptions& options = {}) {
+        const Result<Graph> graph = parseGraph(text, "a.field.json", nullptr);
+        EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
+        Result<Device> device = createDevice({.validation = true});
+        EXPECT_TRUE(device);
+        record = device->record;
+        Result<Player> made = Player::create(*graph, std::move(*device), options);
+        if (made)
+            player.emplace(std::move(*made));
+        else
+            error = format(made.error());
+    }
+    ~Played() {
+        player.reset();
+        for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+    }
+    Player* operator->() {
+        EXPECT_TRUE(player) << error;
+        return &*player;
+    }
+    std::shared_ptr<DeviceRecord> record;
+    std::optional<Player> player;
+    std::string error;
+};
+
+/// The box around a mesh.
+std::pair<glm::vec3, glm::vec3> boundsOf(const Mesh& mesh) {
+    glm::vec3 lo(INFINITY), hi(-INFINITY);
+    for (const glm::vec3& p : mesh.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
+    return {lo, hi};
+}
+Mesh meshOf(Player& player) {
+    Result<Mesh> mesh = player.mesh();
+    EXPECT_TRUE(mesh) << (mesh ? "" : format(mesh.error()));
+    return mesh ? std::move(*mesh) : Mesh{};
+}
+
+uint64_t shells(const Mesh& mesh) { return reportOnMesh(mesh.positions, mesh.indices).shells; }
+
+TEST(Player, ASeekMovesTheSolid) {
+    Played played(risingBall());
+    for (const auto& [time, height] :
+         {std::pair{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}, {3.5, 0.5}, {5.0, 1.0}, {-1.0, 1.0}}) {
+        played->seek(time);
+        const auto [lo, hi] = boundsOf(meshOf(*played.player));
+        EXPECT_NEAR(lo.y, height - 0.5, 0.01) << time;
+        EXPECT_NEAR(hi.y, height + 0.5, 0.01) << time;
+    }
+    played->seek(3.5);
+    played->advance(1.0);
+    EXPECT_EQ(played->time(), 4.5);
+    EXPECT_EQ(played->timelineTime(), 0.5);
+}
+
+TEST(Player, AWholePlaybackBuildsNoPipeline) {
+    for (const char* name : {"cube_morph", "moving_booleans"}) {
+        Result<Player> player = Player::open(sample(name), {.resolution = 40});
+        ASSERT_TRUE(player) << format(player.error());
+        EXPECT_TRUE(player->moves());
+        ASSERT_TRUE(player->frame({.width = 64, .height = 48}));
+        const uint64_t built = player->pipelinesBuilt();
+        EXPECT_GT(built, 0u);
+        const double length = player->timeline().length;
+        std::size_t least = SIZE_MAX, most = 0;
+        for (int frame = 0; frame <= 24; ++frame) {
+            player->seek(length * frame / 24);
+            const Mesh mesh = meshOf(*player);
+            least = std::min(least, mesh.triangleCount()), most = std::max(most, mesh.triangleCount());
+            ASSERT_TRUE(player->frame({.width = 64, .height = 48}));
+        }
+        EXPECT_EQ(player->pipelinesBuilt(), built) << name;
+        EXPECT_LT(least, most) << name;
+    }
+}
+
+TEST(Player, AFrameDependsOnItsTimeAlone) {
+    const std::vector<double> times = {0.0, 0.7, 1.9, 2.0, 3.3};
+    std::vector<Mesh> meshes;
+    std::vector<std::vector<uint8_t>> pictures;
+    const RenderOptions small{.width = 64, .height = 48};
+    Played first(risingBall());
+    for (const double time : times) {
+        first->seek(time);
+        meshes.push_back(meshOf(*first.player));
+        pictures.push_back(first->frame(small)->pixels);
+    }
+    for (std::size_t i = times.size(); i-- > 0;) {  // backwards, and each in a player of its own
+        first->seek(times[i]);
+        EXPECT_EQ(first->frame(small)->pixels, pictures[i]);
+        EXPECT_EQ(meshOf(*first.player).positions, meshes[i].positions);
+        Played other(risingBall());
+        other->seek(times[i]);
+        EXPECT_EQ(other->frame(small)->pixels, pictures[i]);
+        EXPECT_EQ(meshOf(*other.player).indices, meshes[i].indices);
+    }
+}
+
+TEST(Player, LiveAndFoldedTimesGiveTheSameSolid) {
+    const Result<Graph> graph = readGraph(sample("moving_booleans"), nullptr);
+    ASSERT_TRUE(graph);
+    const Timeline timeline = *readTimeline(*graph);
+    Result<Player> moving = Player::open(sample("moving_booleans"), {.resolution = 48});
+    ASSERT_TRUE(moving);
+    for (const double time : {0.0, 3.1, 6.5}) {
+        Graph still = atTime(*graph, timeline, time);
+        still.timeline = nullptr;
+        Result<Device> device = createDevice();
+        Result<Player> rested = Player::create(still, std::move(*device), {.resolution = 96});
+        ASSERT_TRUE(rested) << format(rested.error());
+        EXPECT_FALSE(rested->moves());
+        moving->seek(time);
+        const auto [lo, hi] = boundsOf(meshOf(*moving));
+        const auto [restedLo, restedHi] = boundsOf(meshOf(*rested));
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(lo[axis], restedLo[axis], 0.05);
+            EXPECT_NEAR(hi[axis], restedHi[axis], 0.05);
+        }
+    }
+}
+
+TEST(Player, SetsParametersByName) {
+    Played played(risingBall());
+    const std::vector<PlayerParameter> list = played->parameters();
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0].name, "radius");
+    EXPECT_EQ(list[0].value, std::vector<double>{0.5});
+    EXPECT_EQ(list[0].max, 0.8);
+    EXPECT_FALSE(list[0].animated);
+    meshOf(*played.player);
+    const uint64_t built = played->pipelinesBuilt();
+    ASSERT_TRUE(played->set("radius", 0.8));
+    EXPECT_EQ(played->parameters()[0].value, std::vector<double>{0.8});
+    played->seek(2.0);
+    const auto [lo, hi] = boundsOf(meshOf(*played.player));
+    EXPECT_NEAR(hi.y, 2.8, 0.01);
+    EXPECT_NEAR(lo.y, 1.2, 0.01);
+    EXPECT_FALSE(played->meshOnDevice()->capped);
+    EXPECT_EQ(played->pipelinesBuilt(), built);
+}
+
+TEST(Player, RefusesWhatCannotBeSetAndStaysAsItWas) {
+    Played played(risingBall());
+    const Mesh before = meshOf(*played.player);
+    const auto refused = [&](const Done& result, const std::string& part) {
+        EXPECT_FALSE(result);
+        if (result) return;
+        EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+    };
+    refused(played->set("radios", 0.5), "did you mean 'radius'?");
+    refused(played->set("radius", 0.9), "from 0.1 to 0.8");
+    refused(played->set("radius", NAN), "not NaN");
+    refused(played->set("radius", std::vector<double>{1, 2, 3}), "takes 1 number, not 3");
+    EXPECT_EQ(meshOf(*played.player).positions, before.positions);
+}
+
+TEST(Player, AParameterThatCodeCountsWithIsSetByCompiling) {
+    const std::string text = R"({"fieldwright": 1, "nodes": [
+      {"id": "row", "type": "expression", "inputs": {"count": 1, "gap": 1},
+       "code": "d = 1e9; for (int i = 0; i < count; i++) d = min(d, length(p - vec3(i * gap, 0, 0)) - 0.3); return d;"},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "row"}, "resolution": 48}}],
+      "parameters": [{"name": "count", "node": "row", "input": "count"}, {"name": "gap", "node": "row", "input": "gap"}]})";
+    Played played(text);
+    EXPECT_FALSE(played->moves());
+    EXPECT_EQ(shells(meshOf(*played.player)), 1u);
+    ASSERT_TRUE(played->set("count", 3));
+    EXPECT_EQ(shells(meshOf(*played.player)), 3u);
+    ASSERT_TRUE(played->set("gap", 0.4));
+    EXPECT_EQ(shells(meshOf(*played.player)), 1u);
+}
+
+TEST(Player, TimeNodesPlayWithoutATimeline) {
+    Played played(R"({"fieldwright": 1, "nodes": [
+      {"id": "now", "type": "time"},
+      {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+      {"id": "at", "type": "combine_xyz", "inputs": {"x": {"from": "now"}}},
+      {"id": "moved", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": {"from": "at"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "moved"}, "resolution": 64}}]})");
+    EXPECT_TRUE(played->moves());
+    for (const double time :
+         {0.0, 7.5, 40.0}) {  // the last is beyond the times that the region was found for
+        played->seek(time);
+        const auto [lo, hi] = boundsOf(meshOf(*played.player));
+        EXPECT_NEAR(lo.x, time - 0.5, 0.4);
+        EXPECT_NEAR(hi.x, time + 0.5, 0.4);
+        EXPECT_FALSE(played->meshOnDevice()->capped);
+    }
+}
+
+TEST(Player, ASolidThatVanishesIsAClearMessage) {
+    std::string text = risingBall();
+    text.replace(text.find("\"lift\", \"input\": \"offset.y\""), 27, "\"ball\", \"input\": \"radius\"");
+    text.replace(text.find("\"value\": 2}"), 11, "\"value\": 0.5}");
+    text.replace(text.find("\"parameters\""), text.find("\"timeline\"") - text.find("\"parameters\""), "");
+    Played played(text);
+    EXPECT_EQ(meshOf(*played.player).triangleCount(), 0u);
+    const Result<Picture> picture = played->frame({.width = 32, .height = 32});
+    ASSERT_FALSE(picture);
+    EXPECT_NE(format(picture.error()).find("a.field.json: error: the solid is empty"), std::string::npos);
+    played->seek(2.0);
+    EXPECT_GT(meshOf(*played.player).triangleCount(), 100u);
+    EXPECT_TRUE(played->frame({.width = 32, .height = 32}));
+}
+
+TEST(Player, SaysWhatCannotBePlayed) {
+    const auto expectError = [](const std::string& text, const std::string& part) {
+        Played played(text);
+        EXPECT_FALSE(played.player);
+        EXPECT_NE(played.error.find(part), std::string::npos) << played.error;
+    };
+    expectError(R"({"fieldwright": 1, "nodes": []})", "no node of type 'output'");
+    std::string text = risingBall();
+    text.replace(text.find("\"lift\", \"input\""), 6, "\"left\"");
+    expectError(text, "a.field.json:6:44: error: node 'left', input 'offset.y'");
+    text = risingBall();
+    text.replace(text.find("{\"time\": 2"), 10, "{\"time\": 9");
+    expectError(text, "not in the order of their times");
+    expectError(R"({"fieldwright": 1, "nodes": [{"id": "a", "type": "plane"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})",
+                "no bounds");
+    EXPECT_NE(format(Player::open("/nowhere/a.field.json").error()).find("there is no such file"),
+              std::string::npos);
+    EXPECT_NE(format(Player::open(sample("cube_morph"), {.device = "no such"}).error()).find("no such"),
+              std::string::npos);
+}
+
+TEST(Player, AReloadKeepsTimeAndParametersOrEverything) {
+    Played played(risingBall());
+    ASSERT_TRUE(played->set("radius", 0.7));
+    played->seek(2.0);
+    const Mesh before = meshOf(*played.player);
+
+    Graph broken = played->graph();
+    broken.nodes[0].type = "sphree";
+    const Done refused = played->reload(broken);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(format(refused.error()).find("did you mean 'sphere'?"), std::string::npos);
+    EXPECT_EQ(meshOf(*played.player).positions, before.positions);
+
+    Graph endless = played->graph();  // compiles, but has no bounds
+    endless.nodes[0].type = "infinite_cylinder";
+    EXPECT_FALSE(played->reload(endless));
+    EXPECT_EQ(meshOf(*played.player).positions, before.positions);
+
+    Result<Graph> box = parseGraph(risingBall(), "a.field.json", nullptr);
+    box->timeline["tracks"][0]["keys"][1]["value"] = 3;
+    ASSERT_TRUE(played->reload(*box));
+    const auto [lo, hi] = boundsOf(meshOf(*played.player));
+    EXPECT_NEAR(hi.y, 3.7, 0.02);
+    EXPECT_NEAR(lo.y, 2.3, 0.02);
+}
+
+}  // namespace
+}  // namespace fw
