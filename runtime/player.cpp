@@ -257,9 +257,9 @@ Result<MesherResult> Player::meshOnDevice() {
         if (const Done found = findSharedRegion(now, options); !found) return found.error();
     const double time = timelineTime();
     const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
-    Result<MesherResult> result =
-        beyond ? MesherResult{.capped = true} : session.polygonise({*now.region, options.resolution});
-    if (result && result->capped && now.regionFound) {
+    Result<MesherResult> result = MesherResult{};
+    if (!beyond) result = session.polygonise({*now.region, options.resolution});
+    if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
         const Result<Box> own = meshRegion(session.program(), {{}, options.resolution});
         if (!own) return problem(now.graph, own.error().message);

@@ -30,7 +30,7 @@ struct GraphOptions {
 
 /// Reads and checks the graph, applies the assignments; warnings and errors go to standard error.
 std::optional<Graph> openGraph(const GraphOptions& options);
-/// openGraph, then compile.
+/// openGraph, then compile what it is at the options' time.
 std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions);
 void print(const Error& error);
 
@@ -51,8 +51,18 @@ int runExport(const ExportOptions& options);
 struct RenderCommandOptions {
     MeshOptions mesh;
     std::string output, size = "1280x720";
+    std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
+    bool overwrite = false;
 };
 int runRender(const RenderCommandOptions& options);
+
+struct PlayOptions {
+    MeshOptions mesh;
+    std::string size = "1280x720";
+    bool headless = false;
+    std::optional<int> frames;  ///< after which it ends
+};
+int runPlay(const PlayOptions& options);
 
 int runCheck(const std::vector<std::string>& paths);
 

@@ -6,6 +6,7 @@
 #include "graph/glsl.h"
 #include "graph/json.h"
 #include "graph/reference.h"
+#include "graph/timeline.h"
 #include "runtime/cli/commands.h"
 #include "runtime/gpu/shader.h"
 
@@ -45,7 +46,10 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
 std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions) {
     const std::optional<Graph> graph = openGraph(options);
     if (!graph) return std::nullopt;
-    Result<Program> program = compile(*graph, compileOptions);
+    const Timeline timeline = *readTimeline(*graph);
+    CompileOptions then = compileOptions;
+    then.time = timelineTime(timeline, options.time);
+    Result<Program> program = compile(atTime(*graph, timeline, then.time), then);
     if (!program) {
         print(program.error());
         return std::nullopt;
@@ -77,9 +81,7 @@ int runEval(const EvalOptions& options) {
                      "fieldwright eval: give a point (--at x y z) or a box (--interval x0 y0 z0 x1 y1 z1)\n");
         return kBadUsage;
     }
-    CompileOptions compileOptions;
-    compileOptions.time = options.graph.time;
-    const std::optional<Program> program = openProgram(options.graph, compileOptions);
+    const std::optional<Program> program = openProgram(options.graph, {});
     if (!program) return kBadInput;
     if (!options.at.empty()) {
         const Point point{options.at[0], options.at[1], options.at[2]};
@@ -103,7 +105,6 @@ int runEval(const EvalOptions& options) {
 
 int runCompile(const CompileCommandOptions& options) {
     CompileOptions compileOptions;
-    compileOptions.time = options.graph.time;
     compileOptions.live.insert(options.live.begin(), options.live.end());
     const std::optional<Program> program = openProgram(options.graph, compileOptions);
     if (!program) return kBadInput;

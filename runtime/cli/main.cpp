@@ -9,6 +9,7 @@
 #include <new>
 
 #include "graph/node_type.h"
+#include "graph/timeline.h"
 #include "runtime/cli/commands.h"
 #include "tests/bench/bench.h"
 
@@ -52,7 +53,7 @@ void addGraph(CLI::App* command, GraphOptions& graph) {
     command->add_option("--set", graph.assignments, "Set an exposed parameter: name=value, or name=x,y,z")
         ->take_all()
         ->allow_extra_args(false);
-    command->add_option("--time", graph.time, "Seconds at which the graph is evaluated")
+    command->add_option("--time", graph.time, "Seconds at which the graph and its timeline are evaluated")
         ->default_val(0.0)
         ->check(finite());
 }
@@ -105,11 +106,39 @@ int run(int count, char** arguments) {
                               "Write what the mesh file holds, measured from it, as JSON to this file");
 
     RenderCommandOptions renderOptions;
-    CLI::App* renderCommand = app.add_subcommand("render", "Make a picture of a graph");
+    CLI::App* renderCommand = app.add_subcommand(
+        "render", "Make a picture of a graph, or with --from, --to or --fps one for every frame");
     addMesh(renderCommand, renderOptions.mesh);
-    renderCommand->add_option("-o,--output", renderOptions.output, "The picture, a .png file")->required();
+    renderCommand
+        ->add_option("-o,--output", renderOptions.output,
+                     "The picture, a .png file; of a sequence the folder, for 000000.png and so on")
+        ->required();
+    renderCommand->add_option("--from", renderOptions.from, "Seconds of the first frame (default: 0)")
+        ->check(finite());
+    renderCommand
+        ->add_option("--to", renderOptions.to,
+                     "Seconds that the frames stay below (default: the timeline's length)")
+        ->check(finite());
+    renderCommand
+        ->add_option("--fps", renderOptions.framesPerSecond,
+                     "Frames a second (default: the timeline's, else 30); frame n shows the time n / fps")
+        ->check(CLI::Range(0.001, kMostFramesPerSecond));
+    renderCommand->add_flag("--overwrite", renderOptions.overwrite,
+                            "Make frames anew that are there already (default: skip them)");
     renderCommand->add_option("--size", renderOptions.size, "Width and height in pixels: WxH")
         ->default_str(renderOptions.size);
+
+    PlayOptions playOptions;
+    CLI::App* playCommand = app.add_subcommand("play", "Play a graph's timeline in a window");
+    addMesh(playCommand, playOptions.mesh);
+    playCommand->add_option("--size", playOptions.size, "Width and height in pixels: WxH")
+        ->default_str(playOptions.size);
+    playCommand->add_flag("--headless", playOptions.headless,
+                          "Open no window: make the frames, and say how fast that went");
+    playCommand
+        ->add_option("--frames", playOptions.frames,
+                     "End after as many frames (default: with --headless once through the timeline)")
+        ->check(CLI::Range(1, 1'000'000));
 
     std::vector<std::string> checkPaths;
     CLI::App* checkCommand =
@@ -184,9 +213,10 @@ int run(int count, char** arguments) {
         app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
-    if (exportCommand->parsed() || renderCommand->parsed()) listenForInterrupt();
+    if (exportCommand->parsed() || renderCommand->parsed() || playCommand->parsed()) listenForInterrupt();
     if (exportCommand->parsed()) return runExport(exportOptions);
     if (renderCommand->parsed()) return runRender(renderOptions);
+    if (playCommand->parsed()) return runPlay(playOptions);
     if (checkCommand->parsed()) return runCheck(checkPaths);
     if (evalCommand->parsed()) return runEval(evalOptions);
     if (compileCommand->parsed()) return runCompile(compileOptions);

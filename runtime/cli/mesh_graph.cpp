@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <future>
 
@@ -39,10 +40,37 @@ int badInput(const MeshOptions& options, Error error) {
     return kBadInput;
 }
 
+Error nothingToSee() {
+    Error error;
+    error.message =
+        "the surface does not pass through the region: move or enlarge --region, or raise --resolution";
+    return error;
+}
+
 int stopped() {
     std::fprintf(stderr, "fieldwright: interrupted; nothing was written\n");
     return kInterrupted;
 }
+
+namespace {
+
+/// The box of --region; false, and said why, if it has no extent.
+bool readRegion(const MeshOptions& options, std::optional<Box>& region) {
+    if (options.region.empty()) return true;
+    const std::vector<double>& r = options.region;
+    region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(region->lo[axis] < region->hi[axis])) {
+            std::fprintf(stderr,
+                         "fieldwright: --region has no extent along %c: write its least corner, then its "
+                         "greatest: x0 y0 z0 x1 y1 z1\n",
+                         "xyz"[axis]);
+            return false;
+        }
+    return true;
+}
+
+}  // namespace
 
 std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
                                      int& status) {
@@ -51,18 +79,7 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
         return std::nullopt;
     };
     std::optional<Box> region;
-    if (!options.region.empty()) {
-        const std::vector<double>& r = options.region;
-        region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(region->lo[axis] < region->hi[axis])) {
-                std::fprintf(stderr,
-                             "fieldwright: --region has no extent along %c: write its least corner, then its "
-                             "greatest: x0 y0 z0 x1 y1 z1\n",
-                             "xyz"[axis]);
-                return fail(kBadUsage);
-            }
-    }
+    if (!readRegion(options, region)) return fail(kBadUsage);
 
     // The device starts while the graph is read: on software Vulkan that takes longer than reading.
     std::future<Result<Device>> opening =
@@ -72,8 +89,9 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     if (!graph) return fail(kBadInput);
     progress.start("compile", 5);
     CompileOptions compileOptions;
-    compileOptions.time = options.graph.time;
-    Result<Program> program = compile(*graph, compileOptions);
+    const Timeline timeline = *readTimeline(*graph);
+    compileOptions.time = timelineTime(timeline, options.graph.time);
+    Result<Program> program = compile(atTime(*graph, timeline, compileOptions.time), compileOptions);
     if (!program) return print(program.error()), fail(kBadInput);
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution)};
@@ -92,15 +110,56 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     progress.start("mesh", 50);
     Result<MesherResult> mesh = meshed.session.polygonise({*box, request.resolution}, timed);
     if (!mesh) return fail(badInput(options, mesh.error()));
-    if (mesh->triangles == 0) {
-        Error error;
-        error.message =
-            "the surface does not pass through the region: move or enlarge --region, or raise --resolution";
-        return fail(badInput(options, error));
-    }
+    if (mesh->triangles == 0) return fail(badInput(options, nothingToSee()));
     if (interrupted) return fail(stopped());
     meshed.mesh = std::move(*mesh);
     return meshed;
+}
+
+std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& wishes,
+                                 int& status) {
+    const auto fail = [&status](int with) {
+        status = with;
+        return std::nullopt;
+    };
+    PlayerOptions playerOptions = wishes;
+    playerOptions.device = playerOptions.deviceOptions.pick = options.device;
+    playerOptions.resolution = options.resolution.value_or(0);
+    if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
+    std::future<Result<Device>> opening =
+        std::async(std::launch::async, [&] { return createDevice(playerOptions.deviceOptions); });
+    progress.start("read", 0);
+    std::optional<Graph> graph = openGraph(options.graph);
+    if (!graph) return fail(kBadInput);
+    progress.start("device", 10);
+    Result<Device> device = opening.get();
+    if (!device) return print(device.error()), fail(kBadUsage);
+    if (interrupted) return fail(stopped());
+    progress.start("pipelines", 20);
+    Result<Player> player = Player::create(std::move(*graph), std::move(*device), playerOptions);
+    if (!player) return fail(badInput(options, player.error()));
+    if (interrupted) return fail(stopped());
+    player->seek(options.graph.time);
+    return std::move(*player);
+}
+
+std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text) {
+    std::pair<int, int> size;
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.first);
+    const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = cross ? std::from_chars(width.ptr + 1, end, size.second) : width;
+    if (!cross || height.ec != std::errc() || height.ptr != end) {
+        std::fprintf(stderr, "fieldwright %s: --size %s: write width x height in pixels, as 1280x720\n",
+                     command, text.c_str());
+        return std::nullopt;
+    }
+    if (const Done fits = checkPictureSize(size.first, size.second); !fits) {
+        std::fprintf(stderr, "fieldwright %s: --size %s: %s\n", command, text.c_str(),
+                     fits.error().message.c_str());
+        return std::nullopt;
+    }
+    return size;
 }
 
 }  // namespace fw::cli

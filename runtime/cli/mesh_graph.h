@@ -1,5 +1,5 @@
-// What `export` and `render` begin with: from a graph file to its mesh in device memory, and progress on the
-// terminal.
+// What `export`, `render` and `play` begin with: from a graph file to its mesh in device memory or to a
+// player, and progress on the terminal.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
-#include "runtime/session.h"
+#include "runtime/player.h"
 
 namespace fw::cli {
 
@@ -42,6 +42,16 @@ struct MeshedGraph {
 /// Reads, compiles and meshes; the stages take the first 60 % of the progress. If that cannot be done, says
 /// why on standard error and sets `status` to the exit status.
 std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progress, bool timed, int& status);
+
+/// Reads the graph and makes a player of it, at the options' time; the same of progress and failure.
+std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& player,
+                                 int& status);
+
+/// "1280x720" to {1280, 720}. If it is not that, or no picture can have that size, says so for the command.
+std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text);
+
+/// What to say of a solid that has no triangle in its region.
+Error nothingToSee();
 
 /// Prints the error with the graph's file; returns the exit status of bad input.
 int badInput(const MeshOptions& options, Error error);

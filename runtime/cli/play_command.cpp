@@ -1,0 +1,58 @@
+// `fieldwright play`: the timeline of a graph, in a window or without one.
+#include <cstdio>
+
+#include "runtime/cli/mesh_graph.h"
+#include "runtime/cli/sequence.h"
+
+namespace fw::cli {
+
+namespace {
+
+/// Makes every frame and shows none: how fast, and whether, a graph plays.
+int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
+    std::optional<Player> player;
+    {
+        Progress progress;
+        int status = kDone;
+        player = openPlayer(options.mesh, progress, {}, status);
+        if (!player) return status;
+    }
+    const Timeline& timeline = player->timeline();
+    const FrameRange range{
+        0, options.frames.value_or(static_cast<int>(std::lround(timeline.length * timeline.framesPerSecond))),
+        timeline.framesPerSecond};
+    const double start = options.mesh.graph.time;
+    const RenderOptions render{.width = size.first, .height = size.second, .cancel = &interrupted};
+    uint64_t built = 0;
+    double seconds = 0.0;
+    long made = 0;
+    {
+        SequenceProgress progress(range.count());
+        for (long frame = 0; frame < range.last && !interrupted; ++frame) {
+            player->seek(start + range.time(frame));
+            const Result<Picture> picture = player->frame(render);
+            if (!picture && interrupted) break;
+            if (!picture) return badInput(options.mesh, picture.error());
+            progress.next(true);
+            if (frame == 0) built = player->pipelinesBuilt();
+        }
+        seconds = progress.seconds();
+        made = progress.made;
+    }
+    if (interrupted)
+        return std::fprintf(stderr, "fieldwright: interrupted after %ld frames\n", made), kInterrupted;
+    std::printf("%ld frames in %.2f s, %.2f a second; %llu pipelines built after the first frame\n", made,
+                seconds, static_cast<double>(made) / seconds,
+                static_cast<unsigned long long>(player->pipelinesBuilt() - built));
+    return kDone;
+}
+
+}  // namespace
+
+int runPlay(const PlayOptions& options) {
+    const auto size = pictureSize("play", options.size);
+    if (!size) return kBadUsage;
+    return playHeadless(options, *size);
+}
+
+}  // namespace fw::cli

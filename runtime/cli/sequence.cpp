@@ -1,0 +1,159 @@
+#include "runtime/cli/sequence.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "runtime/cli/mesh_graph.h"
+
+namespace fw::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Width and height that a PNG file states; none if it is no PNG.
+std::optional<std::pair<int, int>> sizeOfPng(const fs::path& path) {
+    std::array<unsigned char, 24> head{};
+    std::ifstream file(path, std::ios::binary);
+    if (!file.read(reinterpret_cast<char*>(head.data()), head.size()) || head[1] != 'P' || head[2] != 'N' ||
+        head[3] != 'G')
+        return std::nullopt;
+    const auto number = [&](std::size_t at) {
+        return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
+    };
+    return std::pair(number(16), number(20));
+}
+
+int badUsage(const std::string& message) {
+    std::fprintf(stderr, "fieldwright render: %s\n", message.c_str());
+    return kBadUsage;
+}
+
+}  // namespace
+
+Result<FrameRange> framesBetween(double from, double to, double framesPerSecond) {
+    Error error;
+    // A time that is a frame's but for rounding is that frame's.
+    const double first = std::ceil(from * framesPerSecond - 1e-6),
+                 last = std::ceil(to * framesPerSecond - 1e-6);
+    if (from < 0.0) {
+        error.message = "--from must be 0 or later";
+    } else if (!(first < last)) {
+        error.message = "there is no frame from --from (" + std::to_string(from) + " s) up to --to (" +
+                        std::to_string(to) + " s, not included)";
+    } else if (last > kMostFrames) {
+        error.message = "frames are numbered up to " + std::to_string(kMostFrames) + ": lower --to or --fps";
+    } else {
+        return FrameRange{static_cast<long>(first), static_cast<long>(last), framesPerSecond};
+    }
+    return error;
+}
+
+std::string frameName(long frame) {
+    std::string number = std::to_string(frame);
+    return std::string(6 - std::min<std::size_t>(number.size(), 6), '0') + number + ".png";
+}
+
+SequenceProgress::SequenceProgress(long count_) : count(count_), shown(isatty(STDERR_FILENO)) {}
+
+SequenceProgress::~SequenceProgress() {
+    if (shown) std::fprintf(stderr, "\r\033[K");
+}
+
+double SequenceProgress::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void SequenceProgress::next(bool work) {
+    ++done;
+    made += work;
+    if (!shown) return;
+    const double rate = static_cast<double>(made) / std::max(seconds(), 1e-6);
+    const long left = rate > 0.0 ? std::lround(static_cast<double>(count - done) / rate) : 0;
+    std::fprintf(stderr, "\r\033[K%3ld %%  frame %ld of %ld, %.2f a second, %ld:%02ld left",
+                 100 * done / count, done, count, rate, left / 60, left % 60);
+    std::fflush(stderr);
+}
+
+int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
+    if (fs::path(options.output).extension() == ".png")
+        return badUsage(options.output +
+                        ": a sequence goes into a folder, in files 000000.png and so on: give its name");
+    std::error_code failure;
+    if (fs::exists(options.output, failure) && !fs::is_directory(options.output, failure))
+        return badUsage(options.output + ": this is a file: a sequence goes into a folder");
+
+    std::optional<Player> player;
+    {
+        Progress progress;
+        int status = kDone;
+        player = openPlayer(options.mesh, progress, {.liveParameters = false}, status);
+        if (!player) return status;
+    }
+    const Timeline& timeline = player->timeline();
+    const double rate = options.framesPerSecond.value_or(timeline.framesPerSecond);
+    const Result<FrameRange> range =
+        framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length), rate);
+    if (!range) return badUsage(range.error().message);
+    if (!player->moves())
+        std::fprintf(stderr, "%s: note: nothing moves in this graph: all frames are the same\n",
+                     options.mesh.graph.path.c_str());
+
+    fs::create_directories(options.output, failure);
+    if (!fs::is_directory(options.output)) {
+        std::fprintf(stderr, "%s: error: cannot make the folder: %s\n", options.output.c_str(),
+                     failure.message().c_str());
+        return kSystemFailure;
+    }
+    const auto pathOf = [&](long frame) { return fs::path(options.output) / frameName(frame); };
+    for (long frame = range->first; frame < range->last && !options.overwrite; ++frame) {
+        const auto there = sizeOfPng(pathOf(frame));
+        if (there && *there != size)
+            return badUsage(pathOf(frame).string() + " is there already, with " +
+                            std::to_string(there->first) + "x" + std::to_string(there->second) +
+                            " pixels: give that --size, another folder, or --overwrite");
+    }
+
+    bool capped = false;
+    long made = 0;
+    {
+        SequenceProgress progress(range->count());
+        const RenderOptions render{.width = size.first, .height = size.second, .cancel = &interrupted};
+        for (long frame = range->first; frame < range->last && !interrupted; ++frame) {
+            const std::string path = pathOf(frame).string();
+            const bool there = !options.overwrite && fs::exists(path);
+            if (!there) {
+                player->seek(range->time(frame));
+                const Result<Picture> picture = player->frame(render);
+                if (!picture && interrupted) break;
+                if (!picture) return badInput(options.mesh, picture.error());
+                const Done written = savePicture(*picture, path, &interrupted);
+                if (!written && interrupted) break;
+                if (!written) return print(written.error()), kSystemFailure;
+                capped = capped || player->meshOnDevice()->capped;
+            }
+            progress.next(!there);
+        }
+        made = progress.made;
+    }
+    if (interrupted) {
+        std::fprintf(stderr,
+                     "fieldwright: interrupted; %ld of %ld frames were made: the same command goes on\n",
+                     made, range->count());
+        return kInterrupted;
+    }
+    if (made < range->count())
+        std::fprintf(stderr, "%s: note: %ld of %ld frames were there already (--overwrite makes them anew)\n",
+                     options.output.c_str(), range->count() - made, range->count());
+    if (capped)
+        std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
+                     options.output.c_str());
+    return kDone;
+}
+
+}  // namespace fw::cli
