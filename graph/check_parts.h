@@ -67,7 +67,7 @@ void checkEnds(const Scope& scope, Findings& findings);
 /// The exposed parameters; `top` is the scope of the document's nodes.
 void checkParameters(const Graph& graph, const Scope& top, Findings& findings);
 
-/// The timeline: its form, what its tracks move, their keys.
+/// The scene, and the timeline: its form, what its tracks move, their keys.
 void checkTimeline(const Graph& graph, const Scope& top, Findings& findings);
 
 /// [a-z][a-z0-9_]*

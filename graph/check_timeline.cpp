@@ -1,9 +1,10 @@
-// The part of check() about the timeline.
+// The part of check() about the timeline and the scene.
 #include <cmath>
 #include <map>
 
 #include "graph/check_parts.h"
 #include "graph/check_value.h"
+#include "graph/scene.h"
 #include "graph/timeline.h"
 
 namespace fw {
@@ -119,7 +120,7 @@ void checkInput(const Graph& graph, const Scope& top, const Track& track, Findin
     }
 }
 
-void checkScene(const Graph& graph, const Track& track, Findings& findings) {
+void checkSceneTrack(const Graph& graph, const Track& track, Findings& findings) {
     const Place place{track.place, {}, {}};
     const std::string_view path = track.name;
     if (path.empty() || path.front() == '.' || path.back() == '.' ||
@@ -127,8 +128,17 @@ void checkScene(const Graph& graph, const Track& track, Findings& findings) {
         return findings.error(
             place, nameOf(track) + ": write the way to the value with dots, as \"camera.position\"");
     Json scene = graph.scene;
-    if (!sceneValue(scene, path))
-        findings.error(place, nameOf(track) + ": the scene has no value there that could move");
+    Json* value = sceneValue(scene, path);
+    if (!value)
+        return findings.error(place, nameOf(track) + ": the scene has no value there that could move");
+    for (const Key& key : track.keys) {
+        if (findings.full()) return;
+        setNumbers(*value, key.value);
+        const Result<Scene> read = readScene(scene);
+        if (!read && readScene(graph.scene))  // else the scene has a finding of its own
+            findings.error({key.place, {}, {}},
+                           nameOf(track) + ", the key at " + seconds(key.time) + ": " + read.error().message);
+    }
 }
 
 /// Whether one of two paths moves what the other moves too.
@@ -147,6 +157,8 @@ void checkTimeline(const Graph& graph, const Scope& top, Findings& findings) {
     if (!timeline)
         return findings.error({{timeline.error().line, timeline.error().column}, {}, {}},
                               timeline.error().message);
+    const Result<Scene> scene = readScene(graph.scene, graph.scenePlaces);
+    if (!scene) findings.error({{scene.error().line, scene.error().column}, {}, {}}, scene.error().message);
     if (graph.timeline.is_null()) return;
     const Place start{
         graph.timelinePlaces.list.empty() ? TextPosition{} : graph.timelinePlaces.list[0], {}, {}};
@@ -161,7 +173,7 @@ void checkTimeline(const Graph& graph, const Scope& top, Findings& findings) {
     for (const Track& track : timeline->tracks) {
         checkKeys(*timeline, track, findings);
         if (track.target == Track::Target::scene)
-            checkScene(graph, track, findings);
+            checkSceneTrack(graph, track, findings);
         else
             checkInput(graph, top, track, findings);
 

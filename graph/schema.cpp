@@ -4,6 +4,7 @@
 
 #include "graph/graph.h"
 #include "graph/node_type.h"
+#include "graph/scene.h"
 #include "graph/timeline.h"
 
 namespace fw {
@@ -154,6 +155,19 @@ Json groupSchema() {
         {"id"});
 }
 
+Json sceneSchema() {
+    const Json point = array({{"type", "number"}}, 3);
+    return object({{"camera", object({{"position", described("Metres.", point)},
+                                      {"target", described("What is in the middle of the picture.", point)},
+                                      {"fov", described("Degrees from the bottom of the picture to its top.",
+                                                        {{"type", "number"},
+                                                         {"minimum", kLeastFov},
+                                                         {"maximum", kMostFov},
+                                                         {"default", Camera{}.fov}})}},
+                                     {})}},
+                  {});
+}
+
 Json timelineSchema() {
     const Json number = {{"type", "number"}};
     const Json time = {{"type", "number"}, {"minimum", 0}};
@@ -228,7 +242,7 @@ std::string fileSchema() {
           described("What whoever plays the graph may change.",
                     {{"type", "array"}, {"maxItems", kMaxEntries}, {"items", refer("parameter")}})},
          {"frames", described("Comment boxes of the canvas.", {{"type", "array"}})},
-         {"scene", described("Camera, lights, sky, post.", {{"type", "object"}})},
+         {"scene", described("Camera, lights, sky, post.", sceneSchema())},
          {"timeline", described("Length, and tracks of keys.", timelineSchema())}},
         {"fieldwright", "nodes"}));
     schema["$defs"] = std::move(definitions);

@@ -170,17 +170,20 @@ Json* sceneValue(Json& scene, std::string_view path) {
     return at;
 }
 
+void setNumbers(Json& value, const std::vector<double>& numbers) {
+    if (numbers.size() == 1)
+        value = numbers[0];
+    else
+        value = numbers;
+}
+
 Json sceneAt(const Graph& graph, const Timeline& timeline, double time) {
     Json scene = graph.scene;
     for (const Track& track : timeline.tracks) {
         if (track.target != Track::Target::scene) continue;
         Json* value = sceneValue(scene, track.name);
         if (!value) continue;
-        const std::vector<double> numbers = evaluate(track, time);
-        if (numbers.size() == 1)
-            *value = numbers[0];
-        else
-            *value = numbers;
+        setNumbers(*value, evaluate(track, time));
     }
     return scene;
 }

@@ -115,5 +115,7 @@ Json sceneAt(const Graph& graph, const Timeline& timeline, double time);
 /// The value at the end of a dotted path into the scene, made (as objects) as far as it is missing; nullptr
 /// if the path leads through a number or beyond the end of a list.
 Json* sceneValue(Json& scene, std::string_view path);
+/// A key's value as JSON: the number, or the list of several.
+void setNumbers(Json& value, const std::vector<double>& numbers);
 
 }  // namespace fw

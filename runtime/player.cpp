@@ -163,7 +163,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
         const Result<Box> box = meshRegion(program, request);
         if (!box) return problem(prepared.graph, box.error().message);
-        prepared.region = *box;
+        prepared.region = prepared.bounds = *box;
         return done();
     }
     std::optional<Box> all;
@@ -178,6 +178,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         if (found.extent == Extent::bounded) all = all ? joined(*all, found.box) : found.box;
     }
     if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
+    prepared.bounds = *all;
     prepared.region = padded(*all, resolution, 1.5);
     return done();
 }
@@ -282,9 +283,23 @@ Result<Picture> Player::frame(const RenderOptions& renderOptions) {
     if (result->triangles == 0)
         return problem(now.graph,
                        "the solid is empty or smaller than a cell at " + std::to_string(seconds) + " s");
-    Result<Picture> picture = session.render(*result, renderOptions);
+    const Result<Scene> scene = this->scene();
+    if (!scene) return scene.error();
+    RenderOptions wishes = renderOptions;
+    const std::optional<Camera> camera = wishes.scene.camera;
+    wishes.scene = *scene;
+    if (camera) wishes.scene.camera = camera;
+    // One frame for all times: the picture rests while the solid moves.
+    if (now.fieldMoves && !wishes.framed) wishes.framed = now.bounds;
+    Result<Picture> picture = session.render(*result, wishes);
     if (!picture) return problem(now.graph, picture.error().message);
     return picture;
+}
+
+Result<Scene> Player::scene() const {
+    Result<Scene> scene = readScene(sceneAt(now.graph, now.timeline, timelineTime()));
+    if (!scene) return problem(now.graph, scene.error().message + " (at " + std::to_string(seconds) + " s)");
+    return scene;
 }
 
 Done Player::reload(Graph graph) {

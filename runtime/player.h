@@ -84,8 +84,14 @@ class Player {
     Result<MesherResult> meshOnDevice();
     const MesherBuffers& deviceMesh() const { return session.meshBuffers(); }
 
-    /// A picture of what the graph shows now. Errors as Session::render, and of an empty solid.
+    /// A picture of what the graph shows now, through the document's scene unless `options` bring a camera.
+    /// Errors as Session::render, of the scene, and of an empty solid.
     Result<Picture> frame(const RenderOptions& options = {});
+
+    /// The scene now. Errors as readScene.
+    Result<Scene> scene() const;
+    /// What all frames show: the bounds of the solid at all times, or the region that was given.
+    const std::optional<Box>& bounds() const { return now.bounds; }
 
     /// Plays another state of the document, at the same time, with the parameters that were set and still
     /// fit. If it cannot be played, the Error says why and the player goes on with what it has.
@@ -115,6 +121,7 @@ class Player {
         std::vector<bool> read;  ///< of each slot: whether the field reads it
         bool fieldMoves = false;
         std::optional<Box> region;  ///< shared by all times
+        std::optional<Box> bounds;  ///< the same without a margin
         bool regionFound = false;   ///< rather than given
     };
 

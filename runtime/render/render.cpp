@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
 namespace fw {
@@ -106,6 +107,54 @@ gpu::RenderPush frame(std::span<const gpu::MeshVertex> points, float aspect) {
     return view;
 }
 
+namespace {
+
+std::vector<gpu::MeshVertex> cornersOf(const Box& box) {
+    std::vector<gpu::MeshVertex> corners(8);
+    for (int i = 0; i < 8; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            corners[std::size_t(i)].position[axis] =
+                float((i >> axis & 1 ? box.hi : box.lo)[std::size_t(axis)]);
+    return corners;
+}
+
+}  // namespace
+
+gpu::RenderPush look(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect) {
+    gpu::RenderPush view = {};
+    glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo, target;
+    for (int axis = 0; axis < 3; ++axis) {
+        view.eye[axis] = float(camera.position[std::size_t(axis)]);
+        target[axis] = float(camera.target[std::size_t(axis)]);
+    }
+    view.forward = glm::normalize(target - view.eye);
+    // Straight up or down, what was ahead before is up.
+    const glm::vec3 upward = std::abs(view.forward.y) < 0.9999f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
+    const glm::vec3 right = glm::normalize(glm::cross(view.forward, upward));
+    const float tangent = std::tan(glm::radians(0.5f * float(camera.fov)));
+    view.right = right / (tangent * aspect);
+    view.up = glm::cross(right, view.forward) / tangent;
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const gpu::MeshVertex& vertex : points) {
+        lo = glm::min(lo, vertex.position), hi = glm::max(hi, vertex.position);
+        nearest = std::min(nearest, glm::dot(view.forward, vertex.position - view.eye));
+    }
+    view.centre = 0.5f * (lo + hi);
+    view.radius = std::max(0.5f * glm::length(hi - lo), 1e-6f);
+    view.ground = lo.y;
+    view.near = std::max(0.5f * nearest, 1e-3f * view.radius);
+    return view;
+}
+
+Camera framingCamera(const Box& box, float aspect) {
+    const gpu::RenderPush view = frame(cornersOf(box), aspect);
+    const float away = std::max(glm::dot(view.centre - view.eye, view.forward), view.near);
+    const glm::vec3 target = view.eye + away * view.forward;
+    return {.position = {view.eye.x, view.eye.y, view.eye.z},
+            .target = {target.x, target.y, target.z},
+            .fov = double(glm::degrees(2.0f * std::atan(1.0f / glm::length(view.up))))};
+}
+
 Result<Picture> renderPicture(const Device& device, const RenderPipelines& pipelines,
                               const RenderScene& scene, const RenderOptions& options) {
     if (const Done fits = checkPictureSize(options.width, options.height); !fits) return fits.error();
@@ -116,7 +165,12 @@ Result<Picture> renderPicture(const Device& device, const RenderPipelines& pipel
                        "' can draw at once: lower --resolution");
 
     const auto points = download<gpu::MeshVertex>(device, scene.mesh.vertices, scene.vertices);
-    gpu::RenderPush view = frame(points, float(options.width) / float(options.height));
+    const float aspect = float(options.width) / float(options.height);
+    const std::vector<gpu::MeshVertex> framed =
+        options.framed ? cornersOf(*options.framed) : std::vector<gpu::MeshVertex>();
+    const std::span<const gpu::MeshVertex> seen = options.framed ? framed : points;
+    gpu::RenderPush view =
+        options.scene.camera ? look(*options.scene.camera, seen, aspect) : frame(seen, aspect);
     // A field without a known constant is trusted half way: its shadows may be a little off.
     view.stepScale = std::isfinite(scene.lipschitz) ? 1.0f / std::max(scene.lipschitz, 1.0f) : 0.5f;
     view.lo = scene.grid.lo;

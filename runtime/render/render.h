@@ -3,16 +3,19 @@
 //
 // The mesh is drawn indexed and indirect, for its depth alone, at twice the picture's width and height; a
 // compute shader then shades every depth sample and averages (shaders/render/shade.comp says with what
-// light). The camera looks down from three quarters, from the side of +x and +z, as near as the whole mesh
-// stays in the picture. The same input gives the same bytes on the same device.
+// light). The camera is the scene's; without one it looks down from three quarters, from the side of +x and
+// +z, as near as the whole mesh stays in the picture. The same input gives the same bytes on the same device.
 //
 // Lifetime: pipelines belong to a structure (a field's text), a picture to the caller.
 #pragma once
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string_view>
 
+#include "graph/evaluate.h"
+#include "graph/scene.h"
 #include "runtime/mesher.h"
 #include "shaders/render/render.h"
 
@@ -45,6 +48,9 @@ struct RenderScene {
 
 struct RenderOptions {
     int width = 1280, height = 720;  ///< pixels
+    Scene scene = {};                ///< as it is at the time of the picture
+    std::optional<Box> framed =
+        {};  ///< what a picture without a camera frames, instead of the mesh's own points
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };
@@ -66,6 +72,12 @@ Result<Picture> renderPicture(const Device& device, const RenderPipelines& pipel
 /// push constants up to `centre` that depends on them. `aspect` is width / height. There is at least one
 /// point.
 gpu::RenderPush frame(std::span<const gpu::MeshVertex> points, float aspect);
+
+/// The same for a camera of the scene.
+gpu::RenderPush look(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect);
+
+/// The camera that frame() places for a picture of this aspect in which `box` is to be seen.
+Camera framingCamera(const Box& box, float aspect);
 
 /// Writes the picture as PNG without alpha. Errors: as OutputFile.
 Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel = nullptr);

@@ -211,7 +211,7 @@ TEST(Timeline, AtATimeTheDocumentHasTheTracksValues) {
         {"node": "moved", "input": "offset.y", "keys": [{"time": 0, "value": 0}, {"time": 2, "value": 4}]},
         {"node": "box", "input": "half_extents", "keys": [{"time": 0, "value": [1, 2, 3]}]},
         {"parameter": "size", "keys": [{"time": 0, "value": 2}]},
-        {"scene": "camera.position", "keys": [{"time": 0, "value": [0, 0, 0]}, {"time": 2, "value": [2, 4, 6]}]},
+        {"scene": "camera.position", "keys": [{"time": 0, "value": [0, 0, 2]}, {"time": 2, "value": [2, 4, 4]}]},
         {"scene": "camera.fov", "keys": [{"time": 0, "value": 30}, {"time": 2, "value": 50}]},
         {"scene": "lights.0.strength", "keys": [{"time": 0, "value": 0}, {"time": 2, "value": 3}]},
         {"scene": "sun.direction", "keys": [{"time": 0, "value": [0, 1, 0]}]})"));
@@ -317,7 +317,8 @@ TEST(TimelineBad, KeysThatMakeNoCurve) {
     expectFinding(tracks(R"({"node": "moved", "input": "offset", "keys": [{"time": 0, "value": [1, 2]}]})"),
                   {"the key has 2 numbers, the input takes 3"});
     expectFinding(
-        tracks(R"({"scene": "camera.fov", "keys": [{"time": 0, "value": 1}, {"time": 1, "value": [1, 2]}]})"),
+        tracks(
+            R"({"scene": "lights.0.strength", "keys": [{"time": 0, "value": 1}, {"time": 1, "value": [1, 2]}]})"),
         {"the key at 1 s has 2 numbers, the first one has 1"});
     // A NaN cannot be written in a file; a program can put one into a document.
     Graph graph = graphWith(radius(R"({"time": 0, "value": 0.6}, {"time": 1, "value": 0.6})"));
@@ -354,6 +355,29 @@ TEST(TimelineBad, TargetsThatAreNotThere) {
     expectFinding(tracks(R"({"node": "loop", "input": "n", )" + keys), {"node 'loop', code 1:"});
 }
 
+TEST(TimelineBad, CamerasThatCannotLook) {
+    expectFinding(
+        tracks(R"({"scene": "camera.fov", "keys": [{"time": 0, "value": 30}, {"time": 1, "value": 400}]})"),
+        {"the key at 1 s: the scene's camera.fov must be a number of degrees from 1 to 170"});
+    expectFinding(tracks(R"({"scene": "camera.position", "keys": [{"time": 0, "value": [0, 0, 0]}]})"),
+                  {"the key at 0 s: the scene's camera stands on its target"});
+    expectFinding(tracks(R"({"scene": "camera.position", "keys": [{"time": 0, "value": [0, 1]}]})"),
+                  {"camera.position must be three finite numbers"});
+    Graph graph =
+        graphWith(tracks(R"({"scene": "camera.position", "keys": [{"time": 0, "value": [1, 2, 3]}]})"));
+    graph.timeline["tracks"][0]["keys"][0]["value"][1] = NAN;
+    EXPECT_NE(format(check(graph).at(0)).find("the value of the key at 0 s is not a number"),
+              std::string::npos);
+    graph = graphWith("{}");
+    graph.scene["camera"]["target"] = {4, 3, 5};
+    EXPECT_NE(
+        format(check(graph).at(0)).find("a.field.json:11:22: error: the scene's camera stands on its target"),
+        std::string::npos)
+        << format(check(graph).at(0));
+    graph.scene["camera"] = "wide";
+    EXPECT_NE(format(check(graph).at(0)).find("the scene's camera must be an object"), std::string::npos);
+}
+
 TEST(TimelineBad, TwoTracksForOneThing) {
     const std::string keys = R"("keys": [{"time": 0, "value": 0.6}]})";
     const auto pair = [&](const std::string& a, const std::string& b) {
@@ -367,7 +391,7 @@ TEST(TimelineBad, TwoTracksForOneThing) {
     expectFinding(pair(y, all), {"moves what another track moves"});
     expectFinding(pair(all, y), {"moves what another track moves"});
     EXPECT_TRUE(findings(pair(y, R"("node": "moved", "input": "offset.x")")).empty());
-    expectFinding(pair("\"scene\": \"camera.fov\"", "\"scene\": \"camera.fov\""),
+    expectFinding(pair("\"scene\": \"lights.0\"", "\"scene\": \"lights.0.strength\""),
                   {"moves what another track moves"});
 }
 
