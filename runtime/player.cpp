@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <utility>
 
 #include "graph/check.h"
 #include "graph/json.h"
@@ -14,6 +15,8 @@ namespace {
 
 /// Where bounds are looked for: this many steps over the timeline, and its keys up to as many again.
 constexpr int kRegionSteps = 32;
+/// Steps over the timeline and cells of the meshes that a picture frames.
+constexpr int kOutlineSteps = 16, kOutlineResolution = 40;
 
 Error problem(const Graph& graph, std::string message) {
     Error error;
@@ -163,7 +166,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
         const Result<Box> box = meshRegion(program, request);
         if (!box) return problem(prepared.graph, box.error().message);
-        prepared.region = prepared.bounds = *box;
+        prepared.region = *box;
         return done();
     }
     std::optional<Box> all;
@@ -178,7 +181,6 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         if (found.extent == Extent::bounded) all = all ? joined(*all, found.box) : found.box;
     }
     if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
-    prepared.bounds = *all;
     prepared.region = padded(*all, resolution, 1.5);
     return done();
 }
@@ -189,6 +191,7 @@ void Player::adopt(Prepared prepared) {
     for (std::size_t slot = 0; slot < values.size(); ++slot) now.program.live[slot].value = values[slot];
     session.setProgram(now.program);
     meshed.reset();
+    points.clear();
 }
 
 std::vector<PlayerParameter> Player::parameters() const {
@@ -235,6 +238,7 @@ Done Player::set(std::string_view name, std::span<const double> value) {
         now.graph = std::move(changed);
         input->second.value.assign(value.begin(), value.end());
         if (now.regionFound) now.region.reset();
+        points.clear();
         seek(seconds);
     }
     chosen[parameterName].assign(value.begin(), value.end());
@@ -277,7 +281,38 @@ Result<Mesh> Player::mesh() {
     return session.download(*result);
 }
 
+Result<std::span<const gpu::MeshVertex>> Player::outline() {
+    if (!points.empty()) return std::span<const gpu::MeshVertex>(points);
+    const double rest = seconds;
+    const auto add = [&]() -> Done {
+        const Result<MesherResult> result = meshOnDevice();
+        if (!result) return result.error();
+        const auto more =
+            download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, result->vertices);
+        points.insert(points.end(), more.begin(), more.end());
+        return done();
+    };
+    Done added = done();
+    if (now.fieldMoves) {
+        const int resolution = std::exchange(options.resolution, kOutlineResolution);
+        for (int i = 0; i <= kOutlineSteps && added; ++i) {
+            seek(now.timeline.length * i / kOutlineSteps);
+            meshed.reset();
+            added = add();
+        }
+        options.resolution = resolution;
+        meshed.reset();
+        seek(rest);
+    } else {
+        added = add();
+    }
+    if (!added) return points.clear(), added.error();
+    return std::span<const gpu::MeshVertex>(points);
+}
+
 Result<Picture> Player::frame(const RenderOptions& renderOptions) {
+    const auto framed = outline();  // first: it makes meshes of its own
+    if (!framed) return framed.error();
     const Result<MesherResult> result = meshOnDevice();
     if (!result) return result.error();
     if (result->triangles == 0)
@@ -289,8 +324,7 @@ Result<Picture> Player::frame(const RenderOptions& renderOptions) {
     const std::optional<Camera> camera = wishes.scene.camera;
     wishes.scene = *scene;
     if (camera) wishes.scene.camera = camera;
-    // One frame for all times: the picture rests while the solid moves.
-    if (now.fieldMoves && !wishes.framed) wishes.framed = now.bounds;
+    if (wishes.framed.empty()) wishes.framed = *framed;
     Result<Picture> picture = session.render(*result, wishes);
     if (!picture) return problem(now.graph, picture.error().message);
     return picture;

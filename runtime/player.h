@@ -90,8 +90,9 @@ class Player {
 
     /// The scene now. Errors as readScene.
     Result<Scene> scene() const;
-    /// What all frames show: the bounds of the solid at all times, or the region that was given.
-    const std::optional<Box>& bounds() const { return now.bounds; }
+    /// Points of the solid's surface at even steps through the timeline: what a picture without a camera
+    /// frames, so that it rests while the solid moves. Errors as Session::polygonise.
+    Result<std::span<const gpu::MeshVertex>> outline();
 
     /// Plays another state of the document, at the same time, with the parameters that were set and still
     /// fit. If it cannot be played, the Error says why and the player goes on with what it has.
@@ -121,7 +122,6 @@ class Player {
         std::vector<bool> read;  ///< of each slot: whether the field reads it
         bool fieldMoves = false;
         std::optional<Box> region;  ///< shared by all times
-        std::optional<Box> bounds;  ///< the same without a margin
         bool regionFound = false;   ///< rather than given
     };
 
@@ -137,7 +137,8 @@ class Player {
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
-    std::optional<MesherResult> meshed;  ///< of the values that the session has
+    std::optional<MesherResult> meshed;   ///< of the values that the session has
+    std::vector<gpu::MeshVertex> points;  ///< the outline; empty until it is asked for
 };
 
 }  // namespace fw

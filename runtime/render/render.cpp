@@ -107,19 +107,6 @@ gpu::RenderPush frame(std::span<const gpu::MeshVertex> points, float aspect) {
     return view;
 }
 
-namespace {
-
-std::vector<gpu::MeshVertex> cornersOf(const Box& box) {
-    std::vector<gpu::MeshVertex> corners(8);
-    for (int i = 0; i < 8; ++i)
-        for (int axis = 0; axis < 3; ++axis)
-            corners[std::size_t(i)].position[axis] =
-                float((i >> axis & 1 ? box.hi : box.lo)[std::size_t(axis)]);
-    return corners;
-}
-
-}  // namespace
-
 gpu::RenderPush look(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect) {
     gpu::RenderPush view = {};
     glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo, target;
@@ -146,8 +133,8 @@ gpu::RenderPush look(const Camera& camera, std::span<const gpu::MeshVertex> poin
     return view;
 }
 
-Camera framingCamera(const Box& box, float aspect) {
-    const gpu::RenderPush view = frame(cornersOf(box), aspect);
+Camera framingCamera(std::span<const gpu::MeshVertex> points, float aspect) {
+    const gpu::RenderPush view = frame(points, aspect);
     const float away = std::max(glm::dot(view.centre - view.eye, view.forward), view.near);
     const glm::vec3 target = view.eye + away * view.forward;
     return {.position = {view.eye.x, view.eye.y, view.eye.z},
@@ -166,9 +153,7 @@ Result<Picture> renderPicture(const Device& device, const RenderPipelines& pipel
 
     const auto points = download<gpu::MeshVertex>(device, scene.mesh.vertices, scene.vertices);
     const float aspect = float(options.width) / float(options.height);
-    const std::vector<gpu::MeshVertex> framed =
-        options.framed ? cornersOf(*options.framed) : std::vector<gpu::MeshVertex>();
-    const std::span<const gpu::MeshVertex> seen = options.framed ? framed : points;
+    const std::span<const gpu::MeshVertex> seen = options.framed.empty() ? points : options.framed;
     gpu::RenderPush view =
         options.scene.camera ? look(*options.scene.camera, seen, aspect) : frame(seen, aspect);
     // A field without a known constant is trusted half way: its shadows may be a little off.

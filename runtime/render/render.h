@@ -14,7 +14,6 @@
 #include <optional>
 #include <string_view>
 
-#include "graph/evaluate.h"
 #include "graph/scene.h"
 #include "runtime/mesher.h"
 #include "shaders/render/render.h"
@@ -49,8 +48,8 @@ struct RenderScene {
 struct RenderOptions {
     int width = 1280, height = 720;  ///< pixels
     Scene scene = {};                ///< as it is at the time of the picture
-    std::optional<Box> framed =
-        {};  ///< what a picture without a camera frames, instead of the mesh's own points
+    /// What a picture frames and stands on the ground, instead of the mesh's own points; none: those.
+    std::span<const gpu::MeshVertex> framed = {};
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };
@@ -76,8 +75,8 @@ gpu::RenderPush frame(std::span<const gpu::MeshVertex> points, float aspect);
 /// The same for a camera of the scene.
 gpu::RenderPush look(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect);
 
-/// The camera that frame() places for a picture of this aspect in which `box` is to be seen.
-Camera framingCamera(const Box& box, float aspect);
+/// The camera that frame() places, aimed at the middle of the points.
+Camera framingCamera(std::span<const gpu::MeshVertex> points, float aspect);
 
 /// Writes the picture as PNG without alpha. Errors: as OutputFile.
 Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel = nullptr);
