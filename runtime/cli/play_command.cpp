@@ -1,7 +1,9 @@
 // `fieldwright play`: the timeline of a graph, in a window or without one.
+#include <cmath>
 #include <cstdio>
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/cli/play_window.h"
 #include "runtime/cli/sequence.h"
 
 namespace fw::cli {
@@ -52,7 +54,7 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
 int runPlay(const PlayOptions& options) {
     const auto size = pictureSize("play", options.size);
     if (!size) return kBadUsage;
-    return playHeadless(options, *size);
+    return options.headless ? playHeadless(options, *size) : playInWindow(options, *size);
 }
 
 }  // namespace fw::cli

@@ -1,0 +1,148 @@
+#include "runtime/window/overlay.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#include <stb/stb_easy_font.h>
+#pragma GCC diagnostic pop
+
+namespace fw {
+
+namespace {
+
+constexpr int kMargin = 8, kScale = 2;  // pixels, and pixels of a point of the font
+
+struct Tint {
+    uint8_t red, green, blue;
+    double strength;  ///< 0 leaves the picture as it is, 1 covers it
+};
+constexpr Tint kShade{18, 20, 24, 0.72}, kInk{240, 240, 236, 1.0}, kTrack{150, 155, 165, 0.8},
+    kPlayed{245, 165, 60, 1.0};
+
+/// Blends a tint over the rectangle's pixels that lie in the picture.
+void fillRectangle(Picture& picture, int left, int top, int right, int bottom, const Tint& tint) {
+    left = std::max(left, 0), top = std::max(top, 0);
+    right = std::min(right, picture.width), bottom = std::min(bottom, picture.height);
+    const auto blend = [&](uint8_t& to, uint8_t from) {
+        to = static_cast<uint8_t>(to + tint.strength * (from - to) + 0.5);
+    };
+    for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) {
+            uint8_t* pixel =
+                picture.pixels.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+            blend(pixel[0], tint.red), blend(pixel[1], tint.green), blend(pixel[2], tint.blue);
+        }
+}
+
+struct FontVertex {
+    float x, y, z;
+    uint8_t color[4];
+};
+
+void drawText(Picture& picture, int x, int y, std::string_view text) {
+    std::string words(text);  // the font's interface takes text that it may change
+    std::vector<FontVertex> corners(words.size() * 64 + 64);
+    const int quads = stb_easy_font_print(0, 0, words.data(), nullptr, corners.data(),
+                                          static_cast<int>(corners.size() * sizeof(FontVertex)));
+    for (int i = 0; i < quads; ++i) {
+        const FontVertex &lo = corners[std::size_t(4 * i)], &hi = corners[std::size_t(4 * i + 2)];
+        fillRectangle(picture, x + int(lo.x) * kScale, y + int(lo.y) * kScale, x + int(hi.x) * kScale,
+                      y + int(hi.y) * kScale, kInk);
+    }
+}
+
+std::pair<int, int> sizeOf(std::string_view text) {
+    std::string words(text);
+    return {kScale * stb_easy_font_width(words.data()), kScale * stb_easy_font_height(words.data())};
+}
+
+}  // namespace
+
+Picture scaled(const Picture& picture, int width, int height) {
+    if (picture.width == width && picture.height == height) return picture;
+    Picture result{width, height, std::vector<uint8_t>(4 * std::size_t(width) * std::size_t(height))};
+    /// For each pixel along an axis the two that it lies between, and how far (of 256) it is from the first.
+    struct Tap {
+        int first, second, part;
+    };
+    const auto taps = [](int from, int to) {
+        std::vector<Tap> list(static_cast<std::size_t>(to));
+        for (int i = 0; i < to; ++i) {
+            const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
+            const int first = static_cast<int>(at);
+            list[std::size_t(i)] = {first, std::min(first + 1, from - 1),
+                                    static_cast<int>(256.0 * (at - first))};
+        }
+        return list;
+    };
+    const std::vector<Tap> across = taps(picture.width, width), down = taps(picture.height, height);
+    uint8_t* to = result.pixels.data();
+    for (const Tap& row : down) {
+        const uint8_t* upper =
+            picture.pixels.data() + 4 * std::size_t(row.first) * std::size_t(picture.width);
+        const uint8_t* lower =
+            picture.pixels.data() + 4 * std::size_t(row.second) * std::size_t(picture.width);
+        for (const Tap& column : across)
+            for (int c = 0; c < 4; ++c) {
+                const int i = 4 * column.first + c, j = 4 * column.second + c;
+                const int high = 256 * upper[i] + column.part * (upper[j] - upper[i]);
+                const int low = 256 * lower[i] + column.part * (lower[j] - lower[i]);
+                *to++ = static_cast<uint8_t>((256 * high + row.part * (low - high)) >> 16);
+            }
+    }
+    return result;
+}
+
+int drawPanel(Picture& picture, int x, int y, const std::vector<std::string>& columns) {
+    int width = kMargin, height = 0;
+    for (const std::string& column : columns) {
+        const auto [columnWidth, columnHeight] = sizeOf(column);
+        width += columnWidth + kMargin;
+        height = std::max(height, columnHeight);
+    }
+    const int bottom = y + height + kMargin;
+    fillRectangle(picture, x, y, x + width, bottom, kShade);
+    int left = x + kMargin;
+    for (const std::string& column : columns) {
+        drawText(picture, left, y + kMargin, column);
+        left += sizeOf(column).first + kMargin;
+    }
+    return bottom;
+}
+
+void drawOverlay(Picture& picture, const Viewer& viewer, std::string_view message) {
+    if (const int bar = viewer.barHeight(); bar > 0 && picture.height > bar) {
+        const int top = picture.height - bar, middle = top + bar / 2;
+        const double part = viewer.length > 0.0 ? viewer.shownTime() / viewer.length : 0.0;
+        const int at = static_cast<int>(part * picture.width);
+        fillRectangle(picture, 0, top, picture.width, picture.height, kShade);
+        fillRectangle(picture, 0, middle - 2, picture.width, middle + 2, kTrack);
+        fillRectangle(picture, 0, middle - 2, at, middle + 2, kPlayed);
+        fillRectangle(picture, at - 3, top + 4, at + 3, picture.height - 4, kPlayed);
+        char text[64];
+        std::snprintf(text, sizeof text, "%.2f / %.2f s%s", viewer.shownTime(), viewer.length,
+                      viewer.paused ? "  paused" : "");
+        drawPanel(picture, kMargin, top - 32, {text});
+    }
+    int y = kMargin;
+    if (viewer.help) {
+        std::string keys, does;
+        for (const KeyHelp& help : viewerKeys()) {
+            keys += (keys.empty() ? "" : "\n") + std::string(help.key);
+            does += (does.empty() ? "" : "\n") + std::string(help.does);
+        }
+        y = drawPanel(picture, kMargin, y, {keys, does}) + kMargin;
+    }
+    if (message.empty()) return;
+    std::string lines;
+    const std::size_t width = std::max<std::size_t>(std::size_t(picture.width) / (7 * kScale), 20);
+    for (std::size_t i = 0; i < message.size() && i < 6 * width; i += width)
+        lines += (lines.empty() ? "" : "\n") + std::string(message.substr(i, width));
+    drawPanel(picture, kMargin, y, {lines});
+}
+
+}  // namespace fw

@@ -1,0 +1,25 @@
+// Text and the scrub bar, drawn into a picture by the processor: legible on any background, and the same
+// without a window.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/render/render.h"
+#include "runtime/window/viewer.h"
+
+namespace fw {
+
+/// The picture at another size, interpolated linearly.
+Picture scaled(const Picture& picture, int width, int height);
+
+/// Draws columns of lines of ASCII text side by side on a dark panel whose top left corner is at (x, y)
+/// pixels; returns the y of its lower edge.
+int drawPanel(Picture& picture, int x, int y, const std::vector<std::string>& columns);
+
+/// Draws what the viewer shows over the picture: the scrub bar, the keys if asked for, and the message, if
+/// there is one. Where the picture is too small for something, that is left out.
+void drawOverlay(Picture& picture, const Viewer& viewer, std::string_view message);
+
+}  // namespace fw

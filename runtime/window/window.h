@@ -1,0 +1,73 @@
+// A window that shows pictures: GLFW, a Vulkan surface and its swapchain.
+//
+// A picture is copied to an image of the device and blitted to the swapchain, scaled where their sizes
+// differ, so a renderer may work at another resolution than the window's. Each picture is awaited before it
+// is presented: on a software device nothing would run beside it, and a player shows one picture at a time.
+// A window without area (minimised) shows nothing and is no error; a swapchain that went out of date is made
+// anew.
+//
+// Lifetime: a Desktop before the device (it says what instance extensions a window needs), the Window after
+// it; the Window dies before the device. One Window at a time; all calls come from the main thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/render/render.h"
+#include "runtime/window/viewer.h"
+
+struct GLFWwindow;
+
+namespace fw {
+
+/// The connection to the window system. Throws SystemError where there is none.
+struct Desktop {
+    Desktop();
+    Desktop(const Desktop&) = delete;
+    Desktop& operator=(const Desktop&) = delete;
+    ~Desktop();
+
+    /// What createDevice() is to be asked for.
+    DeviceOptions deviceOptions() const;
+};
+
+class Window {
+  public:
+    /// Opens a window of this size, in pixels. `viewer` hears of keys and of the mouse and outlives the
+    /// window. Throws SystemError where the device cannot present to it.
+    Window(const Device& device, const std::string& title, int width, int height, Viewer& viewer);
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+    ~Window();
+
+    /// Width and height in pixels now; zeros while it is minimised.
+    std::pair<int, int> size() const;
+    /// Handles what has happened; waits for something to happen, but at most so many seconds.
+    void poll(double wait);
+    /// Shows the picture; whether it could. It cannot while the window has no area.
+    bool show(const Picture& picture);
+    void setTitle(const std::string& title);
+    void setFullScreen(bool full);
+
+  private:
+    void makeSwapchain();
+    void destroySwapchain();
+
+    const Device& device;
+    Viewer& viewer;
+    GLFWwindow* handle = nullptr;
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
+    VkFence acquired = VK_NULL_HANDLE;
+    VkExtent2D extent = {};
+    std::vector<VkImage> images;
+    Buffer staging;
+    Image shown;
+    bool full = false;
+    std::array<int, 4> windowed = {};  ///< place and size before full screen
+};
+
+}  // namespace fw
