@@ -39,8 +39,8 @@ struct DeviceInfo {
 
 struct Device;
 
-/// What the validation layer said, the bytes of device memory that are and were in use, the number of pipelines
-/// that were built, and the sibling.
+/// What the validation layer said, the bytes of device memory that are and were in use, the number of
+/// pipelines that were built, and the sibling.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
