@@ -14,7 +14,10 @@ namespace fw {
 
 namespace {
 
-constexpr int kMargin = 8, kScale = 2;  // pixels, and pixels of a point of the font
+constexpr int kMargin = 8;  // pixels
+
+/// Pixels of a point of the font.
+int scaleFor(const Picture& picture) { return picture.width < 600 ? 1 : 2; }
 
 struct Tint {
     uint8_t red, green, blue;
@@ -48,16 +51,17 @@ void drawText(Picture& picture, int x, int y, std::string_view text) {
     std::vector<FontVertex> corners(words.size() * 64 + 64);
     const int quads = stb_easy_font_print(0, 0, words.data(), nullptr, corners.data(),
                                           static_cast<int>(corners.size() * sizeof(FontVertex)));
+    const int scale = scaleFor(picture);
     for (int i = 0; i < quads; ++i) {
         const FontVertex &lo = corners[std::size_t(4 * i)], &hi = corners[std::size_t(4 * i + 2)];
-        fillRectangle(picture, x + int(lo.x) * kScale, y + int(lo.y) * kScale, x + int(hi.x) * kScale,
-                      y + int(hi.y) * kScale, kInk);
+        fillRectangle(picture, x + int(lo.x) * scale, y + int(lo.y) * scale, x + int(hi.x) * scale,
+                      y + int(hi.y) * scale, kInk);
     }
 }
 
-std::pair<int, int> sizeOf(std::string_view text) {
+std::pair<int, int> sizeOf(std::string_view text, int scale) {
     std::string words(text);
-    return {kScale * stb_easy_font_width(words.data()), kScale * stb_easy_font_height(words.data())};
+    return {scale * stb_easy_font_width(words.data()), scale * stb_easy_font_height(words.data())};
 }
 
 }  // namespace
@@ -100,7 +104,7 @@ Picture scaled(const Picture& picture, int width, int height) {
 int drawPanel(Picture& picture, int x, int y, const std::vector<std::string>& columns) {
     int width = kMargin, height = 0;
     for (const std::string& column : columns) {
-        const auto [columnWidth, columnHeight] = sizeOf(column);
+        const auto [columnWidth, columnHeight] = sizeOf(column, scaleFor(picture));
         width += columnWidth + kMargin;
         height = std::max(height, columnHeight);
     }
@@ -109,7 +113,7 @@ int drawPanel(Picture& picture, int x, int y, const std::vector<std::string>& co
     int left = x + kMargin;
     for (const std::string& column : columns) {
         drawText(picture, left, y + kMargin, column);
-        left += sizeOf(column).first + kMargin;
+        left += sizeOf(column, scaleFor(picture)).first + kMargin;
     }
     return bottom;
 }
@@ -139,7 +143,8 @@ void drawOverlay(Picture& picture, const Viewer& viewer, std::string_view messag
     }
     if (message.empty()) return;
     std::string lines;
-    const std::size_t width = std::max<std::size_t>(std::size_t(picture.width) / (7 * kScale), 20);
+    const std::size_t width =
+        std::max<std::size_t>(std::size_t(picture.width) / std::size_t(7 * scaleFor(picture)), 20);
     for (std::size_t i = 0; i < message.size() && i < 6 * width; i += width)
         lines += (lines.empty() ? "" : "\n") + std::string(message.substr(i, width));
     drawPanel(picture, kMargin, y, {lines});

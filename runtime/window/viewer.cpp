@@ -88,13 +88,12 @@ void Viewer::key(ViewerKey pressed) {
 
 int Viewer::barHeight() const { return moves && height > 120 ? 28 : 0; }
 
-void Viewer::press(MouseButton button, double x, double y) {
-    lastX = x, lastY = y;
+void Viewer::press(MouseButton button) {
     if (button != MouseButton::left) {
         drag = Drag::pan;
-    } else if (y >= height - barHeight()) {
+    } else if (lastY >= height - barHeight()) {
         drag = Drag::scrub;
-        scrubTo(x);
+        scrubTo(lastX);
     } else {
         drag = Drag::orbit;
     }

@@ -60,10 +60,11 @@ struct Viewer {
 
     void resize(int newWidth, int newHeight);
     void key(ViewerKey key);
-    void press(MouseButton button, double x, double y);
-    void release(MouseButton button);
     /// The mouse is at this pixel, from the top left.
     void move(double x, double y);
+    /// A button goes down or up where the mouse was last.
+    void press(MouseButton button);
+    void release(MouseButton button);
     /// The wheel turned by so many notches, away from the user if positive.
     void scroll(double notches);
 

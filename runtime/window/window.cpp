@@ -71,11 +71,9 @@ void onButton(GLFWwindow* window, int button, int action, int) {
     const MouseButton which = button == GLFW_MOUSE_BUTTON_LEFT    ? MouseButton::left
                               : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::right
                                                                   : MouseButton::middle;
-    double x = 0.0, y = 0.0;
-    glfwGetCursorPos(window, &x, &y);
-    const double scale = pixelsPerUnit(window);
+    // Where the mouse is now may be far from where it was when the button went down: the viewer follows it.
     if (action == GLFW_PRESS)
-        viewerOf(window).press(which, x * scale, y * scale);
+        viewerOf(window).press(which);
     else
         viewerOf(window).release(which);
 }
@@ -170,6 +168,8 @@ void Window::poll(double wait) {
 }
 
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(handle, title.c_str()); }
+
+void Window::resize(int width, int height) { glfwSetWindowSize(handle, width, height); }
 
 void Window::setFullScreen(bool wanted) {
     if (wanted == full) return;

@@ -50,6 +50,7 @@ class Window {
     /// Shows the picture; whether it could. It cannot while the window has no area.
     bool show(const Picture& picture);
     void setTitle(const std::string& title);
+    void resize(int width, int height);
     void setFullScreen(bool full);
 
   private:

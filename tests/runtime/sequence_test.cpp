@@ -1,0 +1,154 @@
+// `fieldwright render` of a sequence and `play --headless`, as a user calls them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/support/command.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+using test::CommandResult;
+using test::expectRefusal;
+using test::readText;
+using test::runCommand;
+using test::TempDir;
+
+const std::string kGraph = R"({"fieldwright": 1, "nodes": [
+  {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+  {"id": "lift", "type": "translate", "inputs": {"surface": {"from": "ball"}}},
+  {"id": "out", "type": "output", "inputs": {"surface": {"from": "lift"}, "resolution": 32}}],
+ "timeline": {"length": 2, "fps": 4, "tracks": [{"node": "lift", "input": "offset", "keys": [
+   {"time": 0, "value": [0, 0, 0]}, {"time": 1, "value": [1, 0, 0]}, {"time": 2, "value": [0, 0, 0]}]}]}})";
+
+struct Sequence : testing::Test {
+    TempDir folder;
+    std::string graph = folder.path("a.field.json"), frames = folder.path("frames");
+    void SetUp() override { test::writeText(graph, kGraph); }
+
+    CommandResult render(const std::string& output, const std::vector<std::string>& more) const {
+        std::vector<std::string> words = {"render", graph, "-o", output};
+        words.insert(words.end(), more.begin(), more.end());
+        if (std::find(more.begin(), more.end(), "--size") == more.end())
+            words.insert(words.end(), {"--size", "48x32"});
+        return runCommand(words);
+    }
+    std::vector<std::string> names(const std::string& path) const {
+        std::vector<std::string> list;
+        for (const auto& entry : std::filesystem::directory_iterator(path))
+            list.push_back(entry.path().filename());
+        std::sort(list.begin(), list.end());
+        return list;
+    }
+    std::string frame(const std::string& path, int number) const {
+        return readText(path + "/00000" + std::to_string(number) + ".png");
+    }
+};
+
+TEST_F(Sequence, NumbersFramesByTheirTime) {
+    const CommandResult all = render(frames, {"--from", "0"});  // the timeline's length and rate
+    EXPECT_EQ(all.status, 0) << all.errors;
+    EXPECT_EQ(all.output + all.errors, "");
+    EXPECT_EQ(names(frames),
+              (std::vector<std::string>{"000000.png", "000001.png", "000002.png", "000003.png", "000004.png",
+                                        "000005.png", "000006.png", "000007.png"}));
+    EXPECT_NE(frame(frames, 0), frame(frames, 4));
+    const std::string part = folder.path("part");
+    EXPECT_EQ(render(part, {"--from", "0.3", "--to", "1.25"}).status, 0);
+    EXPECT_EQ(names(part), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
+    for (const int number : {2, 3, 4}) EXPECT_EQ(frame(part, number), frame(frames, number));
+    // A picture of one moment is that moment's frame, and time beyond the end begins again.
+    for (const char* time : {"0.75", "2.75"}) {
+        EXPECT_EQ(render(folder.path("still.png"), {"--time", time}).status, 0);
+        EXPECT_EQ(readText(folder.path("still.png")), frame(frames, 3));
+    }
+}
+
+TEST_F(Sequence, GoesOnWhereItStopped) {
+    EXPECT_EQ(render(frames, {"--to", "1"}).status, 0);
+    const std::string second = frame(frames, 1), third = frame(frames, 2);
+    std::filesystem::remove(frames + "/000002.png");
+    test::writeText(frames + "/000001.png", second + "mark");
+    const CommandResult more = render(frames, {"--to", "1.5"});
+    EXPECT_EQ(more.status, 0);
+    EXPECT_NE(more.errors.find("3 of 6 frames were there already (--overwrite makes them anew)"),
+              std::string::npos)
+        << more.errors;
+    EXPECT_EQ(names(frames).size(), 6u);
+    EXPECT_EQ(frame(frames, 1), second + "mark");
+    EXPECT_EQ(frame(frames, 2), third);
+    EXPECT_EQ(render(frames, {"--to", "1.5", "--overwrite"}).status, 0);
+    EXPECT_EQ(frame(frames, 1), second);
+}
+
+TEST_F(Sequence, RefusesWhatMakesNoSequence) {
+    const auto refuse = [&](const std::string& output, const std::vector<std::string>& more,
+                            const std::string& part) {
+        SCOPED_TRACE(part);
+        expectRefusal(render(output, more), 2, {part});
+    };
+    refuse(frames, {"--from", "1", "--to", "1"}, "there is no frame from --from");
+    refuse(frames, {"--from", "-1"}, "--from must be 0 or later");
+    refuse(frames, {"--to", "1e9"}, "frames are numbered up to 1000000");
+    refuse(frames, {"--fps", "0"}, "--fps");
+    refuse(folder.path("a.png"), {"--to", "1"}, "a sequence goes into a folder");
+    refuse(graph, {"--to", "1"}, "this is a file");
+    refuse(frames, {}, "give a name that ends in .png, or the times of a sequence");
+    refuse(folder.path("a.png"), {"--overwrite"}, "--overwrite is for a sequence");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.field.json"});
+    EXPECT_EQ(render(frames, {"--to", "0.5"}).status, 0);
+    refuse(frames, {"--to", "1", "--size", "64x32"}, "000000.png is there already, with 48x32 pixels");
+    expectRefusal(render("/proc/frames", {"--to", "1"}), 3, {"/proc/frames: error: cannot make the folder"});
+}
+
+TEST_F(Sequence, CtrlCLeavesWholeFramesAndGoesOn) {
+    int stopped = 0;
+    for (const int delay : {300, 500, 900}) {
+        test::CommandOptions options;
+        options.interruptAfterMs = delay;
+        const CommandResult result =
+            runCommand({"render", graph, "-o", frames, "--size", "640x480", "--fps", "60"}, options);
+        EXPECT_EQ(result.status, 130) << result.errors;
+        if (result.errors.find("the same command goes on") != std::string::npos) ++stopped;
+        if (!std::filesystem::exists(frames)) continue;
+        for (const std::string& name : names(frames)) {
+            EXPECT_EQ(name.size(), 10u) << name;  // nothing temporary
+            const std::string png = readText(frames + "/" + name);
+            EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND") << name;
+        }
+    }
+    EXPECT_GT(stopped, 0);
+}
+
+TEST_F(Sequence, PlaysWithoutAWindow) {
+    const CommandResult played =
+        runCommand({"play", graph, "--headless", "--frames", "5", "--size", "48x32"});
+    EXPECT_EQ(played.status, 0) << played.errors;
+    EXPECT_EQ(played.output.substr(0, 12), "5 frames in ");
+    EXPECT_NE(played.output.find("; 0 pipelines built after the first frame\n"), std::string::npos)
+        << played.output;
+    EXPECT_EQ(runCommand({"play", graph, "--headless", "--size", "48x32"}).output.substr(0, 9), "8 frames ");
+    expectRefusal(runCommand({"play", graph, "--headless", "--size", "4x4"}), 2, {"--size 4x4"});
+    expectRefusal(runCommand({"play", graph, "--headless", "--frames", "0"}), 2, {"--frames"});
+    expectRefusal(runCommand({"play", folder.path("none.field.json"), "--headless"}), 1,
+                  {"there is no such file"});
+    test::CommandOptions nowhere;
+    nowhere.environment = {"DISPLAY=", "WAYLAND_DISPLAY="};
+    expectRefusal(runCommand({"play", graph}, nowhere), 3, {"there is no window system here", "--headless"});
+}
+
+TEST_F(Sequence, ExportAndEvalFollowTheTimeline) {
+    EXPECT_EQ(runCommand({"eval", graph, "--time", "0.5", "--at", "0.5", "0", "0"}).output, "-0.5\n");
+    EXPECT_EQ(runCommand({"eval", graph, "--time", "3.5", "--at", "0.5", "0", "0"}).output, "-0.5\n");
+    const std::string report = folder.path("report.json");
+    EXPECT_EQ(
+        runCommand({"export", graph, "-o", folder.path("a.stl"), "--time", "1", "--report", report}).status,
+        0);
+    EXPECT_NE(readText(report).find("\"boundsMin\": [\n    0.4999999"), std::string::npos)
+        << readText(report);
+}
+
+}  // namespace
+}  // namespace fw

@@ -1,0 +1,264 @@
+// The window, on a virtual X display: a real GLFW window and swapchain, with the validation layer on, and
+// `fieldwright play` under real keys and a real mouse. What is seen is read from the display's own memory.
+#include "runtime/window/window.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <glm/vec3.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+using test::TempDir;
+
+void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+/// An X server without a screen; DISPLAY leads to it as long as it lives.
+class VirtualDisplay {
+  public:
+    VirtualDisplay() {
+        int ends[2];
+        if (pipe(ends) != 0) return;
+        process = fork();
+        if (process == 0) {
+            close(ends[0]);
+            const std::string pipeEnd = std::to_string(ends[1]);
+            execlp("Xvfb", "Xvfb", "-displayfd", pipeEnd.c_str(), "-screen", "0", "640x480x24", "-fbdir",
+                   folder.folder.c_str(), nullptr);
+            _exit(127);
+        }
+        close(ends[1]);
+        char text[16] = {};
+        for (ssize_t got = 0, n = 0; got < 15 && (n = read(ends[0], text + got, 1)) > 0 && text[got] != '\n';)
+            got += n;
+        close(ends[0]);
+        number = text[0] ? std::atoi(text) : -1;
+        if (number >= 0) setenv("DISPLAY", (":" + std::to_string(number)).c_str(), 1);
+    }
+    ~VirtualDisplay() {
+        if (process > 0) kill(process, SIGTERM), waitpid(process, nullptr, 0);
+        unsetenv("DISPLAY");
+    }
+    bool works() const { return number >= 0; }
+
+    /// The colour of a pixel of the screen now.
+    glm::ivec3 pixel(int x, int y) const {
+        std::ifstream file(folder.path("Xvfb_screen0"), std::ios::binary);
+        std::ostringstream content;
+        content << file.rdbuf();
+        const std::string data = content.str();
+        const auto word = [&](std::size_t i) {
+            std::size_t value = 0;
+            for (std::size_t k = 0; k < 4; ++k)
+                value = value << 8 | static_cast<unsigned char>(data.at(4 * i + k));
+            return value;
+        };
+        const std::size_t pixels = word(0) + 12 * word(19);  // after the XWD header and the colour map
+        const std::size_t at = pixels + std::size_t(y) * word(12) + 4 * std::size_t(x);
+        const auto byte = [&](std::size_t i) { return int(static_cast<unsigned char>(data.at(at + i))); };
+        return {byte(2), byte(1), byte(0)};
+    }
+
+  private:
+    TempDir folder;
+    pid_t process = -1;
+    int number = -1;
+};
+
+Picture filled(int width, int height, glm::ivec3 color) {
+    Picture picture{width, height, {}};
+    for (int i = 0; i < width * height; ++i)
+        for (const int c : {color.r, color.g, color.b, 255}) picture.pixels.push_back(uint8_t(c));
+    return picture;
+}
+
+/// Skips the test where there is no X server.
+#define NEEDS_DISPLAY(display) \
+    if (!(display).works()) GTEST_SKIP() << "Xvfb is not installed"
+
+TEST(Window, ShowsPicturesAtEverySize) {
+    const VirtualDisplay display;
+    NEEDS_DISPLAY(display);
+    const Desktop desktop;
+    DeviceOptions options = desktop.deviceOptions();
+    options.validation = true;
+    Result<Device> device = createDevice(options);
+    ASSERT_TRUE(device) << format(device.error());
+    const auto record = device->record;
+    {
+        Viewer viewer;
+        Window window(*device, "test", 320, 200, viewer);
+        EXPECT_EQ(window.size(), std::pair(320, 200));
+        EXPECT_EQ(viewer.width, 320);
+        for (int i = 0; i < 3; ++i) {
+            window.poll(0.05);
+            EXPECT_TRUE(window.show(filled(320, 200, {200, 30, 60})));
+        }
+        rest(0.2);
+        EXPECT_EQ(display.pixel(160, 100), glm::ivec3(200, 30, 60));
+        // A small picture fills the window too.
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(window.show(filled(16, 16, {10, 220, 40})));
+        rest(0.2);
+        EXPECT_EQ(display.pixel(300, 190), glm::ivec3(10, 220, 40));
+        EXPECT_FALSE(window.show(Picture{}));
+
+        for (const auto& [width, height] : {std::pair{1, 1}, {2, 300}, {640, 480}, {1, 1}, {200, 100}}) {
+            window.resize(width, height);
+            for (int i = 0; i < 20 && viewer.width != width; ++i) window.poll(0.05);
+            EXPECT_EQ(viewer.width, width);
+            bool shown = false;
+            for (int i = 0; i < 5; ++i) {
+                window.poll(0.02);
+                shown = window.show(filled(64, 48, {90, 90, 200})) || shown;
+            }
+            EXPECT_TRUE(shown) << width << " x " << height;
+        }
+        viewer.fullScreen = true;
+        window.poll(0.1);
+        window.poll(0.1);
+        EXPECT_EQ(window.size(), std::pair(640, 480));
+        EXPECT_TRUE(window.show(filled(64, 48, {90, 90, 200})) || window.show(filled(64, 48, {90, 90, 200})));
+        viewer.fullScreen = false;
+        window.poll(0.1);
+        window.poll(0.1);
+        EXPECT_EQ(window.size(), std::pair(200, 100));
+    }
+    for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+}
+
+/// `fieldwright play` beside the test.
+class Playing {
+  public:
+    explicit Playing(const std::string& graph) {
+        process = fork();
+        if (process != 0) return;
+        if (!std::freopen(errors.c_str(), "w", stderr)) _exit(126);
+        execl(FIELDWRIGHT_BINARY_DIR "/fieldwright", "fieldwright", "play", graph.c_str(), "--size",
+              "320x200", nullptr);
+        _exit(127);
+    }
+    ~Playing() {
+        if (process > 0) kill(process, SIGKILL), waitpid(process, nullptr, 0);
+    }
+    /// The exit status once it has ended; -1 if it has not within some seconds.
+    int status() {
+        for (int i = 0; i < 200; ++i, rest(0.1)) {
+            int state = 0;
+            if (waitpid(process, &state, WNOHANG) != process) continue;
+            process = -1;
+            return WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+        }
+        return -1;
+    }
+    std::string said() const { return test::readText(errors); }
+    void interrupt() const { kill(process, SIGINT); }
+
+  private:
+    TempDir folder;
+    std::string errors = folder.path("errors");
+    pid_t process = -1;
+};
+
+/// Waits until something is as it should be; whether it became so within 20 s.
+template <class Condition>
+bool eventually(Condition holds) {
+    for (int i = 0; i < 200; ++i, rest(0.1))
+        if (holds()) return true;
+    return false;
+}
+
+std::string ball(const std::string& color, const std::string& type = "sphere") {
+    return R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": ")" + type + R"("},
+      {"id": "paint", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": )" +
+           color + R"(}},
+      {"id": "turn", "type": "rotate", "inputs": {"surface": {"from": "paint"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "turn"}, "resolution": 32}}],
+      "timeline": {"length": 4, "tracks": [{"node": "turn", "input": "angles.y",
+        "keys": [{"time": 0, "value": 0}, {"time": 4, "value": 360}]}]}})";
+}
+constexpr const char *kRed = "[0.8, 0.02, 0.02]", *kGreen = "[0.02, 0.6, 0.02]";
+
+bool xdotool(const std::string& what) { return test::runProgram("xdotool " + what).status == 0; }
+
+TEST(PlayWindow, KeysMouseSizesAndAChangingFile) {
+    const VirtualDisplay display;
+    NEEDS_DISPLAY(display);
+    if (!xdotool("version")) GTEST_SKIP() << "xdotool is not installed";
+    const TempDir folder;
+    const std::string graph = folder.path("a.field.json");
+    test::writeText(graph, ball(kRed));
+    Playing playing(graph);
+    const auto middle = [&] { return display.pixel(160, 100); };
+    const auto isRed = [&] { return middle().r > middle().g + 40; };
+    const auto isGreen = [&] { return middle().g > middle().r + 40; };
+    ASSERT_TRUE(eventually(isRed)) << playing.said();
+
+    ASSERT_TRUE(xdotool("mousemove 160 100 key space"));
+    EXPECT_FALSE(display.pixel(12, 12).r < 90);
+    xdotool("key F1");  // a dark panel in the corner
+    EXPECT_TRUE(eventually([&] { return display.pixel(12, 12).r < 90; }));
+    xdotool("key F1");
+    EXPECT_TRUE(eventually([&] { return display.pixel(12, 12).r > 90; }));
+
+    xdotool("mousemove 160 100 mousedown 1 mousemove 200 90 mouseup 1 key Right key Left click 4 click 5");
+    xdotool("mousemove 160 20 mousedown 3 mousemove 160 300 mouseup 3");  // the ball leaves the middle
+    EXPECT_TRUE(eventually([&] { return !isRed(); }));
+    xdotool("key r");
+    EXPECT_TRUE(eventually(isRed));
+
+    test::writeText(graph, ball(kGreen));
+    EXPECT_TRUE(eventually(isGreen));
+    test::writeText(graph, ball(kRed, "sphree"));  // the last good picture stays, and the error is said
+    EXPECT_TRUE(
+        eventually([&] { return playing.said().find("did you mean 'sphere'?") != std::string::npos; }));
+    EXPECT_TRUE(isGreen());
+    test::writeText(graph, ball(kRed).substr(0, 100));
+    EXPECT_TRUE(eventually([&] { return playing.said().find("a.field.json:1:") != std::string::npos; }))
+        << playing.said();
+    EXPECT_TRUE(isGreen());
+    test::writeText(graph, ball(kRed, "box"));
+    EXPECT_TRUE(eventually(isRed));
+
+    const std::string window = "$(xdotool search --name Fieldwright | head -n 1) ";
+    for (const char* size : {"1 1", "400 3", "3 400", "1 1", "320 200"}) {
+        xdotool("windowsize " + window + size);
+        rest(0.3);
+    }
+    EXPECT_TRUE(eventually(isRed));
+    xdotool("windowunmap " + window);
+    rest(0.3);
+    xdotool("windowmap " + window);
+    EXPECT_TRUE(eventually(isRed));
+    xdotool("mousemove 160 100 key F11");
+    rest(0.5);
+    xdotool("key Escape");
+    rest(0.5);
+    xdotool("key Escape");
+    EXPECT_EQ(playing.status(), 0) << playing.said();
+}
+
+TEST(PlayWindow, CtrlCEndsIt) {
+    const VirtualDisplay display;
+    NEEDS_DISPLAY(display);
+    const TempDir folder;
+    const std::string graph = folder.path("a.field.json");
+    test::writeText(graph, ball(kRed));
+    Playing playing(graph);
+    ASSERT_TRUE(eventually([&] { return display.pixel(160, 100).r > display.pixel(160, 100).g + 40; }))
+        << playing.said();
+    playing.interrupt();
+    EXPECT_EQ(playing.status(), 130);
+}
+
+}  // namespace
+}  // namespace fw
