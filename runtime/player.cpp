@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <thread>
 #include <utility>
 
 #include "graph/check.h"
@@ -14,7 +15,7 @@ namespace fw {
 namespace {
 
 /// Where bounds are looked for: this many steps over the timeline, and its keys up to as many again.
-constexpr int kRegionSteps = 32;
+constexpr int kRegionSteps = 16;
 /// Steps over the timeline and cells of the meshes that a picture frames.
 constexpr int kOutlineSteps = 16, kOutlineResolution = 40;
 
@@ -169,16 +170,28 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         prepared.region = *box;
         return done();
     }
+    const std::vector<double> times = regionTimes(prepared.timeline);
+    std::vector<Region> found(times.size());
+    const auto search = [&](std::size_t first, std::size_t step) {
+        for (std::size_t i = first; i < times.size(); i += step)
+            found[i] = findRegion(program.ir, program.distance(), valuesAt(prepared, times[i]));
+    };
+    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
+    {
+        std::vector<std::future<void>> others;
+        for (std::size_t i = 1; i < threads; ++i)
+            others.push_back(std::async(std::launch::async, search, i, threads));
+        search(0, threads);
+        for (std::future<void>& other : others) other.get();
+    }
     std::optional<Box> all;
-    for (const double time : regionTimes(prepared.timeline)) {
-        const std::vector<double> values = valuesAt(prepared, time);
-        const Region found = findRegion(program.ir, program.distance(), values);
-        if (found.extent == Extent::unbounded) {
-            for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
-            const Result<Box> box = meshRegion(program, request);
-            return problem(prepared.graph, box.error().message + " (at " + std::to_string(time) + " s)");
-        }
-        if (found.extent == Extent::bounded) all = all ? joined(*all, found.box) : found.box;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (found[i].extent == Extent::bounded) all = all ? joined(*all, found[i].box) : found[i].box;
+        if (found[i].extent != Extent::unbounded) continue;
+        const std::vector<double> values = valuesAt(prepared, times[i]);
+        for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
+        const Result<Box> box = meshRegion(program, request);
+        return problem(prepared.graph, box.error().message + " (at " + std::to_string(times[i]) + " s)");
     }
     if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
     prepared.region = padded(*all, resolution, 1.5);
@@ -315,7 +328,7 @@ Result<Picture> Player::frame(const RenderOptions& renderOptions) {
     if (!framed) return framed.error();
     const Result<MesherResult> result = meshOnDevice();
     if (!result) return result.error();
-    if (result->triangles == 0)
+    if (result->triangles == 0 && framed->empty())
         return problem(now.graph,
                        "the solid is empty or smaller than a cell at " + std::to_string(seconds) + " s");
     const Result<Scene> scene = this->scene();

@@ -54,7 +54,8 @@ class Session {
     Mesh download(const MesherResult& result) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
 
-    /// A picture of the last mesh, which has at least one triangle. Errors as renderPicture.
+    /// A picture of the last mesh, which has a triangle unless the options say what is framed. Errors as
+    /// renderPicture.
     Result<Picture> render(const MesherResult& result, const RenderOptions& options);
 
   private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <map>
 #include <new>
@@ -11,6 +12,7 @@
 #include "graph/node_type.h"
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
+#include "runtime/window/viewer.h"
 #include "tests/bench/bench.h"
 
 namespace fw::cli {
@@ -129,7 +131,14 @@ int run(int count, char** arguments) {
         ->default_str(renderOptions.size);
 
     PlayOptions playOptions;
-    CLI::App* playCommand = app.add_subcommand("play", "Play a graph's timeline in a window");
+    CLI::App* playCommand = app.add_subcommand(
+        "play",
+        "Play a graph's timeline in a window; the graph's file is watched, a change is played at once");
+    std::string keys = "In the window:";
+    for (const KeyHelp& help : viewerKeys())
+        keys += "\n  " + std::string(help.key) +
+                std::string(14 - std::min<std::size_t>(std::strlen(help.key), 13), ' ') + help.does;
+    playCommand->footer(keys);
     addMesh(playCommand, playOptions.mesh);
     playCommand->add_option("--size", playOptions.size, "Width and height in pixels: WxH")
         ->default_str(playOptions.size);

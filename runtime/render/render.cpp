@@ -146,7 +146,8 @@ Result<Picture> renderPicture(const Device& device, const RenderPipelines& pipel
                               const RenderScene& scene, const RenderOptions& options) {
     if (const Done fits = checkPictureSize(options.width, options.height); !fits) return fits.error();
     const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
-    const VkDeviceSize vertexBytes = VkDeviceSize(scene.vertices) * sizeof(gpu::MeshVertex);
+    // A buffer cannot be bound by no bytes; of an empty mesh nothing is drawn.
+    const VkDeviceSize vertexBytes = VkDeviceSize(std::max(scene.vertices, 1u)) * sizeof(gpu::MeshVertex);
     if (vertexBytes > device.properties.limits.maxStorageBufferRange)
         return problem("the mesh has more vertices than device '" + device.name() +
                        "' can draw at once: lower --resolution");

@@ -39,9 +39,9 @@ struct MeshGrid {
 /// What is drawn.
 struct RenderScene {
     const MesherBuffers& mesh;
-    uint32_t vertices = 0;               ///< of the mesh, at least one
-    MeshGrid grid;                       ///< that it was made on
-    float lipschitz = 1.0f;              ///< of the field; infinite if unknown
+    uint32_t vertices = 0;   ///< of the mesh; if there are none, a picture must be told what it frames
+    MeshGrid grid;           ///< that it was made on
+    float lipschitz = 1.0f;  ///< of the field; infinite if unknown
     const Buffer* parameters = nullptr;  ///< live ones, where the field has some
 };
 

@@ -223,19 +223,36 @@ TEST(Player, TimeNodesPlayWithoutATimeline) {
     }
 }
 
-TEST(Player, ASolidThatVanishesIsAClearMessage) {
+TEST(Player, ASolidThatVanishesLeavesTheBackdrop) {
     std::string text = risingBall();
     text.replace(text.find("\"lift\", \"input\": \"offset.y\""), 27, "\"ball\", \"input\": \"radius\"");
     text.replace(text.find("\"value\": 2}"), 11, "\"value\": 0.5}");
     text.replace(text.find("\"parameters\""), text.find("\"timeline\"") - text.find("\"parameters\""), "");
     Played played(text);
-    EXPECT_EQ(meshOf(*played.player).triangleCount(), 0u);
-    const Result<Picture> picture = played->frame({.width = 32, .height = 32});
-    ASSERT_FALSE(picture);
-    EXPECT_NE(format(picture.error()).find("a.field.json: error: the solid is empty"), std::string::npos);
-    played->seek(2.0);
-    EXPECT_GT(meshOf(*played.player).triangleCount(), 100u);
-    EXPECT_TRUE(played->frame({.width = 32, .height = 32}));
+    /// The greatest step of brightness between neighbours in the picture's middle row.
+    const auto contrast = [&] {
+        const Result<Picture> picture = played->frame({.width = 64, .height = 64});
+        EXPECT_TRUE(picture) << format(picture.error());
+        int most = 0;
+        for (std::size_t x = 0; x + 1 < 64; ++x) {
+            const std::size_t at = 4 * (32 * 64 + x);
+            most = std::max(most, std::abs(picture->pixels[at] - picture->pixels[at + 4]));
+        }
+        return most;
+    };
+    for (int round = 0; round < 2; ++round) {
+        played->seek(0.0);
+        EXPECT_EQ(meshOf(*played.player).triangleCount(), 0u);
+        EXPECT_LT(contrast(), 6);
+        played->seek(2.0);
+        EXPECT_GT(meshOf(*played.player).triangleCount(), 100u);
+        EXPECT_GT(contrast(), 20);
+    }
+    text.replace(text.find("\"value\": 0.5}"), 13, "\"value\": 0}");
+    Played never(text);
+    EXPECT_FALSE(never.player);
+    EXPECT_NE(never.error.find("a.field.json: error: the solid is empty at every time"), std::string::npos)
+        << never.error;
 }
 
 TEST(Player, SaysWhatCannotBePlayed) {
