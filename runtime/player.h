@@ -2,7 +2,7 @@
 //
 //     fw::Result<fw::Player> player = fw::Player::open("cube.field.json");
 //     if (!player) return std::puts(format(player.error()).c_str()), 1;
-//     player->set("roundness", 0.2);
+//     if (!player->set("roundness", 0.2)) std::puts("the graph has no roundness");
 //     for (int frame = 0; frame < 60; ++frame) {
 //         player->advance(1.0 / 60);
 //         const fw::Result<fw::Mesh> mesh = player->mesh();
