@@ -21,14 +21,15 @@ struct Agreement {
     std::string firstFailure, firstFar;
 };
 
-/// The largest magnitude among the values of the operations that the distance is computed from.
+/// The largest magnitude among the values of the operations that the distance is computed from; infinite if
+/// one of them is not a number.
 double largestWithin(const Program& program, std::span<const double> parameters, const Point& point) {
     std::array roots = {program.distance()};
     const Ir ir = program.ir.compact(roots);
     double largest = 0;
     for (IrId id = 0; id < ir.size(); ++id) {
         const double value = std::abs(evaluate(ir, id, parameters, point));
-        if (std::isfinite(value)) largest = std::max(largest, value);
+        largest = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(largest, value);
     }
     return largest;
 }

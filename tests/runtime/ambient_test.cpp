@@ -1,0 +1,254 @@
+// Ambient occlusion against closed forms: what rests converges to them, what moves stays near.
+//
+// Receivers are points of the floor y = 0, seen from above by a camera that the test computes depth and
+// normals for. The closed forms are those of cosine-weighted occlusion: form factors of discs, segments of
+// the unit disc (Nusselt).
+#include "runtime/render/ambient.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+#include "graph/compile.h"
+#include "graph/glsl.h"
+#include "graph/json.h"
+#include "tests/support/gpu.h"
+
+namespace fw {
+namespace {
+
+constexpr uint32_t kWidth = 96, kHeight = 80;
+constexpr uint32_t kUpwards = 32767u << 16;  // +y, octahedral
+
+std::string fieldOf(const std::string& code) {
+    const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
+        {"id": "scene", "type": "expression", "code": ")" +
+                                               code + R"("},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "scene"}}}]})",
+                                           "scene", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    const Result<Program> program = compile(*graph);
+    if (!program) throw SystemError(format(program.error()));
+    return emitField(*program);
+}
+
+/// From above, turned about the y axis by an angle in degrees.
+CameraView viewFrom(float degrees, float height = 3.0f) {
+    const float a = glm::radians(degrees);
+    const glm::vec3 eye(1.5f * std::sin(a), height, 1.5f * std::cos(a));
+    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(45.0f), float(kWidth) / kHeight, 0.1f, 50.0f);
+    projection[1][1] *= -1;
+    CameraView view;
+    view.viewProjection = projection * glm::lookAtRH(eye, glm::vec3(0), glm::vec3(0, 1, 0));
+    view.inverseViewProjection = glm::inverse(view.viewProjection);
+    view.eye = eye;
+    return view;
+}
+
+/// The floor point that a pixel sees.
+glm::vec3 floorAt(const CameraView& view, uint32_t x, uint32_t y, float level) {
+    const glm::vec2 place = (glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
+    const glm::vec4 far = view.inverseViewProjection * glm::vec4(place, 1, 1);
+    const glm::vec3 ray = glm::vec3(far) / far.w - view.eye;
+    return view.eye - ray * ((view.eye.y - level) / ray.y);
+}
+
+/// Depth and normals of the floor where `seen` holds; a picture of its ambient occlusion.
+class Floor {
+  public:
+    Floor(
+        const std::string& code, const AmbientOptions& options,
+        std::function<bool(glm::vec3)> seenWhere = [](glm::vec3) { return true; })
+        : ambient(createAmbient(device, fieldOf(code), options)),
+          depth(createImage(device, {.extent = {kWidth, kHeight, 1}, .format = VK_FORMAT_R32_SFLOAT})),
+          normal(createImage(device, {.extent = {kWidth, kHeight, 1}, .format = VK_FORMAT_R32_UINT})),
+          seen(std::move(seenWhere)) {
+        Commands commands(device);
+        for (const Image* image : {&depth, &normal})
+            imageBarrier(commands, *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+        submit(commands);
+    }
+
+    void draw(const CameraView& view, float lipschitz = 1.0f) {
+        std::vector<float> depths(kWidth * kHeight, 1.0f);
+        points.assign(kWidth * kHeight, glm::vec3(0));
+        for (uint32_t i = 0; i < depths.size(); ++i) {
+            points[i] = floorAt(view, i % kWidth, i / kWidth, level);
+            if (!seen(points[i])) continue;
+            const glm::vec4 clip = view.viewProjection * glm::vec4(points[i], 1);
+            depths[i] = clip.z / clip.w;
+        }
+        const Buffer depthBytes = createBuffer(device, 4 * depths.size(), Memory::upload);
+        const Buffer normalBytes = createBuffer(device, 4 * depths.size(), Memory::upload);
+        upload(device, depthBytes, depths);
+        upload(device, normalBytes, std::vector<uint32_t>(depths.size(), kUpwards));
+        Commands commands(device);
+        copy(commands, depthBytes, depth, true);
+        copy(commands, normalBytes, normal, true);
+        barrier(commands);
+        drawAmbient(commands, ambient,
+                    {.depth = depth, .normal = normal, .view = view, .lipschitz = lipschitz});
+        submit(commands);
+    }
+
+    void rest(const CameraView& view) {
+        for (int i = 0; i < 2000 && !converged(ambient); ++i) draw(view);
+        ASSERT_TRUE(converged(ambient));
+    }
+
+    std::vector<float> openness() {
+        const Buffer bytes = createBuffer(device, 4ull * kWidth * kHeight, Memory::readback);
+        Commands commands(device);
+        copy(commands, bytes, ambient.result, false);
+        barrier(commands);
+        submit(commands);
+        return download<float>(device, bytes, kWidth * kHeight);
+    }
+
+    /// Mean and greatest difference from a closed form of the openness.
+    void expectNear(const std::function<double(glm::vec3)>& expected, double mean, double most,
+                    const char* what) {
+        const std::vector<float> found = openness();
+        double sum = 0, greatest = 0;
+        int count = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (!seen(points[i])) continue;
+            const double difference = std::abs(found[i] - expected(points[i]));
+            sum += difference, greatest = std::max(greatest, difference), ++count;
+        }
+        ASSERT_GT(count, 500);
+        std::printf("%s: mean difference %.4f, greatest %.4f over %d pixels\n", what, sum / count, greatest,
+                    count);
+        EXPECT_LE(sum / count, mean) << what;
+        EXPECT_LE(greatest, most) << what;
+    }
+
+    Device& device = test::device();
+    Ambient ambient;
+    Image depth, normal;
+    std::function<bool(glm::vec3)> seen;
+    std::vector<glm::vec3> points;
+    float level = 0;  ///< y of the floor
+
+  private:
+    void copy(Commands& commands, const Buffer& buffer, const Image& image, bool toImage) {
+        VkBufferImageCopy region{};
+        region.imageSubresource = {image.aspect, 0, 0, 1};
+        region.imageExtent = image.extent;
+        const VkImageLayout layout =
+            toImage ? VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+        imageBarrier(commands, image, VK_IMAGE_LAYOUT_GENERAL, layout);
+        if (toImage)
+            vkCmdCopyBufferToImage(commands.handle, buffer.handle, image.handle, layout, 1, &region);
+        else
+            vkCmdCopyImageToBuffer(commands.handle, image.handle, layout, buffer.handle, 1, &region);
+        imageBarrier(commands, image, layout, VK_IMAGE_LAYOUT_GENERAL);
+    }
+};
+
+const AmbientOptions kLong{.radius = 20.0f, .bias = 0.002f, .samples = 19};
+
+TEST(Ambient, AnEmptyFloorIsOpen) {
+    Floor floor("return p.y;", {.bias = 0.002f});
+    floor.rest(viewFrom(0));
+    floor.expectNear([](glm::vec3) { return 1.0; }, 0.0, 0.0, "floor");
+}
+
+TEST(Ambient, BesideAWallTheShortRaysSeeASegment) {
+    // A wall at x = 0 fills x < 0; rays of length a see it closer than a.
+    const float a = 0.6f;
+    Floor floor("return min(p.y, p.x);", {.radius = a, .bias = 0.002f, .samples = 19},
+                [](glm::vec3 p) { return p.x > 0.02f; });
+    floor.rest(viewFrom(20));
+    floor.expectNear(
+        [&](glm::vec3 p) {
+            const double s = std::min(p.x / a, 1.0f);
+            return 1.0 - (std::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
+        },
+        0.02, 0.06, "wall, rays of 0.6 m");
+}
+
+TEST(Ambient, UnderASphereThatRestsOnTheFloor) {
+    const float r = 0.5f;
+    Floor floor("return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);", kLong,
+                [&](glm::vec3 p) { return std::hypot(p.x, p.z) > 0.5f * r; });
+    floor.rest(viewFrom(0));
+    floor.expectNear(
+        [&](glm::vec3 p) { return 1.0 - std::pow(1.0 + (p.x * p.x + p.z * p.z) / (r * r), -1.5); }, 0.02,
+        0.08, "resting sphere");
+}
+
+TEST(Ambient, InACornerOfThreePlanes) {
+    Floor floor("return min(p.y, min(p.x, p.z));", kLong,
+                [](glm::vec3 p) { return p.x > 0.1f && p.z > 0.1f; });
+    floor.rest(viewFrom(30));
+    floor.expectNear([](glm::vec3) { return 0.25; }, 0.03, 0.08, "corner of a room");
+}
+
+TEST(Ambient, SharedAndOwnRaysGiveTheSame) {
+    const char* scene = "return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);";
+    Floor together(scene, {.bias = 0.002f}), apart(scene, {.bias = 0.002f, .balance = false});
+    for (float degrees : {0.0f, 0.0f, 3.0f}) {
+        together.draw(viewFrom(degrees));
+        apart.draw(viewFrom(degrees));
+        EXPECT_EQ(together.openness(), apart.openness());
+    }
+}
+
+TEST(Ambient, AfterAMoveTheFirstFrameIsNearTheConvergedOne) {
+    const char* scene = "return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);";
+    Floor moving(scene, {.bias = 0.002f}), resting(scene, {.bias = 0.002f});
+    moving.rest(viewFrom(0));
+    const std::vector<glm::vec3> before = moving.points;
+    const CameraView view = viewFrom(5);
+    moving.draw(view);
+    resting.rest(view);
+    const std::vector<float> first = moving.openness(), last = resting.openness();
+    double keptSum = 0, holeSum = 0;
+    int kept = 0, holes = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const glm::vec4 clip = viewFrom(0).viewProjection * glm::vec4(moving.points[i], 1);
+        const bool wasSeen = std::max(std::abs(clip.x), std::abs(clip.y)) < clip.w;
+        (wasSeen ? keptSum : holeSum) += std::abs(first[i] - last[i]);
+        ++(wasSeen ? kept : holes);
+    }
+    ASSERT_GT(holes, 20);
+    std::printf("after 5 degrees: %.4f where history was kept (%d pixels), %.4f in holes (%d)\n",
+                keptSum / kept, kept, holeSum / holes, holes);
+    EXPECT_LT((keptSum + holeSum) / (kept + holes), 0.05);
+    EXPECT_LT(holeSum / holes, 0.05);
+}
+
+TEST(Ambient, AHistoryOfAnotherSurfaceIsRejected) {
+    // The floor drops by a quarter of a metre: every normal stays, every plane is another.
+    const auto scene = [](const char* height) {
+        return std::string("return min(p.y + ") + height + ", length(p - vec3(0.3, 0.6, 0)) - 0.5);";
+    };
+    Floor moved(scene("0.25"), {.bias = 0.002f}), fresh(scene("0.25"), {.bias = 0.002f});
+    for (int i = 0; i < 8; ++i) moved.draw(viewFrom(0));
+    moved.level = fresh.level = -0.25f;
+    fresh.ambient.frame = moved.ambient.frame;  // the same turn of the rays
+    moved.draw(viewFrom(0));
+    fresh.draw(viewFrom(0));
+    EXPECT_EQ(moved.openness(), fresh.openness());
+}
+
+TEST(Ambient, AForgottenHistoryIsOfNoEffect) {
+    const char* scene = "return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);";
+    Floor floor(scene, {.bias = 0.002f}), fresh(scene, {.bias = 0.002f});
+    for (int i = 0; i < 8; ++i) floor.draw(viewFrom(0));
+    fresh.ambient.frame = floor.ambient.frame;
+    forgetHistory(floor.ambient);
+    floor.draw(viewFrom(0));
+    fresh.draw(viewFrom(0));
+    EXPECT_EQ(floor.openness(), fresh.openness());
+}
+
+}  // namespace
+}  // namespace fw
