@@ -194,7 +194,7 @@ int run(int count, char** arguments) {
     CLI::App* benchCommand =
         app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md");
     benchCommand->add_option("TABLE", benchNames,
-                             "all (default), or some of: mesher talk process live compile peaks");
+                             "all (default), or some of: mesher talk process live compile light peaks");
     benchCommand->add_flag("--markdown", benchOptions.markdown, "Print the tables as the page has them");
     benchCommand->add_option("--size", benchOptions.sizes, "Cells along an edge (default: each table's own)")
         ->check(CLI::Range(8, 2048));

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shaders/shared.h"
-//
 #include "shaders/render/ambient.h"
 
 namespace fw {

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "runtime/gpu/commands.h"
+#include "shaders/shared.h"
 
 namespace fw {
 

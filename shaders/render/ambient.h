@@ -1,4 +1,4 @@
-// What the ambient occlusion kernels are told of a frame; C++ includes this file too. After shared.h.
+// What primary.comp and the ambient occlusion kernels are told of a frame; C++ includes this file too. After shared.h.
 #ifndef FW_AMBIENT_H
 #define FW_AMBIENT_H
 
@@ -28,6 +28,20 @@ struct AmbientView {
     uint raysKept;  // of one with history
     uint mostKept;  // rays that the history counts for at most
     uint balance;   // 1: the lanes of a tile share its rays evenly; 0: each traces its own pixel's
+};
+
+// A view for primary.comp. A pixel at (x, y) of -1 to 1, y downwards, sees along forward + x right + y down.
+struct PrimaryPush {
+    vec3 eye;
+    float near;     // metres along forward, where depth is 0
+    vec3 forward;   // unit length
+    float far;      // where depth is 1
+    vec3 right;     // times the tangent of half the angle of view
+    float pixel;    // half a pixel's width at a distance of 1: a field below it is a hit
+    vec3 down;
+    float stepScale;
+    uint width, height;
+    uint steps;  // at most
 };
 
 #ifdef __cplusplus

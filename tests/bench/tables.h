@@ -31,6 +31,7 @@ void talkTable(Bench& bench);     ///< the slide's table
 void processTable(Bench& bench);  ///< the command itself, from graph file to mesh file
 void liveTable(Bench& bench);     ///< a live parameter changes
 void compileTable(Bench& bench);  ///< a graph's structure changes
+void lightTable(Bench& bench);    ///< ambient occlusion, beside the slide
 void peaksTable(Bench& bench);    ///< what the device can do at most
 
 /// The graph of a benchmark field, read and compiled; reports a failure and returns nothing if that does not
