@@ -1,4 +1,5 @@
-// What primary.comp and the ambient occlusion kernels are told of a frame; C++ includes this file too. After shared.h.
+// What primary.comp and the ambient occlusion kernels are told of a frame; C++ includes this file too. After
+// shared.h.
 #ifndef FW_AMBIENT_H
 #define FW_AMBIENT_H
 
@@ -9,7 +10,7 @@ namespace fw::gpu {
 using mat4 = glm::mat4;
 #endif
 
-#define AMBIENT_TILE 16      // pixels along each side of a tile, one work group
+#define AMBIENT_TILE 16       // pixels along each side of a tile, one work group
 #define AMBIENT_MOST_RAYS 16  // of a pixel in one frame
 
 // Clip depth runs from 0 (near) to 1 (far), y downwards.
@@ -33,11 +34,11 @@ struct AmbientView {
 // A view for primary.comp. A pixel at (x, y) of -1 to 1, y downwards, sees along forward + x right + y down.
 struct PrimaryPush {
     vec3 eye;
-    float near;     // metres along forward, where depth is 0
-    vec3 forward;   // unit length
-    float far;      // where depth is 1
-    vec3 right;     // times the tangent of half the angle of view
-    float pixel;    // half a pixel's width at a distance of 1: a field below it is a hit
+    float near;    // metres along forward, where depth is 0
+    vec3 forward;  // unit length
+    float far;     // where depth is 1
+    vec3 right;    // times the tangent of half the angle of view
+    float pixel;   // half a pixel's width at a distance of 1: a field below it is a hit
     vec3 down;
     float stepScale;
     uint width, height;
