@@ -23,7 +23,8 @@ bool isKind(Type type, const InputValue& value) {
         case Type::scalar: return number;
         case Type::vec2: return array && !value.pairs && array->size() == 2;
         case Type::vec3: return array && !value.pairs && array->size() == 3;
-        case Type::string: return std::holds_alternative<std::string>(value.value);
+        case Type::string:
+        case Type::image: return std::holds_alternative<std::string>(value.value);
         case Type::points: return array && value.pairs;
         case Type::surface:
         case Type::mesh: return false;
@@ -81,6 +82,7 @@ std::string_view expectedOf(Type type) {
         case Type::surface: return "a link to a node with a surface, {\"from\": \"node\"}";
         case Type::string: return "a string";
         case Type::points: return "an array of [x, y] pairs";
+        case Type::image: return "the path of a picture, a string";
         case Type::mesh: return "a link to a node with a mesh, {\"from\": \"node\"}";
     }
     return "";

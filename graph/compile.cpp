@@ -40,6 +40,7 @@ Type literalType(const InputValue& input) {
 class Compiler {
   public:
     Compiler(const Graph& graph_, const CompileOptions& options_) : graph(graph_), options(options_) {
+        state.graphPath = graph.path;
         if (options.live.contains("time")) {
             state.time = state.ir.parameter(0);
             live.push_back({"time", 0, options.time});
@@ -151,7 +152,17 @@ class Compiler {
             if (const auto* number = std::get_if<double>(&given->value)) numbers = {*number};
             if (const auto* flag = std::get_if<bool>(&given->value)) numbers = {*flag ? 1.0 : 0.0};
             if (const auto* list = std::get_if<std::vector<double>>(&given->value)) numbers = *list;
-            if (const auto* words = std::get_if<std::string>(&given->value)) value.text = *words;
+            if (const auto* words = std::get_if<std::string>(&given->value)) {
+                value.text = *words;
+                if (spec.type == Type::image) {
+                    Value path{Type::string};
+                    path.text = *words;
+                    if (const Result<Value> image = language::convert(state, path, Type::image))
+                        value = *image;
+                    else
+                        report(node, prefix, spec.name, image.error());
+                }
+            }
             if (spec.type == Type::points)
                 value.points = std::make_shared<const std::vector<double>>(numbers);
             else if (componentCount(spec.type) > 0 && !numbers.empty())

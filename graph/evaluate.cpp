@@ -46,7 +46,8 @@ void evaluateBatch(const Ir& ir, IrId root, std::span<const double> parameters, 
                 registers[id][k] = isPosition(node) ? points[first + k][id] : leafValue(node, parameters);
         },
         [&](IrId id, const IrNode& node, const OpInfo& info) {
-            info.values(gather(registers, node, info.arity).data(), registers[id].data(), count);
+            info.values(gather(registers, node, info.arity).data(), registers[id].data(), count,
+                        ir.layer(node));
         });
 }
 
@@ -83,7 +84,8 @@ void evaluateGradient(const Ir& ir, IrId root, std::span<const double> parameter
                 [&](IrId id, const IrNode& node, const OpInfo& info) {
                     if (!(node.positions >> axis & 1)) return slopes[id].fill(0.0);
                     info.gradients(gather(registers, node, info.arity).data(), registers[id].data(),
-                                   gather(slopes, node, info.arity).data(), slopes[id].data(), count);
+                                   gather(slopes, node, info.arity).data(), slopes[id].data(), count,
+                                   ir.layer(node));
                 });
             for (std::size_t k = 0; k < count; ++k) results[first + k].gradient[axis] = slopes[root][k];
         }
@@ -101,7 +103,7 @@ Interval evaluateInterval(const Ir& ir, IrId root, std::span<const double> param
         [&](IrId id, const IrNode& node, const OpInfo& info) {
             Interval operands[kMaxArity];
             for (int i = 0; i < info.arity; ++i) operands[i] = registers[node.operands[i]];
-            registers[id] = info.interval(operands);
+            registers[id] = info.interval(operands, ir.layer(node));
         });
     return registers[root];
 }

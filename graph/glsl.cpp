@@ -47,6 +47,7 @@ class Emitter {
                          op == Op::cellHash;
         }
         parameters();
+        images();
         if (usesNoise) text += "#include \"lib/noise.glsl\"\n";
         text +=
             "float fieldPower(float a, float b) { return a > 0.0 ? pow(a, b) : b > 0.0 ? 0.0 : b < 0.0 ? "
@@ -75,6 +76,43 @@ class Emitter {
         text += "}\n";
     }
 
+    /// Two functions for each layer that is sampled, its place, size and bounds folded in.
+    void images() {
+        if (ir.images().empty()) return;
+        // A shader that samples none must not declare the buffer, so that nothing need be bound there.
+        const IrId distance = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&distance, 1));
+        bool paintOnly = true;
+        for (IrId id = 0; id < ir.size(); ++id) paintOnly &= !(needed[id] && ir[id].op == Op::image);
+        if (paintOnly) text += "#ifdef FIELD_MATERIAL\n";
+        text += "layout(set = 0, binding = " + std::to_string(kFieldImagesBinding) +
+                ", std430) readonly buffer FieldImages { uint fieldImages[]; };\n"
+                "#include \"lib/image.glsl\"\n";
+        std::vector<bool> sampled(ir.images().size() * kImageLayers, false);
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (ir[id].op == Op::image) sampled[static_cast<std::size_t>(ir[id].number)] = true;
+        std::size_t first = 0;
+        for (std::size_t number = 0; number < sampled.size(); ++number) {
+            const FieldImage& image = *ir.images()[number / kImageLayers];
+            const ImageLayer& layer = image.layers[number % kImageLayers];
+            if (sampled[number]) {
+                const std::string where = std::to_string(first) + "u, ivec2(" + std::to_string(image.width) +
+                                          ", " + std::to_string(image.height) + "), ";
+                const std::string channel = std::to_string(layer.channel);
+                const auto pair = [](double a, double b) {
+                    return "vec2(" + literal(a) + ", " + literal(b) + ")";
+                };
+                text += "vec3 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
+                        where + "uv, " + channel + "); }\n" + "vec2 fieldImageRange" +
+                        std::to_string(number) + "(vec2 u, vec2 v) { return imageRange(" + where + "u, v, " +
+                        channel + ", " + pair(layer.slopeU, layer.slopeV) + ", " +
+                        pair(layer.least, layer.most) + "); }\n";
+            }
+            if (layer.channel + 1 == kImageLayers) first += image.texels.size();
+        }
+        if (paintOnly) text += "#endif\n";
+    }
+
     std::vector<bool> neededBy(std::span<const IrId> roots) const {
         std::vector<bool> needed(ir.size(), false);
         for (IrId root : roots) needed[root] = true;
@@ -95,6 +133,7 @@ class Emitter {
         if (ir[id].op == Op::parameter) return "vec2(" + scalarOperand(id) + ")";
         return name('i', id);
     }
+    std::string layerNumber(IrId id) const { return std::to_string(static_cast<int>(ir.number(id))); }
     static bool isInline(const IrNode& node) { return node.op == Op::constant || node.op == Op::parameter; }
     std::string_view typeOf(IrId id) const { return opInfo(ir[id].op).boolean ? "bool" : "float"; }
 
@@ -102,7 +141,9 @@ class Emitter {
         text += "    ";
         text += typeOf(id);
         text += " " + name('v', id) + " = ";
-        fill(text, pattern, [&](char letter) { return scalarOperand(ir[id].operands[letter - 'a']); });
+        fill(text, pattern, [&](char letter) {
+            return letter == 'i' ? layerNumber(id) : scalarOperand(ir[id].operands[letter - 'a']);
+        });
         text += ";\n";
     }
 
@@ -141,6 +182,7 @@ class Emitter {
         } else {
             fill(expression, pattern, [&](char letter) -> std::string {
                 if (letter == 'v') return name('v', id);
+                if (letter == 'i') return layerNumber(id);
                 if (letter >= 'a') return scalarOperand(node.operands[letter - 'a']);
                 return of(letter - 'A').empty() ? "0.0" : of(letter - 'A');
             });
@@ -178,8 +220,9 @@ class Emitter {
         for (IrId id = 0; id < ir.size(); ++id) {
             if (!needed[id] || isInline(ir[id])) continue;
             text += "    vec2 " + name('i', id) + " = ";
-            fill(text, opInfo(ir[id].op).glslInterval,
-                 [&](char letter) { return intervalOperand(ir[id].operands[letter - 'a']); });
+            fill(text, opInfo(ir[id].op).glslInterval, [&](char letter) {
+                return letter == 'i' ? layerNumber(id) : intervalOperand(ir[id].operands[letter - 'a']);
+            });
             text += ";\n";
         }
         text += "    vec3 reach = max(abs(lo), abs(hi));\n    return iMargin(" + intervalOperand(root) +

@@ -14,6 +14,9 @@ namespace fw {
 
 /// Binding (set 0) of the storage buffer with the live parameters, one float a slot.
 inline constexpr int kFieldParametersBinding = 15;
+/// Binding of the storage buffer with the words of all images, one image after the other in the order of
+/// Ir::images().
+inline constexpr int kFieldImagesBinding = 14;
 
 /// The field's text. Equal programs (by structureHash) give equal text.
 std::string emitField(const Program& program);

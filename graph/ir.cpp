@@ -170,11 +170,34 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
     return kNone;
 }
 
+uint32_t Ir::addImage(const FieldImagePtr& image) {
+    const auto found = std::ranges::find(pictures, image);
+    if (found != pictures.end()) return static_cast<uint32_t>(found - pictures.begin());
+    pictures.push_back(image);
+    return static_cast<uint32_t>(pictures.size() - 1);
+}
+
+IrId Ir::sample(uint32_t image, int channel, IrId u, IrId v) {
+    assert(image < pictures.size() && channel >= 0 && channel < kImageLayers);
+    return make(Op::image, double(image) * kImageLayers + channel, std::array{u, v});
+}
+
+const ImageLayer* Ir::layer(const IrNode& node) const {
+    if (node.op != Op::image) return nullptr;
+    const auto number = static_cast<std::size_t>(node.number);
+    return &pictures[number / kImageLayers]->layers[number % kImageLayers];
+}
+
 IrId Ir::add(Op op, std::span<const IrId> operands) {
+    assert(op != Op::image);  // sample() knows of which
+    return make(op, 0.0, operands);
+}
+
+IrId Ir::make(Op op, double own, std::span<const IrId> operands) {
     const OpInfo& info = opInfo(op);
     assert(static_cast<int>(operands.size()) == info.arity);
 
-    IrNode node{op, 0, false, {}, 0.0};
+    IrNode node{op, 0, false, {}, own};
     bool allConstant = true;
     double values[kMaxArity] = {};
     for (std::size_t i = 0; i < operands.size(); ++i) {
@@ -185,7 +208,7 @@ IrId Ir::add(Op op, std::span<const IrId> operands) {
         allConstant &= operand.op == Op::constant;
         values[i] = operand.number;
     }
-    if (allConstant) return constant(info.value(values));
+    if (allConstant) return constant(info.value(values, layer(node)));
     if (const IrId simpler = simplify(op, operands); simpler != kNone) return simpler;
     if (info.commutative && node.operands[0] > node.operands[1])
         std::swap(node.operands[0], node.operands[1]);
@@ -220,7 +243,7 @@ IrId Ir::substitute(IrId root, std::array<IrId, 3> position) {
         }
         if (!ready) continue;
         pending.pop_back();
-        done[id] = add(node.op, std::span<const IrId>(operands.data(), arity));
+        done[id] = make(node.op, node.number, std::span<const IrId>(operands.data(), arity));
         ++remembered, ++visited;
     }
     return find(root);
@@ -238,6 +261,11 @@ Ir Ir::compact(std::span<IrId> roots) const {
     for (IrId id = 0; id < nodes.size(); ++id) {
         if (id >= 3 && !needed[id]) continue;
         IrNode node = nodes[id];
+        if (node.op == Op::image) {
+            const auto number_ = static_cast<std::size_t>(node.number);
+            const uint32_t image = result.addImage(pictures[number_ / kImageLayers]);
+            node.number = double(image) * kImageLayers + double(number_ % kImageLayers);
+        }
         for (int i = 0; i < opInfo(node.op).arity; ++i) node.operands[i] = renumbered[node.operands[i]];
         renumbered[id] = result.intern(node);
     }
@@ -251,6 +279,7 @@ uint64_t Ir::hash(std::span<const IrId> roots) const {
         hash = mix(mix(hash, static_cast<uint64_t>(node.op)), std::bit_cast<uint64_t>(node.number));
         for (int i = 0; i < opInfo(node.op).arity; ++i) hash = mix(hash, node.operands[i]);
     }
+    for (const FieldImagePtr& image : pictures) hash = mix(hash, image->hash);
     for (IrId root : roots) hash = mix(hash, root);
     return hash;
 }
@@ -261,7 +290,7 @@ std::string Ir::text(std::span<const IrId> roots) const {
     for (IrId id = 0; id < nodes.size(); ++id) {
         const IrNode& node = nodes[id];
         text += "%" + std::to_string(id) + " = " + opInfo(node.op).name;
-        if (node.op == Op::constant || node.op == Op::parameter) {
+        if (node.op == Op::constant || node.op == Op::parameter || node.op == Op::image) {
             std::snprintf(number, sizeof number, " %.17g", node.number);
             text += number;
         }

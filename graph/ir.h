@@ -35,7 +35,7 @@ struct IrNode {
     uint8_t positions = 0;                   ///< PositionMask
     bool varies = false;                     ///< depends on the position or on a live parameter
     std::array<IrId, kMaxArity> operands{};  ///< the first opInfo(op).arity are used
-    double number = 0.0;                     ///< of a constant; the slot of a parameter
+    double number = 0.0;  ///< of a constant; the slot of a parameter; the layer of a sample (Ir::layer)
 };
 
 class Ir {
@@ -46,6 +46,14 @@ class Ir {
     /// The live parameter in `slot` of the parameter buffer.
     IrId parameter(uint32_t slot);
     IrId position(int axis) const { return static_cast<IrId>(axis); }
+
+    /// The number of the image among images(), which it joins if it is new.
+    uint32_t addImage(const FieldImagePtr& image);
+    const std::vector<FieldImagePtr>& images() const { return pictures; }
+    /// A channel of an image of images() at (u, v); see image.h.
+    IrId sample(uint32_t image, int channel, IrId u, IrId v);
+    /// What a node of Op::image samples; null for any other.
+    const ImageLayer* layer(const IrNode& node) const;
 
     /// The id of op(operands), folded where possible.
     IrId add(Op op, std::span<const IrId> operands);
@@ -65,11 +73,12 @@ class Ir {
     /// Operations visited by all substitutions so far: their cost.
     std::size_t substituted() const { return visited; }
 
-    /// A copy with only what `roots` need, in a stable order; `roots` are renumbered. The three position
-    /// leaves stay ids 0, 1, 2.
+    /// A copy with only what `roots` need, images included, in a stable order; `roots` are renumbered. The
+    /// three position leaves stay ids 0, 1, 2.
     Ir compact(std::span<IrId> roots) const;
 
-    /// Hash of operations, constants, slots and roots: equal for equal code, whatever the parameters' values.
+    /// Hash of operations, constants, slots, images and roots: equal for equal code, whatever the parameters'
+    /// values.
     uint64_t hash(std::span<const IrId> roots) const;
 
     /// One line an operation: "%12 = add %3 %7".
@@ -86,11 +95,14 @@ class Ir {
         std::size_t operator()(const Key& key) const;
     };
 
+    /// op(operands) with the node's own number.
+    IrId make(Op op, double number, std::span<const IrId> operands);
     IrId intern(const IrNode& node);
     /// The identity that makes op(operands) an existing or simpler value, or kNone.
     IrId simplify(Op op, std::span<const IrId> operands);
 
     std::vector<IrNode> nodes;
+    std::vector<FieldImagePtr> pictures;
     std::unordered_map<Key, IrId, KeyHash> known;
     std::unordered_map<Key, std::unordered_map<IrId, IrId>, KeyHash> substitutions;
     std::size_t remembered = 0;  ///< entries in `substitutions`

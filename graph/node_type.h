@@ -6,7 +6,7 @@
 //
 // A body is field-language code (language/parser.h). Its inputs are names in scope, already evaluated at the
 // context position `p`; an input of type surface, scalar, vec2 or vec3 is also callable at another position:
-// `a(vec3(abs(p.x), p.yz))`. String and points inputs are visible as compile-time values.
+// `a(vec3(abs(p.x), p.yz))`. String, points and image inputs are visible as compile-time values.
 //
 // What a body returns becomes the node's only output; with several outputs it assigns each by name and
 // returns nothing. A scalar returned where the output is a surface gets the default material;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <numbers>
+#include <type_traits>
 
 #include "graph/noise.h"
 
@@ -13,6 +14,7 @@ namespace {
 using V = const double*;    // operands' values
 using D = const double*;    // operands' derivatives
 using I = const Interval*;  // operands' intervals
+using L = const ImageLayer*;
 
 constexpr double kTiny = 1e-30;  // least argument of a logarithm
 
@@ -20,28 +22,41 @@ constexpr auto zeroSlope = [](V, double, D) { return 0.0; };
 constexpr auto leaf = [](V) { return assert(false), 0.0; };
 constexpr auto leafInterval = [](I) { return assert(false), Interval{}; };
 
-/// A row of the table. The loops over arrays are made from the scalar meanings, which compile into them.
+/// Calls a meaning, with the layer if it takes one.
+template <class Meaning, class... Arguments>
+constexpr auto call(L layer, Arguments... arguments) {
+    if constexpr (std::is_invocable_v<Meaning, Arguments..., L>)
+        return Meaning{}(arguments..., layer);
+    else
+        return Meaning{}(arguments...);
+}
+
+/// A row of the table, its meanings lambdas: only their types are used. The loops over arrays are made from
+/// the scalar meanings, which compile into them.
 template <class Value, class Range, class Slope>
-constexpr OpInfo row(Op op, const char* name, int arity, bool boolean, bool commutative, Value value,
-                     Range interval, Slope gradient, const char* glsl, const char* glslInterval,
-                     const char* glslGradient) {
-    constexpr auto values = [](const double* const* operands, double* results, std::size_t count) {
+constexpr OpInfo row(Op op, const char* name, int arity, bool boolean, bool commutative, Value, Range, Slope,
+                     const char* glsl, const char* glslInterval, const char* glslGradient) {
+    static_assert(std::is_empty_v<Value> && std::is_empty_v<Range> && std::is_empty_v<Slope>);
+    constexpr auto value = [](V operands, L layer) { return call<Value>(layer, operands); };
+    constexpr auto interval = [](I operands, L layer) { return call<Range>(layer, operands); };
+    constexpr auto values = [](const double* const* operands, double* results, std::size_t count, L layer) {
         for (std::size_t k = 0; k < count; ++k) {
             const double x[kMaxArity] = {operands[0][k], operands[1][k], operands[2][k], operands[3][k]};
-            results[k] = Value{}(x);
+            results[k] = call<Value>(layer, V(x));
         }
     };
     constexpr auto gradients = [](const double* const* operands, const double* results,
-                                  const double* const* derivatives, double* slopes, std::size_t count) {
+                                  const double* const* derivatives, double* slopes, std::size_t count,
+                                  L layer) {
         for (std::size_t k = 0; k < count; ++k) {
             const double x[kMaxArity] = {operands[0][k], operands[1][k], operands[2][k], operands[3][k]};
             const double d[kMaxArity] = {derivatives[0][k], derivatives[1][k], derivatives[2][k],
                                          derivatives[3][k]};
-            slopes[k] = Slope{}(x, results[k], d);
+            slopes[k] = call<Slope>(layer, V(x), results[k], D(d));
         }
     };
-    return {op,       name,   arity,     boolean, commutative,  value,       interval,
-            gradient, values, gradients, glsl,    glslInterval, glslGradient};
+    return {op,       name,   arity,     boolean, commutative,  value,
+            interval, values, gradients, glsl,    glslInterval, glslGradient};
 }
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
@@ -292,7 +307,19 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
     row(
         Op::cellHash, "hash", 4, false, false, [](V x) { return cellHash(x[0], x[1], x[2], x[3]); },
-        hashInterval, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)", "iCellHash(%a, %b, %c, %d)", ""),
+        [](I x) { return hashInterval(x); }, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)",
+        "iCellHash(%a, %b, %c, %d)", ""),
+
+    row(
+        Op::image, "image", 2, false, false,
+        [](V x, L layer) { return sampleImage(*layer, x[0], x[1]).value; },
+        [](I x, L layer) { return sampleImage(*layer, x[0], x[1]); },
+        [](V x, double, D d, L layer) {
+            const ImageSample sample = sampleImage(*layer, x[0], x[1]);
+            return sample.du * d[0] + sample.dv * d[1];
+        },
+        "fieldImage%i(vec2(%a, %b)).x", "fieldImageRange%i(%a, %b)",
+        "dot(fieldImage%i(vec2(%a, %b)).yz, vec2(%A, %B))"),
 }};
 
 constexpr bool inOrder() {

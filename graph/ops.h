@@ -9,8 +9,9 @@
 // Adding an op is one row of the table in ops.cpp, and its name in the enum. Everything else, the folding of
 // constants, the CPU evaluators, the GLSL emitters and the tests, is driven by the row.
 //
-// In the GLSL templates %a %b %c %d are the operands, %v is the result's value, and %A %B %C %D are the
-// operands' derivatives along a direction. Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals
+// In the GLSL templates %a %b %c %d are the operands, %v is the result's value, %A %B %C %D are the
+// operands' derivatives along a direction, and %i is the number of the image layer that the operation
+// samples. Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals
 // are vec2(0|1, 0|1). Sums and roots round in GLSL intervals as they do in values; see lib/interval.glsl.
 #pragma once
 
@@ -19,6 +20,7 @@
 #include <span>
 #include <string_view>
 
+#include "graph/image.h"
 #include "graph/interval.h"
 
 namespace fw {
@@ -73,6 +75,8 @@ enum class Op : uint8_t {
     simplexNoise,
     worleyNoise,
     cellHash,
+    // two operands: u, v; which layer of which image is part of the node
+    image,
     count
 };
 
@@ -84,14 +88,15 @@ struct OpInfo {
     int arity;
     bool boolean;      ///< the result is a truth value
     bool commutative;  ///< operands may be swapped
-    double (*value)(const double* operands);
-    Interval (*interval)(const Interval* operands);
-    /// One component of the result's derivative, from the operands' values, the result and their derivatives.
-    double (*gradient)(const double* operands, double result, const double* derivatives);
-    /// value and gradient over arrays: `operands[i]` and `derivatives[i]` hold `count` numbers each.
-    void (*values)(const double* const* operands, double* results, std::size_t count);
+    // The last argument of each is what Ir::layer() gives for the node: null unless the operation is `image`.
+    double (*value)(const double* operands, const ImageLayer* layer);
+    Interval (*interval)(const Interval* operands, const ImageLayer* layer);
+    /// value and one component of the result's derivative over arrays: `operands[i]` and `derivatives[i]`
+    /// hold `count` numbers each.
+    void (*values)(const double* const* operands, double* results, std::size_t count,
+                   const ImageLayer* layer);
     void (*gradients)(const double* const* operands, const double* results, const double* const* derivatives,
-                      double* slopes, std::size_t count);
+                      double* slopes, std::size_t count, const ImageLayer* layer);
     const char* glsl;
     const char* glslInterval;
     const char* glslGradient;  ///< "" where the derivative is zero everywhere

@@ -53,6 +53,7 @@ Json valueSchema(const InputSpec& spec) {
             return schema;
         }
         case Type::points: return {{"type", "array"}, {"items", array({{"type", "number"}}, 2)}};
+        case Type::image: return {{"type", "string"}};
         case Type::surface:
         case Type::mesh: return nullptr;
     }

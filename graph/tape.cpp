@@ -39,7 +39,8 @@ Tape makeTape(const Ir& ir, IrId root) {
     for (IrId id = 0; id <= root; ++id) {
         const int arity = opInfo(ir[id].op).arity;
         if (!needed[id] || arity == 0) continue;
-        TapeStep& step = tape.steps.emplace_back(TapeStep{ir[id].op, ir[id].positions, id, {}});
+        TapeStep& step =
+            tape.steps.emplace_back(TapeStep{ir[id].op, ir[id].positions, id, {}, ir.layer(ir[id])});
         for (int i = 0; i < kMaxArity; ++i) step.operands[i] = ir[id].operands[i < arity ? i : 0];
     }
     return tape;
@@ -66,7 +67,7 @@ Interval TapeMachine::interval(const Tape& tape, const Box& box) {
     for (const TapeStep& step : tape.steps) {
         Interval operands[kMaxArity];
         for (int i = 0; i < kMaxArity; ++i) operands[i] = intervals[step.operands[i]];
-        intervals[step.result] = opInfo(step.op).interval(operands);
+        intervals[step.result] = opInfo(step.op).interval(operands, step.layer);
     }
     return intervals[tape.root];
 }
@@ -94,7 +95,7 @@ const double* TapeMachine::value(const Tape& tape, std::size_t count, uint8_t mo
         if (!(step.positions & moved) && moved != kAllAxes) continue;
         const double* operands[kMaxArity];
         for (int i = 0; i < kMaxArity; ++i) operands[i] = &values[step.operands[i] * kBatch];
-        opInfo(step.op).values(operands, &values[step.result * kBatch], count);
+        opInfo(step.op).values(operands, &values[step.result * kBatch], count, step.layer);
     }
     return &values[tape.root * kBatch];
 }
@@ -107,7 +108,7 @@ const double* TapeMachine::slope(const Tape& tape, std::size_t count) {
             slopes[i] = &derivatives[step.operands[i] * kBatch];
         }
         double* result = &derivatives[step.result * kBatch];
-        opInfo(step.op).gradients(operands, &values[step.result * kBatch], slopes, result, count);
+        opInfo(step.op).gradients(operands, &values[step.result * kBatch], slopes, result, count, step.layer);
     }
     return &derivatives[tape.root * kBatch];
 }

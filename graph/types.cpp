@@ -14,6 +14,7 @@ std::string_view typeName(Type type) {
         case Type::surface: return "surface";
         case Type::string: return "string";
         case Type::points: return "points";
+        case Type::image: return "image";
         case Type::mesh: return "mesh";
     }
     assert(!"every type has a name");

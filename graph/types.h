@@ -19,10 +19,11 @@ enum class Type : unsigned char {
     surface,  ///< distance and material: nine scalars, in the order of `SurfaceComponent`
     string,   ///< an enum choice, a path or a text; known when the graph is compiled
     points,   ///< a list of vec2, known when the graph is compiled
+    image,    ///< the path of a picture; read when the graph is compiled (image.h)
     mesh,     ///< triangles: the result of a stage
 };
 
-/// Number of scalars that represent a value of this type in the IR; 0 for string, points and mesh.
+/// Number of scalars that represent a value of this type in the IR; 0 for string, points, image and mesh.
 constexpr int componentCount(Type type) {
     switch (type) {
         case Type::boolean:

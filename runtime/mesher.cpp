@@ -147,6 +147,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     const Device& device = commands.device;
     std::vector<Descriptor> common = {{0, b.counts}};
     if (config.parameters) common.push_back({FIELD_PARAMETERS, *config.parameters});
+    if (config.images) common.push_back({FIELD_IMAGES, *config.images});
     auto with = [&](const std::vector<Descriptor>& more) {
         std::vector<Descriptor> list = common;
         list.insert(list.end(), more.begin(), more.end());
@@ -226,7 +227,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
         indirect(vertices, arguments, {{5, b.brickList}, {10, b.vertexList}, target});
         if (config.colors)
             indirect(colors, arguments,
-                     {target, chunkOf(device, 14, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
+                     {target, chunkOf(device, 12, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
     }
 }
 

@@ -40,6 +40,7 @@ struct MesherConfig {
     glm::vec3 cellSize{2.0f / 128};  ///< metres along each axis
     glm::ivec3 cells{128};           ///< of the region along each axis, any number from 1 to kMostMesherCells
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
+    const Buffer* images = nullptr;      ///< that the field samples, where it does
     bool colors = false;                 ///< also the base colour at each vertex
     MesherHost* host =
         nullptr;         ///< evaluates the field instead of kernels, which then need not be built; no colours

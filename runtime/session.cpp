@@ -57,7 +57,13 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
 Session::Session(Device device) : gpu(std::make_unique<Device>(std::move(device))) {}
 
 void Session::take(Program program) {
+    const bool sameImages = images && program.ir.images() == current.ir.images();
     current = std::move(program);
+    if (!sameImages) {
+        const std::vector<uint32_t> words = imageWords(current.ir.images());
+        reserve(*gpu, images, words.size() * sizeof(uint32_t));
+        upload(*gpu, images, words);
+    }
     std::vector<float> values;
     for (double value : current.parameters()) values.push_back(static_cast<float>(value));
     values.resize(std::max<std::size_t>(values.size(), 1));
@@ -143,6 +149,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
     grid.cellSize = static_cast<float>(longest / resolution);
     config.parameters = &parameters;
+    config.images = &images;
     config.colors = current.hasMaterial();
     config.timed = timed;
     std::optional<MesherHost> host;
@@ -172,7 +179,8 @@ Result<Picture> Session::render(const MesherResult& result, const RenderOptions&
                             .vertices = result.vertices,
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
-                            .parameters = &parameters};
+                            .parameters = &parameters,
+                            .images = &images};
     return renderPicture(*gpu, renderPipelines, scene, options);
 }
 

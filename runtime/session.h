@@ -1,8 +1,8 @@
 // The one orchestrator: owns the device objects of a program and runs its stages.
 //
 // Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
-// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), a depth image per
-// picture.
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images per program
+// that samples others, a depth image per picture.
 #pragma once
 
 #include <future>
@@ -69,7 +69,7 @@ class Session {
     MesherBuffers buffers;
     MeshGrid grid;
     RenderPipelines renderPipelines;  ///< made by the first picture
-    Buffer parameters;
+    Buffer parameters, images;
     std::future<MesherPipelines> next;  ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;
 };

@@ -9,7 +9,8 @@
 //                   float fieldAt(FieldRow row, float y)        the value, with what does not depend on y hoisted
 //   FIELD_MATERIAL  FieldMaterial fieldMaterial(vec3 p)
 // and, with any of them, calls fieldBegin() first in main: it loads the live parameters once per invocation.
-// Live parameters stand in the storage buffer at binding FIELD_PARAMETERS (15), only if the field has some.
+// Live parameters stand in the storage buffer at binding FIELD_PARAMETERS (15), images in the one at
+// FIELD_IMAGES (14), each only if the field has some.
 
 struct FieldMaterial {
     vec3 baseColor;

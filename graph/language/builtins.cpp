@@ -298,6 +298,40 @@ Result<Value> countOf(Lowering& s, Arguments a) {
     return scalar(number(s, static_cast<double>(a[0].points->size() / 2)), Type::integer);
 }
 
+/// The (u, v) behind an image: one vec2 or two floats.
+Result<std::pair<IrId, IrId>> imagePlace(Arguments a) {
+    if (a.size() == 2 && a[1].type == Type::vec2) return std::pair(a[1].ids[0], a[1].ids[1]);
+    if (a.size() == 3 && isNumeric(a[1].type) && isNumeric(a[2].type) && !isVector(a[1].type) &&
+        !isVector(a[2].type))
+        return std::pair(a[1].ids[0], a[2].ids[0]);
+    return problem("behind an image stand a vec2, or the floats u and v");
+}
+Result<Value> imageColor(Lowering& s, Arguments a) {
+    const Result<Value> image = convert(s, a[0], Type::image);
+    if (!image) return image.error();
+    const Result<std::pair<IrId, IrId>> at = imagePlace(a);
+    if (!at) return at.error();
+    Value result{Type::vec3};
+    for (int i = 0; i < 3; ++i) result.ids[i] = s.ir.sample(image->image, i, at->first, at->second);
+    return result;
+}
+Result<Value> imageGrey(Lowering& s, Arguments a) {
+    const Result<Value> image = convert(s, a[0], Type::image);
+    if (!image) return image.error();
+    const Result<std::pair<IrId, IrId>> at = imagePlace(a);
+    if (!at) return at.error();
+    return scalar(s.ir.sample(image->image, kGreyLayer, at->first, at->second));
+}
+Result<Value> imageSize(Lowering& s, Arguments a) {
+    const Result<Value> image = convert(s, a[0], Type::image);
+    if (!image) return image.error();
+    const FieldImage& picture = *s.ir.images()[image->image];
+    Value result{Type::vec2};
+    result.ids[0] = number(s, picture.width);
+    result.ids[1] = number(s, picture.height);
+    return result;
+}
+
 struct Entry {
     Builtin call;
     int least, most;  ///< number of arguments
@@ -346,6 +380,7 @@ const std::unordered_map<std::string_view, Entry>& table() {
         {"hash", {noise<Op::cellHash>, 1, 2}}, {"hash3", {hash3, 1, 2}},
         {"with_distance", {withDistance, 2, 2}}, {"with_material", {withMaterial, 5, 5}},
         {"empty", {[](S s, A) -> R { return emptySurface(s); }, 0, 0}}, {"count", {countOf, 1, 1}},
+        {"image_color", {imageColor, 2, 3}}, {"image_grey", {imageGrey, 2, 3}}, {"image_size", {imageSize, 1, 1}},
     };
     return entries;
 }

@@ -706,7 +706,10 @@ Value defaultValue(Lowering& state, const InputSpec& input) {
         case InputDefault::Kind::position:
             for (int i = 0; i < componentCount(input.type); ++i) value.ids[i] = state.ir.position(i);
             return value;
-        case InputDefault::Kind::text: value.text = input.value.text; return value;
+        case InputDefault::Kind::text:
+            value.text = input.value.text;
+            if (input.type == Type::image) value.image = state.ir.addImage(plainImage());
+            return value;
         case InputDefault::Kind::numbers:
             if (input.type == Type::points) {
                 value.points = std::make_shared<const std::vector<double>>(input.value.numbers);
@@ -720,12 +723,43 @@ Value defaultValue(Lowering& state, const InputSpec& input) {
     return componentCount(input.type) > 0 ? constantValue(state, input.type, {}) : value;
 }
 
+namespace {
+
+/// The image of a path, read at its first use.
+Result<uint32_t> imageAt(Lowering& state, const std::string& path) {
+    if (path.empty()) return state.ir.addImage(plainImage());
+    const auto known = state.images.find(path);
+    if (known != state.images.end()) return state.ir.addImage(known->second);
+    const Result<FieldImagePtr> image = readImage(state.graphPath, path);
+    if (!image) return image.error();
+    std::size_t texels = (*image)->texels.size();
+    for (const FieldImagePtr& held : state.ir.images())
+        if (held != *image) texels += held->texels.size();
+    if (texels * sizeof(uint32_t) >= kMaxImageBytes) {
+        Error error;
+        error.message = "the pictures of the graph together take " + std::to_string(kMaxImageBytes >> 20) +
+                        " MiB or more (4 bytes a pixel): use smaller ones";
+        return error;
+    }
+    state.images.emplace(path, *image);
+    return state.ir.addImage(*image);
+}
+
+}  // namespace
+
 Result<Value> convert(Lowering& state, const Value& value, Type type) {
     if (value.type == type) return value;
     const auto isNumber = [](Type t) {
         return t == Type::scalar || t == Type::integer || t == Type::boolean;
     };
     Value result{type};
+    if (value.type == Type::string && type == Type::image) {
+        const Result<uint32_t> image = imageAt(state, value.text);
+        if (!image) return image.error();
+        result.text = value.text;
+        result.image = *image;
+        return result;
+    }
     if (isNumber(value.type) || value.type == Type::surface) {
         IrId id = value.ids[0];
         if (value.type == Type::boolean && type != Type::boolean)
@@ -748,9 +782,12 @@ Result<Value> convert(Lowering& state, const Value& value, Type type) {
             default: break;
         }
     }
+    const auto named = [](Type t) {
+        const std::string name(typeName(t));
+        return (name[0] == 'i' ? "an " : "a ") + name;
+    };
     Error error;
-    error.message =
-        "a " + std::string(typeName(value.type)) + " cannot stand for a " + std::string(typeName(type));
+    error.message = named(value.type) + " cannot stand for " + named(type);
     return error;
 }
 

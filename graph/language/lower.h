@@ -15,6 +15,7 @@
 // its distance.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,12 +27,13 @@
 
 namespace fw::language {
 
-/// A typed value: componentCount(type) ids, or a text or points known at compile time.
+/// A typed value: componentCount(type) ids, or a text, points or an image known at compile time.
 struct Value {
     Type type = Type::scalar;
     std::array<IrId, 9> ids{};
     std::string text{};
     std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
+    uint32_t image = 0;                                   ///< number among Ir::images()
 
     IrId id() const { return ids[0]; }
 };
@@ -47,9 +49,11 @@ struct Scope {
 /// One compilation's state.
 struct Lowering {
     Ir ir;
-    IrId time = 0;          ///< seconds
-    std::size_t steps = 0;  ///< expressions and statements run so far, bounded by kMaxSteps
-    int calls = 0;          ///< depth of calls, bounded by kMaxCalls
+    IrId time = 0;            ///< seconds
+    std::size_t steps = 0;    ///< expressions and statements run so far, bounded by kMaxSteps
+    int calls = 0;            ///< depth of calls, bounded by kMaxCalls
+    std::string graphPath{};  ///< the file that paths of images are relative to
+    std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
 };
 
 inline constexpr std::size_t kMaxSteps = 4'000'000;
@@ -67,7 +71,8 @@ Result<std::vector<Value>> lowerNode(Lowering& state, const NodeType& type, std:
 Value defaultValue(Lowering& state, const InputSpec& input);
 
 /// `value` as `type`: surface <-> float (distance, default material), bool and int to float, float to vec2
-/// and vec3 (splat). An Error without a place if there is no such conversion.
+/// and vec3 (splat), string to image (a path: the file is read). An Error without a place if there is no such
+/// conversion.
 Result<Value> convert(Lowering& state, const Value& value, Type type);
 
 Value constantValue(Lowering& state, Type type, std::span<const double> numbers);

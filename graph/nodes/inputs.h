@@ -151,6 +151,14 @@ inline InputSpec choice(std::string name, std::vector<std::string> options, std:
             .doc = std::move(doc)};
 }
 
+/// The path of a picture; a grey checker if none is named.
+inline InputSpec picture(std::string name, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::image,
+            .value = {InputDefault::Kind::text, {}, ""},
+            .doc = std::move(doc)};
+}
+
 /// Any text.
 inline InputSpec textInput(std::string name, std::string value, std::string doc) {
     return {.name = std::move(name),

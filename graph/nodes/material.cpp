@@ -17,6 +17,46 @@ std::vector<NodeType> materialNodes() {
          .outputs = {{"surface", Type::surface}},
          .exactness = sameAs("surface"),
          .body = "return with_material(surface, base_color, roughness, metallic, emission);"},
+        // Each of the three pictures stands upright and unmirrored for who looks at its side from outside;
+        // from above -z is up, from below z is. The normal comes from four samples on the corners of a
+        // tetrahedron. They lie a two hundredth of the scale away, so that at a sharp edge the pictures meet
+        // over that width.
+        {.id = "triplanar",
+         .label = "Triplanar",
+         .category = Category::material,
+         .doc = "Paints a picture onto a solid from its six sides, blended where the surface is oblique.",
+         .inputs = {positionInput(),
+                    picture("image",
+                            "Path of a PNG, JPEG, BMP or TGA file, from the folder of the graph's file; a "
+                            "grey checker if there is none."),
+                    positiveLength("scale", 1, "Width of the picture on the surface; it repeats beyond."),
+                    {.name = "blend",
+                     .type = Type::scalar,
+                     .value = numbers({4}),
+                     .min = 1,
+                     .max = 64,
+                     .doc = "How sharply one side gives way to the next: 1 is soft, 16 nearly an edge."},
+                    surfaceInput("surface",
+                                 "The solid that is painted; its slope says which side a place is on. "
+                                 "Without it all sides count alike.")},
+         .outputs = {{"color", Type::vec3}},
+         .body = R"(
+float e = 0.005 * scale;
+vec3 n = vec3(1.0, -1.0, -1.0) * distance(surface(p + vec3(e, -e, -e)))
+       + vec3(-1.0, -1.0, 1.0) * distance(surface(p + vec3(-e, -e, e)))
+       + vec3(-1.0, 1.0, -1.0) * distance(surface(p + vec3(-e, e, -e)))
+       + vec3(1.0, 1.0, 1.0) * distance(surface(p + vec3(e, e, e)));
+float steep = max(abs(n.x), abs(n.y), abs(n.z));
+vec3 w = vec3(1.0);
+if (steep > 0.0) w = pow(abs(n) / max(steep, 1e-20), blend);
+w /= w.x + w.y + w.z;
+vec2 texels = image_size(image);
+vec2 s = vec2(1.0, texels.x / texels.y) / scale;
+vec3 q = vec3(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0, n.z < 0.0 ? -1.0 : 1.0);
+return w.x * image_color(image, vec2(-q.x * p.z, p.y) * s)
+     + w.y * image_color(image, vec2(p.x, -q.y * p.z) * s)
+     + w.z * image_color(image, vec2(q.z * p.x, p.y) * s);)",
+         .aliases = {"texture", "image_texture"}},
     };
 }
 

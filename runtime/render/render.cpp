@@ -175,6 +175,7 @@ Result<Picture> renderPicture(const Device& device, const RenderPipelines& pipel
         Descriptor(0, depth.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, sampler.handle),
         Descriptor(1, shaded), Descriptor(2, scene.mesh.vertices, 0, vertexBytes)};
     if (scene.parameters) bound.emplace_back(FIELD_PARAMETERS, *scene.parameters);
+    if (scene.images) bound.emplace_back(FIELD_IMAGES, *scene.images);
 
     {
         Commands commands(device);

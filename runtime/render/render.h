@@ -43,6 +43,7 @@ struct RenderScene {
     MeshGrid grid;           ///< that it was made on
     float lipschitz = 1.0f;  ///< of the field; infinite if unknown
     const Buffer* parameters = nullptr;  ///< live ones, where the field has some
+    const Buffer* images = nullptr;      ///< that the field samples, where it does
 };
 
 struct RenderOptions {

@@ -5,7 +5,7 @@
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
 layout(binding = 13, scalar) readonly buffer Vertices { uvec4 vertices[]; };
-layout(binding = 14, scalar) writeonly buffer Colors { vec3 colors[]; };
+layout(binding = 12, scalar) writeonly buffer Colors { vec3 colors[]; };
 
 void main() {
     fieldBegin();

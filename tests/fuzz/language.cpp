@@ -34,7 +34,7 @@ bool everyOperationIsFinite(const fw::Ir& ir, const fw::Point& point) {
         for (int i = 0; i < fw::opInfo(node.op).arity; ++i) operands[i] = values[node.operands[i]];
         values.push_back(id < 3                        ? point[id]
                          : node.op == fw::Op::constant ? node.number
-                                                       : fw::opInfo(node.op).value(operands));
+                                                       : fw::opInfo(node.op).value(operands, ir.layer(node)));
         if (!std::isfinite(values.back())) return false;
     }
     return true;

@@ -19,7 +19,9 @@ struct Applied {
         const IrId isPositive = ir.add(Op::less, ir.constant(0.0), ir.position(0));
         const IrId isLarge = ir.add(Op::less, ir.constant(0.5), ir.position(1));
         const int arity = opInfo(op).arity;
-        if (op == Op::select)
+        if (op == Op::image)
+            root = ir.sample(ir.addImage(plainImage()), 1, ir.position(0), ir.position(1));
+        else if (op == Op::select)
             root = ir.add(op, isPositive, ir.position(1), ir.position(2));
         else if (op == Op::logicalNot)
             root = ir.add(op, isPositive);

@@ -177,6 +177,7 @@ TEST(NodeTable, DefaultsFitTheirInputs) {
                 case Type::surface:
                 case Type::mesh: EXPECT_EQ(value.kind, InputDefault::Kind::none); break;
                 case Type::string:
+                case Type::image:
                     EXPECT_EQ(value.kind, InputDefault::Kind::text);
                     if (!input.options.empty()) {
                         EXPECT_TRUE(std::ranges::find(input.options, value.text) != input.options.end());

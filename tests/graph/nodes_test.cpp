@@ -89,6 +89,7 @@ InputValue randomSetting(Random& random, const NodeType& type, const InputSpec& 
             if (type.id == "polar_repeat") return link("aside");
             if (type.category == Category::shape2d) return link("flat");
             return link(input.name == "b" ? "other" : "solid");
+        case Type::image: return setting(input.value.text);
         case Type::string:
             return setting(input.options.empty() ? input.value.text
                                                  : input.options[variant % input.options.size()]);

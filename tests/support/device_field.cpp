@@ -16,6 +16,9 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
     for (double value : program.parameters()) live.push_back(static_cast<float>(value));
     live.resize(std::max<std::size_t>(live.size(), 1));
     const Buffer parameters = createBuffer(gpu, live.size() * sizeof(float), Memory::upload);
+    const std::vector<uint32_t> words = imageWords(program.ir.images());
+    const Buffer images = createBuffer(gpu, words.size() * sizeof(uint32_t), Memory::upload);
+    upload(gpu, images, words);
     uploadBytes(gpu, in, points.data(), points.size_bytes());
     upload(gpu, parameters, live);
 
@@ -24,7 +27,8 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
         uint32_t count;
         float halfSize;
     } push{static_cast<uint32_t>(points.size()), halfSize};
-    const Descriptor descriptors[] = {{0, in}, {1, out}, {kFieldParametersBinding, parameters}};
+    const Descriptor descriptors[] = {
+        {0, in}, {1, out}, {kFieldParametersBinding, parameters}, {kFieldImagesBinding, images}};
     dispatch(commands, pipeline, {groupsFor(points.size(), 64), 1, 1}, push, descriptors);
     submit(commands);
     return download<FieldSample>(gpu, out, points.size());

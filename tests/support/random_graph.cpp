@@ -86,6 +86,7 @@ class Generator {
             }
         if (spec.value.kind == InputDefault::Kind::position || spec.type == Type::surface || chance(0.4))
             return;
+        if (spec.type == Type::image) return;
         if (spec.type == Type::string) {
             if (!spec.options.empty()) node.set(spec.name, {spec.options[random() % spec.options.size()]});
             return;
