@@ -332,6 +332,17 @@ Result<Value> imageSize(Lowering& s, Arguments a) {
     return result;
 }
 
+/// Of the grey: its greatest slope along u and along v, or its least and greatest value.
+Result<Value> imageBounds(Lowering& s, Arguments a, bool slopes) {
+    const Result<Value> image = convert(s, a[0], Type::image);
+    if (!image) return image.error();
+    const ImageLayer& grey = s.ir.images()[image->image]->layers[kGreyLayer];
+    Value result{Type::vec2};
+    result.ids[0] = number(s, slopes ? grey.slopeU : grey.least);
+    result.ids[1] = number(s, slopes ? grey.slopeV : grey.most);
+    return result;
+}
+
 struct Entry {
     Builtin call;
     int least, most;  ///< number of arguments
@@ -381,6 +392,8 @@ const std::unordered_map<std::string_view, Entry>& table() {
         {"with_distance", {withDistance, 2, 2}}, {"with_material", {withMaterial, 5, 5}},
         {"empty", {[](S s, A) -> R { return emptySurface(s); }, 0, 0}}, {"count", {countOf, 1, 1}},
         {"image_color", {imageColor, 2, 3}}, {"image_grey", {imageGrey, 2, 3}}, {"image_size", {imageSize, 1, 1}},
+        {"image_range", {[](S s, A a) -> R { return imageBounds(s, a, false); }, 1, 1}},
+        {"image_slope", {[](S s, A a) -> R { return imageBounds(s, a, true); }, 1, 1}},
     };
     return entries;
 }

@@ -431,11 +431,45 @@ std::vector<NodeType> periodicSolids() {
     };
 }
 
+std::vector<NodeType> picturedSolids() {
+    return {
+        // The height over the ground is as steep as its steepest step from pixel to pixel, which the picture
+        // tells; divided by that, y - height never exceeds the distance. Above the highest point the plane
+        // through it is a better bound. The picture ends half a pixel within its border, where the heights of
+        // the outermost pixels go on.
+        {.id = "heightfield",
+         .label = "Heightfield",
+         .category = Category::shape,
+         .doc = "A block whose top is a relief: the lighter the picture, the higher.",
+         .inputs = {positionInput(),
+                    picture("image",
+                            "Path of a PNG, JPEG, BMP or TGA file, from the folder of the graph's file; a "
+                            "checker if there is none. Seen from above it stands upright, with -z up."),
+                    {.name = "size",
+                     .type = Type::vec3,
+                     .value = numbers({2, 0.5, 2}),
+                     .min = 1e-6,
+                     .unit = "m",
+                     .doc = "Extent along x, height of white over black, extent along z."},
+                    length("base", 0.1, "Thickness below black, which is at y = 0.")},
+         .outputs = kSurface,
+         .exactness = always(kBound),
+         .body = R"(
+vec2 half = 0.5 / image_size(image);
+vec2 uv = clamp(vec2(p.x / size.x, -p.z / size.z) + 0.5, half, 1.0 - half);
+vec2 steep = image_slope(image) * size.y / vec2(size.x, size.z);
+float top = image_range(image).y * size.y;
+float relief = (p.y - size.y * image_grey(image, uv)) / sqrt(1.0 + dot(steep, steep));
+return max(relief, p.y - top, -base - p.y, abs(p.x) - 0.5 * size.x, abs(p.z) - 0.5 * size.z);)",
+         .aliases = {"heightmap", "terrain"}},
+    };
+}
+
 }  // namespace
 
 std::vector<NodeType> shapeNodes() {
     std::vector<NodeType> all = roundSolids();
-    for (auto family : {flatSolids, periodicSolids}) {
+    for (auto family : {flatSolids, periodicSolids, picturedSolids}) {
         for (NodeType& node : family()) all.push_back(std::move(node));
     }
     return all;

@@ -349,6 +349,60 @@ TEST(ImageGraph, WithoutAnImageThereIsAChecker) {
     EXPECT_NEAR(colorAt(*program, {-0.25, -0.25, 1})[2], light, 1e-12);
 }
 
+TEST(ImageGraph, AHeightfieldIsAsHighAsThePictureIsLight) {
+    const TempDir folder;
+    std::mt19937 random(11);
+    std::vector<uint8_t> rgb;
+    for (int i = 0; i < 12 * 8; ++i) {
+        const auto grey = uint8_t(40 + random() % 100);
+        rgb.insert(rgb.end(), {grey, grey, grey});
+    }
+    rgb[0] = rgb[1] = rgb[2] = 255;  // the upper left corner
+    writePictureFile(folder.path("rough.png"), 12, 8, rgb);
+    const Result<Graph> graph = parseGraph(
+        R"({"fieldwright": 1, "nodes": [{"id": "h", "type": "heightfield", "inputs": {"image": "rough.png", "size": [3, 0.6, 2],
+            "base": 0.2}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "h"}}}]})",
+        folder.path("g.field.json"), nullptr);
+    ASSERT_TRUE(graph) << format(graph.error());
+    const Result<Program> program = compile(*graph);
+    ASSERT_TRUE(program) << format(program.error());
+    EXPECT_TRUE(program->exactness.bound());
+    const auto at = [&](double x, double y, double z) {
+        return evaluate(program->ir, program->distance(), {}, Point{x, y, z});
+    };
+    for (int row = 0; row < 8; ++row)
+        for (int column = 0; column < 12; ++column) {
+            const double x = 3 * ((column + 0.5) / 12 - 0.5), z = 2 * ((row + 0.5) / 8 - 0.5);
+            const double height = 0.6 * rgb[std::size_t(3 * (12 * row + column))] / 255.0;
+            EXPECT_LT(at(x, height - 1e-6, z), 0);
+            EXPECT_GT(at(x, height + 1e-6, z), 0);
+        }
+    EXPECT_NEAR(at(-1.5 + 1e-9, 0.6, -1 + 1e-9), 0, 1e-6);  // the corner, not mixed with what lies across
+    EXPECT_LT(at(0, -0.19, 0), 0);
+    EXPECT_GT(at(0, -0.21, 0), 0);
+    EXPECT_GT(at(1.51, 0, 0), 0);
+    EXPECT_GT(at(0, 0, -1.01), 0);
+    EXPECT_NEAR(at(0, 40.6, 0), 40, 1e-9);  // far above, the relief slows nothing down
+
+    const Region region = findRegion(program->ir, program->distance(), {});
+    ASSERT_EQ(region.extent, Extent::bounded);
+    EXPECT_NEAR(region.box.hi[1], 0.6, 0.05);
+    EXPECT_NEAR(region.box.lo[1], -0.2, 0.05);
+
+    // The declared constant: no two points differ by more than their distance.
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int i = 0; i < 20'000; ++i) {
+        const Point a{1.6 * unit(random), 0.8 * unit(random), 1.1 * unit(random)};
+        Point b = a;
+        double squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            b[std::size_t(axis)] += 0.05 * unit(random);
+            squared += std::pow(b[std::size_t(axis)] - a[std::size_t(axis)], 2);
+        }
+        ASSERT_LE(std::abs(at(a[0], a[1], a[2]) - at(b[0], b[1], b[2])), std::sqrt(squared) + 1e-12);
+    }
+}
+
 TEST(ImageGraph, ExpressionsAndGroupsTakeImages) {
     const TempDir folder;
     writePictureFile(folder.path("six.png"), 3, 2, kSix);

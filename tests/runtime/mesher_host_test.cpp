@@ -54,7 +54,11 @@ TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
         const Program program = programOf(entry.path());
         const Result<Box> box = meshRegion(program, {std::nullopt, 40});
         ASSERT_TRUE(box);
-        const MesherConfig config = gridOf(*box, 40);
+        MesherConfig config = gridOf(*box, 40);
+        const std::vector<uint32_t> words = imageWords(program.ir.images());
+        const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
+        upload(test::device(), images, words);
+        config.images = &images;
         const Meshed kernels =
             run(createMesherPipelines(test::device(), emitField(program)), config, nullptr);
         MesherHost host(program.ir, program.distance(), program.parameters());
