@@ -43,8 +43,8 @@ Place place(double u, int size) {
 
 }  // namespace
 
-FieldImage::FieldImage(int width_, int height_, std::vector<uint32_t> texels_)
-    : width(width_), height(height_), texels(std::move(texels_)) {
+FieldImage::FieldImage(int width_, int height_, std::vector<uint32_t> texels_, std::string file_)
+    : width(width_), height(height_), texels(std::move(texels_)), file(std::move(file_)) {
     hash = (uint64_t(uint32_t(width)) << 32 | uint32_t(height)) * 0x9E3779B97F4A7C15ull;
     for (uint32_t& word : texels) {
         const uint32_t sum = (word & 255u) + (word >> 8 & 255u) + (word >> 16 & 255u);

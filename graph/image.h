@@ -48,13 +48,14 @@ struct ImageSample {
 
 struct FieldImage {
     /// `texels` are width x height words, the picture's lowest row first; the fourth byte is filled in here.
-    FieldImage(int width, int height, std::vector<uint32_t> texels);
+    FieldImage(int width, int height, std::vector<uint32_t> texels, std::string file = {});
     FieldImage(const FieldImage&) = delete;  // layers point here
     FieldImage& operator=(const FieldImage&) = delete;
 
     int width, height;
     std::vector<uint32_t> texels;
-    uint64_t hash;  ///< of size and content
+    std::string file;  ///< absolute path; empty if it was not read from one
+    uint64_t hash;     ///< of size and content
     std::array<ImageLayer, kImageLayers> layers;
 };
 using FieldImagePtr = std::shared_ptr<const FieldImage>;

@@ -59,7 +59,7 @@ bool isKnownFormat(const std::string& bytes, const std::string& path) {
            startsWith(bytes, "BM") || ending == ".tga";  // whose files begin with nothing of their own
 }
 
-Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path) {
+Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path, const std::string& file) {
     if (bytes.empty()) return problem(path, "is an empty file");
     if (!isKnownFormat(bytes, path)) return problem(path, "is none: use a PNG, JPEG, BMP or TGA file");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -81,7 +81,7 @@ Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path) 
             const stbi_uc* pixel = pixels.get() + 4 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
             texels.push_back(uint32_t(pixel[0]) | uint32_t(pixel[1]) << 8 | uint32_t(pixel[2]) << 16);
         }
-    return std::make_shared<const FieldImage>(width, height, std::move(texels));
+    return std::make_shared<const FieldImage>(width, height, std::move(texels), file);
 }
 
 /// What was read before and is still held somewhere. By path; `stamp` tells whether the file is the same.
@@ -129,7 +129,7 @@ Result<FieldImagePtr> readImage(const std::string& graphPath, const std::string&
         read += static_cast<std::size_t>(got);
     }
     bytes.resize(read);
-    const Result<FieldImagePtr> image = decode(bytes, path);
+    const Result<FieldImagePtr> image = decode(bytes, path, *file);
     if (image) {
         const std::lock_guard lock(mutex);
         known[*file] = {stamp, *image};

@@ -207,6 +207,14 @@ void Player::adopt(Prepared prepared) {
     points.clear();
 }
 
+std::vector<std::string> Player::files() const {
+    std::vector<std::string> list;
+    if (!now.graph.path.empty()) list.push_back(now.graph.path);
+    for (const FieldImagePtr& image : session.program().ir.images())
+        if (!image->file.empty()) list.push_back(image->file);
+    return list;
+}
+
 std::vector<PlayerParameter> Player::parameters() const {
     std::vector<PlayerParameter> list;
     const std::set<std::string> moving = animatedInputs(now.graph, now.timeline);

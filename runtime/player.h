@@ -62,6 +62,8 @@ class Player {
 
     const Graph& graph() const { return now.graph; }
     const Timeline& timeline() const { return now.timeline; }
+    /// What is played was read from these: the graph's file, if it has one, and the pictures it shows.
+    std::vector<std::string> files() const;
     /// Whether anything moves: the timeline has tracks, or the field reads the time.
     bool moves() const { return now.fieldMoves || !now.timeline.tracks.empty(); }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "graph/json.h"
 #include "runtime/cli/mesh_graph.h"
@@ -30,11 +31,7 @@ constexpr double kLongStep = 0.25;  // seconds; time does not jump farther after
 class Stage {
   public:
     Stage(const PlayOptions& options_, Player& player_, Window& window_, Viewer& viewer_)
-        : options(options_),
-          player(player_),
-          window(window_),
-          viewer(viewer_),
-          watch(options_.mesh.graph.path) {
+        : options(options_), player(player_), window(window_), viewer(viewer_) {
         describe();
     }
 
@@ -47,7 +44,9 @@ class Stage {
             viewer.pass(std::min(elapsed, kLongStep));
             if (secondsSince(looked) > kWatch) {
                 looked = before;
-                if (watch.changed()) reload();
+                bool touched = false;
+                for (auto& [file, watch] : watches) touched |= watch.changed();
+                if (touched) reload();
             }
             if (viewer.width == 0 || viewer.height == 0) {  // minimised
                 window.poll(kWatch);
@@ -71,6 +70,9 @@ class Stage {
         viewer.loop = timeline.tracks.empty() ? Loop::repeat : timeline.loop;
         viewer.framesPerSecond = timeline.framesPerSecond;
         viewer.moves = player.moves();
+        const std::vector<std::string> files = player.files();
+        std::erase_if(watches, [&](const auto& each) { return !std::ranges::count(files, each.first); });
+        for (const std::string& file : files) watches.try_emplace(file, file);
         window.setTitle(options.mesh.graph.path + " - Fieldwright");
     }
 
@@ -164,10 +166,10 @@ class Stage {
     Player& player;
     Window& window;
     Viewer& viewer;
-    FileWatch watch;
-    Picture picture;      ///< the last good one
-    std::string message;  ///< shown over it
-    std::string failed;   ///< why there is no picture of this time
+    std::map<std::string, FileWatch> watches;  ///< of what the graph shown was read from
+    Picture picture;                           ///< the last good one
+    std::string message;                       ///< shown over it
+    std::string failed;                        ///< why there is no picture of this time
     double share = 0.25;
     bool reduced = false;  ///< the picture that is shown has fewer pixels than the window
 };

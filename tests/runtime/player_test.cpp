@@ -10,6 +10,7 @@
 
 #include "graph/json.h"
 #include "runtime/mesh_report.h"
+#include "tests/support/picture_file.h"
 #include "tests/support/temp_dir.h"
 
 namespace fw {
@@ -301,6 +302,35 @@ TEST(Player, AReloadKeepsTimeAndParametersOrEverything) {
     const auto [lo, hi] = boundsOf(meshOf(*played.player));
     EXPECT_NEAR(hi.y, 3.7, 0.02);
     EXPECT_NEAR(lo.y, 2.3, 0.02);
+}
+
+TEST(Player, AReloadShowsAPictureAsItIsNow) {
+    const TempDir folder;
+    const auto paint = [&](uint8_t grey) {
+        test::writePictureFile(folder.path("grey.png"), 2, 2, std::vector<uint8_t>(12, grey));
+        std::filesystem::last_write_time(
+            folder.path("grey.png"),
+            std::filesystem::file_time_type::clock::now() + std::chrono::seconds(grey));
+    };
+    paint(255);
+    test::writeText(folder.path("a.field.json"), R"({"fieldwright": 1, "nodes": [
+        {"id": "ball", "type": "sphere"}, {"id": "paint", "type": "triplanar", "inputs": {"image": "grey.png"}},
+        {"id": "made", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": {"from": "paint"}}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "made"}, "resolution": 16}}]})");
+    Result<Player> player = Player::open(folder.path("a.field.json"));
+    ASSERT_TRUE(player) << format(player.error());
+    const std::vector<std::string> files = player->files();
+    ASSERT_EQ(files.size(), 2u);
+    EXPECT_EQ(files[0], folder.path("a.field.json"));
+    EXPECT_TRUE(std::filesystem::equivalent(files[1], folder.path("grey.png")));
+    const auto shade = [&] {
+        const Result<Mesh> mesh = player->mesh();
+        return mesh && !mesh->colors.empty() ? mesh->colors[0].y : -1.0f;
+    };
+    EXPECT_NEAR(shade(), 1.0f, 1e-4f);
+    paint(128);
+    ASSERT_TRUE(player->reload(player->graph()));
+    EXPECT_NEAR(shade(), 0.2158605f, 1e-4f);
 }
 
 }  // namespace
