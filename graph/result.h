@@ -31,8 +31,12 @@ struct Error {
 };
 
 /// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left
-/// out.
+/// out. One line whatever the parts hold: control characters as '?', and long parts are shortened.
 std::string format(const Error& error);
+
+/// At most `longest` bytes of `text`, whole characters, for one line of a terminal: control characters as
+/// '?', and "…" where something was cut.
+std::string inOneLine(std::string_view text, std::size_t longest);
 
 /// `name` in single quotes for a message: shortened beyond 60 bytes, control characters as '?'.
 std::string inQuotes(std::string_view name);
