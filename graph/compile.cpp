@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "graph/check.h"
+#include "graph/check_value.h"
 #include "graph/language/lower.h"
 #include "graph/node_type.h"
 
@@ -81,6 +82,7 @@ class Compiler {
     std::vector<Error> errors;
     std::vector<LiveParameter> live;
     std::map<std::string, Exactness, std::less<>> exactness;
+    std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
 
   private:
     void report(const Node& node, const std::string& prefix, const std::string& input, Error error) {
@@ -174,6 +176,7 @@ class Compiler {
         const bool mayBeLive =
             (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3) &&
             !numbers.empty();
+        if (mayBeLive && canBeLive) canBeLive->push_back(prefix + node.id + "." + spec.name);
         const std::string name = mayBeLive ? liveName(node, prefix, spec.name) : std::string();
         if (!name.empty())
             for (int i = 0; i < componentCount(spec.type); ++i)
@@ -571,6 +574,31 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
     return std::move(compiler.errors);
 }
 
+Done checkLive(const Graph& graph, const CompileOptions& options) {
+    std::vector<std::string> names;
+    const CompileOptions folded;
+    Compiler compiler(graph, folded);
+    compiler.canBeLive = &names;
+    std::vector<const Node*> all;
+    for (const Node& node : graph.nodes) all.push_back(&node);
+    compiler.lowerAll(graph.nodes, "", nullptr, all);
+    names.push_back("time");
+    for (const std::string& wish : options.live) {
+        if (std::find(names.begin(), names.end(), wish) != names.end()) continue;
+        const std::string near = nearestName(std::string_view(wish).substr(0, 64), names);
+        std::vector<std::string> ofNode;
+        for (const std::string& name : names)
+            if (name.starts_with(wish.substr(0, wish.rfind('.')) + ".")) ofNode.push_back(name);
+        return errorAt(graph, nullptr,
+                       "there is no input " + inQuotes(wish) +
+                           " that can be live: write node.input, of a number or vector that is not linked" +
+                           (!near.empty()    ? "; did you mean " + inQuotes(near) + "?"
+                            : ofNode.empty() ? ""
+                                             : "; the node has " + listed(ofNode)));
+    }
+    return done();
+}
+
 Done setParameter(Graph& graph, const std::string& name, const std::string& text) {
     std::vector<double> numbers;
     const char* at = text.data();
@@ -581,14 +609,24 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
         if (failure != std::errc{} || !std::isfinite(number) ||
             (next < end && (*next != ',' || next + 1 == end)))
             return errorAt(graph, nullptr,
-                           "'" + text + "' is no value for the parameter '" + name +
-                               "': write a number, or numbers with commas between them");
+                           inQuotes(text) + " is no value for the parameter " + inQuotes(name) +
+                               ": write a number, or numbers with commas between them");
         numbers.push_back(number);
         at = next < end ? next + 1 : next;
     }
     if (numbers.empty())
-        return errorAt(graph, nullptr, "the parameter '" + name + "' is given no value: write name=value");
-    return setParameter(graph, name, numbers);
+        return errorAt(graph, nullptr,
+                       "the parameter " + inQuotes(name) + " is given no value: write name=value");
+    Done set = setParameter(graph, name, numbers);
+    const std::optional<NamedParameter> target = findParameter(graph, name);
+    const Node* node = target ? graph.node(target->node) : nullptr;
+    if (!set && numbers.size() == 2 && node && inputNumbers(*node, target->input).size() == 1) {
+        Error error = set.error();
+        error.message +=
+            "; the decimal sign is a point: " + std::string(text).replace(text.find(','), 1, ".");
+        return error;
+    }
+    return set;
 }
 
 Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers) {
@@ -598,18 +636,22 @@ Done setParameter(Graph& graph, const std::string& name, std::span<const double>
         std::vector<std::string> names;
         for (const NamedParameter& parameter : namedParameters(graph)) names.push_back(parameter.name);
         const std::string near = nearestName(name, names);
-        std::string known;
-        for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
         return errorAt(graph, nullptr,
-                       "the graph has no parameter '" + name + "'" +
-                           (!near.empty()   ? ": did you mean '" + near + "'?"
-                            : known.empty() ? ": it exposes none"
-                                            : ": it has " + known));
+                       "the graph has no parameter " + inQuotes(name) +
+                           (!near.empty()   ? ": did you mean " + inQuotes(near) + "?"
+                            : names.empty() ? ": it exposes none"
+                                            : ": it has " + listed(names)));
     }
+    const std::size_t count = inputNumbers(*node, target->input).size();
+    if (count > 0 && count != numbers.size())
+        return errorAt(graph, node,
+                       "the parameter " + inQuotes(name) + " takes " +
+                           (count == 1 ? "one number" : std::to_string(count) + " numbers") + ", not " +
+                           std::to_string(numbers.size()));
     for (double number : numbers)
         if (number < target->min || number > target->max)
             return errorAt(graph, node,
-                           "the parameter '" + name + "' takes values from " + shortest(target->min) +
+                           "the parameter " + inQuotes(name) + " takes values from " + shortest(target->min) +
                                " to " + shortest(target->max));
     InputValue value;
     if (numbers.size() == 1)

@@ -73,6 +73,10 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options = {});
 /// the part of check() that needs the compiler. Expects a graph whose structure is sound.
 std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& options = {});
 
+/// Refuses names in `options.live` that are neither "time" nor an input that can be live (a number or vector
+/// that is not linked); the Error has the nearest name. Expects a graph without errors.
+Done checkLive(const Graph& graph, const CompileOptions& options);
+
 /// A parameter that whoever plays the graph may change: an exposed one, or a node of type parameter.
 struct NamedParameter {
     std::string name;

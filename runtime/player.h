@@ -84,6 +84,11 @@ class Player {
     Result<Mesh> mesh();
     /// The same where the mesher left it on the device: in deviceMesh(), until the next call of anything.
     Result<MesherResult> meshOnDevice();
+    /// What the mesh is made in: the region, of all times unless a parameter was set since it was last made;
+    /// whether it was found rather than given; and the cells along its longest side.
+    Box region() const { return now.region.value_or(Box{}); }
+    bool regionFound() const { return now.regionFound; }
+    int resolution() const { return options.resolution > 0 ? options.resolution : now.program.resolution; }
     const MesherBuffers& deviceMesh() const { return session.meshBuffers(); }
 
     /// A picture of what the graph shows now, through the document's scene unless `options` bring a camera.

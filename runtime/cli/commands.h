@@ -20,18 +20,21 @@ inline constexpr int kDone = 0, kBadInput = 1, kBadUsage = 2, kSystemFailure = 3
 
 /// Set by Ctrl-C; long work reads it between steps.
 extern std::atomic<bool> interrupted;
+/// While true, Ctrl-C ends the process at once: drivers compile for as long as they like and hear nothing.
+/// For work that leaves nothing behind, before the first output is opened.
+extern std::atomic<bool> leavesNothing;
 
 /// What every command that reads a graph takes.
 struct GraphOptions {
     std::string path;
-    std::vector<std::string> assignments;  ///< "name=value"
+    std::vector<std::string> assignments;  ///< "name=value", each with its '='
     double time = 0.0;
 };
 
 /// Reads and checks the graph, applies the assignments; warnings and errors go to standard error.
 std::optional<Graph> openGraph(const GraphOptions& options);
-/// openGraph, then compile what it is at the options' time.
-std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions);
+/// Compiles what the graph is that many seconds after its start; errors go to standard error.
+std::optional<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options = {});
 void print(const Error& error);
 
 /// What every command that meshes a graph takes.

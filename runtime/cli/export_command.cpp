@@ -50,6 +50,10 @@ Done writeText(const std::string& path, const std::string& text) {
 int runExport(const ExportOptions& options) {
     const auto begin = Clock::now();
     if (const Done known = checkExportPath(options.output); !known) return print(known.error()), kBadUsage;
+    std::vector<std::string> outputs = exportedPaths(options.output);
+    if (!options.report.empty()) outputs.push_back(options.report);
+    if (const Done distinct = checkDistinct(options.mesh.graph.path, outputs); !distinct)
+        return print(distinct.error()), kBadUsage;
     Progress progress;
     int status = kDone;
     std::optional<MeshedGraph> opened = meshGraph(options.mesh, progress, !options.report.empty(), status);

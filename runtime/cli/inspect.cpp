@@ -24,11 +24,7 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
     }
     for (const std::string& assignment : options.assignments) {
         const std::size_t equals = assignment.find('=');
-        Error error;
-        error.message = "--set " + assignment + ": write name=value";
-        const Done set = equals == std::string::npos ? Done(error)
-                                                     : setParameter(*graph, assignment.substr(0, equals),
-                                                                    assignment.substr(equals + 1));
+        const Done set = setParameter(*graph, assignment.substr(0, equals), assignment.substr(equals + 1));
         if (!set) {
             print(set.error());
             return std::nullopt;
@@ -43,13 +39,10 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
     return std::move(*graph);
 }
 
-std::optional<Program> openProgram(const GraphOptions& options, const CompileOptions& compileOptions) {
-    const std::optional<Graph> graph = openGraph(options);
-    if (!graph) return std::nullopt;
-    const Timeline timeline = *readTimeline(*graph);
-    CompileOptions then = compileOptions;
-    then.time = timelineTime(timeline, options.time);
-    Result<Program> program = compile(atTime(*graph, timeline, then.time), then);
+std::optional<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions compileOptions) {
+    const Timeline timeline = *readTimeline(graph);
+    compileOptions.time = timelineTime(timeline, seconds);
+    Result<Program> program = compile(atTime(graph, timeline, compileOptions.time), compileOptions);
     if (!program) {
         print(program.error());
         return std::nullopt;
@@ -81,7 +74,19 @@ int runEval(const EvalOptions& options) {
                      "fieldwright eval: give a point (--at x y z) or a box (--interval x0 y0 z0 x1 y1 z1)\n");
         return kBadUsage;
     }
-    const std::optional<Program> program = openProgram(options.graph, {});
+    const std::vector<double>& b = options.interval;
+    for (std::size_t axis = 0; axis < b.size() / 2; ++axis)
+        if (b[axis] > b[axis + 3]) {
+            std::fprintf(
+                stderr,
+                "fieldwright eval: --interval has its first corner beyond its second along %c: write "
+                "its least corner, then its greatest: x0 y0 z0 x1 y1 z1\n",
+                "xyz"[axis]);
+            return kBadUsage;
+        }
+    const std::optional<Graph> graph = openGraph(options.graph);
+    if (!graph) return kBadInput;
+    const std::optional<Program> program = compileAtTime(*graph, options.graph.time);
     if (!program) return kBadInput;
     if (!options.at.empty()) {
         const Point point{options.at[0], options.at[1], options.at[2]};
@@ -93,10 +98,8 @@ int runEval(const EvalOptions& options) {
             std::printf("%.17g %.17g %.17g\n", result.gradient[0] + 0.0, result.gradient[1] + 0.0,
                         result.gradient[2] + 0.0);
     }
-    if (!options.interval.empty()) {
-        const std::vector<double>& b = options.interval;
-        const Box box{{std::min(b[0], b[3]), std::min(b[1], b[4]), std::min(b[2], b[5])},
-                      {std::max(b[0], b[3]), std::max(b[1], b[4]), std::max(b[2], b[5])}};
+    if (!b.empty()) {
+        const Box box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
         const Interval range = evaluateInterval(program->ir, program->distance(), program->parameters(), box);
         std::printf("%.17g %.17g\n", range.lo, range.hi);
     }
@@ -106,13 +109,17 @@ int runEval(const EvalOptions& options) {
 int runCompile(const CompileCommandOptions& options) {
     CompileOptions compileOptions;
     compileOptions.live.insert(options.live.begin(), options.live.end());
-    const std::optional<Program> program = openProgram(options.graph, compileOptions);
+    const std::optional<Graph> graph = openGraph(options.graph);
+    if (!graph) return kBadInput;
+    if (const Done known = checkLive(*graph, compileOptions); !known) return print(known.error()), kBadInput;
+    const std::optional<Program> program =
+        compileAtTime(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return kBadInput;
     std::fprintf(stderr, "%zu operations, structure %016llx, %s\n", program->ir.size(),
                  static_cast<unsigned long long>(program->structureHash),
                  program->exactness.exact()
                      ? "exact distance"
-                     : ("not an exact distance since node '" + program->spoiledBy + "'").c_str());
+                     : ("not an exact distance since node " + inQuotes(program->spoiledBy)).c_str());
     if (options.emit == "ir") {
         std::fputs(program->ir.text(program->surface).c_str(), stdout);
     } else if (options.emit == "glsl") {

@@ -1,5 +1,8 @@
 // `fieldwright`: reads the command line and runs one command.
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <csignal>
@@ -12,16 +15,28 @@
 #include "graph/node_type.h"
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
+#include "runtime/export/output_file.h"
 #include "runtime/window/viewer.h"
 #include "tests/bench/bench.h"
 
 namespace fw::cli {
 
 std::atomic<bool> interrupted = false;
+std::atomic<bool> leavesNothing = false;
 
 namespace {
 
-void onInterrupt(int) { interrupted = true; }
+/// Ends at once where that leaves nothing behind, or at the second time; until then it is a wish.
+void onInterrupt(int) {
+    const bool again = interrupted.exchange(true);
+    if (!again && !leavesNothing) return;
+    OutputFile::removeUnfinished();
+    const std::string_view said =
+        again ? "fieldwright: interrupted\n" : "fieldwright: interrupted; nothing was written\n";
+    if (isatty(STDERR_FILENO) && write(STDERR_FILENO, "\r\033[K", 4) < 0) _exit(kInterrupted);
+    if (write(STDERR_FILENO, said.data(), said.size()) < 0) _exit(kInterrupted);
+    _exit(kInterrupted);
+}
 
 /// Accepts a number that is neither infinite nor a NaN.
 CLI::Validator finite() {
@@ -32,6 +47,29 @@ CLI::Validator finite() {
             return fine ? std::string() : inQuotes(text) + " is not a finite number";
         },
         "NUMBER");
+}
+
+/// Accepts a whole number of this range.
+CLI::Validator whole(int least, int greatest) {
+    const std::string range = std::to_string(least) + " to " + std::to_string(greatest);
+    return CLI::Validator(
+        [=](const std::string& text) {
+            int number = 0;
+            const bool fine =
+                CLI::detail::lexical_cast(text, number) && number >= least && number <= greatest;
+            return fine ? std::string() : inQuotes(text) + " is not a whole number from " + range;
+        },
+        range);
+}
+
+/// Accepts "name=value".
+CLI::Validator assignment() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            return text.find('=') != std::string::npos ? std::string()
+                                                       : inQuotes(text) + " sets nothing: write name=value";
+        },
+        "NAME=VALUE");
 }
 
 /// The arguments with "-.5" as "-0.5": the parser takes a minus before a point for an option's name.
@@ -54,7 +92,8 @@ void addGraph(CLI::App* command, GraphOptions& graph) {
     command->add_option("GRAPH", graph.path, "The graph file (*.field.json)")->required();
     command->add_option("--set", graph.assignments, "Set an exposed parameter: name=value, or name=x,y,z")
         ->take_all()
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->check(assignment());
     command->add_option("--time", graph.time, "Seconds at which the graph and its timeline are evaluated")
         ->default_val(0.0)
         ->check(finite());
@@ -65,7 +104,7 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
     command
         ->add_option("--resolution", mesh.resolution,
                      "Cells along the region's longest side (default: the output node's, else 128)")
-        ->check(CLI::Range(1, 4096));
+        ->check(whole(1, 4096));
     command
         ->add_option("--region", mesh.region,
                      "Mesh only this box: x0 y0 z0 x1 y1 z1, in metres (default: found from the field)")
@@ -75,11 +114,10 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
                         "Index or part of the name of the device (see fieldwright info)");
 }
 
-/// Ctrl-C asks the running command to stop; a second one ends the process at once.
+/// Ctrl-C asks the running command to stop, as onInterrupt says.
 void listenForInterrupt() {
     struct sigaction action {};
     action.sa_handler = onInterrupt;
-    action.sa_flags = SA_RESETHAND;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
 }
@@ -115,16 +153,21 @@ int run(int count, char** arguments) {
         ->add_option("-o,--output", renderOptions.output,
                      "The picture, a .png file; of a sequence the folder, for 000000.png and so on")
         ->required();
+    CLI::Option* moment = renderCommand->get_option("--time");
     renderCommand->add_option("--from", renderOptions.from, "Seconds of the first frame (default: 0)")
-        ->check(finite());
+        ->check(finite())
+        ->excludes(moment);
     renderCommand
         ->add_option("--to", renderOptions.to,
                      "Seconds that the frames stay below (default: the timeline's length)")
-        ->check(finite());
+        ->check(finite())
+        ->excludes(moment);
     renderCommand
         ->add_option("--fps", renderOptions.framesPerSecond,
                      "Frames a second (default: the timeline's, else 30); frame n shows the time n / fps")
-        ->check(CLI::Range(0.001, kMostFramesPerSecond));
+        ->check(finite())
+        ->check(CLI::Range(0.001, kMostFramesPerSecond))
+        ->excludes(moment);
     renderCommand->add_flag("--overwrite", renderOptions.overwrite,
                             "Make frames anew that are there already (default: skip them)");
     renderCommand->add_option("--size", renderOptions.size, "Width and height in pixels: WxH")
@@ -147,7 +190,7 @@ int run(int count, char** arguments) {
     playCommand
         ->add_option("--frames", playOptions.frames,
                      "End after as many frames (default: with --headless once through the timeline)")
-        ->check(CLI::Range(1, 1'000'000));
+        ->check(whole(1, 1'000'000));
 
     std::vector<std::string> checkPaths;
     CLI::App* checkCommand =
@@ -197,9 +240,9 @@ int run(int count, char** arguments) {
                              "all (default), or some of: mesher talk process live compile light peaks");
     benchCommand->add_flag("--markdown", benchOptions.markdown, "Print the tables as the page has them");
     benchCommand->add_option("--size", benchOptions.sizes, "Cells along an edge (default: each table's own)")
-        ->check(CLI::Range(8, 2048));
+        ->check(whole(8, 2048));
     benchCommand->add_option("--repeats", benchOptions.repeats, "Runs that count")
-        ->check(CLI::Range(1, 1000))
+        ->check(whole(1, 1000))
         ->default_val(benchOptions.repeats);
     benchCommand->add_option("--device", benchOptions.device,
                              "Index or part of the name of the device (see fieldwright info)");
@@ -209,11 +252,12 @@ int run(int count, char** arguments) {
     std::vector<std::string> words = readableNumbers(count, arguments);
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (!words.empty() && !words[0].starts_with('-') &&
-        std::find(names.begin(), names.end(), words[0]) == names.end()) {
+    const bool isOption = !words.empty() && words[0].starts_with('-');
+    if (isOption) names = {"--help", "-h", "--version"};
+    if (!words.empty() && std::find(names.begin(), names.end(), words[0]) == names.end()) {
         const std::string near = nearestName(words[0], names);
-        std::fprintf(stderr, "fieldwright: there is no command %s%s\nTry: fieldwright --help\n",
-                     inQuotes(words[0]).c_str(),
+        std::fprintf(stderr, "fieldwright: there is no %s %s%s\nTry: fieldwright --help\n",
+                     isOption ? "option" : "command", inQuotes(words[0]).c_str(),
                      near.empty() ? "" : (": did you mean '" + near + "'?").c_str());
         return kBadUsage;
     }
@@ -235,13 +279,24 @@ int run(int count, char** arguments) {
     return kBadUsage;
 }
 
+/// The status, unless what was printed did not reach standard output.
+int afterOutput(int status) {
+    errno = 0;
+    const bool lost = std::fflush(stdout) != 0;
+    const int cause = errno;
+    if (!lost && !std::ferror(stdout) && std::cout) return status;
+    std::fprintf(stderr, "fieldwright: cannot write the results to standard output%s%s\n",
+                 lost && cause ? ": " : "", lost && cause ? std::strerror(cause) : "");
+    return kSystemFailure;
+}
+
 }  // namespace
 }  // namespace fw::cli
 
 int main(int count, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);  // a full quota is a write that fails, which has a message
     try {
-        return fw::cli::run(count, arguments);
+        return fw::cli::afterOutput(fw::cli::run(count, arguments));
     } catch (const fw::SystemError& error) {
         std::fprintf(stderr, "fieldwright: %s\n", error.what());
     } catch (const std::bad_alloc&) {

@@ -2,13 +2,19 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <future>
 
 #include "graph/glsl.h"
 
 namespace fw::cli {
+
+namespace {
+constexpr char kCompiling[] = "compiling for the device";
+}
 
 Progress::Progress() : shown(isatty(STDERR_FILENO)) {}
 
@@ -16,15 +22,16 @@ Progress::~Progress() {
     if (shown) std::fprintf(stderr, "\r\033[K");
 }
 
-void Progress::start(const char* name, int percent) {
+void Progress::start(const char* name, int percent, const char* shownAs) {
     finish();
     current = name;
+    words = shownAs ? shownAs : name;
     since = std::chrono::steady_clock::now();
     show(percent);
 }
 
 void Progress::show(int percent) const {
-    if (shown) std::fprintf(stderr, "\r\033[K%3d %%  %s", percent, current.c_str()), std::fflush(stderr);
+    if (shown) std::fprintf(stderr, "\r\033[K%3d %%  %s", percent, words.c_str()), std::fflush(stderr);
 }
 
 void Progress::finish() {
@@ -40,11 +47,40 @@ int badInput(const MeshOptions& options, Error error) {
     return kBadInput;
 }
 
-Error nothingToSee() {
+Error nothingToSee(bool given, const Box& region, int resolution) {
     Error error;
     error.message =
         "the surface does not pass through the region: move or enlarge --region, or raise --resolution";
+    if (given) return error;
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region.hi[axis] - region.lo[axis]);
+    char cell[32];
+    std::snprintf(cell, sizeof cell, "%.3g", longest / resolution);
+    error.message = "the solid is empty or thinner than a cell of " + std::string(cell) +
+                    " m: raise --resolution, or give a smaller --region";
     return error;
+}
+
+Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs) {
+    namespace fs = std::filesystem;
+    std::error_code failure;
+    const auto place = [&](const std::string& path) {
+        return fs::weakly_canonical(fs::absolute(path, failure), failure);
+    };
+    std::vector<std::string> seen{graph};
+    for (const std::string& output : outputs) {
+        for (const std::string& other : seen) {
+            const fs::path path = place(output);  // empty if it cannot be found out
+            // equivalent() knows names that the file system takes for one.
+            if ((!path.empty() && path == place(other)) || fs::equivalent(output, other, failure))
+                return Error{.message = &other == &seen.front()
+                                            ? "this would replace the graph: write to another file"
+                                            : "two outputs would go to this file: write to another file",
+                             .file = output};
+        }
+        seen.push_back(output);
+    }
+    return done();
 }
 
 int stopped() {
@@ -80,6 +116,7 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     };
     std::optional<Box> region;
     if (!readRegion(options, region)) return fail(kBadUsage);
+    const BeforeOutput nothing;
 
     // The device starts while the graph is read: on software Vulkan that takes longer than reading.
     std::future<Result<Device>> opening =
@@ -88,11 +125,8 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return fail(kBadInput);
     progress.start("compile", 5);
-    CompileOptions compileOptions;
-    const Timeline timeline = *readTimeline(*graph);
-    compileOptions.time = timelineTime(timeline, options.graph.time);
-    Result<Program> program = compile(atTime(*graph, timeline, compileOptions.time), compileOptions);
-    if (!program) return print(program.error()), fail(kBadInput);
+    std::optional<Program> program = compileAtTime(*graph, options.graph.time);
+    if (!program) return fail(kBadInput);
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution)};
     const Result<Box> box = meshRegion(*program, request);
@@ -104,20 +138,22 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     if (interrupted) return fail(stopped());
 
     MeshedGraph meshed{Session(std::move(*device)), {}, *box};
-    progress.start("pipelines", 20);
+    progress.start("pipelines", 20, kCompiling);
     meshed.session.setProgram(std::move(*program));
     if (interrupted) return fail(stopped());
     progress.start("mesh", 50);
     Result<MesherResult> mesh = meshed.session.polygonise({*box, request.resolution}, timed);
     if (!mesh) return fail(badInput(options, mesh.error()));
-    if (mesh->triangles == 0) return fail(badInput(options, nothingToSee()));
+    if (mesh->triangles == 0)
+        return fail(badInput(
+            options, nothingToSee(region || meshed.session.program().region, *box, request.resolution)));
     if (interrupted) return fail(stopped());
     meshed.mesh = std::move(*mesh);
     return meshed;
 }
 
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& wishes,
-                                 int& status) {
+                                 int& status, const std::function<int(const Timeline&)>& accept) {
     const auto fail = [&status](int with) {
         status = with;
         return std::nullopt;
@@ -126,16 +162,19 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     playerOptions.device = playerOptions.deviceOptions.pick = options.device;
     playerOptions.resolution = options.resolution.value_or(0);
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
+    const BeforeOutput nothing;
     std::future<Result<Device>> opening =
         std::async(std::launch::async, [&] { return createDevice(playerOptions.deviceOptions); });
     progress.start("read", 0);
     std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return fail(kBadInput);
+    if (accept)
+        if (const int refused = accept(*readTimeline(*graph)); refused != kDone) return fail(refused);
     progress.start("device", 10);
     Result<Device> device = opening.get();
     if (!device) return print(device.error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
-    progress.start("pipelines", 20);
+    progress.start("pipelines", 20, kCompiling);
     Result<Player> player = Player::create(std::move(*graph), std::move(*device), playerOptions);
     if (!player) return fail(badInput(options, player.error()));
     if (interrupted) return fail(stopped());

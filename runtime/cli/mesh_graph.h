@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,8 +20,8 @@ class Progress {
     Progress();
     ~Progress();
 
-    /// Ends the stage before and starts the next.
-    void start(const char* name, int percent);
+    /// Ends the stage before and starts the next, which is shown as `words`, or as its name.
+    void start(const char* name, int percent, const char* words = nullptr);
     /// Shows how far the command is within the stage.
     void show(int percent) const;
     void finish();
@@ -29,8 +30,19 @@ class Progress {
 
   private:
     bool shown;
-    std::string current;
+    std::string current, words;
     std::chrono::steady_clock::time_point since;
+};
+
+/// While it lives, Ctrl-C ends the process at once.
+class BeforeOutput {
+  public:
+    BeforeOutput() : before(leavesNothing.exchange(true)) {}
+    BeforeOutput(const BeforeOutput&) = delete;
+    ~BeforeOutput() { leavesNothing = before; }
+
+  private:
+    bool before;
 };
 
 struct MeshedGraph {
@@ -43,15 +55,19 @@ struct MeshedGraph {
 /// why on standard error and sets `status` to the exit status.
 std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progress, bool timed, int& status);
 
-/// Reads the graph and makes a player of it, at the options' time; the same of progress and failure.
+/// Reads the graph and makes a player of it, at the options' time; the same of progress and failure. `accept`
+/// looks at the timeline before anything takes long, and may give an exit status other than kDone.
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& player,
-                                 int& status);
+                                 int& status, const std::function<int(const Timeline&)>& accept = {});
 
 /// "1280x720" to {1280, 720}. If it is not that, or no picture can have that size, says so for the command.
 std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text);
 
-/// What to say of a solid that has no triangle in its region.
-Error nothingToSee();
+/// What to say of a solid that has no triangle in `region`, which the user gave or which was found.
+Error nothingToSee(bool given, const Box& region, int resolution);
+
+/// Refuses outputs that would replace the graph or each other, whatever their names look like.
+Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs);
 
 /// Prints the error with the graph's file; returns the exit status of bad input.
 int badInput(const MeshOptions& options, Error error);

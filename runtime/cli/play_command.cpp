@@ -32,7 +32,10 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
         SequenceProgress progress(range.count());
         for (long frame = 0; frame < range.last && !interrupted; ++frame) {
             player->seek(start + range.time(frame));
+            std::optional<BeforeOutput> nothing;
+            if (frame == 0) nothing.emplace();  // the driver compiles
             const Result<Picture> picture = player->frame(render);
+            nothing.reset();
             if (!picture && interrupted) break;
             if (!picture) return badInput(options.mesh, picture.error());
             progress.next(true);

@@ -35,21 +35,27 @@ int runRender(const RenderCommandOptions& options) {
                      "fieldwright render: --overwrite is for a sequence: give --from, --to or --fps\n");
         return kBadUsage;
     }
+    if (const Done distinct = checkDistinct(options.mesh.graph.path, {options.output}); !distinct)
+        return print(distinct.error()), kBadUsage;
 
     Progress progress;
     int status = kDone;
+    std::optional<BeforeOutput> nothing(std::in_place);
     std::optional<Player> player = openPlayer(options.mesh, progress, {.liveParameters = false}, status);
     if (!player) return status;
     progress.start("mesh", 50);
     const Result<MesherResult> mesh = player->meshOnDevice();
     if (!mesh) return badInput(options.mesh, mesh.error());
-    if (mesh->triangles == 0) return badInput(options.mesh, nothingToSee());
+    if (mesh->triangles == 0)
+        return badInput(options.mesh,
+                        nothingToSee(!player->regionFound(), player->region(), player->resolution()));
     if (interrupted) return stopped();
     progress.start("light", 60);
     RenderOptions render{.width = size->first, .height = size->second, .cancel = &interrupted};
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     const Result<Picture> picture = player->frame(render);
     if (!picture) return interrupted ? stopped() : badInput(options.mesh, picture.error());
+    nothing.reset();
     const Done written = savePicture(*picture, options.output, &interrupted);
     if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
     progress.finish();

@@ -88,18 +88,30 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     if (fs::exists(options.output, failure) && !fs::is_directory(options.output, failure))
         return badUsage(options.output + ": this is a file: a sequence goes into a folder");
 
+    const auto pathOf = [&](long frame) { return fs::path(options.output) / frameName(frame); };
+    std::optional<FrameRange> range;
+    const auto accept = [&](const Timeline& timeline) {
+        const Result<FrameRange> wanted =
+            framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length),
+                          options.framesPerSecond.value_or(timeline.framesPerSecond));
+        if (!wanted) return badUsage(wanted.error().message);
+        range = *wanted;
+        for (long frame = range->first; frame < range->last && !options.overwrite; ++frame) {
+            const auto there = sizeOfPng(pathOf(frame));
+            if (there && *there != size)
+                return badUsage(pathOf(frame).string() + " is there already, with " +
+                                std::to_string(there->first) + "x" + std::to_string(there->second) +
+                                " pixels: give that --size, another folder, or --overwrite");
+        }
+        return kDone;
+    };
     std::optional<Player> player;
     {
         Progress progress;
         int status = kDone;
-        player = openPlayer(options.mesh, progress, {.liveParameters = false}, status);
+        player = openPlayer(options.mesh, progress, {.liveParameters = false}, status, accept);
         if (!player) return status;
     }
-    const Timeline& timeline = player->timeline();
-    const double rate = options.framesPerSecond.value_or(timeline.framesPerSecond);
-    const Result<FrameRange> range =
-        framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length), rate);
-    if (!range) return badUsage(range.error().message);
     if (!player->moves())
         std::fprintf(stderr, "%s: note: nothing moves in this graph: all frames are the same\n",
                      options.mesh.graph.path.c_str());
@@ -109,14 +121,6 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
         std::fprintf(stderr, "%s: error: cannot make the folder: %s\n", options.output.c_str(),
                      failure.message().c_str());
         return kSystemFailure;
-    }
-    const auto pathOf = [&](long frame) { return fs::path(options.output) / frameName(frame); };
-    for (long frame = range->first; frame < range->last && !options.overwrite; ++frame) {
-        const auto there = sizeOfPng(pathOf(frame));
-        if (there && *there != size)
-            return badUsage(pathOf(frame).string() + " is there already, with " +
-                            std::to_string(there->first) + "x" + std::to_string(there->second) +
-                            " pixels: give that --size, another folder, or --overwrite");
     }
 
     bool capped = false;
@@ -129,7 +133,10 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
             const bool there = !options.overwrite && fs::exists(path);
             if (!there) {
                 player->seek(range->time(frame));
+                std::optional<BeforeOutput> nothing;
+                if (progress.made == 0) nothing.emplace();  // the driver compiles
                 const Result<Picture> picture = player->frame(render);
+                nothing.reset();
                 if (!picture && interrupted) break;
                 if (!picture) return badInput(options.mesh, picture.error());
                 const Done written = savePicture(*picture, path, &interrupted);

@@ -102,14 +102,12 @@ std::string printable(const std::string& name) {
     return text.empty() ? "mesh" : text;
 }
 
-Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, const std::string& besidePath,
-                                OutputFile* beside) {
-    ExportedFiles files{{path}, file.size()};
+Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, OutputFile* beside) {
+    ExportedFiles files{exportedPaths(path), file.size()};
     if (beside) {
         // The file asked for goes last: when it is there, all of the export is.
         if (Done finished = file.finish(); !finished) return finished.error();
         if (Done committed = beside->commit(); !committed) return committed.error();
-        files.paths.push_back(besidePath);
         files.bytes += beside->size();
     }
     if (Done committed = file.commit(); !committed) return committed.error();
@@ -128,6 +126,13 @@ Done checkExportPath(const std::string& path) {
         message += kFormats[i].first;
     }
     return Error{.message = message, .file = path};
+}
+
+std::vector<std::string> exportedPaths(const std::string& path) {
+    const std::optional<Format> format = formatOf(path);
+    if (format != Format::gltf && format != Format::obj) return {path};
+    const char* ending = format == Format::gltf ? ".bin" : ".mtl";
+    return {path, std::filesystem::path(path).replace_extension(ending).string()};
 }
 
 Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
@@ -161,16 +166,15 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     if (!file) return file.error();
 
     if (format == Format::gltf || format == Format::obj) {
-        std::filesystem::path besidePath = full;
-        besidePath.replace_extension(format == Format::gltf ? ".bin" : ".mtl");
-        Result<OutputFile> beside = OutputFile::open(besidePath.string(), options.cancel);
+        const std::string besidePath = exportedPaths(path).back();
+        Result<OutputFile> beside = OutputFile::open(besidePath, options.cancel);
         if (!beside) return beside.error();
-        const std::string besideName = besidePath.filename().string();
+        const std::string besideName = std::filesystem::path(besidePath).filename().string();
         if (format == Format::gltf)
             writeGltf(mesh, *bounds, name, percentEncoded(besideName), *file, *beside);
         else
             writeObj(mesh, name, besideName, *file, *beside);
-        return commitAll(path, *file, besidePath.string(), &*beside);
+        return commitAll(path, *file, &*beside);
     }
     switch (format) {
         case Format::glb:
@@ -181,7 +185,7 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         case Format::ply: writePly(mesh, *file); break;
         default: break;
     }
-    return commitAll(path, *file, {}, nullptr);
+    return commitAll(path, *file, nullptr);
 }
 
 std::string generatorName() { return std::string("Fieldwright ") + FIELDWRIGHT_VERSION; }

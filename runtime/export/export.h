@@ -40,6 +40,9 @@ struct ExportedFiles {
 Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
                                  const ExportOptions& options = {});
 
+/// The files that exportMesh writes for this path: it, then the one beside it if the format has one.
+std::vector<std::string> exportedPaths(const std::string& path);
+
 /// Refuses, before any work is done, a path whose extension exportMesh does not know; the message lists those
 /// it does.
 Done checkExportPath(const std::string& path);

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -23,7 +25,31 @@ std::string reason(int code) { return std::generic_category().message(code); }
 
 Error failed(const std::string& path, const std::string& what) { return {.message = what, .file = path}; }
 
+/// Names of temporary files. Whoever takes one out of its slot owns it, a signal's handler too. More files
+/// than slots: those beyond stay behind if the process ends at once.
+std::array<std::atomic<char*>, 16> unfinished;
+
+int remember(const std::string& path) {
+    char* name = ::strdup(path.c_str());
+    for (std::size_t slot = 0; name && slot < unfinished.size(); ++slot) {
+        char* none = nullptr;
+        if (unfinished[slot].compare_exchange_strong(none, name)) return static_cast<int>(slot);
+    }
+    std::free(name);
+    return -1;
+}
+
+void forget(int& slot) {
+    if (slot >= 0) std::free(unfinished[static_cast<std::size_t>(slot)].exchange(nullptr));
+    slot = -1;
+}
+
 }  // namespace
+
+void OutputFile::removeUnfinished() {
+    for (std::atomic<char*>& slot : unfinished)
+        if (const char* name = slot.exchange(nullptr)) ::unlink(name);
+}
 
 Result<OutputFile> OutputFile::open(const std::string& path, const std::atomic<bool>* cancel) {
     OutputFile file;
@@ -63,6 +89,7 @@ Result<OutputFile> OutputFile::open(const std::string& path, const std::atomic<b
         if (folder.empty()) folder = ".";
         return failed(path, "cannot create a file in folder '" + folder + "': " + reason(cause));
     }
+    file.slot = remember(file.temporary);
     // Best effort: a file system without permissions must not prevent the export.
     if (mode != 0 && ::fchmod(file.descriptor, mode) != 0) errno = 0;
     file.buffer = std::make_unique_for_overwrite<char[]>(kBufferBytes);
@@ -73,6 +100,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : shownPath(std::move(other.shownPath)),
       target(std::move(other.target)),
       temporary(std::exchange(other.temporary, {})),
+      slot(std::exchange(other.slot, -1)),
       failure(std::move(other.failure)),
       cancel(other.cancel),
       descriptor(std::exchange(other.descriptor, -1)),
@@ -85,6 +113,7 @@ OutputFile::~OutputFile() { discard(); }
 void OutputFile::discard() {
     if (descriptor >= 0) ::close(std::exchange(descriptor, -1));
     if (!temporary.empty()) ::unlink(std::exchange(temporary, {}).c_str());
+    forget(slot);
 }
 
 void OutputFile::write(const void* data, std::size_t size) {
@@ -142,6 +171,7 @@ Done OutputFile::commit() {
         return failed(shownPath, failure);
     }
     temporary.clear();
+    forget(slot);
     return done();
 }
 

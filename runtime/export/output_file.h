@@ -51,6 +51,10 @@ class OutputFile {
     /// Finishes if that is not done, then renames to the final name.
     Done commit();
 
+    /// Removes the temporary files of all that are open, for a process that ends at once: safe in a signal's
+    /// handler.
+    static void removeUnfinished();
+
   private:
     OutputFile() = default;
     void flush();
@@ -60,6 +64,7 @@ class OutputFile {
     std::string shownPath;  ///< as the user gave it
     std::string target;     ///< with links resolved
     std::string temporary;  ///< empty once renamed or removed
+    int slot = -1;          ///< where removeUnfinished() finds its name
     std::string failure;
     const std::atomic<bool>* cancel = nullptr;
     int descriptor = -1;

@@ -87,6 +87,22 @@ TEST(CommandInput, NodesThatAreNotInTheLibrary) {
                    {"node 'a', input 'surface'", "gives vec3 but this input takes surface"});
 }
 
+TEST(CommandInput, NamesThatWouldForgeLines) {
+    expectBadGraph(document(R"({"id": "a\nb: error: \u001b[31m\u0000\u009b", "type": "spere"})"),
+                   {"error: node 'a?b: error: ?[31m?"
+                    "?': unknown",
+                    "did you mean 'sphere'?"});
+    const std::string name(100'000, 'x');
+    const TempDir folder;
+    const std::string path = folder.path("long.field.json");
+    test::writeText(path, document("{\"id\": \"" + name + "\", \"type\": \"spere\"}"));
+    const test::CommandResult result = runCommand({"export", path, "-o", folder.path("a.glb")});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_LT(result.errors.size(), 2000u);
+    EXPECT_LT(runCommand({"eval", path, "--at", "0", "0", "0", "--set", name + "=" + name}).errors.size(),
+              2000u);
+}
+
 TEST(CommandInput, LoopsOfLinksAndOfGroups) {
     expectBadGraph(document(R"({"id": "a", "type": "shell", "inputs": {"surface": {"from": "b"}}},
                                {"id": "b", "type": "shell", "inputs": {"surface": {"from": "a"}}})"),
@@ -168,6 +184,8 @@ TEST(CommandInput, SolidsThatCannotBeMeshed) {
                    {"the solid is empty"});
     expectBadGraph(ball("1"), {"does not pass through the region"},
                    {"--region", "2", "2", "2", "3", "3", "3"});
+    expectBadGraph(document(R"({"id": "a", "type": "box", "inputs": {"half_extents": [100, 0.001, 100]}})"),
+                   {"empty or thinner than a cell of 6.9 m: raise --resolution"}, {"--resolution", "32"});
     expectBadGraph(ball("1"), {"too small"}, {"--region", "1e9", "0", "0", "1000000001", "1", "1"});
     expectBadGraph(ball("1e-30"), {"too small"});
     expectBadGraph(ball("1"), {"too large"}, {"--region", "-1e30", "-1", "-1", "1e30", "1", "1"});

@@ -97,6 +97,66 @@ TEST_F(CommandOutput, CtrlCStopsCleanlyAtAnyTime) {
     EXPECT_GT(interrupted, 0);
 }
 
+TEST_F(CommandOutput, CtrlCEndsACompilationOfTheDriver) {
+    // Takes the driver minutes, in which it looks at nothing.
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [{"id": "a", "type": "expression", "code":
+        "d = length(p) - 1; for (int i = 0; i < 200; i++) d += 0.0001 * perlin(p * (1 + i), i); return d;"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})");
+    CommandOptions options;
+    options.interruptAfterMs = 3000;
+    const CommandResult result = runCommand(to(folder.path("a.stl"), "8"), options);
+    EXPECT_EQ(result.status, 130);
+    EXPECT_EQ(result.errors, "fieldwright: interrupted; nothing was written\n");
+    EXPECT_LT(result.cpuSeconds, 20.0);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_F(CommandOutput, TheGraphAndOtherOutputsAreNotReplaced) {
+    const std::string mesh = folder.path("a.glb"), text = test::readText(graph);
+    const auto refused = [&](const std::string& output, const std::string& report, const std::string& said) {
+        SCOPED_TRACE(output + " " + report);
+        std::vector<std::string> words = to(output, "8");
+        if (!report.empty()) words.insert(words.end(), {"--report", report});
+        expectRefusal(runCommand(words), 2, {said});
+        EXPECT_EQ(test::readText(graph), text);
+        EXPECT_EQ(input.names().size(), 1u);
+    };
+    fs::create_symlink(graph, folder.path("link.stl"));
+    refused(mesh, graph, "gyroid.field.json: error: this would replace the graph");
+    refused(mesh, input.path("./gyroid.field.json"), "this would replace the graph");
+    refused(folder.path("link.stl"), "", "this would replace the graph");
+    refused(mesh, mesh, "two outputs would go to this file");
+    refused(mesh, folder.path("./a.glb"), "two outputs would go to this file");
+    refused(folder.path("a.gltf"), folder.path("a.bin"), "two outputs would go to this file");
+    refused(folder.path("a.obj"), folder.path("a.mtl"), "two outputs would go to this file");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"link.stl"});
+
+    for (const char* name : {"b.bin", "b.mtl", "b.png"}) fs::copy_file(graph, folder.path(name));
+    for (const auto& [from, to] : {std::pair("b.bin", "b.gltf"), std::pair("b.mtl", "b.obj")}) {
+        expectRefusal(runCommand({"export", folder.path(from), "-o", folder.path(to)}), 2, {"the graph"});
+        EXPECT_EQ(test::readText(folder.path(from)), text);
+    }
+    expectRefusal(runCommand({"render", folder.path("b.png"), "-o", folder.path("b.png")}), 2, {"the graph"});
+    EXPECT_EQ(test::readText(folder.path("b.png")), text);
+}
+
+TEST_F(CommandOutput, RunIsFoundThroughALink) {
+    const std::string home = folder.path("home");
+    for (const char* part : {"graph", "runtime", "shaders", "tests/bench", "build/release"})
+        fs::create_directories(home + "/" + part);
+    fs::copy_file(FIELDWRIGHT_SOURCE_DIR "/run", home + "/run");
+    for (const char* file : {"CMakeLists.txt", "CMakePresets.json"}) test::writeText(home + "/" + file, "");
+    for (const char* program : {"/.install", "/build/release/fieldwright"}) {
+        test::writeText(home + program, "#!/bin/sh\necho called \"$@\"\n");
+        fs::permissions(home + program, fs::perms::owner_all);
+    }
+    test::writeText(home + "/build/release/up_to_date", "");
+    fs::create_symlink("home/run", folder.path("link"));
+    const test::ProgramResult result = test::runProgram("sh '" + folder.path("link") + "' info 'a b'");
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_NE(result.output.find("called info a b\n"), std::string::npos) << result.output;
+}
+
 TEST_F(CommandOutput, PathsOfAllKinds) {
     const fs::path before = fs::current_path();
     fs::current_path(folder.folder);

@@ -47,7 +47,8 @@ TEST_F(Command, WithoutAKnownCommandIsUsage) {
     expectRefusal(runCommand({}), 2, {"fieldwright: A subcommand is required", "Try: fieldwright --help"});
     expectRefusal(runCommand({"frobnicate"}), 2, {"there is no command 'frobnicate'"});
     expectRefusal(runCommand({"exprot"}), 2, {"'exprot': did you mean 'export'?"});
-    expectRefusal(runCommand({"--frobnicate"}), 2, {"fieldwright: "});
+    expectRefusal(runCommand({"--frobnicate"}), 2, {"there is no option '--frobnicate'"});
+    expectRefusal(runCommand({"--hlep"}), 2, {"'--hlep': did you mean '--help'?"});
     expectRefusal(runCommand({std::string(100'000, 'x')}), 2, {"there is no command 'xxx", "…'"});
 }
 
@@ -77,7 +78,39 @@ TEST_F(Command, OutputsThatAreNoMeshFileAreUsage) {
 TEST_F(Command, ResolutionsOutOfRangeAreUsage) {
     for (const char* resolution :
          {"0", "-1", "1000000000", "99999999999999999999", "4097", "many", "1.5", "nan"})
-        expectBadUsage({"--resolution", resolution}, {"--resolution", resolution, "1 to 4096"});
+        expectBadUsage({"--resolution", resolution},
+                       {"--resolution", std::string(resolution) + "' is not a whole number from 1 to 4096"});
+}
+
+TEST_F(Command, PicturesOfNoTimeOrTwoAreUsage) {
+    const auto refused = [&](std::vector<std::string> arguments, const std::string& part) {
+        arguments.insert(arguments.begin(), {"render", graph, "-o", folder.path("frames")});
+        expectRefusal(runCommand(arguments), 2, {part});
+    };
+    refused({"--fps", "nan"}, "--fps: 'nan' is not a finite number");
+    refused({"--fps", "30", "--time", "2"}, "--time excludes --fps");
+    refused({"--to", "1", "--time", "2"}, "--time excludes --to");
+    refused({"--from", "0", "--time", "2"}, "--time excludes --from");
+}
+
+TEST_F(Command, InputsThatCannotBeLiveAreRefused) {
+    const auto live = [&](const std::string& name) { return runCommand({"compile", graph, "--live", name}); };
+    for (const char* name : {"ball.radius", "size.value", "time"})
+        EXPECT_EQ(live(name).status, 0) << name << live(name).errors;
+    expectRefusal(live("ball.radios"), 1, {"no input 'ball.radios'", "did you mean 'ball.radius'?"});
+    expectRefusal(live("ball.nope"), 1, {"'ball.nope'", "the node has ball.radius"});
+    expectRefusal(live("fat.distance"), 1, {"'fat.distance'", "not linked"});
+    for (const char* name : {"x.y", "ball", "a.b.c", ""}) expectRefusal(live(name), 1, {"there is no input"});
+}
+
+TEST_F(Command, ResultsThatAreLostAreAFailure) {
+    test::CommandOptions full;
+    full.wrapper = {"sh", "-c", "\"$0\" \"$@\" > /dev/full"};
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"nodes", "--json"}, {"info"}, {"eval", graph, "--at", "0", "0", "0"}, {"--help"}})
+        expectRefusal(runCommand(words, full), 3, {"cannot write the results to standard output"});
+    EXPECT_EQ(runCommand({"compile", graph}, full).status, 3);
+    EXPECT_EQ(runCommand({"check", graph}, full).status, 0);  // has nothing to say
 }
 
 TEST_F(Command, RegionsThatAreNoBoxAreUsage) {
@@ -90,6 +123,8 @@ TEST_F(Command, RegionsThatAreNoBoxAreUsage) {
     expectBadUsage({"--region", "0", "0", "0", "1", "one", "1"}, {"'one' is not a finite number"});
     expectBadUsage({"--region", "0", "1", "0", "1", "0", "1"}, {"no extent along y", "least corner"});
     expectBadUsage({"--region", "0", "0", "2", "1", "1", "2"}, {"no extent along z"});
+    expectRefusal(runCommand({"eval", graph, "--interval", "0", "1", "0", "1", "0", "1"}), 2,
+                  {"--interval", "along y", "least corner"});
 }
 
 TEST_F(Command, NumbersAreReadInEveryWayOfWritingThem) {
@@ -115,7 +150,8 @@ TEST_F(Command, AssignmentsTakeOneWordAndKnowTheParameters) {
     const auto refused = [&](const std::string& assignment, const std::vector<std::string>& parts) {
         expectRefusal(runCommand({"eval", graph, "--at", "0", "0", "0", "--set", assignment}), 1, parts);
     };
-    refused("radius", {"--set radius", "name=value"});
+    expectRefusal(runCommand({"eval", graph, "--at", "0", "0", "0", "--set", "radius"}), 2,
+                  {"--set: 'radius'", "name=value"});
     refused("radios=1", {"no parameter 'radios'", "did you mean 'radius'?"});
     refused("=1", {"no parameter ''"});
     refused("radius=", {"given no value"});
@@ -123,7 +159,9 @@ TEST_F(Command, AssignmentsTakeOneWordAndKnowTheParameters) {
     refused("radius=nan", {"'nan' is no value"});
     refused("radius=1e999", {"'1e999' is no value"});
     refused("radius=9", {"'radius' takes values from 0.125 to 4"});
-    refused("radius=1,2,3", {"radius"});
+    refused("radius=1,2,3", {"the parameter 'radius' takes one number, not 3"});
+    refused("radius=0,5", {"takes one number, not 2; the decimal sign is a point: 0.5"});
+    refused("size=0,5", {"takes one number, not 2; the decimal sign is a point: 0.5"});
     refused("radius=1,", {"radius"});
     refused("size=-3", {"'size' takes values from -2 to 2"});
 }

@@ -90,6 +90,13 @@ TEST_F(Sequence, RefusesWhatMakesNoSequence) {
         expectRefusal(render(output, more), 2, {part});
     };
     refuse(frames, {"--from", "1", "--to", "1"}, "there is no frame from --from");
+    // Before anything is looked for: a plane has no bounds.
+    test::writeText(folder.path("plane.field.json"), R"({"fieldwright": 1, "nodes": [
+        {"id": "a", "type": "plane"}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})");
+    expectRefusal(
+        runCommand({"render", folder.path("plane.field.json"), "-o", frames, "--from", "3", "--to", "1"}), 2,
+        {"there is no frame from --from"});
+    std::filesystem::remove(folder.path("plane.field.json"));
     refuse(frames, {"--from", "-1"}, "--from must be 0 or later");
     refuse(frames, {"--to", "1e9"}, "frames are numbered up to 1000000");
     refuse(frames, {"--fps", "0"}, "--fps");
