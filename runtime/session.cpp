@@ -80,7 +80,7 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     if (stages) stages->push_back({"emit", milliseconds(start)});
     const auto compiling = std::chrono::steady_clock::now();
     pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
-    renderPipelines = {};
+    renderer.reset();
     if (stages) stages->push_back({"pipelines", milliseconds(compiling)});
     builtHash = current.structureHash;
     built = true;
@@ -98,7 +98,7 @@ bool Session::compiling() {
         MesherPipelines made = next.get();
         if (nextHash == current.structureHash && !isBuilt()) {
             pipelines = std::move(made);
-            renderPipelines = {};
+            renderer.reset();
             builtHash = nextHash;
             built = true;
         }
@@ -116,6 +116,7 @@ bool Session::compiling() {
 
 void Session::setParameter(std::size_t slot, double value) {
     current.live.at(slot).value = value;
+    ++content;
     const auto narrow = static_cast<float>(value);
     uploadBytes(*gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
 }
@@ -148,6 +149,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     grid.lo = config.origin;
     grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
     grid.cellSize = static_cast<float>(longest / resolution);
+    ++content;
     config.parameters = &parameters;
     config.images = &images;
     config.colors = current.hasMaterial();
@@ -173,15 +175,33 @@ Mesh Session::download(const MesherResult& result) const {
     return mesh;
 }
 
-Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
-    if (!renderPipelines.shade) renderPipelines = createRenderPipelines(*gpu, emitField(current));
+template <class Draw>
+auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw) {
+    if (!renderer) renderer = createRenderer(*gpu, emitField(current));
+    std::vector<gpu::MeshVertex> points;
+    if (options.framed.empty() && result.vertices > 0) {
+        points = fw::download<gpu::MeshVertex>(*gpu, buffers.vertices, result.vertices);
+        options.framed = points;
+    }
     const RenderScene scene{.mesh = buffers,
-                            .vertices = result.vertices,
+                            .triangles = result.triangles,
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
-                            .parameters = &parameters,
-                            .images = &images};
-    return renderPicture(*gpu, renderPipelines, scene, options);
+                            .buffers = {&parameters, &images},
+                            .content = content};
+    return draw(*renderer, scene, options);
+}
+
+Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
+    return draw(result, options, [](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+        return renderPicture(with, scene, wishes);
+    });
+}
+
+Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture) {
+    return draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+        return fw::renderLive(with, scene, wishes, picture);
+    });
 }
 
 }  // namespace fw

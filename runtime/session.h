@@ -1,8 +1,8 @@
 // The one orchestrator: owns the device objects of a program and runs its stages.
 //
 // Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
-// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images per program
-// that samples others, a depth image per picture.
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images of the field
+// per program that samples others, the renderer's images per size of a picture.
 #pragma once
 
 #include <future>
@@ -13,7 +13,7 @@
 
 #include "graph/compile.h"
 #include "runtime/mesher.h"
-#include "runtime/render/render.h"
+#include "runtime/render/renderer.h"
 
 namespace fw {
 
@@ -54,12 +54,18 @@ class Session {
     Mesh download(const MesherResult& result) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
 
-    /// A picture of the last mesh, which has a triangle unless the options say what is framed. Errors as
+    /// A still picture of the last mesh, whose points are framed unless the options say otherwise. Errors as
     /// renderPicture.
     Result<Picture> render(const MesherResult& result, const RenderOptions& options);
+    /// The live view's next frame, into `picture`; false if it would be the same as the last. Errors as
+    /// renderLive.
+    Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture);
 
   private:
     void take(Program program);
+    /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
+    template <class Draw>
+    auto draw(const MesherResult& result, RenderOptions options, Draw draw);
 
     std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
     Program current;
@@ -68,7 +74,8 @@ class Session {
     MesherPipelines pipelines;
     MesherBuffers buffers;
     MeshGrid grid;
-    RenderPipelines renderPipelines;  ///< made by the first picture
+    std::optional<Renderer> renderer;  ///< made by the first picture
+    uint64_t content = 0;              ///< counts changes of mesh and parameters
     Buffer parameters, images;
     std::future<MesherPipelines> next;  ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;

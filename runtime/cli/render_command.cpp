@@ -5,7 +5,7 @@
 
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
-#include "runtime/render/render.h"
+#include "runtime/render/renderer.h"
 
 namespace fw::cli {
 
@@ -52,6 +52,9 @@ int runRender(const RenderCommandOptions& options) {
     if (interrupted) return stopped();
     progress.start("light", 60);
     RenderOptions render{.width = size->first, .height = size->second, .cancel = &interrupted};
+    if (getenv("SHOW")) render.show = uint32_t(atoi(getenv("SHOW")));
+    if (getenv("TRACED")) render.primary = Primary::traced;
+    if (getenv("N")) render.samples = atoi(getenv("N"));
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     const Result<Picture> picture = player->frame(render);
     if (!picture) return interrupted ? stopped() : badInput(options.mesh, picture.error());

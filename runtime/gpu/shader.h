@@ -95,11 +95,13 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
                                              CompileTimes* times = nullptr, Compile when = Compile::now);
 Pipeline createComputePipeline(const Device& device, const ShaderOptions& shader);
 
-/// A pipeline for dynamic rendering without vertex attributes: vertex shaders fetch from storage buffers.
+/// A pipeline for dynamic rendering. Vertex shaders fetch from storage buffers, but for a position that
+/// `vertexStride` asks for.
 struct GraphicsOptions {
     std::vector<ShaderOptions> shaders = {};  ///< vertex, fragment and, where the device has them, geometry
     std::vector<VkFormat> colorFormats = {};
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+    uint32_t vertexStride = 0;  ///< bytes; if not 0, location 0 is a vec3 at the start of each vertex
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  ///< reversed depth: 1 is near

@@ -1,10 +1,24 @@
-// Pictures to PNG files.
+#include "runtime/render/picture.h"
+
 #include <stb/stb_image_write.h>
 
+#include <algorithm>
+#include <new>
+
 #include "runtime/export/output_file.h"
-#include "runtime/render/render.h"
 
 namespace fw {
+
+Done checkPictureSize(int width, int height) {
+    if (std::min(width, height) >= kLeastPictureSide && std::max(width, height) <= kMostPictureSide &&
+        int64_t(width) * height <= kMostPicturePixels)
+        return done();
+    Error error;
+    error.message = "a picture's sides are from " + std::to_string(kLeastPictureSide) + " to " +
+                    std::to_string(kMostPictureSide) + " pixels, with at most " +
+                    std::to_string(kMostPicturePixels) + " in all";
+    return error;
+}
 
 Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel) {
     Result<OutputFile> file = OutputFile::open(path, cancel);

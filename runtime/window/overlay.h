@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/render/render.h"
+#include "runtime/render/picture.h"
 #include "runtime/window/viewer.h"
 
 namespace fw {

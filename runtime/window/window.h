@@ -16,7 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/render/render.h"
+#include "runtime/gpu/resources.h"
+#include "runtime/render/picture.h"
 #include "runtime/window/viewer.h"
 
 struct GLFWwindow;

@@ -1,4 +1,4 @@
-// Ambient occlusion traced through the field, one tile of 16 x 16 pixels a work group.
+// Ambient occlusion traced through the field, one listed tile of 16 x 16 pixels a work group.
 //
 // After Swoboda's "Advanced Procedural Rendering in DirectX 11", Illumination: short rays of few samples, turned each
 // frame; what the last frame knew of a point is found again by reprojection and kept where depth and normal agree; a pixel
@@ -7,84 +7,75 @@
 // Deviations: history is rejected by the distance to the surface's plane, not by depth alone, which would lose grazing
 // surfaces; it remembers how many rays it stands for, so that a resting view converges to their plain mean.
 #define FIELD_VALUE
-#define HISTOPYRAMID_LANES (AMBIENT_TILE * AMBIENT_TILE)
+#define HISTOPYRAMID_LANES (RENDER_TILE * RENDER_TILE)
 #define HISTOPYRAMID_TYPE uint
 #include "shared.h"
-#include "render/ambient.h"
+#include "render/render.h"
 #include "field.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/histopyramid.glsl"
+#include "render/view.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
-layout(binding = 0, r32f) readonly uniform image2D depth;
-layout(binding = 1, r32ui) readonly uniform uimage2D normals;
-// As bits: openness, rays that it stands for, clip depth, octahedral normal.
-layout(binding = 2, rgba32ui) readonly uniform uimage2D historyBefore;
-layout(binding = 3, rgba32ui) writeonly uniform uimage2D historyNow;
-layout(binding = 4, r32f) writeonly uniform image2D result;
-layout(binding = 5, scalar) readonly buffer Tiles { uint tiles[]; };
-layout(binding = 6, scalar) readonly buffer View { AmbientView view; };
+layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
+layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;
+layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
+layout(binding = 5, rgba32ui) readonly uniform uimage2D surfacesBefore;
+layout(binding = 6, r32ui) readonly uniform uimage2D historyBefore;  // openness, 16 bits | rays that it stands for << 16
+layout(binding = 7, r32ui) writeonly uniform uimage2D historyNow;
+
+#include "render/solid.glsl"
 
 shared vec3 positions[HISTOPYRAMID_LANES];
-shared vec3 directions[HISTOPYRAMID_LANES];                    // normals
-shared uint rays[HISTOPYRAMID_LANES * AMBIENT_MOST_RAYS];      // pixel of the tile | number of its ray << 8
-shared uint opened[HISTOPYRAMID_LANES];                        // in 1/256
+shared vec3 directions[HISTOPYRAMID_LANES];                   // normals
+shared uint rays[HISTOPYRAMID_LANES * RENDER_MOST_RAYS];      // pixel of the tile | number of its ray << 8
+shared uint opened[HISTOPYRAMID_LANES];
 
 const float kSamePlane = 0.01;    // of the distance to the eye
 const float kSameNormal = 0.9;    // cosine
-const float kHit = 0.4;           // of the bias
+const float kHit = 0.4;           // of the bias: nearer is a hit,
+const float kLeave = 0.25;        // or of the way gone, so that rays may leave a wall beside their start
 
-vec3 unproject(mat4 inverse, uvec2 pixel, float z) {
-    vec2 place = (vec2(pixel) + 0.5) / vec2(view.width, view.height) * 2.0 - 1.0;
-    vec4 p = inverse * vec4(place, z, 1.0);
-    return p.xyz / p.w;
-}
-
-/// 1 if the ray is open. Directions are cosine-distributed; a pixel's own follow the R2 sequence (Roberts 2018) from a place
-/// that its position in the picture gives.
-float trace(vec3 p, vec3 n, uvec2 pixel, uint number) {
-    uint bits = (pixel.x * 0x9E3779B1u) ^ (pixel.y * 0x85EBCA77u);
-    bits = (bits ^ bits >> 15) * 0x2C1B3C6Du;
-    bits ^= bits >> 13;
-    uvec2 turned = uvec2(bits, bits * 0x297A2D39u) + number * uvec2(3242174889u, 2447445414u);  // 0.7549, 0.5698 of 2^32
-    vec2 u = vec2(turned >> 8) / 16777216.0;
-    float angle = 6.2831853 * u.x, r = sqrt(u.y);
-    float s = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;  // Duff et al. 2017
-    vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), y = vec3(b, s + n.y * n.y * a, -n.y);
-    vec3 d = r * cos(angle) * x + r * sin(angle) * y + sqrt(1.0 - u.y) * n;
-    vec3 start = p + n * view.bias;
-    float t = 0.0, h;
+/// Whether the ray is open.
+bool trace(vec3 p, vec3 n, uvec2 pixel, uint number) {
+    vec3 d = cosineDirection(n, evenly(pixel, number)), start = p + n * frame.bias;
+    float t = 0.0;
     uint i = 0;
+    bool open;
     do {
-        h = fieldValue(start + d * t) * view.stepScale;
-        float part = float(++i) / float(view.samples);
-        t = max(t + h, view.radius * part * part);  // so that the last sample is at the ray's end
-    } while (i < view.samples && h > kHit * view.bias && t < view.radius);
-    return h > kHit * view.bias || t >= view.radius ? 1.0 : 0.0;
+        float h = clearance(start + d * t);
+        open = h > min(kHit * frame.bias, kLeave * t) || t == 0.0;
+        float part = float(++i) / float(frame.ambientSamples);
+        t = max(t + h, frame.ambientRadius * part * part);  // so that the last sample is at the ray's end
+    } while (i < frame.ambientSamples && open && t < frame.ambientRadius);
+    return open;
 }
 
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, tile = tiles[gl_WorkGroupID.x];
-    uvec2 corner = uvec2(tile & 0xffff, tile >> 16) * AMBIENT_TILE, size = uvec2(view.width, view.height);
-    uvec2 pixel = corner + uvec2(lane % AMBIENT_TILE, lane / AMBIENT_TILE);
+    uvec2 corner = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE, size = frame.size;
+    uvec2 pixel = corner + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
     bool inPicture = all(lessThan(pixel, size));
-    float z = inPicture ? imageLoad(depth, ivec2(pixel)).x : 1.0;
-    bool surface = z < 1.0;
-    uint normalBits = imageLoad(normals, ivec2(inPicture ? pixel : uvec2(0))).x;
-    vec3 p = unproject(view.inverseNow, pixel, z), n = unpackOctahedral(normalBits);
+    uvec2 here = min(pixel, size - 1);
+    uvec4 words = imageLoad(surfaces, ivec2(here));
+    float depth = uintBitsToFloat(words.x);
+    bool surface = inPicture && depth > 0.0;
+    vec3 p = pointAt(frame.now, placeOf(pixel, size), surface ? depth : 1.0), n = unpackOctahedral(words.y);
 
-    vec4 clip = view.before * vec4(p, 1.0);
-    vec2 place = (clip.xy / clip.w * 0.5 + 0.5) * vec2(size);
-    bool wasSeen = clip.w > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(size)));
-    uvec2 was = wasSeen ? uvec2(place) : uvec2(0);
-    uvec4 old = imageLoad(historyBefore, ivec2(was));
-    vec3 pOld = unproject(view.inverseBefore, was, uintBitsToFloat(old.z));
-    bool kept = surface && wasSeen && old.y != 0 &&
-                abs(dot(n, pOld - p)) < kSamePlane * distance(p, view.eye) &&
-                dot(n, unpackOctahedral(old.w)) > kSameNormal;
-    uint known = kept ? min(old.y, view.mostKept) : 0;
-    uint need = surface ? kept ? view.raysKept : view.raysNew : 0;
+    vec3 seen = project(frame.before, p);
+    vec2 place = vec2(0.5 + 0.5 * seen.x, 0.5 - 0.5 * seen.y) * vec2(size);
+    bool inBefore = seen.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(size)));
+    uvec2 was = frame.resting != 0 ? here : inBefore ? uvec2(place) : uvec2(0);
+    uvec4 old = imageLoad(surfacesBefore, ivec2(was));
+    uint past = imageLoad(historyBefore, ivec2(was)).x;
+    float oldDepth = uintBitsToFloat(old.x);
+    vec3 pOld = pointAt(frame.before, placeOf(was, size), oldDepth > 0.0 ? oldDepth : 1.0);
+    bool kept = surface && (inBefore || frame.resting != 0) && oldDepth > 0.0 &&
+                abs(dot(n, pOld - p)) < kSamePlane * distance(p, frame.now.eye) &&
+                dot(n, unpackOctahedral(old.y)) > kSameNormal;
+    uint known = kept ? min(past >> 16, frame.mostKept) : 0;
+    uint need = surface ? known > 0 ? frame.raysKept : frame.raysNew : 0;
 
     positions[lane] = p;
     directions[lane] = n;
@@ -96,24 +87,19 @@ void main() {
         ++i;
     } while (i < need);
     barrier();
-    bool together = view.balance != 0;
+    bool together = frame.balance != 0;
     i = together ? lane : 0;
     uint end = together ? total : need, step = together ? HISTOPYRAMID_LANES : 1;
     do {
         bool valid = i < end;
         uint ray = together ? rays[valid ? i : 0] : lane | i << 8;
         uint of = ray & 255;
-        uvec2 ofPixel = corner + uvec2(of % AMBIENT_TILE, of / AMBIENT_TILE);
-        float open = trace(positions[of], directions[of], ofPixel, view.frame * AMBIENT_MOST_RAYS + (ray >> 8));
-        if (valid) atomicAdd(opened[of], uint(open * 256.0));
+        uvec2 ofPixel = corner + uvec2(of % RENDER_TILE, of / RENDER_TILE);
+        bool open = trace(positions[of], directions[of], ofPixel, frame.number * RENDER_MOST_RAYS + (ray >> 8));
+        if (valid && open) atomicAdd(opened[of], 1);
     } while ((i += step) < end);
     barrier();
 
-    float mean = float(opened[lane]) / (256.0 * float(max(need, 1)));
-    float openness = (uintBitsToFloat(old.x) * float(known) + mean * float(need)) / float(max(known + need, 1));
-    openness = known == 0 ? mean : openness;
-    if (surface) {
-        imageStore(historyNow, ivec2(pixel), uvec4(floatBitsToUint(openness), known + need, floatBitsToUint(z), normalBits));
-        imageStore(result, ivec2(pixel), vec4(openness));
-    }
+    float openness = (float(past & 0xffff) / 65535.0 * float(known) + float(opened[lane])) / float(max(known + need, 1));
+    if (surface) imageStore(historyNow, ivec2(pixel), uvec4(uint(openness * 65535.0 + 0.5) | min(known + need, 0xffff) << 16));
 }

@@ -1,11 +1,7 @@
 // The mesh's triangles, for their depth alone.
 #include "shared.h"
-#include "render/render.h"
 
-layout(push_constant, scalar) uniform Push { RenderPush view; };
-layout(binding = 2, scalar) readonly buffer Vertices { MeshVertex vertices[]; };
+layout(push_constant, scalar) uniform Push { mat4 toClip; };
+layout(location = 0) in vec3 position;
 
-void main() {
-    vec3 v = vertices[gl_VertexIndex].position - view.eye;
-    gl_Position = vec4(dot(view.right, v), dot(view.up, v), view.near, dot(view.forward, v));
-}
+void main() { gl_Position = toClip * vec4(position, 1.0); }

@@ -1,4 +1,4 @@
-// What the renderer's shaders are told of the view; C++ includes this file too. After shared.h.
+// What the renderer's shaders are told of a frame; C++ includes this file too. After shared.h.
 #ifndef FW_RENDER_H
 #define FW_RENDER_H
 
@@ -6,27 +6,96 @@
 namespace fw::gpu {
 #endif
 
-#define RENDER_SAMPLES 2   // depth samples along each side of a pixel
-#define RENDER_GROUP_X 16  // pixels of one work group of shade.comp
-#define RENDER_GROUP_Y 4
+#define RENDER_TILE 16       // pixels along each side of a tile: one work group of most kernels
+#define RENDER_MOST_RAYS 16  // of ambient occlusion, of a pixel in one frame
+#define RENDER_MOST_LIGHTS 16
 
-// With v = p - eye: a point's place in the picture is (right . v, up . v) / (forward . v), each from -1 to 1
-// and +1 upwards; its depth is near / (forward . v), so 1 is near and 0 infinitely far.
-struct RenderPush {
+// What a picture shows: RenderFrame::show.
+#define RENDER_PICTURE 0
+#define RENDER_AMBIENT 1
+#define RENDER_NORMALS 2
+#define RENDER_BASE 3
+#define RENDER_SHADOW 4
+
+// How a picture is seen. A place in it is (x, y), each from -1 to 1, y upwards. It shows what lies along
+// forward + x right + y up; its depth is near / (distance along forward): 1 is near, 0 is nothing at all.
+struct View {
     vec3 eye;
-    float near;       // metres
-    vec3 right;       // divided by the tangent of half the angle of view along x
-    float ground;     // height of the ground, metres
-    vec3 up;          // the same along y
-    float radius;     // of what is seen, metres: the scale of soft shadows
-    vec3 forward;     // unit length
-    float stepScale;  // makes the field's value a distance that a ray may safely go
-    vec3 lo;          // the region that was meshed: the solid is cut there
-    float cellSize;   // of the mesh, metres
+    float near;  // metres
+    vec3 forward;  // unit length
+    float pixel;   // half a pixel's width at a distance of 1
+    vec3 right;    // times the tangent of half the angle of view
+    vec3 up;
+    vec2 jitter;  // of the picture within its pixels, added to places
+};
+
+// A light of the scene besides the sun.
+struct Light {
+    vec3 position;  // metres
+    float size;     // radius of the lamp, metres
+    vec3 color;     // radiant intensity; of a directional light its irradiance
+    float cosOuter, cosInner;  // of a spot's cone; -2 and -1: shines everywhere
+    vec3 direction;            // in which the light goes, unit length
+    uint directional;          // 1: parallel light, without a position
+};
+
+// Everything about one frame, in one uniform block.
+struct RenderFrame {
+    View now, before;
+    uvec2 size;     // of the picture, pixels
+    uint number;    // of the frame: turns what is random
+    uint resting;   // 1: the view is that of the frame before but for the jitter
+    vec3 lo;        // the region that was meshed: the solid is cut there
+    float cellSize;  // of the mesh, metres
     vec3 hi;
-    uint firstRow;       // of the rows that this dispatch shades
-    vec3 centre;         // of what is seen
-    uint width, height;  // of the picture, in pixels
+    float stepScale;  // makes the field's value a distance that a ray may safely go
+    vec3 centre;      // of the solid
+    float radius;     // of the solid, metres
+    float ground;     // its height, metres; -1e30: there is none
+    float groundEnd;  // how far from the centre the ground fades out, in radii
+    float bias;       // of a ray's start off the surface, metres
+
+    float ambientRadius;    // a ray's length, metres
+    float ambientStrength;  // 0 to 1
+    uint ambientSamples;    // of the field along a ray, at most
+    uint raysNew;           // of a pixel without history, up to RENDER_MOST_RAYS
+    uint raysKept;          // of one with history
+    uint mostKept;          // rays that the history counts for at most
+    uint balance;           // 1: the lanes of a tile share its rays evenly; 0: each traces its own pixel's
+
+    vec3 sun;       // towards it, unit length
+    vec3 sunLight;  // irradiance on a surface that faces it
+    vec3 shadowCentre;
+    vec3 shadowRight, shadowUp;  // divided by half the map's width in metres: places from -1 to 1
+    vec3 shadowForward;  // the same, away from the sun
+    float shadowTexel;           // metres
+    uint shadowSize;             // texels along each side; 0: nothing is in shadow
+
+    vec3 zenith, horizon, groundColor;
+    uint backdrop;  // 1: behind the solid is a wall, as in a studio; 0: the sky
+    float exposure;  // factor
+    uint show;
+    uint mean;       // frames that the picture is the mean of, before this one
+
+    vec3 fogColor;
+    float fogDensity;  // at the ground, 1 / metre
+    float fogFalloff;  // with height, 1 / metre
+    float fogEnd;      // metres from the eye, where fog ends if nothing is hit
+
+    uint lightCount;
+    Light lights[RENDER_MOST_LIGHTS];
+};
+
+// Rays of trace.comp: from origin + x originX + y originY along direction + x directionX + y directionY, over t.
+struct TracePush {
+    vec3 origin, originX, originY;
+    vec3 direction, directionX, directionY;
+    vec3 lo, hi;          // of the region
+    float near;           // depth is near / t, or 1 - t near if parallel
+    float pixel;          // a field below it is a hit; times t unless parallel
+    float stepScale;
+    uvec2 size;
+    uint parallel;  // 1: all rays have one direction
 };
 
 #ifdef __cplusplus

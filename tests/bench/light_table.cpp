@@ -1,16 +1,20 @@
-// The slide "Ambient occlusion": what rays cost, and what reprojection and sharing them save.
+// The second half of the talk: what ambient occlusion costs and what reprojection and sharing save of it, what
+// a frame costs, and how the geometry is used again between its passes.
 #include <cmath>
 
 #include "graph/glsl.h"
-#include "runtime/render/primary.h"
+#include "runtime/session.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {
 namespace {
 
-constexpr VkExtent3D kPicture = {1280, 720, 1};
+constexpr int kWidth = 1280, kHeight = 720, kResolution = 128;
 constexpr float kDegreesAFrame = 1.0f;
 constexpr double kMostOfAllRays = 0.2, kMostOfUnshared = 0.7;
+constexpr double kMostFrame = 45, kMostAnimated = 55, kMostPass = 0.1;
+
+const char* verdict(double value, double most) { return value <= most ? "met" : "missed"; }
 
 struct Way {
     const char* name;
@@ -25,60 +29,74 @@ AmbientOptions with(int raysNew, bool reproject, bool balance) {
     return options;
 }
 
-Image newImage(const Device& device, VkFormat format) {
-    Image image = createImage(device, {.extent = kPicture, .format = format});
-    Commands commands(device);
-    imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-    submit(commands);
-    return image;
-}
-
 /// Once around the tower, a degree a frame.
-PrimaryCamera cameraAt(int frame) {
-    const float angle = float(frame) * kDegreesAFrame * 3.14159265f / 180;
-    return {.eye = 7.0f * glm::vec3(std::sin(angle), 0.5f, std::cos(angle)), .target = glm::vec3(0)};
+Camera cameraAt(int frame) {
+    const double angle = frame * kDegreesAFrame * 3.14159265 / 180;
+    return {.position = {7 * std::sin(angle), 3.5, 7 * std::cos(angle)}, .target = {0, 0, 0}, .fov = 40};
 }
 
-}  // namespace
+/// The tower's mesh, and what draws it.
+struct Stage {
+    Session session;
+    MesherResult mesh;
+    std::vector<gpu::MeshVertex> points;
+    Renderer renderer;
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 1};
 
-void lightTable(Bench& bench) {
-    const Device& device = bench.device();
-    const std::optional<Program> program = benchProgram(bench, Field::tower);
-    if (!program) return;
-    const std::string field = emitField(*program);
-    const Pipeline primary = createPrimary(device, field);
-    const Image depth = newImage(device, VK_FORMAT_R32_SFLOAT), normal = newImage(device, VK_FORMAT_R32_UINT);
+    Stage(Device device, const Program& program) : session(std::move(device)) {
+        session.setProgram(program);
+        mesh = *session.polygonise(request());
+        points = download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, mesh.vertices);
+        renderer = createRenderer(session.device(), emitField(program));
+        options.framed = points;
+    }
+    static MeshRequest request() { return {Box{{-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}}, kResolution}; }
+    RenderScene scene() const {
+        return {.mesh = session.meshBuffers(),
+                .triangles = mesh.triangles,
+                .grid = {{-2.5f, -2.5f, -2.5f}, {2.5f, 2.5f, 2.5f}, 5.0f / kResolution}};
+    }
+    void turn(int frame) { options.scene.camera = cameraAt(frame); }
+    gpu::View view() const {
+        return cameraView(*options.scene.camera, points, float(kWidth) / float(kHeight));
+    }
+};
+
+/// Milliseconds of the stage of that name; 0 if there is none.
+double stage(const Commands& commands, std::string_view name) {
+    for (const StageTime& time : commands.stages)
+        if (time.name == name) return time.milliseconds;
+    return 0;
+}
+
+void ambientTable(Bench& bench, Stage& stage_) {
     const Way ways[] = {{"16 rays a pixel", "30", with(16, false, false)},
                         {"1 ray, reprojected", "2", with(1, true, false)},
                         {"1 ray, reprojected, 16 in holes", "12", with(16, true, false)},
                         {"the same, shared by the lanes of a tile", "4", with(16, true, true)}};
     Table table{.title = "Ambient occlusion, 1280 x 720, tower, the camera moving (ms)",
-                .header = {"way", "the slide", "of 16 rays, slide", "primary rays", "ambient", "of 16 rays"}};
+                .header = {"way", "the slide", "of 16 rays, slide", "ambient", "of 16 rays"}};
     double all = 0, unshared = 0, shared = 0;
+    stage_.options.scene.ground.reset();
+    stage_.options.scene.sun.reset();
+    stage_.options.primary = Primary::traced;
     for (const Way& way : ways) {
-        Ambient ambient = createAmbient(device, field, way.options);
+        stage_.renderer.ambient.options = way.options;
+        forgetHistory(stage_.renderer.ambient);
         int frame = 0;
-        Figure traced;
         const Figure figure = measure(bench.options.repeats, [&] {
-            const PrimaryCamera camera = cameraAt(frame++);
-            Commands commands(device, true);
-            drawPrimary(commands, primary, camera, 1.0f, depth, normal);
-            drawAmbient(commands, ambient,
-                        {.depth = depth,
-                         .normal = normal,
-                         .view = viewOf(camera, float(kPicture.width) / float(kPicture.height))});
+            stage_.turn(frame++);
+            Commands commands(stage_.session.device(), true);
+            drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
             submit(commands);
-            traced.runs.push_back(commands.stages[0].milliseconds);
-            return commands.stages[1].milliseconds;
+            return stage(commands, "ambient");
         });
-        std::ranges::sort(traced.runs);
         if (&way == &ways[0]) all = figure.median();
         if (&way == &ways[2]) unshared = figure.median();
         if (&way == &ways[3]) shared = figure.median();
-        table.rows.push_back({way.name, way.slide, number(std::stod(way.slide) / 30), number(traced.median()),
-                              text(figure), number(figure.median() / all)});
+        table.rows.push_back({way.name, way.slide, number(std::stod(way.slide) / 30), text(figure),
+                              number(figure.median() / all)});
     }
-    const auto verdict = [](double ratio, double most) { return ratio <= most ? "met" : "missed"; };
     table.notes = {
         "The slide: a GeForce 570, its own scene. Rays of half a metre, at most 8 samples each; the camera "
         "turns by " +
@@ -88,6 +106,76 @@ void lightTable(Bench& bench) {
         "Shared, of the same unshared: at most " + number(kMostOfUnshared) + " wanted, " +
             verdict(shared / unshared, kMostOfUnshared) + " (" + number(shared / unshared) + ")."};
     print(table, bench.options.markdown);
+}
+
+void frameTable(Bench& bench, Stage& stage_) {
+    Table table{.title = "A frame, 1280 x 720, tower at 128 cells, the camera moving (ms)",
+                .header = {"primary rays", "mesh", "shadow", "depth", "surface", "ambient", "light", "all",
+                           "mesh made anew: all"}};
+    double best = 1e9, bestAnimated = 1e9, generated = 0, drawn = 0, pass = 0;
+    stage_.options.scene = {};
+    for (const Primary primary : {Primary::drawn, Primary::traced}) {
+        stage_.options.primary = primary;
+        stage_.renderer.ambient.options = {.radius = 0.8f, .bias = 0.01f, .samples = 12};
+        std::map<std::string, Figure> parts;
+        Figure all;
+        int frame = 0;
+        forgetHistory(stage_.renderer.ambient);
+        const auto draw = [&](bool anew) {
+            stage_.turn(frame++);
+            if (anew) stage_.renderer.shadowStands = false;
+            Commands commands(stage_.session.device(), true);
+            drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
+            submit(commands);
+            double sum = 0;
+            for (const StageTime& time : commands.stages) {
+                parts[time.name].runs.push_back(time.milliseconds);
+                sum += time.milliseconds;
+            }
+            return sum;
+        };
+        const Figure still = measure(bench.options.repeats, [&] { return draw(false); });
+        const Figure animated = measure(bench.options.repeats, [&] {
+            const MesherResult made = *stage_.session.polygonise(Stage::request(), true);
+            double sum = 0;
+            for (const StageTime& time : made.stages) sum += time.milliseconds;
+            parts["mesh"].runs.push_back(sum);
+            return sum + draw(true);
+        });
+        const auto part = [&](const char* name) {
+            std::ranges::sort(parts[name].runs);
+            return parts[name].runs.empty() ? 0.0 : parts[name].median();
+        };
+        table.rows.push_back({primary == Primary::drawn ? "drawn" : "traced", number(part("mesh")),
+                              number(part("shadow")), number(part("depth")), number(part("surface")),
+                              number(part("ambient")), number(part("light")), text(still), text(animated)});
+        best = std::min(best, still.median());
+        bestAnimated = std::min(bestAnimated, animated.median());
+        if (primary == Primary::drawn)
+            generated = part("mesh"), drawn = part("depth"), pass = part("shadow");
+        else
+            pass = std::min(pass, part("shadow"));
+    }
+    table.notes = {"The frame of an unchanged mesh: at most " + number(kMostFrame) + " wanted, " +
+                       verdict(best, kMostFrame) + " (" + number(best) + "). Its shadow map stands.",
+                   "Mesh and shadow map made anew for each: at most " + number(kMostAnimated) + " wanted, " +
+                       verdict(bestAnimated, kMostAnimated) + " (" + number(bestAnimated) + ").",
+                   "A further shadow pass, of generating and drawing the mesh again: at most " +
+                       number(kMostPass) + " wanted, " + verdict(pass / (generated + drawn), kMostPass) +
+                       " (" + number(pass / (generated + drawn)) + ")."};
+    print(table, bench.options.markdown);
+}
+
+}  // namespace
+
+void lightTable(Bench& bench) {
+    const std::optional<Program> program = benchProgram(bench, Field::tower);
+    if (!program) return;
+    Result<Device> device = createDevice({});
+    if (!device) return;
+    Stage stage_(std::move(*device), *program);
+    ambientTable(bench, stage_);
+    frameTable(bench, stage_);
 }
 
 }  // namespace fw::bench

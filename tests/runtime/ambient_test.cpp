@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <functional>
-#include <glm/ext/matrix_clip_space.hpp>
-#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <numbers>
@@ -24,6 +24,7 @@ namespace fw {
 namespace {
 
 constexpr uint32_t kWidth = 96, kHeight = 80;
+constexpr VkExtent3D kExtent = {kWidth, kHeight, 1};
 constexpr uint32_t kUpwards = 32767u << 16;  // +y, octahedral
 
 std::string fieldOf(const std::string& code) {
@@ -39,65 +40,75 @@ std::string fieldOf(const std::string& code) {
 }
 
 /// From above, turned about the y axis by an angle in degrees.
-CameraView viewFrom(float degrees, float height = 3.0f) {
+gpu::View viewFrom(float degrees, float height = 3.0f) {
     const float a = glm::radians(degrees);
     const glm::vec3 eye(1.5f * std::sin(a), height, 1.5f * std::cos(a));
-    glm::mat4 projection = glm::perspectiveRH_ZO(glm::radians(45.0f), float(kWidth) / kHeight, 0.1f, 50.0f);
-    projection[1][1] *= -1;
-    CameraView view;
-    view.viewProjection = projection * glm::lookAtRH(eye, glm::vec3(0), glm::vec3(0, 1, 0));
-    view.inverseViewProjection = glm::inverse(view.viewProjection);
-    view.eye = eye;
-    return view;
+    return lookFrom(eye, glm::vec3(0), glm::radians(45.0f), float(kWidth) / kHeight, 0.1f);
 }
 
-/// The floor point that a pixel sees.
-glm::vec3 floorAt(const CameraView& view, uint32_t x, uint32_t y, float level) {
+/// Along this ray of a pixel one is a metre farther along the view's axis.
+glm::vec3 rayOf(const gpu::View& view, uint32_t x, uint32_t y) {
     const glm::vec2 place = (glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
-    const glm::vec4 far = view.inverseViewProjection * glm::vec4(place, 1, 1);
-    const glm::vec3 ray = glm::vec3(far) / far.w - view.eye;
-    return view.eye - ray * ((view.eye.y - level) / ray.y);
+    return view.forward + place.x * view.right - place.y * view.up;
 }
 
-/// Depth and normals of the floor where `seen` holds; a picture of its ambient occlusion.
+/// The G-buffer of the floor where `seen` holds; a picture of its ambient occlusion.
 class Floor {
   public:
     Floor(
         const std::string& code, const AmbientOptions& options,
         std::function<bool(glm::vec3)> seenWhere = [](glm::vec3) { return true; })
         : ambient(createAmbient(device, fieldOf(code), options)),
-          depth(createImage(device, {.extent = {kWidth, kHeight, 1}, .format = VK_FORMAT_R32_SFLOAT})),
-          normal(createImage(device, {.extent = {kWidth, kHeight, 1}, .format = VK_FORMAT_R32_UINT})),
+          gbuffer(createGBuffer(device, {})),
+          depth(createImage(device, {.extent = kExtent, .format = VK_FORMAT_R32_SFLOAT})),
+          block(createBuffer(device, sizeof(gpu::RenderFrame), Memory::upload)),
           seen(std::move(seenWhere)) {
         Commands commands(device);
-        for (const Image* image : {&depth, &normal})
-            imageBarrier(commands, *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+        imageBarrier(commands, depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+        resizeGBuffer(commands, gbuffer, kExtent);
         submit(commands);
     }
 
-    void draw(const CameraView& view, float lipschitz = 1.0f) {
-        std::vector<float> depths(kWidth * kHeight, 1.0f);
+    void draw(const gpu::View& view) {
+        std::vector<float> depths(kWidth * kHeight, 0.0f);
+        std::vector<glm::uvec4> surfaces(kWidth * kHeight, glm::uvec4(0));
         points.assign(kWidth * kHeight, glm::vec3(0));
         for (uint32_t i = 0; i < depths.size(); ++i) {
-            points[i] = floorAt(view, i % kWidth, i / kWidth, level);
+            const glm::vec3 ray = rayOf(view, i % kWidth, i / kWidth);
+            const float along = (level - view.eye.y) / ray.y;
+            points[i] = view.eye + ray * along;
             if (!seen(points[i])) continue;
-            const glm::vec4 clip = view.viewProjection * glm::vec4(points[i], 1);
-            depths[i] = clip.z / clip.w;
+            depths[i] = view.near / along;
+            surfaces[i] = {std::bit_cast<uint32_t>(depths[i]), kUpwards, 0, 0};
         }
         const Buffer depthBytes = createBuffer(device, 4 * depths.size(), Memory::upload);
-        const Buffer normalBytes = createBuffer(device, 4 * depths.size(), Memory::upload);
+        const Buffer surfaceBytes = createBuffer(device, 16 * depths.size(), Memory::upload);
         upload(device, depthBytes, depths);
-        upload(device, normalBytes, std::vector<uint32_t>(depths.size(), kUpwards));
+        upload(device, surfaceBytes, surfaces);
+        gpu::RenderFrame frame{};
+        frame.now = view;
+        frame.before = before.value_or(view);
+        frame.size = {kWidth, kHeight};
+        frame.number = number++;
+        frame.resting = before && std::memcmp(&*before, &view, sizeof view) == 0 && ambient.hasHistory;
+        frame.lo = glm::vec3(-1e9f);
+        frame.hi = glm::vec3(1e9f);
+        frame.stepScale = 1.0f;
+        frame.ground = -1e30f;
+        describeAmbient(ambient, frame);
+        upload(device, block, std::vector{frame});
+        before = view;
+        gbuffer.current = 1 - gbuffer.current;
         Commands commands(device);
         copy(commands, depthBytes, depth, true);
-        copy(commands, normalBytes, normal, true);
+        copy(commands, surfaceBytes, gbuffer.now(), true);
         barrier(commands);
-        drawAmbient(commands, ambient,
-                    {.depth = depth, .normal = normal, .view = view, .lipschitz = lipschitz});
+        listTiles(commands, gbuffer, depth, block);
+        drawAmbient(commands, ambient, gbuffer, frame, block, nullptr);
         submit(commands);
     }
 
-    void rest(const CameraView& view) {
+    void rest(const gpu::View& view) {
         for (int i = 0; i < 2000 && !converged(ambient); ++i) draw(view);
         ASSERT_TRUE(converged(ambient));
     }
@@ -105,10 +116,13 @@ class Floor {
     std::vector<float> openness() {
         const Buffer bytes = createBuffer(device, 4ull * kWidth * kHeight, Memory::readback);
         Commands commands(device);
-        copy(commands, bytes, ambient.result, false);
+        copy(commands, bytes, ambient.now(), false);
         barrier(commands);
         submit(commands);
-        return download<float>(device, bytes, kWidth * kHeight);
+        std::vector<float> result;
+        for (const uint32_t word : download<uint32_t>(device, bytes, kWidth * kHeight))
+            result.push_back(float(word & 0xffff) / 65535.0f);
+        return result;
     }
 
     /// Mean and greatest difference from a closed form of the openness.
@@ -131,10 +145,14 @@ class Floor {
 
     Device& device = test::device();
     Ambient ambient;
-    Image depth, normal;
+    GBuffer gbuffer;
+    Image depth;
+    Buffer block;
     std::function<bool(glm::vec3)> seen;
     std::vector<glm::vec3> points;
-    float level = 0;  ///< y of the floor
+    std::optional<gpu::View> before;
+    uint32_t number = 0;  ///< of the frame
+    float level = 0;      ///< y of the floor
 
   private:
     void copy(Commands& commands, const Buffer& buffer, const Image& image, bool toImage) {
@@ -206,14 +224,14 @@ TEST(Ambient, AfterAMoveTheFirstFrameIsNearTheConvergedOne) {
     Floor moving(scene, {.bias = 0.002f}), resting(scene, {.bias = 0.002f});
     moving.rest(viewFrom(0));
     const std::vector<glm::vec3> before = moving.points;
-    const CameraView view = viewFrom(5);
+    const gpu::View view = viewFrom(5);
     moving.draw(view);
     resting.rest(view);
     const std::vector<float> first = moving.openness(), last = resting.openness();
     double keptSum = 0, holeSum = 0;
     int kept = 0, holes = 0;
     for (std::size_t i = 0; i < first.size(); ++i) {
-        const glm::vec4 clip = viewFrom(0).viewProjection * glm::vec4(moving.points[i], 1);
+        const glm::vec4 clip = toClip(viewFrom(0)) * glm::vec4(moving.points[i], 1);
         const bool wasSeen = std::max(std::abs(clip.x), std::abs(clip.y)) < clip.w;
         (wasSeen ? keptSum : holeSum) += std::abs(first[i] - last[i]);
         ++(wasSeen ? kept : holes);
@@ -233,7 +251,7 @@ TEST(Ambient, AHistoryOfAnotherSurfaceIsRejected) {
     Floor moved(scene("0.25"), {.bias = 0.002f}), fresh(scene("0.25"), {.bias = 0.002f});
     for (int i = 0; i < 8; ++i) moved.draw(viewFrom(0));
     moved.level = fresh.level = -0.25f;
-    fresh.ambient.frame = moved.ambient.frame;  // the same turn of the rays
+    fresh.number = moved.number;  // the same turn of the rays
     moved.draw(viewFrom(0));
     fresh.draw(viewFrom(0));
     EXPECT_EQ(moved.openness(), fresh.openness());
@@ -243,7 +261,7 @@ TEST(Ambient, AForgottenHistoryIsOfNoEffect) {
     const char* scene = "return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);";
     Floor floor(scene, {.bias = 0.002f}), fresh(scene, {.bias = 0.002f});
     for (int i = 0; i < 8; ++i) floor.draw(viewFrom(0));
-    fresh.ambient.frame = floor.ambient.frame;
+    fresh.number = floor.number;
     forgetHistory(floor.ambient);
     floor.draw(viewFrom(0));
     fresh.draw(viewFrom(0));

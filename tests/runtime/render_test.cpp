@@ -136,18 +136,20 @@ TEST(Render, FramesEveryPointOfAnyMeshInAnyFormat) {
             std::vector<gpu::MeshVertex> corners;
             for (int i = 0; i < 8; ++i)
                 corners.push_back({glm::vec3(i & 1, i >> 1 & 1, i >> 2) * size + glm::vec3(3, -2, 1), 0});
-            const gpu::RenderPush view = frame(corners, aspect);
+            const gpu::View view = framingView(corners, aspect);
             float reached = 0;
             for (const gpu::MeshVertex& corner : corners) {
                 const glm::vec3 v = corner.position - view.eye;
                 const float along = glm::dot(v, view.forward);
                 EXPECT_GT(along, view.near);
-                reached = std::max({reached, std::abs(glm::dot(v, view.right)) / along,
-                                    std::abs(glm::dot(v, view.up)) / along});
+                const auto place = [&](glm::vec3 axis) {
+                    return std::abs(glm::dot(v, axis)) / (glm::dot(axis, axis) * along);
+                };
+                reached = std::max({reached, place(view.right), place(view.up)});
             }
             EXPECT_LT(reached, 0.9f);
             EXPECT_GT(reached, 0.7f);
-            EXPECT_EQ(view.ground, -2.0f);
+            EXPECT_EQ(boundsOf(corners).foot, -2.0f);
         }
 }
 

@@ -1,0 +1,73 @@
+// What a picture shows, before light falls on it: depth, then for each pixel of the tiles that hold surface
+// its exact depth, normal and material.
+//
+// Depth comes from the mesh by rasterisation or from the field by sphere tracing; which is cheaper depends on
+// the device, the field and the picture, and is for the caller to choose. All else comes from the field
+// (shaders/render/surface.comp). The same depth passes draw the sun's shadow map: the mesh is generated once
+// and drawn by each pass.
+//
+// Lifetime: pipelines belong to a field, images to a size. Images are in VK_IMAGE_LAYOUT_GENERAL between the
+// calls.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <string_view>
+
+#include "runtime/mesher.h"
+#include "runtime/render/view.h"
+
+namespace fw {
+
+/// A depth image: drawn, or traced. One of the two is used at a time.
+struct DepthTarget {
+    Image drawn;   ///< D32_SFLOAT
+    Image traced;  ///< R32_SFLOAT
+    bool isTraced = false;
+    const Image& image() const { return isTraced ? traced : drawn; }
+};
+
+struct DepthPipelines {
+    Pipeline draw, trace;
+};
+
+/// `field` is the text that answers #include "field.glsl", empty for the default field.
+DepthPipelines createDepthPipelines(const Device& device, std::string_view field);
+
+/// Draws the mesh's depth through `clip`; `triangles` says whether there is anything to draw.
+void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
+               const glm::mat4& clip, const MesherBuffers& mesh, bool triangles);
+
+/// Traces the field's depth. `parameters` are the live ones, where the field has some.
+void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
+                gpu::TracePush rays, const Buffer* parameters);
+
+struct GBuffer {
+    Pipeline tiles, surface;
+    Image surfaces[2];  ///< RGBA32_UINT (shaders/render/gbuffer.glsl): of this frame and of the one before
+    uint32_t current = 0;
+    Buffer tileList, arguments;  ///< of the tiles that hold surface; of an indirect dispatch of one group each
+    Sampler sampler;
+
+    const Image& now() const { return surfaces[current]; }
+    const Image& before() const { return surfaces[1 - current]; }
+};
+
+GBuffer createGBuffer(const Device& device, std::string_view field);
+
+/// Takes the size; whether it is another than before, so that `before()` holds nothing.
+bool resizeGBuffer(Commands& commands, GBuffer& gbuffer, VkExtent3D extent);
+
+/// Makes now() from the depth. `frame` is a uniform buffer of a gpu::RenderFrame.
+void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame,
+                 const Buffer* parameters);
+
+/// Lists the tiles alone, for a now() that was filled otherwise.
+void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame);
+
+/// The image for a binding, in VK_IMAGE_LAYOUT_GENERAL.
+Descriptor storage(uint32_t binding, const Image& image);
+
+/// Makes the image anew if its size or format differ; whether it did. The new one's content is undefined.
+bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat format);
+
+}  // namespace fw

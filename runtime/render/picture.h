@@ -1,0 +1,28 @@
+// A finished picture on the host, and its PNG file.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "graph/result.h"
+
+namespace fw {
+
+inline constexpr int kLeastPictureSide = 16, kMostPictureSide = 8192;
+inline constexpr int kMostPicturePixels = 32 << 20;  ///< 128 MiB of four bytes, which every device can bind
+
+/// Rows from the top, sRGB, four bytes a pixel: red, green, blue, 255.
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<uint8_t> pixels;
+};
+
+/// An Error where no picture of this size can be made.
+Done checkPictureSize(int width, int height);
+
+/// Writes the picture as PNG without alpha. Errors: as OutputFile.
+Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel = nullptr);
+
+}  // namespace fw

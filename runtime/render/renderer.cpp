@@ -1,0 +1,373 @@
+#include "runtime/render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace fw {
+
+namespace {
+
+constexpr uint32_t kShadowSize = 1024;      // texels along each side
+constexpr uint32_t kStillShadowSize = 2048;
+constexpr int kRestFrames = 64;             // of the live view, after which it stops
+constexpr int kRaysStill = 16, kRaysResting = 8;
+constexpr float kGroundEnd = 2.8f;          // where the ground has faded, in the solid's radii
+constexpr float kExposure = 0.66f;
+constexpr float kFogEnd = 12.0f;            // in the solid's radii
+
+Error problem(std::string message) {
+    Error error;
+    error.message = std::move(message);
+    return error;
+}
+
+glm::vec3 vector(const Triple& from) { return {float(from[0]), float(from[1]), float(from[2])}; }
+
+/// Evenly in the unit square, the first in its middle (Roberts' R2 sequence).
+glm::vec2 evenly(int number) {
+    const double x = 0.5 + 0.7548776662466927 * number, y = 0.5 + 0.5698402909980532 * number;
+    return {float(x - std::floor(x)), float(y - std::floor(y))};
+}
+
+gpu::Light describe(const Lamp& lamp) {
+    gpu::Light light{};
+    light.position = vector(lamp.position);
+    light.color = vector(lamp.color) * float(lamp.strength);
+    light.size = std::max(0.5f * float(lamp.size), 1e-3f);
+    light.directional = lamp.type == Lamp::Type::directional;
+    light.cosOuter = -2.0f;
+    light.cosInner = -1.0f;
+    light.direction = glm::vec3(0, -1, 0);
+    if (lamp.type != Lamp::Type::point)
+        light.direction = glm::normalize(vector(lamp.target) - vector(lamp.position));
+    if (lamp.type == Lamp::Type::spot) {
+        const float half = glm::radians(0.5f * float(lamp.angle));
+        light.cosOuter = std::cos(half);
+        light.cosInner = std::cos(half * (1.0f - float(lamp.blend))) + 1e-4f;
+    }
+    return light;
+}
+
+/// The sun's direction and its shadow map's axes; `turn` in the unit square is a place on its disc.
+void describeSun(gpu::RenderFrame& frame, const Scene& scene, const SeenBounds& bounds, glm::vec2 turn,
+                 uint32_t size) {
+    const Sun sun = scene.sun.value_or(Sun{});
+    const float azimuth = glm::radians(float(sun.azimuth)), elevation = glm::radians(float(sun.elevation));
+    const glm::vec3 middle(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                           std::cos(azimuth) * std::cos(elevation));
+    const glm::vec3 upward = std::abs(middle.y) < 0.999f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+    glm::vec3 right = glm::normalize(glm::cross(upward, middle)), up = glm::cross(middle, right);
+    const float r = std::sqrt(turn.x) * std::tan(glm::radians(0.5f * float(sun.size))),
+                angle = 6.2831853f * turn.y;
+    frame.sun = glm::normalize(middle + r * std::cos(angle) * right + r * std::sin(angle) * up);
+    frame.sunLight = scene.sun ? vector(sun.color) * float(sun.strength) : glm::vec3(0);
+    right = glm::normalize(glm::cross(upward, frame.sun)), up = glm::cross(frame.sun, right);
+    const float half = 1.02f * bounds.radius;
+    frame.shadowCentre = bounds.centre;
+    frame.shadowRight = right / half;
+    frame.shadowUp = up / half;
+    frame.shadowForward = -frame.sun / half;
+    frame.shadowTexel = 2.0f * half / float(size);
+    frame.shadowSize = scene.sun ? size : 0;
+}
+
+glm::mat4 shadowClip(const gpu::RenderFrame& frame) {
+    const glm::vec3 x = frame.shadowRight, y = frame.shadowUp, z = -0.5f * frame.shadowForward;
+    const auto shift = [&](glm::vec3 axis) { return -glm::dot(axis, frame.shadowCentre); };
+    return {{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {shift(x), shift(y), 0.5f + shift(z), 1}};
+}
+
+gpu::TracePush shadowRays(const gpu::RenderFrame& frame) {
+    const auto whole = [](glm::vec3 axis) { return axis / glm::dot(axis, axis); };
+    gpu::TracePush rays{};
+    rays.direction = -frame.sun;
+    rays.origin = frame.shadowCentre - whole(frame.shadowForward);
+    rays.originX = whole(frame.shadowRight);
+    rays.originY = whole(frame.shadowUp);
+    rays.near = 0.5f * glm::length(frame.shadowForward);
+    rays.pixel = 0.25f * frame.shadowTexel;
+    rays.parallel = 1;
+    return rays;
+}
+
+gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+                          const gpu::View& view, bool resting, int mean, uint32_t shadowSize) {
+    const Scene& look = options.scene;
+    const SeenBounds bounds = boundsOf(options.framed);
+    gpu::RenderFrame frame{};
+    frame.now = view;
+    frame.now.pixel = glm::length(view.up) / float(options.height);
+    frame.before = renderer.number > 0 ? renderer.described.now : frame.now;
+    frame.size = {options.width, options.height};
+    frame.number = renderer.number;
+    frame.resting = resting;
+    frame.lo = scene.grid.lo;
+    frame.hi = scene.grid.hi;
+    frame.cellSize = scene.grid.cellSize;
+    // A field without a known constant is trusted half way: what is traced may be a little off.
+    frame.stepScale = std::isfinite(scene.lipschitz) ? 1.0f / std::max(scene.lipschitz, 1.0f) : 0.5f;
+    frame.centre = bounds.centre;
+    frame.radius = bounds.radius;
+    frame.ground = look.ground ? float(look.ground->height.value_or(bounds.foot)) : -1e30f;
+    frame.groundEnd = look.ground ? kGroundEnd : 0.0f;
+    describeAmbient(renderer.ambient, frame);
+    frame.ambientStrength = look.ao ? float(look.ao->strength) : 0.0f;
+    describeSun(frame, look, bounds, mean > 0 ? evenly(mean) : glm::vec2(0), shadowSize);
+    const Sky sky = look.sky.value_or(Sky{});
+    frame.zenith = vector(sky.zenith) * float(sky.strength);
+    frame.horizon = vector(sky.horizon) * float(sky.strength);
+    frame.groundColor = vector(sky.ground) * float(sky.strength);
+    frame.backdrop = !look.sky;
+    frame.exposure = kExposure * std::exp2(float(look.exposure));
+    frame.mean = uint32_t(mean);
+    frame.show = options.show;
+    if (look.fog) {
+        frame.fogColor = vector(look.fog->color);
+        frame.fogDensity = float(look.fog->density);
+        frame.fogFalloff = look.fog->height > 0.0 ? 1.0f / float(look.fog->height) : 0.0f;
+        frame.fogEnd = kFogEnd * bounds.radius;
+    }
+    frame.lightCount = uint32_t(std::min<std::size_t>(look.lights.size(), RENDER_MOST_LIGHTS));
+    for (uint32_t i = 0; i < frame.lightCount; ++i) frame.lights[i] = describe(look.lights[i]);
+    return frame;
+}
+
+bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
+    if (!std::isfinite(scene.lipschitz)) return false;
+    return options.primary == Primary::traced ||
+           (options.primary == Primary::measured && renderer.tracing.value_or(false));
+}
+
+void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced) {
+    const gpu::RenderFrame& frame = renderer.described;
+    const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
+    if (!traced) {
+        drawDepth(commands, renderer.depth, renderer.seen, extent, toClip(frame.now), scene.mesh,
+                  scene.triangles > 0);
+        return;
+    }
+    gpu::TracePush rays = raysOf(frame.now);
+    rays.pixel = frame.now.pixel;
+    rays.lo = frame.lo;
+    rays.hi = frame.hi;
+    rays.stepScale = frame.stepScale;
+    traceDepth(commands, renderer.depth, renderer.seen, extent, rays, scene.parameters);
+}
+
+void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced) {
+    const gpu::RenderFrame& frame = renderer.described;
+    const uint32_t size = std::max(frame.shadowSize, 1u);
+    if (!traced || frame.shadowSize == 0) {
+        drawDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, shadowClip(frame), scene.mesh,
+                  scene.triangles > 0 && frame.shadowSize > 0);
+        return;
+    }
+    gpu::TracePush rays = shadowRays(frame);
+    rays.lo = frame.lo;
+    rays.hi = frame.hi;
+    rays.stepScale = frame.stepScale;
+    traceDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, rays, scene.parameters);
+}
+
+/// Times drawing and tracing once each, and notes which is faster.
+void measurePrimary(Renderer& renderer, const RenderScene& scene) {
+    double took[2] = {};
+    for (const bool traced : {false, true, false, true}) {  // the first round warms up
+        Commands commands(*renderer.device, true);
+        beginStage(commands, "depth");
+        findDepth(commands, renderer, scene, traced);
+        submit(commands);
+        took[traced] = commands.stages[0].milliseconds;
+    }
+    renderer.tracing = took[true] < took[false];
+}
+
+void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look) {
+    const Device& device = commands.device;
+    const GBuffer& gbuffer = renderer.gbuffer;
+    const gpu::RenderFrame& frame = renderer.described;
+    const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
+    const bool lamps = frame.lightCount > 0, fog = look.fog.has_value();
+    std::vector<Descriptor> bound = {
+        {0, renderer.frame},
+        storage(2, gbuffer.now()),
+        {3, gbuffer.tileList},
+        storage(7, renderer.ambient.now()),
+        {8, renderer.shadow.image().view, VK_IMAGE_LAYOUT_GENERAL, gbuffer.sampler.handle},
+        storage(9, renderer.means),
+        {10, renderer.pixels}};
+    if (scene.parameters) bound.emplace_back(FIELD_PARAMETERS, *scene.parameters);
+    if (lamps) {
+        beginStage(commands, "lamps");
+        if (!renderer.lamps)
+            renderer.lamps = createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
+        resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
+        bound.push_back(storage(11, renderer.lampLight));
+        dispatchIndirect(commands, renderer.lamps, gbuffer.arguments, 0, nullptr, 0, bound);
+        barrier(commands);
+    }
+    const auto groups = [](VkExtent3D size) {
+        return glm::uvec3(groupsFor(size.width, RENDER_TILE), groupsFor(size.height, RENDER_TILE), 1);
+    };
+    if (fog) {
+        beginStage(commands, "fog");
+        if (!renderer.fog) renderer.fog = createComputePipeline(device, {.name = "render/fog.comp"});
+        const VkExtent3D half = {(extent.width + 1) / 2, (extent.height + 1) / 2, 1};
+        resizeImage(commands, renderer.fogLight, half, VK_FORMAT_R16G16B16A16_SFLOAT);
+        bound.push_back(storage(12, renderer.fogLight));
+        dispatch(commands, renderer.fog, groups(half), nullptr, 0, bound);
+        barrier(commands);
+    }
+    beginStage(commands, "light");
+    Pipeline& light = renderer.light[int(lamps) + 2 * int(fog)];
+    if (!light) {
+        ShaderOptions options{.name = "render/light.comp"};
+        if (lamps) options.defines.push_back("LAMPS");
+        if (fog) options.defines.push_back("FOG");
+        light = createComputePipeline(device, options);
+    }
+    dispatch(commands, light, groups(extent), nullptr, 0, bound);
+    barrier(commands);
+}
+
+/// What ambient occlusion is to do for this scene.
+AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& options) {
+    const float radius = boundsOf(options.framed).radius;
+    AmbientOptions ambient;
+    ambient.radius = 0.35f * radius;
+    if (options.scene.ao && options.scene.ao->radius > 0) ambient.radius = float(options.scene.ao->radius);
+    ambient.bias = std::min(0.5f * scene.grid.cellSize, 0.004f * radius);
+    ambient.samples = 12;
+    return ambient;
+}
+
+gpu::View viewOf(const RenderOptions& options) {
+    const float aspect = float(options.width) / float(options.height);
+    return options.scene.camera ? cameraView(*options.scene.camera, options.framed, aspect)
+                                : framingView(options.framed, aspect);
+}
+
+/// Where the frame of this number samples its pixels: the first in their middle.
+glm::vec2 jitterOf(int number, const RenderOptions& options) {
+    return (evenly(number) - 0.5f) * 2.0f / glm::vec2(options.width, options.height);
+}
+
+bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+Picture readPicture(const Renderer& renderer) {
+    const glm::uvec2 size = renderer.described.size;
+    return {int(size.x), int(size.y),
+            download<uint8_t>(*renderer.device, renderer.pixels, 4 * std::size_t(size.x) * size.y)};
+}
+
+}  // namespace
+
+Renderer createRenderer(const Device& device, std::string field) {
+    Renderer renderer;
+    renderer.device = &device;
+    renderer.field = std::move(field);
+    renderer.depth = createDepthPipelines(device, renderer.field);
+    renderer.gbuffer = createGBuffer(device, renderer.field);
+    renderer.ambient = createAmbient(device, renderer.field, {});
+    renderer.frame = createBuffer(device, sizeof(gpu::RenderFrame), Memory::upload);
+    return renderer;
+}
+
+void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+               const gpu::View& view, bool resting, int mean) {
+    const Device& device = commands.device;
+    const VkExtent3D extent = {uint32_t(options.width), uint32_t(options.height), 1};
+    const bool still = mean > 0 || options.samples > 1;
+    const gpu::RenderFrame before = renderer.described;
+    renderer.described = describe(renderer, scene, options, view, resting, mean,
+                                  still ? kStillShadowSize : kShadowSize);
+    const gpu::RenderFrame& frame = renderer.described;
+    uploadBytes(device, renderer.frame, &frame, sizeof frame);
+    renderer.shadowStands = renderer.shadowStands && before.sun == frame.sun &&
+                            before.shadowCentre == frame.shadowCentre &&
+                            before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;
+    reserve(device, renderer.pixels, 4ull * extent.width * extent.height, Memory::readback);
+    if (resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT) ||
+        resizeGBuffer(commands, renderer.gbuffer, extent))
+        forgetHistory(renderer.ambient);
+    resizeGBuffer(commands, renderer.gbuffer, extent);
+
+    const bool traced = wantsTracing(scene, options, renderer);
+    if (!renderer.shadowStands) {
+        beginStage(commands, "shadow");
+        findShadow(commands, renderer, scene, traced);
+        renderer.shadowStands = true;
+    }
+    beginStage(commands, "depth");
+    findDepth(commands, renderer, scene, traced);
+    beginStage(commands, "surface");
+    renderer.gbuffer.current = 1 - renderer.gbuffer.current;
+    fillGBuffer(commands, renderer.gbuffer, renderer.seen.image(), renderer.frame, scene.parameters);
+    beginStage(commands, "ambient");
+    drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.parameters);
+    lightFrame(commands, renderer, scene, options.scene);
+    ++renderer.number;
+}
+
+Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options) {
+    if (const Done fits = checkPictureSize(options.width, options.height); !fits) return fits.error();
+    if (options.samples < 1 || options.samples > kMostSamples)
+        return problem("a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel");
+    gpu::View view = viewOf(options);
+    renderer.ambient.options = ambientOptions(scene, options);
+    renderer.ambient.options.raysResting = kRaysStill;
+    renderer.ambient.options.enough = kRaysStill * kMostSamples;
+    forgetHistory(renderer.ambient);
+    renderer.number = 0;
+    renderer.shown.reset();
+    for (int i = 0; i < options.samples; ++i) {
+        if (options.cancel && *options.cancel) return problem("cancelled");
+        if (options.progress) options.progress(100 * i / options.samples);
+        view.jitter = jitterOf(i, options);
+        renderer.shadowStands = false;
+        Commands commands(*renderer.device);
+        drawFrame(commands, renderer, scene, options, view, i > 0, i);
+        submit(commands);
+    }
+    return readPicture(renderer);
+}
+
+Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& wishes,
+                        Picture& picture) {
+    if (const Done fits = checkPictureSize(wishes.width, wishes.height); !fits) return fits.error();
+    RenderOptions options = wishes;
+    options.samples = 1;
+    const Shown shows = {viewOf(options), options.scene, scene.content,
+                         {uint32_t(options.width), uint32_t(options.height), 1}};
+    const std::optional<Shown>& shown = renderer.shown;
+    const bool sameField = shown && shown->content == shows.content;
+    const bool rests = sameField && shown->scene == shows.scene && sameView(shown->view, shows.view) &&
+                       shown->extent.width == shows.extent.width &&
+                       shown->extent.height == shows.extent.height;
+    if (rests && renderer.rested >= kRestFrames) return false;
+    renderer.rested = rests ? renderer.rested + 1 : 0;
+    if (!shown) forgetHistory(renderer.ambient);
+    renderer.shadowStands = renderer.shadowStands && sameField;
+    AmbientOptions ambient = ambientOptions(scene, options);
+    ambient.raysResting = kRaysResting;
+    // Of a field that moves, history is soon wrong where it is not rejected.
+    if (!sameField) ambient.mostKept = 8;
+    renderer.ambient.options = ambient;
+    gpu::View view = shows.view;
+    view.jitter = jitterOf(renderer.rested, options);
+    if (options.primary == Primary::measured && !renderer.tracing && std::isfinite(scene.lipschitz)) {
+        renderer.described = describe(renderer, scene, options, view, false, 0, kShadowSize);
+        measurePrimary(renderer, scene);
+    }
+    Commands commands(*renderer.device);
+    drawFrame(commands, renderer, scene, options, view, rests, renderer.rested);
+    submit(commands);
+    renderer.shown = shows;
+    picture = readPicture(renderer);
+    return true;
+}
+
+}  // namespace fw

@@ -1,0 +1,107 @@
+// From a mesh in device memory and the field that it was made of to a lit picture.
+//
+// The pipeline of the talk's "Illumination": primary visibility and the sun's shadow map are rasterised from
+// the generated mesh, or traced where that is cheaper; everything secondary is traced through the field. In
+// order: shadow map, depth, G-buffer (gbuffer.h), ambient occlusion (ambient.h), the lamps' light with traced
+// shadows, fog with the sun's rays, light (shaders/render/light.comp: GGX, sky or studio, tone map, sRGB).
+// Stages that nothing in the scene asks for are neither run nor compiled.
+//
+// A still picture is the mean of frames that differ in where in its pixels the picture is sampled, where on the
+// sun's disc its light comes from and how the ambient rays are turned: so edges, penumbras and ambient occlusion
+// converge together. The same input gives the same bytes on the same device. The live view draws one frame at a
+// time with what the last one knew (ambient.h), goes on to the same mean while nothing changes, and then stops.
+//
+// Lifetime: a Renderer belongs to one field on one device; images and buffers take the size of the picture and
+// keep it until another is asked for.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "runtime/render/ambient.h"
+#include "runtime/render/picture.h"
+
+namespace fw {
+
+/// The box that a mesh was made in, capped at its sides, and the size of its cells, metres.
+struct MeshGrid {
+    glm::vec3 lo{-1.0f}, hi{1.0f};
+    float cellSize = 2.0f / 128;
+};
+
+/// What is drawn.
+struct RenderScene {
+    const MesherBuffers& mesh;
+    uint32_t triangles = 0;  ///< of the mesh
+    MeshGrid grid;           ///< that it was made on
+    float lipschitz = 1.0f;  ///< of the field; infinite if unknown
+    const Buffer* parameters = nullptr;  ///< live ones, where the field has some
+    uint64_t content = 0;  ///< another number if mesh or field differ from those of the live view's last frame
+};
+
+/// How depth is found. Fields without a known Lipschitz constant are always drawn.
+enum class Primary { drawn, traced, measured };
+
+struct RenderOptions {
+    int width = 1280, height = 720;  ///< pixels
+    Scene scene = {};                ///< as it is at the time of the picture
+    /// The solid's points, by which the picture is framed, stands on the ground and scales its light. There is
+    /// at least one, unless the scene has a camera.
+    std::span<const gpu::MeshVertex> framed = {};
+    int samples = 16;  ///< frames that a still picture is the mean of, 1 to kMostSamples
+    Primary primary = Primary::drawn;
+    uint32_t show = RENDER_PICTURE;
+    const std::atomic<bool>* cancel = nullptr;
+    std::function<void(int percent)> progress = {};
+};
+
+inline constexpr int kMostSamples = 4096;
+
+/// What the live view shows: while none of it changes, it rests.
+struct Shown {
+    gpu::View view;
+    Scene scene;
+    uint64_t content = 0;
+    VkExtent3D extent = {};
+};
+
+struct Renderer {
+    const Device* device = nullptr;
+    std::string field;
+    DepthPipelines depth;
+    GBuffer gbuffer;
+    Ambient ambient;
+    Pipeline light[4];  ///< made when needed: bit 0 with lamps, bit 1 with fog
+    Pipeline lamps, fog;
+
+    DepthTarget seen, shadow;
+    Image means, lampLight, fogLight;
+    Buffer frame;   ///< gpu::RenderFrame
+    Buffer pixels;  ///< the finished picture, on the host's side
+
+    gpu::RenderFrame described{};  ///< the last frame
+    uint32_t number = 0;           ///< of frames since the start
+    std::optional<Shown> shown;    ///< by the live view
+    int rested = 0;                ///< frames that the live view's picture is the mean of, less one
+    bool shadowStands = false;     ///< the shadow map is still that of the mesh and the sun
+    std::optional<bool> tracing;   ///< what Primary::measured came to
+};
+
+/// `field` is the text that answers #include "field.glsl", empty for the default field.
+Renderer createRenderer(const Device& device, std::string field);
+
+/// A still picture. Errors: as checkPictureSize, samples out of range, cancelled.
+Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options);
+
+/// The live view's next frame, into `picture`; false if it would be the same as the last. Errors: as
+/// checkPictureSize.
+Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+                        Picture& picture);
+
+/// One frame of either, for the benchmarks: what its stages take. `view.pixel` is set here.
+void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+               const gpu::View& view, bool resting, int mean);
+
+}  // namespace fw

@@ -1,0 +1,54 @@
+// Light of the scene's lamps on one listed tile, each with a shadow traced through the field. The penumbra is Quilez' ("Soft
+// shadows in raymarched SDFs"): how closely the ray passes by, over how far.
+#define FIELD_VALUE
+#include "shared.h"
+#include "render/render.h"
+#include "field.glsl"
+#include "lib/octahedral.glsl"
+#include "render/view.glsl"
+#include "render/gbuffer.glsl"
+
+layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
+layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
+layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;
+layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
+layout(binding = 11, rgba16f) writeonly uniform image2D lamps;
+
+#include "render/solid.glsl"
+#include "render/shading.glsl"
+
+// Share of a lamp of this size, `far` away, that p sees in direction d.
+float lampSeen(vec3 p, vec3 d, float far, float size) {
+    float t = frame.bias, seen = 1.0;
+    uint i = 0;
+    do {
+        float clear = clearance(p + t * d);
+        seen = min(seen, clear * far / (max(size, 0.002 * far) * t));
+        t += max(0.9 * clear, 0.5 * frame.bias + 0.004 * t);
+    } while (++i < 64 && seen > 0.0 && t < far);
+    return smoothstep(0.0, 1.0, seen);
+}
+
+void main() {
+    fieldBegin();
+    uint lane = gl_LocalInvocationIndex, tile = tiles[gl_WorkGroupID.x];
+    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 here = min(pixel, frame.size - 1);
+    Surface s = unpackSurface(imageLoad(surfaces, ivec2(here)));
+    bool there = s.depth > 0.0;
+    vec3 p = pointAt(frame.now, placeOf(here, frame.size), there ? s.depth : 1.0), toEye = normalize(frame.now.eye - p);
+    vec3 from = p + s.n * frame.bias, sum = vec3(0.0);
+    uint i = 0;
+    do {
+        Light light = frame.lights[i];
+        bool parallel = light.directional != 0;
+        vec3 v = parallel ? -light.direction * (4.0 * frame.radius) : light.position - from;
+        float far = length(v);
+        vec3 d = v / far;
+        float cone = smoothstep(light.cosOuter, light.cosInner, dot(-d, light.direction));
+        float reach = parallel ? 1.0 : cone / max(far * far, light.size * light.size);
+        float seen = lampSeen(from, d, far, parallel ? 0.02 * far : light.size);
+        sum += reflected(s, toEye, d, light.color * (reach * seen));
+    } while (++i < frame.lightCount);
+    if (there && all(lessThan(pixel, frame.size))) imageStore(lamps, ivec2(pixel), vec4(min(sum, vec3(6e4)), 0.0));
+}

@@ -1,0 +1,53 @@
+// The G-buffer of one listed tile: from depth to the surface that the mesh stands for, with its exact normal and its material,
+// all from the field. So both are sharp whatever the mesh's resolution, and no interpolated attribute is drawn.
+// Where the solid is not, there may be the ground, which catches its shadow.
+#define FIELD_GRADIENT
+#define FIELD_MATERIAL
+#include "shared.h"
+#include "render/render.h"
+#include "field.glsl"
+#include "lib/octahedral.glsl"
+#include "render/view.glsl"
+#include "render/gbuffer.glsl"
+
+layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
+layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
+layout(binding = 1) uniform sampler2D seen;
+layout(binding = 2, rgba32ui) writeonly uniform uimage2D surfaces;
+layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
+
+#include "render/solid.glsl"
+
+void main() {
+    fieldBegin();
+    uint lane = gl_LocalInvocationIndex, tile = tiles[gl_WorkGroupID.x];
+    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    bool inPicture = all(lessThan(pixel, frame.size));
+    float depth = texelFetch(seen, ivec2(min(pixel, frame.size - 1)), 0).x;
+    bool hit = depth > 0.0;
+    View view = frame.now;
+    vec3 ray = rayOf(view, placeOf(pixel, frame.size));
+    vec3 toEye = normalize(-ray);
+
+    float toGround = (frame.ground - view.eye.y) / min(ray.y, -1e-6);
+    vec3 onGround = view.eye + ray * toGround;
+    bool ground = ray.y < 0.0 && distance(onGround.xz, frame.centre.xz) < frame.groundEnd * frame.radius;
+
+    // The surface is the field's own, which lies within a cell of the mesh, or the side of the region.
+    vec3 p = view.eye + ray * (hit ? view.near / depth : toGround);
+    vec4 g = fieldGradient(p), region = regionDistance(p);
+    float slope = max(length(g.xyz), 1e-6), off = g.w / slope;
+    bool cap = region.w > off || !(abs(off) < 2.0 * frame.cellSize);
+    vec3 n = cap ? region.xyz : g.xyz / slope;
+    p -= n * clamp(cap ? region.w : off, -frame.cellSize, frame.cellSize);
+    float facing = dot(n, toEye);  // never away from the eye, as bevelled edges can have it
+    n = facing < 0.0 ? normalize(n - 1.02 * facing * toEye) : n;
+
+    // What is stored is a depth: where the pixel's ray meets the surface's plane.
+    float along = dot(n, p - view.eye) / min(dot(n, ray), -1e-6), first = view.near / max(depth, 1e-30);
+    along = clamp(along, first - 2.0 * frame.cellSize, first + 2.0 * frame.cellSize);
+    FieldMaterial material = fieldMaterial(view.eye + ray * along);
+    uvec4 surface = packSurface(view.near / along, n, material);
+    surface = hit ? surface : ground ? packGround(view.near / toGround) : uvec4(0);
+    if (inPicture) imageStore(surfaces, ivec2(pixel), surface);
+}
