@@ -117,8 +117,7 @@ struct SceneReader {
         return object(value, "ao", scene.ao, true, R"({"radius": 0.5, "strength": 1})",
                       [&](AmbientOcclusion& to, const std::string& key, const PlacedJson& entry) {
                           if (key == "radius") return number(entry, "ao.radius", to.radius, 0.0);
-                          return key != "strength" ||
-                                 number(entry, "ao.strength", to.strength, 0.0, 1.0);
+                          return key != "strength" || number(entry, "ao.strength", to.strength, 0.0, 1.0);
                       });
     }
 
@@ -144,24 +143,23 @@ struct SceneReader {
             if (json == "point") return to.type = Lamp::Type::point, true;
             if (json == "spot") return to.type = Lamp::Type::spot, true;
             if (json == "directional") return to.type = Lamp::Type::directional, true;
-            return fail(entry, "the scene's " + name +
-                                   R"(.type must be "point", "spot" or "directional")");
+            return fail(entry, "the scene's " + name + R"(.type must be "point", "spot" or "directional")");
         };
         std::optional<Lamp> read;
-        const bool sound = object(
-            value, name, read, false,
-            R"({"type": "point", "position": [0, 3, 0], "color": [1, 1, 1], "strength": 10})",
-            [&](Lamp&, const std::string& key, const PlacedJson& entry) {
-                const std::string at = name + "." + key;
-                if (key == "type") return type(entry);
-                if (key == "position") return triple(entry, at, to.position);
-                if (key == "target") return triple(entry, at, to.target);
-                if (key == "color") return color(entry, at, to.color);
-                if (key == "strength") return number(entry, at, to.strength, 0.0);
-                if (key == "angle") return number(entry, at, to.angle, 1.0, 179.0);
-                if (key == "blend") return number(entry, at, to.blend, 0.0, 1.0);
-                return key != "size" || number(entry, at, to.size, 0.0);
-            });
+        const bool sound =
+            object(value, name, read, false,
+                   R"({"type": "point", "position": [0, 3, 0], "color": [1, 1, 1], "strength": 10})",
+                   [&](Lamp&, const std::string& key, const PlacedJson& entry) {
+                       const std::string at = name + "." + key;
+                       if (key == "type") return type(entry);
+                       if (key == "position") return triple(entry, at, to.position);
+                       if (key == "target") return triple(entry, at, to.target);
+                       if (key == "color") return color(entry, at, to.color);
+                       if (key == "strength") return number(entry, at, to.strength, 0.0);
+                       if (key == "angle") return number(entry, at, to.angle, 1.0, 179.0);
+                       if (key == "blend") return number(entry, at, to.blend, 0.0, 1.0);
+                       return key != "size" || number(entry, at, to.size, 0.0);
+                   });
         if (!sound) return false;
         return to.type == Lamp::Type::point || to.position != to.target ||
                fail(value, "the scene's " + name + " stands on its target: move one of them");
@@ -169,8 +167,8 @@ struct SceneReader {
 
     bool lights(const PlacedJson& value, Scene& scene) {
         if (!value.value().is_array() || value.value().size() > kMostLights)
-            return fail(value, "the scene's lights must be a list of at most " +
-                                   std::to_string(kMostLights) + " objects");
+            return fail(value, "the scene's lights must be a list of at most " + std::to_string(kMostLights) +
+                                   " objects");
         return value.forEntries([&](const PlacedJson& entry) {
             const std::string name = "lights." + std::to_string(scene.lights.size());
             return lamp(entry, name, scene.lights.emplace_back());

@@ -4,8 +4,8 @@
 //       "camera": {"position": [4, 3, 5], "target": [0, 0, 0], "fov": 30},
 //       "sun": {"azimuth": 250, "elevation": 9, "color": [1, 0.55, 0.3], "strength": 5, "size": 1},
 //       "sky": {"zenith": [0.1, 0.15, 0.35], "horizon": [0.9, 0.45, 0.3]},
-//       "lights": [{"type": "spot", "position": [2, 4, 0], "target": [0, 0, 0], "color": [1, 0.8, 0.6], "strength": 40}],
-//       "ao": {"radius": 0.5}, "fog": {"density": 0.1}, "ground": false, "exposure": 0.5
+//       "lights": [{"type": "spot", "position": [2, 4, 0], "target": [0, 0, 0], "color": [1, 0.8, 0.6],
+//       "strength": 40}], "ao": {"radius": 0.5}, "fog": {"density": 0.1}, "ground": false, "exposure": 0.5
 //     }
 //
 // Every key may be absent. Without a camera the whole solid is framed from three quarters; without a sky it
@@ -39,8 +39,8 @@ struct Sun {
     double azimuth = -32.0;         ///< degrees from +z towards +x
     double elevation = 48.0;        ///< degrees above the horizon
     Triple color{1.0, 0.9, 0.776};  ///< linear
-    double strength = 2.9;          ///< irradiance of a surface that faces it; a white one then shows 1 / pi of it
-    double size = 4.0;              ///< degrees across: the larger, the softer its shadows
+    double strength = 2.9;  ///< irradiance of a surface that faces it; a white one then shows 1 / pi of it
+    double size = 4.0;      ///< degrees across: the larger, the softer its shadows
     bool operator==(const Sun&) const = default;
 };
 

@@ -275,7 +275,8 @@ Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& opt
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     const VkVertexInputBindingDescription vertex = {0, options.vertexStride, VK_VERTEX_INPUT_RATE_VERTEX};
     const VkVertexInputAttributeDescription position = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
-    vertices.vertexBindingDescriptionCount = vertices.vertexAttributeDescriptionCount = options.vertexStride > 0;
+    vertices.vertexBindingDescriptionCount = vertices.vertexAttributeDescriptionCount =
+        options.vertexStride > 0;
     vertices.pVertexBindingDescriptions = &vertex;
     vertices.pVertexAttributeDescriptions = &position;
     auto assembly = zeroed<VkPipelineInputAssemblyStateCreateInfo>(

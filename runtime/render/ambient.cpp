@@ -19,7 +19,12 @@ uint32_t raysWithin(int rays) { return uint32_t(std::clamp(rays, 1, RENDER_MOST_
 Ambient createAmbient(const Device& device, std::string_view field, const AmbientOptions& options) {
     Ambient ambient;
     ambient.options = options;
-    ambient.trace = createComputePipeline(device, {.name = "render/ambient.comp", .field = field});
+    const ShaderOptions shaders[] = {{.name = "render/ambient.comp", .field = field},
+                                     {.name = "render/ambient_holes.comp", .field = field}};
+    std::vector<Pipeline> pipelines = createComputePipelines(device, shaders);
+    ambient.trace = std::move(pipelines[0]);
+    ambient.addRays = std::move(pipelines[1]);
+    ambient.holeCount = createBuffer(device, sizeof(gpu::AmbientHoles));
     return ambient;
 }
 
@@ -35,25 +40,32 @@ void describeAmbient(const Ambient& ambient, gpu::RenderFrame& frame) {
 }
 
 void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
-                 const gpu::RenderFrame& described, const Buffer& frame, const Buffer* parameters) {
+                 const gpu::RenderFrame& described, const Buffer& frame, const FieldBuffers& field) {
     const VkExtent3D extent = gbuffer.now().extent;
     const bool resized = resizeImage(commands, ambient.history[0], extent, VK_FORMAT_R32_UINT);
     resizeImage(commands, ambient.history[1], extent, VK_FORMAT_R32_UINT);
+    reserve(commands.device, ambient.holes, 4ull * extent.width * extent.height);
     if (resized || !ambient.hasHistory || !ambient.options.reproject) {
-        clear(commands, ambient.now());
+        for (const Image& history : ambient.history) clear(commands, history);
         barrier(commands);
     }
+    fill(commands, ambient.holeCount, 1);
+    fill(commands, ambient.holeCount, 0, 0, 8);
+    barrier(commands);
     const Image& before = ambient.now();
     ambient.current = 1 - ambient.current;
-    std::vector<Descriptor> bound = {{0, frame},
-                                     storage(2, gbuffer.now()),
-                                     {3, gbuffer.tileList},
-                                     storage(5, gbuffer.before()),
-                                     storage(6, before),
-                                     storage(7, ambient.now())};
-    if (parameters) bound.emplace_back(FIELD_PARAMETERS, *parameters);
-    dispatchIndirect(commands, ambient.trace, gbuffer.arguments, 0, nullptr, 0, bound);
+    std::vector<Descriptor> bound = {
+        {0, frame},         storage(2, gbuffer.now()), {3, gbuffer.tileLists},
+        {8, ambient.holes}, {4, ambient.holeCount},    storage(5, gbuffer.before()),
+        storage(6, before), storage(7, ambient.now())};
+    addField(bound, field);
+    dispatchIndirect(commands, ambient.trace, gbuffer.arguments, argumentsOf(RENDER_NEAR), nullptr, 0, bound);
     barrier(commands);
+    if (described.balance && described.raysNew > described.raysKept) {
+        dispatchIndirect(commands, ambient.addRays, ambient.holeCount, offsetof(gpu::AmbientHoles, arguments),
+                         nullptr, 0, bound);
+        barrier(commands);
+    }
     ambient.rays = (described.resting ? ambient.rays : 0) +
                    int(described.resting ? described.raysKept : described.raysNew);
     ambient.hasHistory = true;

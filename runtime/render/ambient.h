@@ -22,15 +22,16 @@ struct AmbientOptions {
     int mostKept = 64;  ///< rays that a moving view's history counts for at most: more is smoother, and lags
     int enough = 1024;  ///< rays a pixel after which a resting view is done
     bool reproject = true;  ///< keep a history at all
-    bool balance = true;    ///< share the rays of a tile among its lanes
+    bool balance = true;    ///< share the rays of pixels without history among all lanes
 };
 
 struct Ambient {
     AmbientOptions options;
-    Pipeline trace;
+    Pipeline trace, addRays;
     Image history[2];  ///< R32_UINT: openness in the lower 16 bits, the rays that it stands for above
     uint32_t current = 0;
-    int rays = 0;  ///< a pixel has had since the view came to rest
+    Buffer holes, holeCount;  ///< pixels without history, 4 bytes each; gpu::AmbientHoles
+    int rays = 0;             ///< a pixel has had since the view came to rest
     bool hasHistory = false;
 
     const Image& now() const { return history[current]; }
@@ -45,7 +46,7 @@ void describeAmbient(const Ambient& ambient, gpu::RenderFrame& frame);
 /// Records one frame. `described` is what the buffer `frame` holds. Before the first frame, and whenever
 /// `anew`, nothing is kept.
 void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
-                 const gpu::RenderFrame& described, const Buffer& frame, const Buffer* parameters);
+                 const gpu::RenderFrame& described, const Buffer& frame, const FieldBuffers& field);
 
 /// What was seen or the field has changed otherwise than by the view: the history is of no use.
 void forgetHistory(Ambient& ambient);

@@ -9,7 +9,34 @@ namespace {
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr uint32_t kTraceGroup = 8;  // pixels along each side of a work group of trace.comp
 
+void copyDepth(Commands& commands, DepthTarget& target) {
+    const VkExtent3D extent = target.attachment.extent;
+    resizeImage(commands, target.depth, extent, VK_FORMAT_R32_SFLOAT);
+    reserve(commands.device, target.copy, 4ull * extent.width * extent.height);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {target.attachment.aspect, 0, 0, 1};
+    region.imageExtent = extent;
+    imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    vkCmdCopyImageToBuffer(commands.handle, target.attachment.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           target.copy.handle, 1, &region);
+    barrier(commands);
+    region.imageSubresource.aspectMask = target.depth.aspect;
+    vkCmdCopyBufferToImage(commands.handle, target.copy.handle, target.depth.handle, VK_IMAGE_LAYOUT_GENERAL,
+                           1, &region);
+    barrier(commands);
+}
+
 }  // namespace
+
+void addField(std::vector<Descriptor>& bound, const FieldBuffers& field) {
+    if (field.parameters) bound.emplace_back(FIELD_PARAMETERS, *field.parameters);
+    if (field.images) bound.emplace_back(FIELD_IMAGES, *field.images);
+}
+
+uint32_t tilesOf(VkExtent3D extent) {
+    return groupsFor(extent.width, RENDER_TILE) * groupsFor(extent.height, RENDER_TILE);
+}
 
 Descriptor storage(uint32_t binding, const Image& image) {
     return Descriptor(binding, image.view, VK_IMAGE_LAYOUT_GENERAL);
@@ -21,10 +48,15 @@ bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat f
         return false;
     ImageOptions options{.extent = extent, .format = format};
     if (format == kDepthFormat)
-        options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        options.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     image = {};  // first: the two need not fit at once
     image = createImage(commands.device, options);
     imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    if (format == kDepthFormat) return true;
+    const VkClearColorValue nothing{};
+    const VkImageSubresourceRange all = {image.aspect, 0, 1, 0, 1};
+    vkCmdClearColorImage(commands.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, &nothing, 1, &all);
+    barrier(commands);
     return true;
 }
 
@@ -35,17 +67,21 @@ DepthPipelines createDepthPipelines(const Device& device, std::string_view field
                                                      .vertexStride = sizeof(gpu::MeshVertex),
                                                      .depthTest = true,
                                                      .depthWrite = true});
-    pipelines.trace = createComputePipeline(device, {.name = "render/trace.comp", .field = field});
+    const ShaderOptions shaders[] = {{.name = "render/trace.comp", .field = field, .defines = {"CONES"}},
+                                     {.name = "render/trace.comp", .field = field}};
+    std::vector<Pipeline> tracing = createComputePipelines(device, shaders);
+    pipelines.cones = std::move(tracing[0]);
+    pipelines.trace = std::move(tracing[1]);
     return pipelines;
 }
 
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
                const glm::mat4& clip, const MesherBuffers& mesh, bool triangles) {
-    target.isTraced = false;
-    resizeImage(commands, target.drawn, extent, kDepthFormat);
-    imageBarrier(commands, target.drawn, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    resizeImage(commands, target.attachment, extent, kDepthFormat);
+    imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     auto attachment = zeroed<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
-    attachment.imageView = target.drawn.view;
+    attachment.imageView = target.attachment.view;
     attachment.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -68,19 +104,24 @@ void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget&
                                  0);
     }
     vkCmdEndRendering(commands.handle);
-    imageBarrier(commands, target.drawn, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
+    copyDepth(commands, target);
 }
 
 void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
-                gpu::TracePush rays, const Buffer* parameters) {
-    target.isTraced = true;
-    resizeImage(commands, target.traced, extent, VK_FORMAT_R32_SFLOAT);
+                gpu::TracePush rays, const FieldBuffers& field) {
+    resizeImage(commands, target.depth, extent, VK_FORMAT_R32_SFLOAT);
     rays.size = {extent.width, extent.height};
-    std::vector<Descriptor> bound = {storage(0, target.traced)};
-    if (parameters) bound.emplace_back(FIELD_PARAMETERS, *parameters);
-    dispatch(commands, pipelines.trace,
-             {groupsFor(extent.width, kTraceGroup), groupsFor(extent.height, kTraceGroup), 1}, rays, bound);
-    barrier(commands);
+    const VkExtent3D cones = {groupsFor(extent.width, RENDER_CONE), groupsFor(extent.height, RENDER_CONE), 1};
+    resizeImage(commands, target.starts, cones, VK_FORMAT_R32_SFLOAT);
+    const auto pass = [&](const Pipeline& pipeline, VkExtent3D size, const Image& written) {
+        std::vector<Descriptor> bound = {storage(0, written), storage(1, target.starts)};
+        addField(bound, field);
+        dispatch(commands, pipeline,
+                 {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, rays, bound);
+        barrier(commands);
+    };
+    pass(pipelines.cones, cones, target.starts);
+    pass(pipelines.trace, extent, target.depth);
 }
 
 GBuffer createGBuffer(const Device& device, std::string_view field) {
@@ -90,27 +131,26 @@ GBuffer createGBuffer(const Device& device, std::string_view field) {
     std::vector<Pipeline> pipelines = createComputePipelines(device, shaders);
     gbuffer.tiles = std::move(pipelines[0]);
     gbuffer.surface = std::move(pipelines[1]);
-    gbuffer.arguments = createBuffer(device, sizeof(gpu::DispatchArguments));
-    gbuffer.sampler = createSampler(device, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    gbuffer.arguments = createBuffer(device, RENDER_LISTS * sizeof(gpu::DispatchArguments));
     return gbuffer;
 }
 
 bool resizeGBuffer(Commands& commands, GBuffer& gbuffer, VkExtent3D extent) {
     if (!resizeImage(commands, gbuffer.surfaces[0], extent, VK_FORMAT_R32G32B32A32_UINT)) return false;
     resizeImage(commands, gbuffer.surfaces[1], extent, VK_FORMAT_R32G32B32A32_UINT);
-    reserve(commands.device, gbuffer.tileList,
-            4ull * groupsFor(extent.width, RENDER_TILE) * groupsFor(extent.height, RENDER_TILE));
+    reserve(commands.device, gbuffer.tileLists, 4ull * RENDER_LISTS * tilesOf(extent));
     return true;
 }
 
 void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame) {
     const VkExtent3D extent = depth.extent;
     fill(commands, gbuffer.arguments, 1);
-    fill(commands, gbuffer.arguments, 0, 0, 4);
+    for (uint32_t list = 0; list < RENDER_LISTS; ++list)
+        fill(commands, gbuffer.arguments, 0, argumentsOf(list), 4);
     barrier(commands);
-    const std::array<Descriptor, 5> bound = {
-        Descriptor(0, frame), Descriptor(1, depth.view, VK_IMAGE_LAYOUT_GENERAL, gbuffer.sampler.handle),
-        storage(2, gbuffer.now()), Descriptor(3, gbuffer.tileList), Descriptor(4, gbuffer.arguments)};
+    const std::array<Descriptor, 4> bound = {Descriptor(0, frame), storage(1, depth),
+                                             Descriptor(3, gbuffer.tileLists),
+                                             Descriptor(4, gbuffer.arguments)};
     dispatch(commands, gbuffer.tiles,
              {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1}, nullptr, 0,
              bound);
@@ -118,15 +158,15 @@ void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const B
 }
 
 void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame,
-                 const Buffer* parameters) {
+                 const FieldBuffers& field) {
+    beginStage(commands, "tiles");
     listTiles(commands, gbuffer, depth, frame);
+    beginStage(commands, "surface");
     std::vector<Descriptor> bound = {
-        {0, frame},
-        {1, depth.view, VK_IMAGE_LAYOUT_GENERAL, gbuffer.sampler.handle},
-        storage(2, gbuffer.now()),
-        {3, gbuffer.tileList}};
-    if (parameters) bound.emplace_back(FIELD_PARAMETERS, *parameters);
-    dispatchIndirect(commands, gbuffer.surface, gbuffer.arguments, 0, nullptr, 0, bound);
+        {0, frame}, storage(1, depth), storage(2, gbuffer.now()), {3, gbuffer.tileLists}};
+    addField(bound, field);
+    dispatchIndirect(commands, gbuffer.surface, gbuffer.arguments, argumentsOf(RENDER_NEAR), nullptr, 0,
+                     bound);
     barrier(commands);
 }
 

@@ -18,16 +18,26 @@
 
 namespace fw {
 
-/// A depth image: drawn, or traced. One of the two is used at a time.
+/// What a field reads besides the position.
+struct FieldBuffers {
+    const Buffer* parameters = nullptr;  ///< live ones, where it has some
+    const Buffer* images = nullptr;      ///< that it samples, where it does
+};
+
+/// Adds them to what a shader is given.
+void addField(std::vector<Descriptor>& bound, const FieldBuffers& field);
+
+/// A depth image. What is drawn is copied into it, for a depth attachment cannot be a storage image, and
+/// fetching from a sampler is several times slower on software devices than loading from an image.
 struct DepthTarget {
-    Image drawn;   ///< D32_SFLOAT
-    Image traced;  ///< R32_SFLOAT
-    bool isTraced = false;
-    const Image& image() const { return isTraced ? traced : drawn; }
+    Image depth;       ///< R32_SFLOAT
+    Image attachment;  ///< D32_SFLOAT, if anything was drawn
+    Image starts;  ///< R32_SFLOAT, if anything was traced: how far the rays of RENDER_CONE^2 pixels are free
+    Buffer copy;
 };
 
 struct DepthPipelines {
-    Pipeline draw, trace;
+    Pipeline draw, cones, trace;
 };
 
 /// `field` is the text that answers #include "field.glsl", empty for the default field.
@@ -37,16 +47,16 @@ DepthPipelines createDepthPipelines(const Device& device, std::string_view field
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
                const glm::mat4& clip, const MesherBuffers& mesh, bool triangles);
 
-/// Traces the field's depth. `parameters` are the live ones, where the field has some.
+/// Traces the field's depth.
 void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
-                gpu::TracePush rays, const Buffer* parameters);
+                gpu::TracePush rays, const FieldBuffers& field);
 
 struct GBuffer {
     Pipeline tiles, surface;
     Image surfaces[2];  ///< RGBA32_UINT (shaders/render/gbuffer.glsl): of this frame and of the one before
     uint32_t current = 0;
-    Buffer tileList, arguments;  ///< of the tiles that hold surface; of an indirect dispatch of one group each
-    Sampler sampler;
+    Buffer tileLists,
+        arguments;  ///< RENDER_LISTS lists of tiles; the indirect dispatch of one group a tile of each
 
     const Image& now() const { return surfaces[current]; }
     const Image& before() const { return surfaces[1 - current]; }
@@ -59,15 +69,21 @@ bool resizeGBuffer(Commands& commands, GBuffer& gbuffer, VkExtent3D extent);
 
 /// Makes now() from the depth. `frame` is a uniform buffer of a gpu::RenderFrame.
 void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame,
-                 const Buffer* parameters);
+                 const FieldBuffers& field);
 
 /// Lists the tiles alone, for a now() that was filled otherwise.
 void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame);
 
+/// Tiles that cover a picture.
+uint32_t tilesOf(VkExtent3D extent);
+
+/// Where in GBuffer::arguments the dispatch over a list is.
+constexpr VkDeviceSize argumentsOf(uint32_t list) { return list * sizeof(gpu::DispatchArguments); }
+
 /// The image for a binding, in VK_IMAGE_LAYOUT_GENERAL.
 Descriptor storage(uint32_t binding, const Image& image);
 
-/// Makes the image anew if its size or format differ; whether it did. The new one's content is undefined.
+/// Makes the image anew if its size or format differ; whether it did. The new one is cleared.
 bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat format);
 
 }  // namespace fw

@@ -10,13 +10,13 @@ namespace fw {
 
 namespace {
 
-constexpr uint32_t kShadowSize = 1024;      // texels along each side
+constexpr uint32_t kShadowSize = 1024;  // texels along each side
 constexpr uint32_t kStillShadowSize = 2048;
-constexpr int kRestFrames = 64;             // of the live view, after which it stops
+constexpr int kRestFrames = 64;  // of the live view, after which it stops
 constexpr int kRaysStill = 16, kRaysResting = 8;
-constexpr float kGroundEnd = 2.8f;          // where the ground has faded, in the solid's radii
+constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
-constexpr float kFogEnd = 12.0f;            // in the solid's radii
+constexpr float kFogEnd = 12.0f;  // in the solid's radii
 
 Error problem(std::string message) {
     Error error;
@@ -77,7 +77,8 @@ void describeSun(gpu::RenderFrame& frame, const Scene& scene, const SeenBounds& 
 glm::mat4 shadowClip(const gpu::RenderFrame& frame) {
     const glm::vec3 x = frame.shadowRight, y = frame.shadowUp, z = -0.5f * frame.shadowForward;
     const auto shift = [&](glm::vec3 axis) { return -glm::dot(axis, frame.shadowCentre); };
-    return {{x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {shift(x), shift(y), 0.5f + shift(z), 1}};
+    return {
+        {x.x, y.x, z.x, 0}, {x.y, y.y, z.y, 0}, {x.z, y.z, z.z, 0}, {shift(x), shift(y), 0.5f + shift(z), 1}};
 }
 
 gpu::TracePush shadowRays(const gpu::RenderFrame& frame) {
@@ -102,6 +103,7 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
     frame.now.pixel = glm::length(view.up) / float(options.height);
     frame.before = renderer.number > 0 ? renderer.described.now : frame.now;
     frame.size = {options.width, options.height};
+    frame.tiles = tilesOf({frame.size.x, frame.size.y, 1});
     frame.number = renderer.number;
     frame.resting = resting;
     frame.lo = scene.grid.lo;
@@ -120,7 +122,7 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
     frame.zenith = vector(sky.zenith) * float(sky.strength);
     frame.horizon = vector(sky.horizon) * float(sky.strength);
     frame.groundColor = vector(sky.ground) * float(sky.strength);
-    frame.backdrop = !look.sky;
+    frame.studio = !look.sky;
     frame.exposure = kExposure * std::exp2(float(look.exposure));
     frame.mean = uint32_t(mean);
     frame.show = options.show;
@@ -154,7 +156,7 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
     rays.lo = frame.lo;
     rays.hi = frame.hi;
     rays.stepScale = frame.stepScale;
-    traceDepth(commands, renderer.depth, renderer.seen, extent, rays, scene.parameters);
+    traceDepth(commands, renderer.depth, renderer.seen, extent, rays, scene.buffers);
 }
 
 void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced) {
@@ -169,7 +171,7 @@ void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene
     rays.lo = frame.lo;
     rays.hi = frame.hi;
     rays.stepScale = frame.stepScale;
-    traceDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, rays, scene.parameters);
+    traceDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, rays, scene.buffers);
 }
 
 /// Times drawing and tracing once each, and notes which is faster.
@@ -185,51 +187,61 @@ void measurePrimary(Renderer& renderer, const RenderScene& scene) {
     renderer.tracing = took[true] < took[false];
 }
 
-void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look) {
+/// The pipeline that lights one kind of tiles, made at its first use.
+const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, bool fog, bool mean) {
+    const bool sky = !renderer.described.studio;
+    Pipeline& light = renderer.light[list][lamps + 2 * fog + 4 * mean + 8 * sky];
+    if (light) return light;
+    ShaderOptions options{.name = "render/light.comp"};
+    options.defines.push_back("LIST " + std::to_string(list));
+    if (lamps) options.defines.push_back("LAMPS");
+    if (fog) options.defines.push_back("FOG");
+    if (sky) options.defines.push_back("SKY");
+    if (mean) options.defines.push_back("MEAN");
+    light = createComputePipeline(*renderer.device, options);
+    return light;
+}
+
+void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, bool mean) {
     const Device& device = commands.device;
     const GBuffer& gbuffer = renderer.gbuffer;
     const gpu::RenderFrame& frame = renderer.described;
     const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
-    const bool lamps = frame.lightCount > 0, fog = look.fog.has_value();
+    const bool lamps = frame.lightCount > 0, fog = frame.fogDensity > 0.0f;
     std::vector<Descriptor> bound = {
-        {0, renderer.frame},
-        storage(2, gbuffer.now()),
-        {3, gbuffer.tileList},
-        storage(7, renderer.ambient.now()),
-        {8, renderer.shadow.image().view, VK_IMAGE_LAYOUT_GENERAL, gbuffer.sampler.handle},
-        storage(9, renderer.means),
-        {10, renderer.pixels}};
-    if (scene.parameters) bound.emplace_back(FIELD_PARAMETERS, *scene.parameters);
+        {0, renderer.frame},        storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
+        {3, gbuffer.tileLists},     storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
+        storage(9, renderer.means), storage(10, renderer.pixels)};
+    addField(bound, scene.buffers);
+    const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
+        dispatchIndirect(commands, pipeline, gbuffer.arguments, argumentsOf(list), nullptr, 0, bound);
+    };
     if (lamps) {
         beginStage(commands, "lamps");
         if (!renderer.lamps)
-            renderer.lamps = createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
+            renderer.lamps =
+                createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
         resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
         bound.push_back(storage(11, renderer.lampLight));
-        dispatchIndirect(commands, renderer.lamps, gbuffer.arguments, 0, nullptr, 0, bound);
+        for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND}) {
+            dispatchIndirect(commands, renderer.lamps, gbuffer.arguments, argumentsOf(list), list, bound);
+        }
         barrier(commands);
     }
-    const auto groups = [](VkExtent3D size) {
-        return glm::uvec3(groupsFor(size.width, RENDER_TILE), groupsFor(size.height, RENDER_TILE), 1);
-    };
     if (fog) {
         beginStage(commands, "fog");
         if (!renderer.fog) renderer.fog = createComputePipeline(device, {.name = "render/fog.comp"});
         const VkExtent3D half = {(extent.width + 1) / 2, (extent.height + 1) / 2, 1};
         resizeImage(commands, renderer.fogLight, half, VK_FORMAT_R16G16B16A16_SFLOAT);
         bound.push_back(storage(12, renderer.fogLight));
-        dispatch(commands, renderer.fog, groups(half), nullptr, 0, bound);
+        dispatch(commands, renderer.fog,
+                 {groupsFor(half.width, RENDER_TILE), groupsFor(half.height, RENDER_TILE), 1}, nullptr, 0,
+                 bound);
         barrier(commands);
     }
     beginStage(commands, "light");
-    Pipeline& light = renderer.light[int(lamps) + 2 * int(fog)];
-    if (!light) {
-        ShaderOptions options{.name = "render/light.comp"};
-        if (lamps) options.defines.push_back("LAMPS");
-        if (fog) options.defines.push_back("FOG");
-        light = createComputePipeline(device, options);
-    }
-    dispatch(commands, light, groups(extent), nullptr, 0, bound);
+    for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK})
+        overTiles(lightPipeline(renderer, list, lamps, fog, mean), list);
     barrier(commands);
 }
 
@@ -240,7 +252,7 @@ AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& opt
     ambient.radius = 0.35f * radius;
     if (options.scene.ao && options.scene.ao->radius > 0) ambient.radius = float(options.scene.ao->radius);
     ambient.bias = std::min(0.5f * scene.grid.cellSize, 0.004f * radius);
-    ambient.samples = 12;
+    ambient.samples = 8;
     return ambient;
 }
 
@@ -257,10 +269,22 @@ glm::vec2 jitterOf(int number, const RenderOptions& options) {
 
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
+/// Copies the finished picture to where the host can read it.
+void recordReading(Commands& commands, Renderer& renderer) {
+    const VkExtent3D extent = renderer.pixels.extent;
+    reserve(commands.device, renderer.readback, 4ull * extent.width * extent.height, Memory::readback);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {renderer.pixels.aspect, 0, 0, 1};
+    region.imageExtent = extent;
+    vkCmdCopyImageToBuffer(commands.handle, renderer.pixels.handle, VK_IMAGE_LAYOUT_GENERAL,
+                           renderer.readback.handle, 1, &region);
+    barrier(commands);
+}
+
 Picture readPicture(const Renderer& renderer) {
     const glm::uvec2 size = renderer.described.size;
     return {int(size.x), int(size.y),
-            download<uint8_t>(*renderer.device, renderer.pixels, 4 * std::size_t(size.x) * size.y)};
+            download<uint8_t>(*renderer.device, renderer.readback, 4 * std::size_t(size.x) * size.y)};
 }
 
 }  // namespace
@@ -282,14 +306,14 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     const VkExtent3D extent = {uint32_t(options.width), uint32_t(options.height), 1};
     const bool still = mean > 0 || options.samples > 1;
     const gpu::RenderFrame before = renderer.described;
-    renderer.described = describe(renderer, scene, options, view, resting, mean,
-                                  still ? kStillShadowSize : kShadowSize);
+    renderer.described =
+        describe(renderer, scene, options, view, resting, mean, still ? kStillShadowSize : kShadowSize);
     const gpu::RenderFrame& frame = renderer.described;
     uploadBytes(device, renderer.frame, &frame, sizeof frame);
     renderer.shadowStands = renderer.shadowStands && before.sun == frame.sun &&
                             before.shadowCentre == frame.shadowCentre &&
                             before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;
-    reserve(device, renderer.pixels, 4ull * extent.width * extent.height, Memory::readback);
+    resizeImage(commands, renderer.pixels, extent, VK_FORMAT_R32_UINT);
     if (resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT) ||
         resizeGBuffer(commands, renderer.gbuffer, extent))
         forgetHistory(renderer.ambient);
@@ -303,12 +327,11 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     }
     beginStage(commands, "depth");
     findDepth(commands, renderer, scene, traced);
-    beginStage(commands, "surface");
     renderer.gbuffer.current = 1 - renderer.gbuffer.current;
-    fillGBuffer(commands, renderer.gbuffer, renderer.seen.image(), renderer.frame, scene.parameters);
+    fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
     beginStage(commands, "ambient");
-    drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.parameters);
-    lightFrame(commands, renderer, scene, options.scene);
+    drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.buffers);
+    lightFrame(commands, renderer, scene, still || resting);
     ++renderer.number;
 }
 
@@ -330,6 +353,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         renderer.shadowStands = false;
         Commands commands(*renderer.device);
         drawFrame(commands, renderer, scene, options, view, i > 0, i);
+        if (i + 1 == options.samples) recordReading(commands, renderer);
         submit(commands);
     }
     return readPicture(renderer);
@@ -340,7 +364,9 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     if (const Done fits = checkPictureSize(wishes.width, wishes.height); !fits) return fits.error();
     RenderOptions options = wishes;
     options.samples = 1;
-    const Shown shows = {viewOf(options), options.scene, scene.content,
+    const Shown shows = {viewOf(options),
+                         options.scene,
+                         scene.content,
                          {uint32_t(options.width), uint32_t(options.height), 1}};
     const std::optional<Shown>& shown = renderer.shown;
     const bool sameField = shown && shown->content == shows.content;
@@ -349,7 +375,8 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
                        shown->extent.height == shows.extent.height;
     if (rests && renderer.rested >= kRestFrames) return false;
     renderer.rested = rests ? renderer.rested + 1 : 0;
-    if (!shown) forgetHistory(renderer.ambient);
+    if (!shown || shown->scene.ao != shows.scene.ao || shown->scene.ground != shows.scene.ground)
+        forgetHistory(renderer.ambient);
     renderer.shadowStands = renderer.shadowStands && sameField;
     AmbientOptions ambient = ambientOptions(scene, options);
     ambient.raysResting = kRaysResting;
@@ -363,7 +390,9 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
         measurePrimary(renderer, scene);
     }
     Commands commands(*renderer.device);
-    drawFrame(commands, renderer, scene, options, view, rests, renderer.rested);
+    // The mean begins with the first frame that rests.
+    drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0));
+    recordReading(commands, renderer);
     submit(commands);
     renderer.shown = shows;
     picture = readPicture(renderer);

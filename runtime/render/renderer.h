@@ -6,13 +6,14 @@
 // shadows, fog with the sun's rays, light (shaders/render/light.comp: GGX, sky or studio, tone map, sRGB).
 // Stages that nothing in the scene asks for are neither run nor compiled.
 //
-// A still picture is the mean of frames that differ in where in its pixels the picture is sampled, where on the
-// sun's disc its light comes from and how the ambient rays are turned: so edges, penumbras and ambient occlusion
-// converge together. The same input gives the same bytes on the same device. The live view draws one frame at a
-// time with what the last one knew (ambient.h), goes on to the same mean while nothing changes, and then stops.
+// A still picture is the mean of frames that differ in where in its pixels the picture is sampled, where on
+// the sun's disc its light comes from and how the ambient rays are turned: so edges, penumbras and ambient
+// occlusion converge together. The same input gives the same bytes on the same device. The live view draws
+// one frame at a time with what the last one knew (ambient.h), goes on to the same mean while nothing
+// changes, and then stops.
 //
-// Lifetime: a Renderer belongs to one field on one device; images and buffers take the size of the picture and
-// keep it until another is asked for.
+// Lifetime: a Renderer belongs to one field on one device; images and buffers take the size of the picture
+// and keep it until another is asked for.
 #pragma once
 
 #include <functional>
@@ -34,11 +35,12 @@ struct MeshGrid {
 /// What is drawn.
 struct RenderScene {
     const MesherBuffers& mesh;
-    uint32_t triangles = 0;  ///< of the mesh
-    MeshGrid grid;           ///< that it was made on
-    float lipschitz = 1.0f;  ///< of the field; infinite if unknown
-    const Buffer* parameters = nullptr;  ///< live ones, where the field has some
-    uint64_t content = 0;  ///< another number if mesh or field differ from those of the live view's last frame
+    uint32_t triangles = 0;              ///< of the mesh
+    MeshGrid grid;                       ///< that it was made on
+    float lipschitz = 1.0f;              ///< of the field; infinite if unknown
+    FieldBuffers buffers;    ///< of the field
+    uint64_t content =
+        0;  ///< another number if mesh or field differ from those of the live view's last frame
 };
 
 /// How depth is found. Fields without a known Lipschitz constant are always drawn.
@@ -47,8 +49,8 @@ enum class Primary { drawn, traced, measured };
 struct RenderOptions {
     int width = 1280, height = 720;  ///< pixels
     Scene scene = {};                ///< as it is at the time of the picture
-    /// The solid's points, by which the picture is framed, stands on the ground and scales its light. There is
-    /// at least one, unless the scene has a camera.
+    /// The solid's points, by which the picture is framed, stands on the ground and scales its light. There
+    /// is at least one, unless the scene has a camera.
     std::span<const gpu::MeshVertex> framed = {};
     int samples = 16;  ///< frames that a still picture is the mean of, 1 to kMostSamples
     Primary primary = Primary::drawn;
@@ -73,13 +75,14 @@ struct Renderer {
     DepthPipelines depth;
     GBuffer gbuffer;
     Ambient ambient;
-    Pipeline light[4];  ///< made when needed: bit 0 with lamps, bit 1 with fog
+    Pipeline light[3][16];  ///< by list of tiles and what light.comp defines; made when needed
     Pipeline lamps, fog;
 
     DepthTarget seen, shadow;
     Image means, lampLight, fogLight;
-    Buffer frame;   ///< gpu::RenderFrame
-    Buffer pixels;  ///< the finished picture, on the host's side
+    Image pixels;     ///< the finished picture, R32_UINT: sRGB, red in the lowest byte
+    Buffer frame;     ///< gpu::RenderFrame
+    Buffer readback;  ///< the finished picture, where the host reads it
 
     gpu::RenderFrame described{};  ///< the last frame
     uint32_t number = 0;           ///< of frames since the start

@@ -39,8 +39,8 @@ gpu::View lookFrom(glm::vec3 eye, glm::vec3 target, float fov, float aspect, flo
 }
 
 gpu::View cameraView(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect) {
-    gpu::View view = lookFrom(vector(camera.position), vector(camera.target),
-                              glm::radians(float(camera.fov)), aspect);
+    gpu::View view =
+        lookFrom(vector(camera.position), vector(camera.target), glm::radians(float(camera.fov)), aspect);
     float nearest = kInfinity;
     for (const gpu::MeshVertex& vertex : points)
         nearest = std::min(nearest, glm::dot(view.forward, vertex.position - view.eye));
@@ -60,8 +60,7 @@ gpu::View framingView(std::span<const gpu::MeshVertex> points, float aspect) {
                               std::cos(kAround) * std::cos(kAbove));
     const glm::vec3 right = glm::normalize(glm::cross(view.forward, glm::vec3(0, 1, 0)));
     const glm::vec3 up = glm::cross(right, view.forward);
-    const glm::vec2 tangent =
-        std::tan(kHalfAngle) * glm::max(glm::vec2(aspect, 1 / aspect), glm::vec2(1));
+    const glm::vec2 tangent = std::tan(kHalfAngle) * glm::max(glm::vec2(aspect, 1 / aspect), glm::vec2(1));
 
     // A point at (x, y, z) along right, up and forward is in the picture if |x - eye.x| <= t (z - eye.z): the
     // four sides of the view are as far out as the outermost point says.

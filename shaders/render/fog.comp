@@ -1,16 +1,18 @@
 // Fog with the sun's rays in it, at half the picture's width and height: marched from the eye to what is seen, the sun's shadow
 // map asked at each step. One step is taken somewhere in each of kSteps equal parts of the way, so that bands dissolve in the
 // mean over frames. Phase function: Henyey and Greenstein's.
+#define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
 #include "render/view.glsl"
 
 layout(local_size_x = RENDER_TILE, local_size_y = RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
-layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;
-layout(binding = 8) uniform sampler2D shadowMap;
+layout(binding = 1, r32f) readonly uniform image2D seen;
+layout(binding = 8, r32f) readonly uniform image2D shadowMap;
 layout(binding = 12, rgba16f) writeonly uniform image2D fog;
 
+#include "render/solid.glsl"
 #include "render/shadow.glsl"
 
 const uint kSteps = 32;
@@ -19,20 +21,25 @@ const float kForward = 0.6;  // how much of the light goes on: 0 equally everywh
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy, half2 = (frame.size + 1) / 2;
     uvec2 full = min(pixel * 2, frame.size - 1);
-    float depth = uintBitsToFloat(imageLoad(surfaces, ivec2(full)).x);
+    float depth = imageLoad(seen, ivec2(full)).x;
     vec3 ray = rayOf(frame.now, placeOf(full, frame.size));
-    float scale = length(ray), end = min(depth > 0.0 ? frame.now.near / depth * scale : frame.fogEnd, frame.fogEnd);
+    float scale = length(ray), ground = groundAlong(frame.now, ray);
+    float along = depth > 0.0 ? frame.now.near / depth : ground > 0.0 ? ground : 1e30, end = min(along * scale, frame.fogEnd);
     vec3 d = ray / scale;
     float cosine = dot(d, frame.sun), g = kForward;
     float phase = (1.0 - g * g) / (12.566371 * pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
     vec3 sunshine = frame.sunLight * phase, sky = 0.25 * (frame.zenith + frame.horizon + 2.0 * frame.groundColor) * 0.25;
+    // Read once: no compiler moves loads of uniforms out of a loop.
+    vec3 eye = frame.now.eye;
+    float densest = frame.fogDensity, falloff = frame.fogFalloff, low = max(frame.ground, frame.centre.y - frame.radius);
+    bool shadows = frame.shadowSize != 0;
     float start = evenly(pixel, frame.number).x, through = 1.0, step = end / float(kSteps);
     vec3 sum = vec3(0.0);
     uint i = 0;
     do {
-        vec3 p = frame.now.eye + d * ((float(i) + start) * step);
-        float density = frame.fogDensity * exp(-max(p.y - max(frame.ground, frame.centre.y - frame.radius), 0.0) * frame.fogFalloff);
-        float lit = frame.shadowSize != 0 ? sunReaches(p, vec2(0.0)) : 1.0;
+        vec3 p = eye + d * ((float(i) + start) * step);
+        float density = densest * exp(-max(p.y - low, 0.0) * falloff);
+        float lit = shadows ? sunReaches(inShadowMap(p), vec2(0.0)) : 1.0;
         float kept = exp(-density * step);
         sum += through * (1.0 - kept) * (sunshine * lit + sky);
         through *= kept;

@@ -1,4 +1,4 @@
-// A pixel of the G-buffer in four words: depth (0: nothing is there), octahedral normal, base colour with metallic, emission
+// A pixel of the G-buffer, in tiles with anything near the solid, in four words: depth (0: nothing is there), octahedral normal, base colour with metallic, emission
 // with roughness. Colours are stored as square roots, 8 bits a channel; emission up to kMostEmission. After field.glsl and
 // lib/octahedral.glsl.
 
@@ -23,8 +23,12 @@ uvec4 packSurface(float depth, vec3 n, FieldMaterial material) {
 }
 #endif
 
-// A roughness of zero, which no solid has, marks the ground.
+// The ground is rough and white. A roughness of zero, which no solid has, marks the ground.
 uvec4 packGround(float depth) { return uvec4(floatBitsToUint(depth), packOctahedral(vec3(0, 1, 0)), 0xffffff, 0); }
+
+Surface groundSurface(float depth) {
+    return Surface(depth, vec3(0, 1, 0), vec3(1.0), 0.0, vec3(0.0), 1.0, true);
+}
 
 Surface unpackSurface(uvec4 words) {
     vec4 a = unpackUnorm4x8(words.z), b = unpackUnorm4x8(words.w);

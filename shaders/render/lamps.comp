@@ -12,6 +12,7 @@ layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
 layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;
 layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
+layout(push_constant, scalar) uniform Push { uint list; };  // of tiles
 layout(binding = 11, rgba16f) writeonly uniform image2D lamps;
 
 #include "render/solid.glsl"
@@ -19,22 +20,25 @@ layout(binding = 11, rgba16f) writeonly uniform image2D lamps;
 
 // Share of a lamp of this size, `far` away, that p sees in direction d.
 float lampSeen(vec3 p, vec3 d, float far, float size) {
-    float t = frame.bias, seen = 1.0;
+    Bounds bounds = solidBounds();
+    float bias = frame.bias, t = bias, seen = 1.0;
     uint i = 0;
     do {
-        float clear = clearance(p + t * d);
+        float clear = clearance(bounds, p + t * d);
         seen = min(seen, clear * far / (max(size, 0.002 * far) * t));
-        t += max(0.9 * clear, 0.5 * frame.bias + 0.004 * t);
+        t += max(0.9 * clear, 0.5 * bias + 0.004 * t);
     } while (++i < 64 && seen > 0.0 && t < far);
     return smoothstep(0.0, 1.0, seen);
 }
 
 void main() {
     fieldBegin();
-    uint lane = gl_LocalInvocationIndex, tile = tiles[gl_WorkGroupID.x];
+    uint lane = gl_LocalInvocationIndex, tile = tiles[list * frame.tiles + gl_WorkGroupID.x];
     uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
     uvec2 here = min(pixel, frame.size - 1);
+    float toGround = groundAlong(frame.now, rayOf(frame.now, placeOf(here, frame.size)));
     Surface s = unpackSurface(imageLoad(surfaces, ivec2(here)));
+    if (list != RENDER_SOLID) s = groundSurface(toGround > 0.0 ? frame.now.near / toGround : 0.0);
     bool there = s.depth > 0.0;
     vec3 p = pointAt(frame.now, placeOf(here, frame.size), there ? s.depth : 1.0), toEye = normalize(frame.now.eye - p);
     vec3 from = p + s.n * frame.bias, sum = vec3(0.0);

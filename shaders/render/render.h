@@ -7,8 +7,20 @@ namespace fw::gpu {
 #endif
 
 #define RENDER_TILE 16       // pixels along each side of a tile: one work group of most kernels
+#define RENDER_CONE 8        // pixels along each side of a cone of trace.comp
 #define RENDER_MOST_RAYS 16  // of ambient occlusion, of a pixel in one frame
 #define RENDER_MOST_LIGHTS 16
+
+// Lists of tiles.
+#define RENDER_SOLID 0   // that show some of the solid
+#define RENDER_GROUND 1  // that do not, but ground on which light may fall unevenly
+#define RENDER_BACK 2    // all others
+#define RENDER_NEAR 3    // with surface that ambient occlusion may reach
+#define RENDER_LISTS 4
+
+#define AMBIENT_HOLES 128  // pixels without history that a work group of ambient_holes.comp does at a time,
+#define AMBIENT_LANES 2    // each by so many lanes
+#define AMBIENT_MOST_GROUPS 32768u  // of them; they go on while there are holes
 
 // What a picture shows: RenderFrame::show.
 #define RENDER_PICTURE 0
@@ -21,7 +33,7 @@ namespace fw::gpu {
 // forward + x right + y up; its depth is near / (distance along forward): 1 is near, 0 is nothing at all.
 struct View {
     vec3 eye;
-    float near;  // metres
+    float near;    // metres
     vec3 forward;  // unit length
     float pixel;   // half a pixel's width at a distance of 1
     vec3 right;    // times the tangent of half the angle of view
@@ -31,9 +43,9 @@ struct View {
 
 // A light of the scene besides the sun.
 struct Light {
-    vec3 position;  // metres
-    float size;     // radius of the lamp, metres
-    vec3 color;     // radiant intensity; of a directional light its irradiance
+    vec3 position;             // metres
+    float size;                // radius of the lamp, metres
+    vec3 color;                // radiant intensity; of a directional light its irradiance
     float cosOuter, cosInner;  // of a spot's cone; -2 and -1: shines everywhere
     vec3 direction;            // in which the light goes, unit length
     uint directional;          // 1: parallel light, without a position
@@ -42,10 +54,11 @@ struct Light {
 // Everything about one frame, in one uniform block.
 struct RenderFrame {
     View now, before;
-    uvec2 size;     // of the picture, pixels
-    uint number;    // of the frame: turns what is random
-    uint resting;   // 1: the view is that of the frame before but for the jitter
-    vec3 lo;        // the region that was meshed: the solid is cut there
+    uvec2 size;      // of the picture, pixels
+    uint tiles;      // that cover it
+    uint number;     // of the frame: turns what is random
+    uint resting;    // 1: the view is that of the frame before but for the jitter
+    vec3 lo;         // the region that was meshed: the solid is cut there
     float cellSize;  // of the mesh, metres
     vec3 hi;
     float stepScale;  // makes the field's value a distance that a ray may safely go
@@ -61,21 +74,21 @@ struct RenderFrame {
     uint raysNew;           // of a pixel without history, up to RENDER_MOST_RAYS
     uint raysKept;          // of one with history
     uint mostKept;          // rays that the history counts for at most
-    uint balance;           // 1: the lanes of a tile share its rays evenly; 0: each traces its own pixel's
+    uint balance;  // 1: lanes share the rays of pixels without history; 0: each traces its own pixel's
 
     vec3 sun;       // towards it, unit length
     vec3 sunLight;  // irradiance on a surface that faces it
     vec3 shadowCentre;
     vec3 shadowRight, shadowUp;  // divided by half the map's width in metres: places from -1 to 1
-    vec3 shadowForward;  // the same, away from the sun
+    vec3 shadowForward;          // the same, away from the sun
     float shadowTexel;           // metres
     uint shadowSize;             // texels along each side; 0: nothing is in shadow
 
     vec3 zenith, horizon, groundColor;
-    uint backdrop;  // 1: behind the solid is a wall, as in a studio; 0: the sky
+    uint studio;     // 1: behind the solid is a wall; 0: the sky
     float exposure;  // factor
     uint show;
-    uint mean;       // frames that the picture is the mean of, before this one
+    uint mean;  // frames that the picture is the mean of, before this one
 
     vec3 fogColor;
     float fogDensity;  // at the ground, 1 / metre
@@ -86,13 +99,20 @@ struct RenderFrame {
     Light lights[RENDER_MOST_LIGHTS];
 };
 
-// Rays of trace.comp: from origin + x originX + y originY along direction + x directionX + y directionY, over t.
+// Pixels that lack a history of ambient occlusion, and the dispatch over them.
+struct AmbientHoles {
+    uint holes;
+    DispatchArguments arguments;
+};
+
+// Rays of trace.comp: from origin + x originX + y originY along direction + x directionX + y directionY, over
+// t.
 struct TracePush {
     vec3 origin, originX, originY;
     vec3 direction, directionX, directionY;
-    vec3 lo, hi;          // of the region
-    float near;           // depth is near / t, or 1 - t near if parallel
-    float pixel;          // a field below it is a hit; times t unless parallel
+    vec3 lo, hi;  // of the region
+    float near;   // depth is near / t, or 1 - t near if parallel
+    float pixel;  // a field below it is a hit; times t unless parallel
     float stepScale;
     uvec2 size;
     uint parallel;  // 1: all rays have one direction

@@ -1,4 +1,4 @@
-// The field as it was meshed: cut at the region. After field.glsl; `frame` is the RenderFrame.
+// The solid as it was meshed, cut at the region, and the ground. After view.glsl and field.glsl; `frame` is the RenderFrame.
 
 // In w the distance to the region, negative inside; xyz points to its nearest side.
 vec4 regionDistance(vec3 p) {
@@ -8,11 +8,32 @@ vec4 regionDistance(vec3 p) {
     return vec4(side, length(max(q, 0.0)) + min(inner, 0.0));
 }
 
+// Whether rays of ambient occlusion from within `margin` of p can reach the solid.
+bool nearSolid(vec3 p, float margin) {
+    vec3 q = max(max(frame.lo - p, p - frame.hi), 0.0);
+    float reach = frame.ambientRadius + margin;
+    return dot(q, q) < reach * reach;
+}
+
+// How far along this ray of the view (rayOf) the ground is; 0 if it is not seen.
+float groundAlong(View view, vec3 ray) {
+    float along = (frame.ground - view.eye.y) / min(ray.y, -1e-6);
+    vec3 p = view.eye + ray * along;
+    return ray.y < 0.0 && distance(p.xz, frame.centre.xz) < frame.groundEnd * frame.radius ? along : 0.0;
+}
+
 #ifdef FIELD_VALUE
+// What the marching of a ray asks for at each step. Read once before the loop: no compiler moves loads of uniforms out of it.
+struct Bounds {
+    vec3 centre, half_;
+    float stepScale, ground;
+};
+Bounds solidBounds() { return Bounds(0.5 * (frame.lo + frame.hi), 0.5 * (frame.hi - frame.lo), frame.stepScale, frame.ground); }
+
 // A distance that a ray may safely go, to the solid or the ground; inside the solid negative.
-float clearance(vec3 p) {
-    vec3 q = max(frame.lo - p, p - frame.hi);
-    float solid = max(fieldValue(p) * frame.stepScale, max(q.x, max(q.y, q.z)));
-    return min(solid, p.y - frame.ground);
+float clearance(Bounds bounds, vec3 p) {
+    vec3 q = abs(p - bounds.centre) - bounds.half_;
+    float solid = max(fieldValue(p) * bounds.stepScale, max(q.x, max(q.y, q.z)));
+    return min(solid, p.y - bounds.ground);
 }
 #endif

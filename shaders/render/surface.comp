@@ -1,6 +1,6 @@
-// The G-buffer of one listed tile: from depth to the surface that the mesh stands for, with its exact normal and its material,
+// The G-buffer of one tile with anything near the solid: from depth to the surface that the mesh stands for, with its exact normal and its material,
 // all from the field. So both are sharp whatever the mesh's resolution, and no interpolated attribute is drawn.
-// Where the solid is not, there may be the ground, which catches its shadow.
+// Where the solid is not, there may be the ground.
 #define FIELD_GRADIENT
 #define FIELD_MATERIAL
 #include "shared.h"
@@ -12,7 +12,7 @@
 
 layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
-layout(binding = 1) uniform sampler2D seen;
+layout(binding = 1, r32f) readonly uniform image2D seen;
 layout(binding = 2, rgba32ui) writeonly uniform uimage2D surfaces;
 layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 
@@ -20,18 +20,16 @@ layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 
 void main() {
     fieldBegin();
-    uint lane = gl_LocalInvocationIndex, tile = tiles[gl_WorkGroupID.x];
+    uint lane = gl_LocalInvocationIndex, tile = tiles[RENDER_NEAR * frame.tiles + gl_WorkGroupID.x];
     uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
     bool inPicture = all(lessThan(pixel, frame.size));
-    float depth = texelFetch(seen, ivec2(min(pixel, frame.size - 1)), 0).x;
+    float depth = imageLoad(seen, ivec2(min(pixel, frame.size - 1))).x;
     bool hit = depth > 0.0;
     View view = frame.now;
     vec3 ray = rayOf(view, placeOf(pixel, frame.size));
     vec3 toEye = normalize(-ray);
 
-    float toGround = (frame.ground - view.eye.y) / min(ray.y, -1e-6);
-    vec3 onGround = view.eye + ray * toGround;
-    bool ground = ray.y < 0.0 && distance(onGround.xz, frame.centre.xz) < frame.groundEnd * frame.radius;
+    float toGround = groundAlong(view, ray);
 
     // The surface is the field's own, which lies within a cell of the mesh, or the side of the region.
     vec3 p = view.eye + ray * (hit ? view.near / depth : toGround);
@@ -48,6 +46,6 @@ void main() {
     along = clamp(along, first - 2.0 * frame.cellSize, first + 2.0 * frame.cellSize);
     FieldMaterial material = fieldMaterial(view.eye + ray * along);
     uvec4 surface = packSurface(view.near / along, n, material);
-    surface = hit ? surface : ground ? packGround(view.near / toGround) : uvec4(0);
+    surface = hit ? surface : toGround > 0.0 ? packGround(view.near / toGround) : uvec4(0);
     if (inPicture) imageStore(surfaces, ivec2(pixel), surface);
 }

@@ -1,39 +1,67 @@
 // Depth of a view by sphere tracing the field (Hart 1996), with no mesh: on software devices often the faster way to see a
-// solid, and what a picture is compared with.
+// solid, and what a picture is compared with. In two passes: a cone about each 8 x 8 pixels (CONES defined) finds how far all of
+// their rays are free, and the rays go on from there.
 #define FIELD_VALUE
 #include "shared.h"
 #include "render/render.h"
 #include "field.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, r32f) writeonly uniform image2D depth;
 layout(push_constant, scalar) uniform Push { TracePush push; };
+#ifdef CONES
+layout(binding = 0, r32f) writeonly uniform image2D starts;
+#else
+layout(binding = 0, r32f) writeonly uniform image2D depth;
+layout(binding = 1, r32f) readonly uniform image2D starts;
+#endif
 
-const uint kMostSteps = 160;
+const uint kMostSteps = 160, kMostConeSteps = 48;
 
 void main() {
     fieldBegin();
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    vec2 place = (vec2(pixel) + 0.5) / vec2(push.size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+    bool parallel = push.parallel != 0;
+    float pixels = 1.0;
+#ifdef CONES
+    pixels = float(RENDER_CONE);
+#endif
+    vec2 place = (vec2(pixel) + 0.5) * pixels / vec2(push.size) * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
     vec3 origin = push.origin + place.x * push.originX + place.y * push.originY;
     vec3 ray = push.direction + place.x * push.directionX + place.y * push.directionY;
-    float perMetre = inversesqrt(dot(ray, ray));
+    float scale = length(ray);
+    // Read once: no compiler moves loads of push constants out of a loop.
+    float stepScale = push.stepScale / scale, t = parallel ? 0.0 : push.near;
+#ifdef CONES
+    // All rays of the cone are within `wide` of its middle, or `wide` times t unless parallel.
+    vec3 centre = 0.5 * (push.lo + push.hi);
+    float wide = 1.5 * pixels * push.pixel, end = (distance(origin, centre) + distance(push.hi, centre)) / scale;
+    float safe = push.stepScale, back = 1.0 / (scale + (parallel ? 0.0 : wide)), f;
+    uint i = 0;
+    do {
+        float radius = parallel ? wide : wide * t;
+        f = fieldValue(origin + ray * t) * safe - radius;
+        t += max(f, 0.0) * back;
+    } while (f > 0.5 * wide * (parallel ? 1.0 : t) && t < end && ++i < kMostConeSteps);
+    imageStore(starts, ivec2(pixel), vec4(t));
+#else
     vec3 a = (push.lo - origin) / ray, b = (push.hi - origin) / ray;
     vec3 first = min(a, b), last = max(a, b);
-    bool parallel = push.parallel != 0;
-    float t = max(max(first.x, max(first.y, first.z)), parallel ? 0.0 : push.near), end = min(last.x, min(last.y, last.z));
+    float start = imageLoad(starts, ivec2(min(pixel, push.size - 1) / RENDER_CONE)).x;
+    t = max(max(first.x, max(first.y, first.z)), max(start, t));
+    float end = min(last.x, min(last.y, last.z));
     bool outside = !(t < end);
-    float f = 0.0;
+    float close = push.pixel, f = 0.0;
     uint i = 0;
     bool hit;
     do {
         f = fieldValue(origin + ray * t);
-        hit = f < push.pixel * (parallel ? 1.0 : t) && !outside;
-        t += hit ? 0.0 : max(f * push.stepScale * perMetre, 0.0);
+        hit = f < close * (parallel ? 1.0 : t) && !outside;
+        t += hit ? 0.0 : max(f * stepScale, 0.0);
         outside = outside || t > end;
     } while (!hit && !outside && ++i < kMostSteps);
     // A ray that runs out of steps grazes a surface: it is there.
-    bool seen = hit || (!outside && f * push.stepScale < 8.0 * push.pixel * (parallel ? 1.0 : t));
+    bool seen = hit || (!outside && f * push.stepScale < 8.0 * close * (parallel ? 1.0 : t));
     float z = parallel ? 1.0 - t * push.near : push.near / t;
     if (all(lessThan(pixel, push.size))) imageStore(depth, ivec2(pixel), vec4(seen ? z : 0.0));
+#endif
 }

@@ -89,6 +89,7 @@ class Floor {
         frame.now = view;
         frame.before = before.value_or(view);
         frame.size = {kWidth, kHeight};
+        frame.tiles = tilesOf(kExtent);
         frame.number = number++;
         frame.resting = before && std::memcmp(&*before, &view, sizeof view) == 0 && ambient.hasHistory;
         frame.lo = glm::vec3(-1e9f);
@@ -104,7 +105,7 @@ class Floor {
         copy(commands, surfaceBytes, gbuffer.now(), true);
         barrier(commands);
         listTiles(commands, gbuffer, depth, block);
-        drawAmbient(commands, ambient, gbuffer, frame, block, nullptr);
+        drawAmbient(commands, ambient, gbuffer, frame, block, {});
         submit(commands);
     }
 
