@@ -331,7 +331,8 @@ Result<std::span<const gpu::MeshVertex>> Player::outline() {
     return std::span<const gpu::MeshVertex>(points);
 }
 
-Result<Picture> Player::frame(const RenderOptions& renderOptions) {
+template <class Draw>
+auto Player::look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes)) {
     const auto framed = outline();  // first: it makes meshes of its own
     if (!framed) return framed.error();
     const Result<MesherResult> result = meshOnDevice();
@@ -341,14 +342,25 @@ Result<Picture> Player::frame(const RenderOptions& renderOptions) {
                        "the solid is empty or smaller than a cell at " + std::to_string(seconds) + " s");
     const Result<Scene> scene = this->scene();
     if (!scene) return scene.error();
-    RenderOptions wishes = renderOptions;
     const std::optional<Camera> camera = wishes.scene.camera;
     wishes.scene = *scene;
     if (camera) wishes.scene.camera = camera;
     if (wishes.framed.empty()) wishes.framed = *framed;
-    Result<Picture> picture = session.render(*result, wishes);
-    if (!picture) return problem(now.graph, picture.error().message);
-    return picture;
+    auto drawn = draw(*result, wishes);
+    if (!drawn) return problem(now.graph, drawn.error().message);
+    return drawn;
+}
+
+Result<Picture> Player::frame(const RenderOptions& options_) {
+    return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+        return session.render(mesh, wishes);
+    });
+}
+
+Result<bool> Player::show(const RenderOptions& options_, Picture& picture) {
+    return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+        return session.renderLive(mesh, wishes, picture);
+    });
 }
 
 Result<Scene> Player::scene() const {

@@ -95,6 +95,10 @@ class Player {
     /// Errors as Session::render, of the scene, and of an empty solid.
     Result<Picture> frame(const RenderOptions& options = {});
 
+    /// The live view's next frame, into `picture`, which goes on from the last one; false if it would be the
+    /// same (runtime/render/renderer.h). Errors as frame().
+    Result<bool> show(const RenderOptions& options, Picture& picture);
+
     /// The scene now. Errors as readScene.
     Result<Scene> scene() const;
     /// Points of the solid's surface at even steps through the timeline: what a picture without a camera
@@ -138,6 +142,9 @@ class Player {
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
     static std::vector<double> valuesAt(const Prepared& prepared, double seconds);
     void adopt(Prepared prepared);
+    /// Calls draw(mesh, options) with all that a picture of now needs.
+    template <class Draw>
+    auto look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes));
 
     Session session;
     PlayerOptions options;

@@ -22,10 +22,12 @@ double secondsSince(Clock::time_point then) {
     return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
-constexpr double kSmooth = 0.04;    // seconds that a picture may take while something moves
-constexpr double kRest = 0.15;      // seconds without a change, after which a picture is made in full
-constexpr double kWatch = 0.1;      // seconds between two looks at the file
-constexpr double kLongStep = 0.25;  // seconds; time does not jump farther after a stall
+constexpr double kSlow = 0.12, kFast = 0.03;  // seconds of a picture, beyond which its size is changed
+constexpr double kRest = 0.15;                // seconds without a change, after which the picture is refined
+constexpr double kSides[] = {1.0, 0.7, 0.5, 0.35,
+                             0.25};  // of the window's, of a picture while something moves
+constexpr double kWatch = 0.1;       // seconds between two looks at the file
+constexpr double kLongStep = 0.25;   // seconds; time does not jump farther after a stall
 
 /// Everything that plays: the player, its window and what they show.
 class Stage {
@@ -38,7 +40,7 @@ class Stage {
     void run() {
         Clock::time_point before = Clock::now(), looked = before, changed = before;
         for (int shown = 0; !viewer.closed && !interrupted && shown < options.frames.value_or(shown + 1);) {
-            window.poll(viewer.dirty ? 0.0 : 0.02);
+            window.poll(viewer.dirty || !refined ? 0.0 : 0.02);
             const double elapsed = secondsSince(before);
             before = Clock::now();
             viewer.pass(std::min(elapsed, kLongStep));
@@ -54,9 +56,10 @@ class Stage {
             }
             if (viewer.dirty) {
                 viewer.dirty = false;
+                refined = false;
                 changed = before;
-                shown += draw(share);
-            } else if (reduced && secondsSince(changed) > kRest) {
+                shown += draw(kSides[level]);
+            } else if (!refined && secondsSince(changed) > kRest) {
                 shown += draw(1.0);
             }
         }
@@ -104,42 +107,32 @@ class Stage {
         viewer.dirty = true;
     }
 
-    /// Makes a picture of the window's size, or of that share of its pixels, and shows it; whether it did.
-    /// One in full is given up as soon as something changes.
-    bool draw(double pixels) {
-        const double side = std::sqrt(pixels);
+    /// Makes the next picture, of that share of the window's width and height, and shows it; whether it did.
+    /// One that rests is refined until nothing is left to refine.
+    bool draw(double side) {
         RenderOptions render;
         render.width = std::clamp(static_cast<int>(viewer.width * side), kLeastPictureSide, kMostPictureSide);
         render.height =
             std::clamp(static_cast<int>(viewer.height * side), kLeastPictureSide, kMostPictureSide);
         while (int64_t(render.width) * render.height > kMostPicturePixels)
             render.width /= 2, render.height /= 2;
-        std::atomic<bool> giveUp = false;
-        render.cancel = &giveUp;
-        if (pixels >= 1.0)
-            render.progress = [&](int) {
-                window.poll(0.0);
-                viewer.pass(0.0);
-                giveUp = viewer.dirty || viewer.closed || interrupted;
-            };
+        render.primary = Primary::measured;
         if (viewer.ownCamera) render.scene.camera = viewer.orbit.camera();
 
         const Clock::time_point start = Clock::now();
         player.seek(viewer.seconds);
         const double aspect = double(render.width) / render.height;
-        const Result<Picture> made = player.frame(render);
+        const Result<bool> made = player.show(render, picture);
         if (made) {
-            picture = *made;
             if (!failed.empty() && message == failed) message.clear();
             failed.clear();
             see(static_cast<float>(aspect));
-        } else if (giveUp) {
-            return false;
         } else {
             complain(failed = format(made.error()));
         }
-        reduced = pixels < 1.0 && bool(made);
-        if (pixels < 1.0 || !reduced) adapt(secondsSince(start));
+        refined = !made || !*made;
+        if (refined && made) return false;
+        if (side < 1.0 || level == 0) adapt(secondsSince(start));
         if (picture.pixels.empty()) return false;
         Picture decorated = scaled(picture, viewer.width, viewer.height);
         drawOverlay(decorated, viewer, message);
@@ -157,9 +150,13 @@ class Stage {
         }
     }
 
-    /// The share of pixels with which the next picture takes about as long as it may.
+    /// Makes the next pictures larger or smaller, if this one was very quick or slow. Rarely: the renderer
+    /// starts anew with every other size.
     void adapt(double took) {
-        share = std::clamp(share * std::clamp(kSmooth / std::max(took, 1e-4), 0.4, 1.6), 0.02, 1.0);
+        slow = took > kSlow ? slow + 1 : 0;
+        quick = took < kFast ? quick + 1 : 0;
+        if (slow > 2 && level + 1 < std::size(kSides)) ++level, slow = 0;
+        if (quick > 20 && level > 0) --level, quick = 0;
     }
 
     const PlayOptions& options;
@@ -170,8 +167,9 @@ class Stage {
     Picture picture;                           ///< the last good one
     std::string message;                       ///< shown over it
     std::string failed;                        ///< why there is no picture of this time
-    double share = 0.25;
-    bool reduced = false;  ///< the picture that is shown has fewer pixels than the window
+    std::size_t level = 1;                     ///< of kSides
+    int slow = 0, quick = 0;                   ///< pictures in a row
+    bool refined = false;                      ///< nothing is left to refine
 };
 
 }  // namespace

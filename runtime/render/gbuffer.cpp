@@ -22,9 +22,10 @@ void copyDepth(Commands& commands, DepthTarget& target) {
                            target.copy.handle, 1, &region);
     barrier(commands);
     region.imageSubresource.aspectMask = target.depth.aspect;
-    vkCmdCopyBufferToImage(commands.handle, target.copy.handle, target.depth.handle, VK_IMAGE_LAYOUT_GENERAL,
-                           1, &region);
-    barrier(commands);
+    imageBarrier(commands, target.depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdCopyBufferToImage(commands.handle, target.copy.handle, target.depth.handle,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    imageBarrier(commands, target.depth, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
 }
 
 }  // namespace

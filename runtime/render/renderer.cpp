@@ -276,8 +276,10 @@ void recordReading(Commands& commands, Renderer& renderer) {
     VkBufferImageCopy region{};
     region.imageSubresource = {renderer.pixels.aspect, 0, 0, 1};
     region.imageExtent = extent;
-    vkCmdCopyImageToBuffer(commands.handle, renderer.pixels.handle, VK_IMAGE_LAYOUT_GENERAL,
+    imageBarrier(commands, renderer.pixels, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    vkCmdCopyImageToBuffer(commands.handle, renderer.pixels.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                            renderer.readback.handle, 1, &region);
+    imageBarrier(commands, renderer.pixels, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
     barrier(commands);
 }
 

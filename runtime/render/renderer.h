@@ -35,9 +35,9 @@ struct MeshGrid {
 /// What is drawn.
 struct RenderScene {
     const MesherBuffers& mesh;
-    uint32_t triangles = 0;              ///< of the mesh
-    MeshGrid grid;                       ///< that it was made on
-    float lipschitz = 1.0f;              ///< of the field; infinite if unknown
+    uint32_t triangles = 0;  ///< of the mesh
+    MeshGrid grid;           ///< that it was made on
+    float lipschitz = 1.0f;  ///< of the field; infinite if unknown
     FieldBuffers buffers;    ///< of the field
     uint64_t content =
         0;  ///< another number if mesh or field differ from those of the live view's last frame

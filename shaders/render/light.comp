@@ -11,6 +11,10 @@
 #include "render/view.glsl"
 #include "render/gbuffer.glsl"
 
+#ifndef LIST
+#define LIST RENDER_SOLID
+#endif
+
 layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
 layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;

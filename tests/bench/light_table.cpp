@@ -54,7 +54,8 @@ struct Stage {
     RenderScene scene() const {
         return {.mesh = session.meshBuffers(),
                 .triangles = mesh.triangles,
-                .grid = {{-2.5f, -2.5f, -2.5f}, {2.5f, 2.5f, 2.5f}, 5.0f / kResolution}};
+                .grid = {{-2.5f, -2.5f, -2.5f}, {2.5f, 2.5f, 2.5f}, 5.0f / kResolution},
+                .buffers = {}};
     }
     void turn(int frame) { options.scene.camera = cameraAt(frame); }
     gpu::View view() const {

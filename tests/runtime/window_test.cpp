@@ -169,10 +169,10 @@ class Playing {
     pid_t process = -1;
 };
 
-/// Waits until something is as it should be; whether it became so within 20 s.
+/// Waits until something is as it should be; whether it became so within a minute.
 template <class Condition>
 bool eventually(Condition holds) {
-    for (int i = 0; i < 200; ++i, rest(0.1))
+    for (int i = 0; i < 600; ++i, rest(0.1))
         if (holds()) return true;
     return false;
 }
