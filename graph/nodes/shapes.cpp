@@ -110,10 +110,10 @@ return length(q - along * clamp(dot(q, along) / max(dot(along, along), 1e-12), 0
          .outputs = kSurface,
          .exactness = arcExactness,
          .body = R"(
-float s = sin(radians(half_angle));
+float s = max(sin(radians(half_angle)), 0.0);
 float c = cos(radians(half_angle));
 float x = abs(p.x);
-bool beyond = x * c > p.y * s;
+bool beyond = half_angle <= 0.0 || x * c > p.y * s;
 vec2 q = beyond ? vec2(x - major_radius * s, p.y - major_radius * c) : vec2(length(p.xy) - major_radius, 0.0);
 return length(vec3(q, p.z)) - minor_radius;)"},
         {.id = "link",

@@ -133,6 +133,19 @@ TEST(NodeValues, SolidsHaveTheirVolumes) {
         below(0.5, 0.5 * b) + pi * height * (r1 * r1 + r1 * r2 + r2 * r2) / 3 + below(0.25, -0.25 * b));
 }
 
+TEST(NodeValues, ACappedTorusEndsAsABallAndAsARing) {
+    const Program ball =
+        shape("capped_torus", R"("half_angle": 0, "major_radius": 0.5, "minor_radius": 0.1)");
+    const Program ring =
+        shape("capped_torus", R"("half_angle": 180, "major_radius": 0.5, "minor_radius": 0.1)");
+    for (const double x : {0.0, 1e-9, -1e-9, 0.1, -0.3})
+        for (const double y : {-0.5, -0.2, 0.0, 0.3, 0.5, 0.8})
+            for (const double z : {0.0, 0.2}) {
+                EXPECT_NEAR(valueAt(ball, {x, y, z}), std::hypot(x, y - 0.5, z) - 0.1, 1e-12);
+                EXPECT_NEAR(valueAt(ring, {x, y, z}), std::hypot(std::hypot(x, y) - 0.5, z) - 0.1, 1e-12);
+            }
+}
+
 TEST(NodeValues, FlatShapesHaveTheirAreas) {
     const auto extruded = [](const std::string& type, const std::string& inputs) {
         return show(node("flat", type, inputs) + "," +
