@@ -459,7 +459,7 @@ class Run {
         if (!scope.refusesZeroDivision) return;
         const int width = divisor.type == Type::surface ? 1 : componentCount(divisor.type);
         for (int i = 0; i < width; ++i)
-            if (ir.isConstant(divisor.ids[i], 0.0)) fail(place, "division by zero");
+            if (ir.isConstant(divisor.ids[i], 0.0)) fail(place, std::string(kDivisionByZero));
     }
 
     Value combine(char operation, const Value& a, const Value& b, Place place) {

@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,9 @@ struct Lowering {
     std::string graphPath{};  ///< the file that paths of images are relative to
     std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
 };
+
+/// The message of a division by the constant 0.
+inline constexpr std::string_view kDivisionByZero = "division by zero";
 
 inline constexpr std::size_t kMaxSteps = 4'000'000;
 inline constexpr int kMaxCalls = 64;

@@ -5,6 +5,7 @@
 #include "graph/check.h"
 #include "graph/glsl.h"
 #include "graph/json.h"
+#include "graph/language/lower.h"
 #include "graph/reference.h"
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
@@ -44,7 +45,10 @@ std::optional<Program> compileAtTime(const Graph& graph, double seconds, Compile
     compileOptions.time = timelineTime(timeline, seconds);
     Result<Program> program = compile(atTime(graph, timeline, compileOptions.time), compileOptions);
     if (!program) {
-        print(program.error());
+        Error error = program.error();
+        if (error.message == language::kDivisionByZero)  // not always, or check() would have found it
+            error.message += " at " + std::to_string(compileOptions.time) + " s with these parameters";
+        print(error);
         return std::nullopt;
     }
     return std::move(*program);

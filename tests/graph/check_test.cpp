@@ -366,6 +366,37 @@ TEST(Check, FindsEverythingInOnePass) {
         EXPECT_NE(all.find(part), std::string::npos) << part << " is not among\n" << all;
 }
 
+TEST(Check, DivisionsByWhatIsZeroOnlyNowAndThen) {
+    const auto findings = [](const std::string& inputs, const std::string& code, const std::string& more) {
+        const Result<Graph> graph = parseGraph(
+            R"({"fieldwright": 1, "nodes": [{"id": "a", "type": "expression", "inputs": {)" + inputs +
+                R"(}, "code": ")" + code +
+                R"("}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}])" + more + "}",
+            "a.field.json", nullptr);
+        EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
+        std::vector<std::string> texts;
+        if (graph)
+            for (const Error& finding : check(*graph)) texts.push_back(format(finding));
+        return texts;
+    };
+    const std::string k = R"("k": 0)", kn = R"("k": 0, "n": 2)", byK = "return length(p) - 1 / k;";
+    const std::string exposed = R"(, "parameters": [{"name": "K", "node": "a", "input": "k"}])";
+    const std::string both = R"(, "parameters": [{"name": "K", "node": "a", "input": "k"},
+                                                 {"name": "N", "node": "a", "input": "n"}])";
+    const std::string moved = R"(, "timeline": {"tracks": [{"node": "a", "input": "k", "keys": [
+        {"time": 0, "value": 1}, {"time": 1, "value": 2}]}]})";
+    EXPECT_TRUE(findings("", "return length(p) - 1 / time;", "").empty());
+    EXPECT_TRUE(findings(k, byK, exposed).empty());
+    EXPECT_TRUE(findings(k, byK, moved).empty());
+    expectOne(findings(k, byK, ""), {"node 'a', code 1:22: division by zero"});
+    for (const std::string& more : {std::string(), exposed, moved})
+        expectOne(findings(k, "return length(p) - 1 / (time - time) + 1 / k;", more), {"division by zero"});
+    // Where code must know a parameter, what the others would do is not known.
+    expectOne(findings(kn, "d = 1 / 0; for (int i = 0; i < n; i++) d += k; return d;", both),
+              {"code 1:7: division by zero"});
+    EXPECT_TRUE(findings(kn, "d = 1 / time; for (int i = 0; i < n; i++) d += k; return d;", both).empty());
+}
+
 TEST(Check, StopsAtAThousandFindings) {
     std::string nodes;
     for (int i = 0; i < 9000; ++i)

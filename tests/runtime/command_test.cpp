@@ -166,6 +166,19 @@ TEST_F(Command, AssignmentsTakeOneWordAndKnowTheParameters) {
     refused("size=-3", {"'size' takes values from -2 to 2"});
 }
 
+TEST_F(Command, ADivisionByZeroIsJudgedAtTheTimeAskedFor) {
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [
+        {"id": "a", "type": "expression", "inputs": {"k": 0}, "code": "return length(p) - 1 / time - 1 / k;"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}],
+        "parameters": [{"name": "k", "node": "a", "input": "k"}]})");
+    EXPECT_EQ(runCommand({"check", graph}).status, 0);
+    EXPECT_DOUBLE_EQ(valueAt({"--time", "1", "--set", "k=2", "--at", "3", "4", "0"}), 3.5);
+    expectRefusal(runCommand({"eval", graph, "--at", "3", "4", "0", "--set", "k=2"}), 1,
+                  {"node 'a', code 1:22: division by zero at 0.000000 s"});
+    expectRefusal(runCommand({"eval", graph, "--at", "3", "4", "0", "--time", "1"}), 1,
+                  {"node 'a', code 1:33: division by zero"});
+}
+
 TEST_F(Command, HelpOfEveryCommandSaysWhatThereIs) {
     const auto help = [](std::vector<std::string> words, const std::vector<std::string>& parts) {
         words.push_back("--help");
