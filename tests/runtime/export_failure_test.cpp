@@ -54,6 +54,25 @@ TEST(ExportFailure, UnknownExtensionNamesTheKnownOnes) {
     EXPECT_TRUE(checkExportPath("a.b/c.Glb"));
 }
 
+TEST(ExportFailure, UnfinishedFilesAreRemovedWhenTheProcessEndsAtOnce) {
+    const TempDir folder;
+    test::writeText(folder.path("b"), "before");
+    {
+        Result<OutputFile> done = OutputFile::open(folder.path("a"), nullptr),
+                           left = OutputFile::open(folder.path("b"), nullptr);
+        ASSERT_TRUE(done && left);
+        done->write("text");
+        EXPECT_TRUE(done->commit());
+        const OutputFile moved = std::move(*left);
+        EXPECT_EQ(folder.names().size(), 3u);
+        OutputFile::removeUnfinished();
+        EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "b"}));
+        for (int i = 0; i < 40; ++i) EXPECT_TRUE(OutputFile::open(folder.path("c"), nullptr));
+    }
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(test::readText(folder.path("b")), "before");
+}
+
 TEST(ExportFailure, MeshesThatNoFileCanHold) {
     const TempDir folder;
     for (const char* extension : kExtensions) {
