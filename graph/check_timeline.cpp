@@ -131,11 +131,16 @@ void checkSceneTrack(const Graph& graph, const Track& track, Findings& findings)
     Json* value = sceneValue(scene, path);
     if (!value)
         return findings.error(place, nameOf(track) + ": the scene has no value there that could move");
+    if (!readScene(graph.scene)) return;  // which has a finding of its own
+    *value = "not a number";              // every key that the scene knows refuses that
+    if (readScene(scene))
+        return findings.warning(place, nameOf(track) + " has no effect: the scene knows no such value");
     for (const Key& key : track.keys) {
         if (findings.full()) return;
+        if (key.value.size() != track.keys.front().value.size()) continue;  // checkKeys() says so
         setNumbers(*value, key.value);
         const Result<Scene> read = readScene(scene);
-        if (!read && readScene(graph.scene))  // else the scene has a finding of its own
+        if (!read)
             findings.error({key.place, {}, {}},
                            nameOf(track) + ", the key at " + seconds(key.time) + ": " + read.error().message);
     }

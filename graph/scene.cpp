@@ -95,10 +95,11 @@ struct SceneReader {
                       [&](Sun& to, const std::string& key, const PlacedJson& entry) {
                           if (key == "azimuth") return number(entry, "sun.azimuth", to.azimuth);
                           if (key == "elevation")
-                              return number(entry, "sun.elevation", to.elevation, -90.0, 90.0);
+                              return number(entry, "sun.elevation", to.elevation, -kMostElevation,
+                                            kMostElevation);
                           if (key == "color") return color(entry, "sun.color", to.color);
                           if (key == "strength") return number(entry, "sun.strength", to.strength, 0.0);
-                          return key != "size" || number(entry, "sun.size", to.size, 0.0, 45.0);
+                          return key != "size" || number(entry, "sun.size", to.size, 0.0, kMostSunSize);
                       });
     }
 
@@ -156,7 +157,8 @@ struct SceneReader {
                        if (key == "target") return triple(entry, at, to.target);
                        if (key == "color") return color(entry, at, to.color);
                        if (key == "strength") return number(entry, at, to.strength, 0.0);
-                       if (key == "angle") return number(entry, at, to.angle, 1.0, 179.0);
+                       if (key == "angle")
+                           return number(entry, at, to.angle, kLeastLampAngle, kMostLampAngle);
                        if (key == "blend") return number(entry, at, to.blend, 0.0, 1.0);
                        return key != "size" || number(entry, at, to.size, 0.0);
                    });
@@ -195,7 +197,8 @@ Result<Scene> readScene(const Json& json, const TextPlaces& places) {
         if (key == "ground") return reader.ground(value, scene);
         if (key == "fog") return reader.fog(value, scene);
         if (key == "lights") return reader.lights(value, scene);
-        return key != "exposure" || reader.number(value, "exposure", scene.exposure, -20.0, 20.0);
+        return key != "exposure" ||
+               reader.number(value, "exposure", scene.exposure, -kMostExposure, kMostExposure);
     });
     if (!sound) return std::move(reader.error);
     return scene;

@@ -24,6 +24,9 @@
 namespace fw {
 
 inline constexpr double kLeastFov = 1.0, kMostFov = 170.0;
+inline constexpr double kMostElevation = 90.0, kMostSunSize = 45.0;
+inline constexpr double kLeastLampAngle = 1.0, kMostLampAngle = 179.0;
+inline constexpr double kMostExposure = 20.0;
 inline constexpr std::size_t kMostLights = 16;
 
 using Triple = std::array<double, 3>;

@@ -1,6 +1,7 @@
 #include "graph/schema.h"
 
 #include <cmath>
+#include <optional>
 
 #include "graph/graph.h"
 #include "graph/node_type.h"
@@ -25,7 +26,8 @@ Json object(Json properties, const std::vector<std::string>& required) {
 }
 
 Json described(std::string text, Json schema) {
-    Json result = {{"description", std::move(text)}};
+    Json result = Json::object();
+    if (!text.empty()) result["description"] = std::move(text);
     result.update(schema);
     return result;
 }
@@ -60,23 +62,25 @@ Json valueSchema(const InputSpec& spec) {
     return nullptr;
 }
 
+/// Without a point if it is whole.
+Json shortest(double x) {
+    if (x == std::floor(x) && std::abs(x) < 1e15) return static_cast<int64_t>(x);
+    return x;
+}
+
 /// The default in the form that the file would give it; null if there is none.
 Json defaultValue(const InputSpec& spec) {
     const std::vector<double>& numbers = spec.value.numbers;
     if (spec.value.kind == InputDefault::Kind::text) return spec.value.text;
     if (spec.value.kind != InputDefault::Kind::numbers || numbers.empty()) return nullptr;
-    const auto json = [](double x) -> Json {
-        if (x == std::floor(x) && std::abs(x) < 1e15) return static_cast<int64_t>(x);
-        return x;
-    };
     if (spec.type == Type::boolean) return numbers[0] != 0;
-    if (spec.type == Type::integer || spec.type == Type::scalar) return json(numbers[0]);
+    if (spec.type == Type::integer || spec.type == Type::scalar) return shortest(numbers[0]);
     Json values = Json::array();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (spec.type != Type::points)
-            values.push_back(json(numbers[i]));
+            values.push_back(shortest(numbers[i]));
         else if (i + 1 < numbers.size() && i % 2 == 0)
-            values.push_back(Json::array({json(numbers[i]), json(numbers[i + 1])}));
+            values.push_back(Json::array({shortest(numbers[i]), shortest(numbers[i + 1])}));
     }
     return values;
 }
@@ -156,17 +160,89 @@ Json groupSchema() {
         {"id"});
 }
 
+/// Members of the scene, their defaults those that the reader starts from.
+Json sceneNumber(std::string text, double initial, std::optional<double> least = 0.0,
+                 std::optional<double> most = {}) {
+    Json schema = {{"type", "number"}, {"default", shortest(initial)}};
+    if (least) schema["minimum"] = shortest(*least);
+    if (most) schema["maximum"] = shortest(*most);
+    return described(std::move(text), std::move(schema));
+}
+Json sceneTriple(std::string text, const Triple& initial, const Json& component) {
+    Json schema = array(component, 3);
+    for (double x : initial) schema["default"].push_back(shortest(x));
+    return described(std::move(text), std::move(schema));
+}
+Json scenePoint(std::string text, const Triple& initial) {
+    return sceneTriple(std::move(text), initial, {{"type", "number"}});
+}
+Json sceneColor(std::string text, const Triple& initial) {
+    return sceneTriple(std::move(text), initial, {{"type", "number"}, {"minimum", 0}});
+}
+/// What may also be true, with the defaults of its members, or false.
+Json switched(std::string text, Json properties) {
+    return described(std::move(text),
+                     {{"anyOf", {{{"type", "boolean"}}, object(std::move(properties), {})}}});
+}
+
+Json lampSchema() {
+    const Lamp lamp;
+    return object(
+        {{"type", {{"enum", {"point", "spot", "directional"}}, {"default", "point"}}},
+         {"position",
+          scenePoint("Metres; no matter of a directional light but with its target.", lamp.position)},
+         {"target", scenePoint("What a spot or a directional light points at.", lamp.target)},
+         {"color", sceneColor("Linear.", lamp.color)},
+         {"strength",
+          sceneNumber("Radiant intensity; of a directional light its irradiance.", lamp.strength)},
+         {"angle", sceneNumber("Degrees across a spot's cone.", lamp.angle, kLeastLampAngle, kMostLampAngle)},
+         {"blend", sceneNumber("Share of the cone over which its edge fades.", lamp.blend, 0.0, 1.0)},
+         {"size", sceneNumber("Metres across: the larger, the softer its shadows.", lamp.size)}},
+        {});
+}
+
 Json sceneSchema() {
-    const Json point = array({{"type", "number"}}, 3);
-    return object({{"camera", object({{"position", described("Metres.", point)},
-                                      {"target", described("What is in the middle of the picture.", point)},
-                                      {"fov", described("Degrees from the bottom of the picture to its top.",
-                                                        {{"type", "number"},
-                                                         {"minimum", kLeastFov},
-                                                         {"maximum", kMostFov},
-                                                         {"default", Camera{}.fov}})}},
-                                     {})}},
-                  {});
+    const Camera camera;
+    const Sun sun;
+    const Sky sky;
+    const AmbientOcclusion ao;
+    const Fog fog;
+    const double up = kMostElevation;
+    return object(
+        {{"camera",
+          described("Where from and how the solid is seen; the whole of it if absent.",
+                    object({{"position", scenePoint("Metres.", camera.position)},
+                            {"target", scenePoint("What is in the middle of the picture.", camera.target)},
+                            {"fov", sceneNumber("Degrees from the bottom of the picture to its top.",
+                                                camera.fov, kLeastFov, kMostFov)}},
+                           {}))},
+         {"sun", switched("A light from afar, with shadows.",
+                          {{"azimuth", sceneNumber("Degrees from +z towards +x.", sun.azimuth, {})},
+                           {"elevation", sceneNumber("Degrees above the horizon.", sun.elevation, -up, up)},
+                           {"color", sceneColor("Linear.", sun.color)},
+                           {"strength", sceneNumber("Irradiance of a surface that faces it.", sun.strength)},
+                           {"size", sceneNumber("Degrees across: the larger, the softer its shadows.",
+                                                sun.size, 0.0, kMostSunSize)}})},
+         {"sky", switched("What is behind the solid and lights it from all sides; a studio if absent.",
+                          {{"zenith", sceneColor("Linear, as are the others.", sky.zenith)},
+                           {"horizon", sceneColor("", sky.horizon)},
+                           {"ground", sceneColor("What is below the horizon.", sky.ground)},
+                           {"strength", sceneNumber("Factor of all three.", sky.strength)}})},
+         {"lights", described("Lamps, with shadows.",
+                              {{"type", "array"}, {"maxItems", kMostLights}, {"items", lampSchema()}})},
+         {"ao", switched("Ambient occlusion: less light of the sky where little of it is seen.",
+                         {{"radius", sceneNumber("Metres that it looks around; 0: as suits the solid's size.",
+                                                 ao.radius)},
+                          {"strength", sceneNumber("", ao.strength, 0.0, 1.0)}})},
+         {"ground", switched("A level floor.", {{"height", described("Metres; the solid's foot if absent.",
+                                                                     {{"type", "number"}})}})},
+         {"fog",
+          switched("Fog, in which the sun's rays show; none if absent.",
+                   {{"density", sceneNumber("At the height of the ground, 1 / metre.", fog.density)},
+                    {"height", sceneNumber("Metres in which it thins to 1 / e; 0: it does not.", fog.height)},
+                    {"color", sceneColor("Linear.", fog.color)}})},
+         {"exposure", sceneNumber("Stops.", Scene{}.exposure, -kMostExposure, kMostExposure)}},
+        {});
 }
 
 Json timelineSchema() {

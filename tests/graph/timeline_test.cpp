@@ -214,7 +214,7 @@ TEST(Timeline, AtATimeTheDocumentHasTheTracksValues) {
         {"scene": "camera.position", "keys": [{"time": 0, "value": [0, 0, 2]}, {"time": 2, "value": [2, 4, 4]}]},
         {"scene": "camera.fov", "keys": [{"time": 0, "value": 30}, {"time": 2, "value": 50}]},
         {"scene": "lights.0.strength", "keys": [{"time": 0, "value": 0}, {"time": 2, "value": 3}]},
-        {"scene": "sun.direction", "keys": [{"time": 0, "value": [0, 1, 0]}]})"));
+        {"scene": "sun.color", "keys": [{"time": 0, "value": [0, 1, 0]}]})"));
     EXPECT_TRUE(check(graph).empty()) << format(check(graph)[0]);
     const Timeline timeline = *readTimeline(graph);
     const Graph then = atTime(graph, timeline, 1.0);
@@ -223,7 +223,7 @@ TEST(Timeline, AtATimeTheDocumentHasTheTracksValues) {
     EXPECT_EQ(inputNumbers(*then.node("box"), "half_extents"), (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(inputNumbers(*then.node("size"), "value"), std::vector<double>{2});
     EXPECT_EQ(then.scene, Json::parse(R"({"camera": {"position": [1.0, 2.0, 3.0], "fov": 40.0},
-        "lights": [{"strength": 1.5}], "sun": {"direction": [0.0, 1.0, 0.0]}})"));
+        "lights": [{"strength": 1.5}], "sun": {"color": [0.0, 1.0, 0.0]}})"));
     // The curve rises above 0.9 between its keys; the parameter does not.
     EXPECT_GT(evaluate(timeline.tracks[0], 1.5)[0], 0.92);
     EXPECT_EQ(inputNumbers(*atTime(graph, timeline, 1.5).node("ball"), "radius"), std::vector<double>{0.9});
@@ -391,7 +391,7 @@ TEST(TimelineBad, TwoTracksForOneThing) {
     expectFinding(pair(y, all), {"moves what another track moves"});
     expectFinding(pair(all, y), {"moves what another track moves"});
     EXPECT_TRUE(findings(pair(y, R"("node": "moved", "input": "offset.x")")).empty());
-    expectFinding(pair("\"scene\": \"lights.0\"", "\"scene\": \"lights.0.strength\""),
+    expectFinding(pair("\"scene\": \"sun.size\"", "\"scene\": \"sun.size\""),
                   {"moves what another track moves"});
 }
 
