@@ -184,6 +184,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
         options.framed = points;
     }
     const RenderScene scene{.mesh = buffers,
+                            .vertices = result.vertices,
                             .triangles = result.triangles,
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),

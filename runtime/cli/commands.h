@@ -53,7 +53,9 @@ int runExport(const ExportOptions& options);
 
 struct RenderCommandOptions {
     MeshOptions mesh;
-    std::string output, size = "1280x720";
+    std::string output, size = "1280x720", view = "picture";
+    int samples = 16;
+    bool reference = false;
     std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
     bool overwrite = false;
 };

@@ -15,6 +15,7 @@
 #include "graph/node_type.h"
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/sequence.h"
 #include "runtime/export/output_file.h"
 #include "runtime/window/viewer.h"
 #include "tests/bench/bench.h"
@@ -172,6 +173,21 @@ int run(int count, char** arguments) {
                             "Make frames anew that are there already (default: skip them)");
     renderCommand->add_option("--size", renderOptions.size, "Width and height in pixels: WxH")
         ->default_str(renderOptions.size);
+    renderCommand
+        ->add_option("--samples", renderOptions.samples,
+                     "Frames that a picture is the mean of: of edges, soft shadows and ambient occlusion")
+        ->check(CLI::Range(1, kMostSamples))
+        ->default_str(std::to_string(renderOptions.samples));
+    renderCommand
+        ->add_option("--view", renderOptions.view,
+                     "What is shown: picture, or a look inside: ao, normals, color, shadow, steps (of sphere "
+                     "tracing), slice (the field with lines of equal distance), exactness (red where the field "
+                     "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe")
+        ->check(CLI::IsMember(renderViews()))
+        ->default_str(renderOptions.view);
+    renderCommand->add_flag("--reference", renderOptions.reference,
+                            "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
+                            "occlusion a sample (1,024 a pixel), each traced to its end");
 
     PlayOptions playOptions;
     CLI::App* playCommand = app.add_subcommand(

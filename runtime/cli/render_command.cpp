@@ -19,6 +19,21 @@ bool isPng(const std::string& path) {
 
 }  // namespace
 
+const std::vector<std::string>& renderViews() {
+    static const std::vector<std::string> names = {"picture", "ao",    "normals",   "color", "shadow",
+                                                   "steps",   "slice", "exactness", "cells", "wireframe"};
+    return names;  // in the order of RENDER_PICTURE and the following
+}
+
+RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size) {
+    const auto& views = renderViews();
+    RenderOptions render{.width = size.first, .height = size.second, .samples = options.samples};
+    render.reference = options.reference;
+    render.show = static_cast<uint32_t>(std::find(views.begin(), views.end(), options.view) - views.begin());
+    render.cancel = &interrupted;
+    return render;
+}
+
 int runRender(const RenderCommandOptions& options) {
     const auto size = pictureSize("render", options.size);
     if (!size) return kBadUsage;
@@ -51,10 +66,7 @@ int runRender(const RenderCommandOptions& options) {
                         nothingToSee(!player->regionFound(), player->region(), player->resolution()));
     if (interrupted) return stopped();
     progress.start("light", 60);
-    RenderOptions render{.width = size->first, .height = size->second, .cancel = &interrupted};
-    if (getenv("SHOW")) render.show = uint32_t(atoi(getenv("SHOW")));
-    if (getenv("TRACED")) render.primary = Primary::traced;
-    if (getenv("N")) render.samples = atoi(getenv("N"));
+    RenderOptions render = renderOptions(options, *size);
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     const Result<Picture> picture = player->frame(render);
     if (!picture) return interrupted ? stopped() : badInput(options.mesh, picture.error());

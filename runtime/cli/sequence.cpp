@@ -127,7 +127,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     long made = 0;
     {
         SequenceProgress progress(range->count());
-        const RenderOptions render{.width = size.first, .height = size.second, .cancel = &interrupted};
+        const RenderOptions render = renderOptions(options, size);
         for (long frame = range->first; frame < range->last && !interrupted; ++frame) {
             const std::string path = pathOf(frame).string();
             const bool there = !options.overwrite && fs::exists(path);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "runtime/cli/commands.h"
+#include "runtime/render/renderer.h"
 
 namespace fw::cli {
 
@@ -47,6 +48,11 @@ class SequenceProgress {
     bool shown;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 };
+
+/// What --view takes.
+const std::vector<std::string>& renderViews();
+/// The options that all pictures of the command share.
+RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size);
 
 /// `render` with --from, --to or --fps.
 int runSequence(const RenderCommandOptions& options, std::pair<int, int> size);

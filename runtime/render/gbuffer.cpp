@@ -76,26 +76,30 @@ DepthPipelines createDepthPipelines(const Device& device, std::string_view field
     return pipelines;
 }
 
+void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load) {
+    auto attachment = zeroed<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    attachment.imageView = depth.view;
+    attachment.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    attachment.loadOp = load;
+    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    auto info = zeroed<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+    info.renderArea.extent = {depth.extent.width, depth.extent.height};
+    info.layerCount = 1;
+    info.pDepthAttachment = &attachment;
+    vkCmdBeginRendering(commands.handle, &info);
+    // A negative height keeps y upwards, and with it the winding.
+    const auto width = float(depth.extent.width), height = float(depth.extent.height);
+    const VkViewport viewport = {0, height, width, -height, 0, 1};
+    vkCmdSetViewport(commands.handle, 0, 1, &viewport);
+    vkCmdSetScissor(commands.handle, 0, 1, &info.renderArea);
+}
+
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
                const glm::mat4& clip, const MesherBuffers& mesh, bool triangles) {
     resizeImage(commands, target.attachment, extent, kDepthFormat);
     imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_UNDEFINED,
                  VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    auto attachment = zeroed<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
-    attachment.imageView = target.attachment.view;
-    attachment.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    auto info = zeroed<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
-    info.renderArea.extent = {extent.width, extent.height};
-    info.layerCount = 1;
-    info.pDepthAttachment = &attachment;
-    vkCmdBeginRendering(commands.handle, &info);
-    // A negative height keeps y upwards, and with it the winding.
-    const auto width = float(extent.width), height = float(extent.height);
-    const VkViewport viewport = {0, height, width, -height, 0, 1};
-    vkCmdSetViewport(commands.handle, 0, 1, &viewport);
-    vkCmdSetScissor(commands.handle, 0, 1, &info.renderArea);
+    beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR);
     if (triangles) {
         bind(commands, pipelines.draw, &clip, sizeof clip, {});
         const VkDeviceSize start = 0;

@@ -43,6 +43,9 @@ struct DepthPipelines {
 /// `field` is the text that answers #include "field.glsl", empty for the default field.
 DepthPipelines createDepthPipelines(const Device& device, std::string_view field);
 
+/// Begins to draw into the whole of a depth attachment, y upwards in clip space.
+void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load);
+
 /// Draws the mesh's depth through `clip`; `triangles` says whether there is anything to draw.
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
                const glm::mat4& clip, const MesherBuffers& mesh, bool triangles);

@@ -13,6 +13,7 @@ namespace {
 constexpr uint32_t kShadowSize = 1024;  // texels along each side
 constexpr uint32_t kStillShadowSize = 2048;
 constexpr int kRestFrames = 64;  // of the live view, after which it stops
+constexpr uint32_t kRaysReference = 64;     // of a frame
 constexpr int kRaysStill = 16, kRaysResting = 8;
 constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
@@ -139,7 +140,7 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
 
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
     if (!std::isfinite(scene.lipschitz)) return false;
-    return options.primary == Primary::traced ||
+    return options.reference || options.primary == Primary::traced ||
            (options.primary == Primary::measured && renderer.tracing.value_or(false));
 }
 
@@ -245,6 +246,67 @@ void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     barrier(commands);
 }
 
+void traceReference(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    const GBuffer& gbuffer = renderer.gbuffer;
+    const VkExtent3D extent = gbuffer.now().extent;
+    if (!renderer.reference)
+        renderer.reference =
+            createComputePipeline(*renderer.device, {.name = "render/reference.comp", .field = renderer.field});
+    for (Image& history : renderer.ambient.history) resizeImage(commands, history, extent, VK_FORMAT_R32_UINT);
+    std::vector<Descriptor> bound = {{0, renderer.frame},
+                                     storage(2, gbuffer.now()),
+                                     {3, gbuffer.tileLists},
+                                     storage(7, renderer.ambient.now())};
+    addField(bound, scene.buffers);
+    dispatchIndirect(commands, renderer.reference, gbuffer.arguments, argumentsOf(RENDER_NEAR), kRaysReference,
+                     bound);
+    barrier(commands);
+}
+
+/// Edges of the triangles that are seen, over the picture; the mesh's depth has been drawn.
+void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    const Image& depth = renderer.seen.attachment;
+    if (!renderer.wireframe)
+        renderer.wireframe = createGraphicsPipeline(
+            *renderer.device,
+            {.shaders = {{.name = "render/wireframe.vert"}, {.name = "render/wireframe.frag"}},
+             .depthFormat = depth.format,
+             .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL,
+             .depthTest = true});
+    imageBarrier(commands, depth, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    beginDrawing(commands, depth, VK_ATTACHMENT_LOAD_OP_LOAD);
+    const glm::mat4 clip = toClip(renderer.described.now);
+    const Descriptor bound[] = {
+        {1, scene.mesh.vertices, 0, VkDeviceSize(scene.vertices) * sizeof(gpu::MeshVertex)},
+        {2, scene.mesh.triangles, 0, 12ull * scene.triangles},
+        storage(10, renderer.pixels)};
+    bind(commands, renderer.wireframe, &clip, sizeof clip, bound);
+    vkCmdDraw(commands.handle, 3 * scene.triangles, 1, 0, 0);
+    vkCmdEndRendering(commands.handle);
+    barrier(commands);
+}
+
+void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    const uint32_t view = renderer.described.show;
+    if (view < RENDER_STEPS) return;
+    beginStage(commands, "view");
+    if (view == RENDER_WIREFRAME) {
+        const uint64_t most = commands.device.properties.limits.maxStorageBufferRange;
+        if (scene.triangles > 0 && 12ull * scene.triangles <= most && 16ull * scene.vertices <= most)
+            drawWireframe(commands, renderer, scene);
+        return;
+    }
+    if (!renderer.show)
+        renderer.show = createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});
+    std::vector<Descriptor> bound = {
+        {0, renderer.frame}, storage(1, renderer.seen.depth), storage(10, renderer.pixels)};
+    addField(bound, scene.buffers);
+    const VkExtent3D extent = renderer.pixels.extent;
+    dispatch(commands, renderer.show, {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1},
+             nullptr, 0, bound);
+    barrier(commands);
+}
+
 /// What ambient occlusion is to do for this scene.
 AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& options) {
     const float radius = boundsOf(options.framed).radius;
@@ -332,8 +394,12 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     renderer.gbuffer.current = 1 - renderer.gbuffer.current;
     fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
     beginStage(commands, "ambient");
-    drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.buffers);
+    if (options.reference)
+        traceReference(commands, renderer, scene);
+    else
+        drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.buffers);
     lightFrame(commands, renderer, scene, still || resting);
+    showView(commands, renderer, scene);
     ++renderer.number;
 }
 

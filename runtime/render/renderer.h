@@ -35,7 +35,7 @@ struct MeshGrid {
 /// What is drawn.
 struct RenderScene {
     const MesherBuffers& mesh;
-    uint32_t triangles = 0;  ///< of the mesh
+    uint32_t vertices = 0, triangles = 0;  ///< of the mesh
     MeshGrid grid;           ///< that it was made on
     float lipschitz = 1.0f;  ///< of the field; infinite if unknown
     FieldBuffers buffers;    ///< of the field
@@ -54,7 +54,8 @@ struct RenderOptions {
     std::span<const gpu::MeshVertex> framed = {};
     int samples = 16;  ///< frames that a still picture is the mean of, 1 to kMostSamples
     Primary primary = Primary::drawn;
-    uint32_t show = RENDER_PICTURE;
+    bool reference = false;  ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
+    uint32_t show = RENDER_PICTURE;  ///< or one of the views that shaders/render/render.h lists
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };
@@ -76,7 +77,7 @@ struct Renderer {
     GBuffer gbuffer;
     Ambient ambient;
     Pipeline light[3][16];  ///< by list of tiles and what light.comp defines; made when needed
-    Pipeline lamps, fog;
+    Pipeline lamps, fog, reference, show, wireframe;  ///< ditto
 
     DepthTarget seen, shadow;
     Image means, lampLight, fogLight;

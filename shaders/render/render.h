@@ -28,6 +28,11 @@ namespace fw::gpu {
 #define RENDER_NORMALS 2
 #define RENDER_BASE 3
 #define RENDER_SHADOW 4
+#define RENDER_STEPS 5      // of sphere tracing
+#define RENDER_SLICE 6      // the field on an upright plane, with lines of equal distance
+#define RENDER_EXACTNESS 7  // there: how far the gradient's length is from 1
+#define RENDER_CELLS 8      // of the mesher that hold surface
+#define RENDER_WIREFRAME 9
 
 // How a picture is seen. A place in it is (x, y), each from -1 to 1, y upwards. It shows what lies along
 // forward + x right + y up; its depth is near / (distance along forward): 1 is near, 0 is nothing at all.

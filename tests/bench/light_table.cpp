@@ -53,6 +53,7 @@ struct Stage {
     static MeshRequest request() { return {Box{{-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}}, kResolution}; }
     RenderScene scene() const {
         return {.mesh = session.meshBuffers(),
+                .vertices = mesh.vertices,
                 .triangles = mesh.triangles,
                 .grid = {{-2.5f, -2.5f, -2.5f}, {2.5f, 2.5f, 2.5f}, 5.0f / kResolution},
                 .buffers = {}};

@@ -1,0 +1,52 @@
+// Ambient occlusion as it should be, for one listed tile: many rays a pixel, each traced until it is at its end or at the
+// surface, none shared, none kept from earlier frames. What the fast way (ambient.comp) is judged by, and independent of it.
+#define FIELD_VALUE
+#include "shared.h"
+#include "render/render.h"
+#include "field.glsl"
+#include "lib/octahedral.glsl"
+#include "render/view.glsl"
+
+layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
+layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
+layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;
+layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
+layout(binding = 7, r32ui) writeonly uniform uimage2D historyNow;
+layout(push_constant, scalar) uniform Push { uint rays; };
+
+#include "render/solid.glsl"
+
+const uint kMostSteps = 256;
+
+// PCG (Jarzynski and Olano, "Hash functions for GPU rendering", 2020).
+uint random(inout uint state) {
+    state = state * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+    return word >> 22 ^ word;
+}
+
+void main() {
+    fieldBegin();
+    uint lane = gl_LocalInvocationIndex, tile = tiles[RENDER_NEAR * frame.tiles + gl_WorkGroupID.x];
+    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 here = min(pixel, frame.size - 1);
+    uvec4 words = imageLoad(surfaces, ivec2(here));
+    float depth = uintBitsToFloat(words.x);
+    bool surface = all(equal(pixel, here)) && depth > 0.0;
+    vec3 n = unpackOctahedral(words.y), p = pointAt(frame.now, placeOf(here, frame.size), surface ? depth : 1.0) + n * frame.bias;
+    Bounds bounds = solidBounds();
+    float radius = frame.ambientRadius, close = 0.1 * frame.bias, open = 0.0;
+    uint state = (here.y * frame.size.x + here.x) * 9781u + frame.number * 6271u + 1u, ray = 0;
+    do {
+        vec2 u = vec2(random(state) >> 8, random(state) >> 8) / 16777216.0;
+        vec3 d = cosineDirection(n, u);
+        float t = 0.0, h;
+        uint i = 0;
+        do {
+            h = clearance(bounds, p + d * t);
+            t += max(h, close);
+        } while (h > 0.0 && t < radius && ++i < kMostSteps);
+        open += h > 0.0 ? 1.0 : 0.0;
+    } while (++ray < rays);
+    if (surface) imageStore(historyNow, ivec2(here), uvec4(uint(open / float(rays) * 65535.0 + 0.5) | min(rays, 0xffff) << 16));
+}
