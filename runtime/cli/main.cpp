@@ -179,15 +179,17 @@ int run(int count, char** arguments) {
         ->check(CLI::Range(1, kMostSamples))
         ->default_str(std::to_string(renderOptions.samples));
     renderCommand
-        ->add_option("--view", renderOptions.view,
-                     "What is shown: picture, or a look inside: ao, normals, color, shadow, steps (of sphere "
-                     "tracing), slice (the field with lines of equal distance), exactness (red where the field "
-                     "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe")
+        ->add_option(
+            "--view", renderOptions.view,
+            "What is shown: picture, or a look inside: ao, normals, color, shadow, steps (of sphere "
+            "tracing), slice (the field with lines of equal distance), exactness (red where the field "
+            "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe")
         ->check(CLI::IsMember(renderViews()))
         ->default_str(renderOptions.view);
-    renderCommand->add_flag("--reference", renderOptions.reference,
-                            "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
-                            "occlusion a sample (1,024 a pixel), each traced to its end");
+    renderCommand->add_flag(
+        "--reference", renderOptions.reference,
+        "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
+        "occlusion a sample (1,024 a pixel), each traced to its end");
 
     PlayOptions playOptions;
     CLI::App* playCommand = app.add_subcommand(

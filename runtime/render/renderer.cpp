@@ -12,8 +12,8 @@ namespace {
 
 constexpr uint32_t kShadowSize = 1024;  // texels along each side
 constexpr uint32_t kStillShadowSize = 2048;
-constexpr int kRestFrames = 64;  // of the live view, after which it stops
-constexpr uint32_t kRaysReference = 64;     // of a frame
+constexpr int kRestFrames = 64;          // of the live view, after which it stops
+constexpr uint32_t kRaysReference = 64;  // of a frame
 constexpr int kRaysStill = 16, kRaysResting = 8;
 constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
@@ -250,16 +250,17 @@ void traceReference(Commands& commands, Renderer& renderer, const RenderScene& s
     const GBuffer& gbuffer = renderer.gbuffer;
     const VkExtent3D extent = gbuffer.now().extent;
     if (!renderer.reference)
-        renderer.reference =
-            createComputePipeline(*renderer.device, {.name = "render/reference.comp", .field = renderer.field});
-    for (Image& history : renderer.ambient.history) resizeImage(commands, history, extent, VK_FORMAT_R32_UINT);
+        renderer.reference = createComputePipeline(
+            *renderer.device, {.name = "render/reference.comp", .field = renderer.field});
+    for (Image& history : renderer.ambient.history)
+        resizeImage(commands, history, extent, VK_FORMAT_R32_UINT);
     std::vector<Descriptor> bound = {{0, renderer.frame},
                                      storage(2, gbuffer.now()),
                                      {3, gbuffer.tileLists},
                                      storage(7, renderer.ambient.now())};
     addField(bound, scene.buffers);
-    dispatchIndirect(commands, renderer.reference, gbuffer.arguments, argumentsOf(RENDER_NEAR), kRaysReference,
-                     bound);
+    dispatchIndirect(commands, renderer.reference, gbuffer.arguments, argumentsOf(RENDER_NEAR),
+                     kRaysReference, bound);
     barrier(commands);
 }
 
@@ -273,7 +274,8 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
              .depthFormat = depth.format,
              .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL,
              .depthTest = true});
-    imageBarrier(commands, depth, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    imageBarrier(commands, depth, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     beginDrawing(commands, depth, VK_ATTACHMENT_LOAD_OP_LOAD);
     const glm::mat4 clip = toClip(renderer.described.now);
     const Descriptor bound[] = {
@@ -297,13 +299,15 @@ void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) 
         return;
     }
     if (!renderer.show)
-        renderer.show = createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});
+        renderer.show =
+            createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});
     std::vector<Descriptor> bound = {
         {0, renderer.frame}, storage(1, renderer.seen.depth), storage(10, renderer.pixels)};
     addField(bound, scene.buffers);
     const VkExtent3D extent = renderer.pixels.extent;
-    dispatch(commands, renderer.show, {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1},
-             nullptr, 0, bound);
+    dispatch(commands, renderer.show,
+             {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1}, nullptr, 0,
+             bound);
     barrier(commands);
 }
 

@@ -36,9 +36,9 @@ struct MeshGrid {
 struct RenderScene {
     const MesherBuffers& mesh;
     uint32_t vertices = 0, triangles = 0;  ///< of the mesh
-    MeshGrid grid;           ///< that it was made on
-    float lipschitz = 1.0f;  ///< of the field; infinite if unknown
-    FieldBuffers buffers;    ///< of the field
+    MeshGrid grid;                         ///< that it was made on
+    float lipschitz = 1.0f;                ///< of the field; infinite if unknown
+    FieldBuffers buffers;                  ///< of the field
     uint64_t content =
         0;  ///< another number if mesh or field differ from those of the live view's last frame
 };

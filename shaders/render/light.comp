@@ -102,11 +102,10 @@ void main() {
     color = color * veil.a + veil.rgb;
 #endif
     vec3 linear = toneMap(color);
-    if (frame.show != RENDER_PICTURE) {
-        vec3 part = frame.show == RENDER_AMBIENT ? vec3(open) : frame.show == RENDER_NORMALS ? 0.5 + 0.5 * s.n
-                    : frame.show == RENDER_BASE ? s.base : vec3(sunlit);
-        linear = there ? part : vec3(0.1);
-    }
+    bool solid = there && !s.ground;
+    linear = frame.show == RENDER_AMBIENT ? vec3(open) : frame.show == RENDER_SHADOW ? vec3(sunlit) : linear;
+    linear = frame.show == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
+    linear = frame.show == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
 #ifdef MEAN
     uvec2 words = imageLoad(means, at).xy;
     vec3 before = vec3(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y).x);

@@ -47,7 +47,7 @@ void main() {
     vec4 g = fieldGradient(onSlice);
 
     if (frame.show == RENDER_STEPS)
-        color = heat(steps(frame.now.eye, ray, length(frame.centre - frame.now.eye) + 2.0 * frame.radius) / float(kMostSteps));
+        color = heat(steps(frame.now.eye, ray, length(frame.centre - frame.now.eye) + 2.0 * frame.radius) / 48.0);
     if (frame.show == RENDER_SLICE && inSlice) {
         float period = 0.1 * frame.radius, width = 3.0 * frame.now.pixel * across / period;
         float line = abs(fract(g.w / period + 0.5) - 0.5), far = 1.0 - exp(-2.0 * abs(g.w) / frame.radius);
