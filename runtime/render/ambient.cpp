@@ -32,7 +32,7 @@ void describeAmbient(const Ambient& ambient, gpu::RenderFrame& frame) {
     const AmbientOptions& options = ambient.options;
     frame.ambientRadius = options.radius;
     frame.bias = options.bias;
-    frame.ambientSamples = uint32_t(std::max(options.samples, 1));
+    frame.ambientSamples = uint32_t(std::max(frame.resting ? options.samples : options.samplesMoving, 2));
     frame.raysNew = raysWithin(options.raysNew);
     frame.raysKept = raysWithin(frame.resting ? options.raysResting : options.raysKept);
     frame.mostKept = uint32_t(frame.resting ? options.enough : options.mostKept);

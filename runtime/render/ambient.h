@@ -13,12 +13,13 @@
 namespace fw {
 
 struct AmbientOptions {
-    float radius = 1.0f;  ///< length of a ray, metres
-    float bias = 0.005f;  ///< of a ray's start off the surface, metres: about half a cell of the mesh
-    int samples = 16;     ///< of the field along a ray, at most
-    int raysNew = 16;     ///< of a pixel without history, 1 to RENDER_MOST_RAYS
-    int raysKept = 1;     ///< of a pixel with history
-    int raysResting = 1;  ///< of a pixel with history while the view rests
+    float radius = 1.0f;    ///< length of a ray, metres
+    float bias = 0.005f;    ///< of a ray's start off the surface, metres: about half a cell of the mesh
+    int samples = 16;       ///< of the field along a ray, at most, 2 or more
+    int samplesMoving = 8;  ///< ditto while the view moves
+    int raysNew = 16;       ///< of a pixel without history, 1 to RENDER_MOST_RAYS
+    int raysKept = 1;       ///< of a pixel with history
+    int raysResting = 1;    ///< of a pixel with history while the view rests
     int mostKept = 64;  ///< rays that a moving view's history counts for at most: more is smoother, and lags
     int enough = 1024;  ///< rays a pixel after which a resting view is done
     bool reproject = true;  ///< keep a history at all

@@ -10,10 +10,17 @@ namespace fw {
 
 namespace {
 
-constexpr uint32_t kShadowSize = 1024;  // texels along each side
+constexpr uint32_t kShadowSize = 768;  // texels along each side
 constexpr uint32_t kStillShadowSize = 2048;
 constexpr int kRestFrames = 64;          // of the live view, after which it stops
 constexpr uint32_t kRaysReference = 64;  // of a frame
+/// How exactly a ray is traced.
+struct Care {
+    float close;     // a field below it is a hit, in pixels
+    uint32_t steps;  // at most
+};
+constexpr Care kLiveCare = {1.0f, 160}, kStillCare = {0.1f, 320}, kReferenceCare = {0.02f, 1024};
+constexpr double kTrusted = 0.99;  // of the pixels that a field without a known constant must trace right
 constexpr int kRaysStill = 16, kRaysResting = 8;
 constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
@@ -110,8 +117,8 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
     frame.lo = scene.grid.lo;
     frame.hi = scene.grid.hi;
     frame.cellSize = scene.grid.cellSize;
-    // A field without a known constant is trusted half way: what is traced may be a little off.
-    frame.stepScale = std::isfinite(scene.lipschitz) ? 1.0f / std::max(scene.lipschitz, 1.0f) : 0.5f;
+    frame.stepScale =
+        std::isfinite(scene.lipschitz) ? 1.0f / std::max(scene.lipschitz, 1.0f) : renderer.trust;
     frame.centre = bounds.centre;
     frame.radius = bounds.radius;
     frame.ground = look.ground ? float(look.ground->height.value_or(bounds.foot)) : -1e30f;
@@ -139,12 +146,13 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
 }
 
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
-    if (!std::isfinite(scene.lipschitz)) return false;
-    return options.reference || options.primary == Primary::traced ||
-           (options.primary == Primary::measured && renderer.tracing.value_or(false));
+    const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
+    const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
+    return options.reference || (scene.triangles > 0 && (measured || known));
 }
 
-void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced) {
+void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced,
+               const Care& care = kLiveCare) {
     const gpu::RenderFrame& frame = renderer.described;
     const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
     if (!traced) {
@@ -157,6 +165,8 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
     rays.lo = frame.lo;
     rays.hi = frame.hi;
     rays.stepScale = frame.stepScale;
+    rays.close = care.close * rays.pixel;
+    rays.steps = care.steps;
     traceDepth(commands, renderer.depth, renderer.seen, extent, rays, scene.buffers);
 }
 
@@ -172,20 +182,83 @@ void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene
     rays.lo = frame.lo;
     rays.hi = frame.hi;
     rays.stepScale = frame.stepScale;
+    rays.close = kLiveCare.close * rays.pixel;
+    rays.steps = kLiveCare.steps;
     traceDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, rays, scene.buffers);
 }
 
-/// Times drawing and tracing once each, and notes which is faster.
-void measurePrimary(Renderer& renderer, const RenderScene& scene) {
-    double took[2] = {};
-    for (const bool traced : {false, true, false, true}) {  // the first round warms up
-        Commands commands(*renderer.device, true);
-        beginStage(commands, "depth");
-        findDepth(commands, renderer, scene, traced);
-        submit(commands);
-        took[traced] = commands.stages[0].milliseconds;
+/// Copies an image of four bytes a pixel to where the host can read it.
+void recordReading(Commands& commands, const Image& image, Buffer& readback) {
+    const VkExtent3D extent = image.extent;
+    reserve(commands.device, readback, 4ull * extent.width * extent.height, Memory::readback);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {image.aspect, 0, 0, 1};
+    region.imageExtent = extent;
+    imageBarrier(commands, image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    vkCmdCopyImageToBuffer(commands.handle, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           readback.handle, 1, &region);
+    imageBarrier(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
+    barrier(commands);
+}
+
+/// The part of the pixels with a depth in either whose depth is also found, within `off` metres, at or beside
+/// them in the other.
+double agreement(const std::vector<float>& a, const std::vector<float>& b, VkExtent3D extent, float near,
+                 float off) {
+    const auto along = [near](float depth) { return depth > 0.0f ? near / depth : 0.0f; };
+    const int width = int(extent.width), height = int(extent.height);
+    std::size_t seen = 0, found = 0;
+    for (int y = 1; y + 1 < height; ++y) {
+        for (int x = 1; x + 1 < width; ++x) {
+            const std::size_t here = std::size_t(y) * extent.width + std::size_t(x);
+            if (a[here] <= 0.0f && b[here] <= 0.0f) continue;
+            bool same = false;
+            for (int i = 0; i < 9 && !same; ++i) {
+                const std::size_t there =
+                    here + std::size_t(i / 3) * extent.width + std::size_t(i % 3) - extent.width - 1;
+                same = std::abs(along(a[here]) - along(b[there])) < off;
+            }
+            ++seen, found += same;
+        }
     }
-    renderer.tracing = took[true] < took[false];
+    return seen ? double(found) / double(seen) : 0.0;
+}
+
+/// Times drawing and tracing, and notes which is to be used: the faster one. A field without a known constant
+/// is traced only if that shows what drawing shows, in whole steps or else in half ones.
+void measurePrimary(Renderer& renderer, const RenderScene& scene) {
+    const VkExtent3D extent = {renderer.described.size.x, renderer.described.size.y, 1};
+    const std::size_t pixels = std::size_t(extent.width) * extent.height;
+    Buffer readback = createBuffer(*renderer.device, 4 * pixels, Memory::readback);
+    std::vector<float> depths;
+    const auto timed = [&](bool traced) {
+        double took = 0;
+        for (int i = 0; i < 2; ++i) {  // the first warms up
+            Commands commands(*renderer.device, true);
+            beginStage(commands, "depth");
+            findDepth(commands, renderer, scene, traced);
+            beginStage(commands, "reading");
+            recordReading(commands, renderer.seen.depth, readback);
+            submit(commands);
+            took = commands.stages[0].milliseconds;
+        }
+        depths = download<float>(*renderer.device, readback, pixels);
+        return took;
+    };
+    const double drawing = timed(false);
+    const std::vector<float> drawn = std::move(depths);
+    const bool known = std::isfinite(scene.lipschitz);
+    renderer.tracing = false;
+    for (const float trust : {1.0f, 0.5f}) {
+        renderer.trust = trust;
+        if (!known) renderer.described.stepScale = trust;
+        const double tracing = timed(true);
+        if (!known && agreement(drawn, depths, extent, renderer.described.now.near,
+                                2.0f * scene.grid.cellSize) < kTrusted)
+            continue;
+        renderer.tracing = tracing < drawing;
+        return;
+    }
 }
 
 /// The pipeline that lights one kind of tiles, made at its first use.
@@ -318,7 +391,6 @@ AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& opt
     ambient.radius = 0.35f * radius;
     if (options.scene.ao && options.scene.ao->radius > 0) ambient.radius = float(options.scene.ao->radius);
     ambient.bias = std::min(0.5f * scene.grid.cellSize, 0.004f * radius);
-    ambient.samples = 8;
     return ambient;
 }
 
@@ -334,20 +406,6 @@ glm::vec2 jitterOf(int number, const RenderOptions& options) {
 }
 
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-/// Copies the finished picture to where the host can read it.
-void recordReading(Commands& commands, Renderer& renderer) {
-    const VkExtent3D extent = renderer.pixels.extent;
-    reserve(commands.device, renderer.readback, 4ull * extent.width * extent.height, Memory::readback);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {renderer.pixels.aspect, 0, 0, 1};
-    region.imageExtent = extent;
-    imageBarrier(commands, renderer.pixels, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    vkCmdCopyImageToBuffer(commands.handle, renderer.pixels.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           renderer.readback.handle, 1, &region);
-    imageBarrier(commands, renderer.pixels, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
-    barrier(commands);
-}
 
 Picture readPicture(const Renderer& renderer) {
     const glm::uvec2 size = renderer.described.size;
@@ -394,7 +452,10 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         renderer.shadowStands = true;
     }
     beginStage(commands, "depth");
-    findDepth(commands, renderer, scene, traced);
+    findDepth(commands, renderer, scene, traced,
+              options.reference ? kReferenceCare
+              : still           ? kStillCare
+                                : kLiveCare);
     renderer.gbuffer.current = 1 - renderer.gbuffer.current;
     fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
     beginStage(commands, "ambient");
@@ -414,6 +475,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     gpu::View view = viewOf(options);
     renderer.ambient.options = ambientOptions(scene, options);
     renderer.ambient.options.raysResting = kRaysStill;
+    renderer.ambient.options.samplesMoving = renderer.ambient.options.samples;
     renderer.ambient.options.enough = kRaysStill * kMostSamples;
     forgetHistory(renderer.ambient);
     renderer.number = 0;
@@ -425,7 +487,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         renderer.shadowStands = false;
         Commands commands(*renderer.device);
         drawFrame(commands, renderer, scene, options, view, i > 0, i);
-        if (i + 1 == options.samples) recordReading(commands, renderer);
+        if (i + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);
     }
     return readPicture(renderer);
@@ -457,14 +519,14 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     renderer.ambient.options = ambient;
     gpu::View view = shows.view;
     view.jitter = jitterOf(renderer.rested, options);
-    if (options.primary == Primary::measured && !renderer.tracing && std::isfinite(scene.lipschitz)) {
+    if (options.primary == Primary::measured && !renderer.tracing) {
         renderer.described = describe(renderer, scene, options, view, false, 0, kShadowSize);
         measurePrimary(renderer, scene);
     }
     Commands commands(*renderer.device);
     // The mean begins with the first frame that rests.
     drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0));
-    recordReading(commands, renderer);
+    recordReading(commands, renderer.pixels, renderer.readback);
     submit(commands);
     renderer.shown = shows;
     picture = readPicture(renderer);

@@ -43,7 +43,8 @@ struct RenderScene {
         0;  ///< another number if mesh or field differ from those of the live view's last frame
 };
 
-/// How depth is found. Fields without a known Lipschitz constant are always drawn.
+/// How depth is found. A field without a known Lipschitz constant is traced only if that was measured to show
+/// what drawing shows.
 enum class Primary { drawn, traced, measured };
 
 struct RenderOptions {
@@ -53,7 +54,7 @@ struct RenderOptions {
     /// is at least one, unless the scene has a camera.
     std::span<const gpu::MeshVertex> framed = {};
     int samples = 16;  ///< frames that a still picture is the mean of, 1 to kMostSamples
-    Primary primary = Primary::drawn;
+    Primary primary = Primary::traced;
     bool reference = false;  ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
     uint32_t show = RENDER_PICTURE;  ///< or one of the views that shaders/render/render.h lists
     const std::atomic<bool>* cancel = nullptr;
@@ -91,6 +92,7 @@ struct Renderer {
     int rested = 0;                ///< frames that the live view's picture is the mean of, less one
     bool shadowStands = false;     ///< the shadow map is still that of the mesh and the sun
     std::optional<bool> tracing;   ///< what Primary::measured came to
+    float trust = 0.5f;  ///< part of its value by which a field without a known constant may be stepped
 };
 
 /// `field` is the text that answers #include "field.glsl", empty for the default field.

@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push { uint rays; };
 
 #include "render/solid.glsl"
 
-const uint kMostSteps = 256;
+const float kLeastStep = 1.0 / 1024.0;  // of a ray's length
 
 // PCG (Jarzynski and Olano, "Hash functions for GPU rendering", 2020).
 uint random(inout uint state) {
@@ -35,18 +35,18 @@ void main() {
     bool surface = all(equal(pixel, here)) && depth > 0.0;
     vec3 n = unpackOctahedral(words.y), p = pointAt(frame.now, placeOf(here, frame.size), surface ? depth : 1.0) + n * frame.bias;
     Bounds bounds = solidBounds();
-    float radius = frame.ambientRadius, close = 0.1 * frame.bias, open = 0.0;
+    float radius = frame.ambientRadius, close = radius * kLeastStep, open = 0.0;
     uint state = (here.y * frame.size.x + here.x) * 9781u + frame.number * 6271u + 1u, ray = 0;
     do {
         vec2 u = vec2(random(state) >> 8, random(state) >> 8) / 16777216.0;
         vec3 d = cosineDirection(n, u);
-        float t = 0.0, h;
-        uint i = 0;
+        float t = 0.0, least = 1.0;
         do {
-            h = clearance(bounds, p + d * t);
+            float h = clearance(bounds, p + d * t);
+            least = min(least, h);
             t += max(h, close);
-        } while (h > 0.0 && t < radius && ++i < kMostSteps);
-        open += h > 0.0 ? 1.0 : 0.0;
+        } while (least > 0.0 && t < radius);
+        open += least > 0.0 ? 1.0 : 0.0;
     } while (++ray < rays);
     if (surface) imageStore(historyNow, ivec2(here), uvec4(uint(open / float(rays) * 65535.0 + 0.5) | min(rays, 0xffff) << 16));
 }

@@ -117,10 +117,12 @@ struct TracePush {
     vec3 direction, directionX, directionY;
     vec3 lo, hi;  // of the region
     float near;   // depth is near / t, or 1 - t near if parallel
-    float pixel;  // a field below it is a hit; times t unless parallel
+    float pixel;  // its size; times t unless parallel
+    float close;  // a field below it is a hit, likewise
     float stepScale;
     uvec2 size;
     uint parallel;  // 1: all rays have one direction
+    uint steps;     // of a ray, at most
 };
 
 #ifdef __cplusplus

@@ -15,7 +15,7 @@ layout(binding = 0, r32f) writeonly uniform image2D depth;
 layout(binding = 1, r32f) readonly uniform image2D starts;
 #endif
 
-const uint kMostSteps = 160, kMostConeSteps = 48;
+const uint kMostConeSteps = 48;
 
 void main() {
     fieldBegin();
@@ -50,16 +50,17 @@ void main() {
     t = max(max(first.x, max(first.y, first.z)), max(start, t));
     float end = min(last.x, min(last.y, last.z));
     bool outside = !(t < end);
-    float close = push.pixel, f = 0.0;
-    uint i = 0;
-    bool hit;
+    float close = push.close, f = 0.0;
+    uint i = 0, steps = push.steps;
+    // Kept: a ray that has ended goes on beside its neighbours on some drivers, with loads that yield nothing.
+    bool hit = false;
     do {
         f = fieldValue(origin + ray * t);
-        hit = f < close * (parallel ? 1.0 : t) && !outside;
+        hit = hit || (f < close * (parallel ? 1.0 : t) && !outside);
         t += hit ? 0.0 : max(f * stepScale, 0.0);
         outside = outside || t > end;
-    } while (!hit && !outside && ++i < kMostSteps);
-    // A ray that runs out of steps grazes a surface: it is there.
+    } while (!hit && !outside && ++i < steps);
+    // A ray that runs out of steps beside a surface grazes it: it is there.
     bool seen = hit || (!outside && f * push.stepScale < 8.0 * close * (parallel ? 1.0 : t));
     float z = parallel ? 1.0 - t * push.near : push.near / t;
     if (all(lessThan(pixel, push.size))) imageStore(depth, ivec2(pixel), vec4(seen ? z : 0.0));

@@ -249,7 +249,8 @@ TEST(Ambient, AHistoryOfAnotherSurfaceIsRejected) {
     const auto scene = [](const char* height) {
         return std::string("return min(p.y + ") + height + ", length(p - vec3(0.3, 0.6, 0)) - 0.5);";
     };
-    Floor moved(scene("0.25"), {.bias = 0.002f}), fresh(scene("0.25"), {.bias = 0.002f});
+    const AmbientOptions options{.bias = 0.002f, .samples = 16, .samplesMoving = 16};
+    Floor moved(scene("0.25"), options), fresh(scene("0.25"), options);
     for (int i = 0; i < 8; ++i) moved.draw(viewFrom(0));
     moved.level = fresh.level = -0.25f;
     fresh.number = moved.number;  // the same turn of the rays

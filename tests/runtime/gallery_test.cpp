@@ -1,0 +1,168 @@
+// Every sample's picture against the one that was looked at and kept (tests/data/golden), and its ambient
+// occlusion, as the fast way finds it, against the reference.
+//
+// A picture that differs is written beside the test program, with the difference. After a change that is
+// meant, FIELDWRIGHT_UPDATE_GOLDEN=1 keeps the new ones: look at each of them first.
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "runtime/player.h"
+#include "tests/support/gpu.h"
+
+namespace fw {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSide = 256;
+constexpr int kAmbientWidth = 120, kAmbientHeight = 90;
+constexpr double kMeanDifference = 1.5, kStrong = 32, kMostStrong = 0.01;  // of 255; share of the pixels
+
+std::vector<fs::path> samples() {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples"))
+        if (entry.path().string().ends_with(".field.json")) found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::string nameOf(const fs::path& sample) { return sample.stem().stem().string(); }
+
+class Gallery : public testing::TestWithParam<fs::path> {
+  protected:
+    void open(PlayerOptions options = {}) {
+        Result<Player> opened = Player::open(GetParam().string(), options);
+        ASSERT_TRUE(opened) << format(opened.error());
+        player.emplace(std::move(*opened));
+    }
+    void TearDown() override {
+        if (!player) return;
+        for (const std::string& message : player->device().validationMessages())
+            ADD_FAILURE() << "validation layer: " << message;
+    }
+    std::optional<Player> player;
+};
+
+/// Openness, 0 to 1, of a picture of ambient occlusion.
+std::vector<double> openness(const Picture& picture) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
+        const double x = picture.pixels[i] / 255.0;
+        values.push_back(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+    }
+    return values;
+}
+
+struct Difference {
+    double everywhere = 0;  ///< mean over the picture
+    double occluded = 0;    ///< mean over the pixels where either shows any occlusion
+};
+
+Difference compare(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0, occluded = 0;
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double difference = std::abs(a[i] - b[i]);
+        sum += difference;
+        if (std::min(a[i], b[i]) < 0.99) occluded += difference, ++pixels;
+    }
+    return {sum / double(a.size()), occluded / double(std::max<std::size_t>(pixels, 1))};
+}
+
+TEST_P(Gallery, LooksAsItDid) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    const Result<Picture> picture = player->frame({.width = kSide, .height = kSide, .samples = 8});
+    ASSERT_TRUE(picture) << format(picture.error());
+    const std::string name = nameOf(GetParam());
+    const std::string golden = FIELDWRIGHT_SOURCE_DIR "/tests/data/golden/" + name + ".png";
+    if (std::getenv("FIELDWRIGHT_UPDATE_GOLDEN")) {
+        fs::create_directories(fs::path(golden).parent_path());
+        ASSERT_TRUE(savePicture(*picture, golden));
+    }
+    int width = 0, height = 0, channels = 0;
+    uint8_t* kept = stbi_load(golden.c_str(), &width, &height, &channels, 3);
+    ASSERT_NE(kept, nullptr) << golden << " is missing: look at the picture, then keep it with "
+                             << "FIELDWRIGHT_UPDATE_GOLDEN=1";
+    ASSERT_TRUE(width == kSide && height == kSide);
+    Picture difference{kSide, kSide, std::vector<uint8_t>(picture->pixels.size(), 255)};
+    double sum = 0;
+    int strong = 0;
+    for (std::size_t i = 0; i < std::size_t(kSide) * kSide; ++i) {
+        int most = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int off = picture->pixels[4 * i + c] - kept[3 * i + c];
+            difference.pixels[4 * i + c] = uint8_t(std::clamp(128 + 4 * off, 0, 255));
+            sum += std::abs(off);
+            most = std::max(most, std::abs(off));
+        }
+        strong += most > kStrong;
+    }
+    stbi_image_free(kept);
+    const double mean = sum / (3.0 * kSide * kSide), share = double(strong) / (kSide * kSide);
+    if (mean <= kMeanDifference && share <= kMostStrong) return;
+    const std::string beside = FIELDWRIGHT_BINARY_DIR "/" + name;
+    (void)savePicture(*picture, beside + ".now.png");
+    (void)savePicture(difference, beside + ".difference.png");
+    ADD_FAILURE() << name << " differs by " << mean << " of 255 on average and strongly in " << 100 * share
+                  << " % of the pixels: see " << beside << ".now.png and .difference.png";
+}
+
+TEST_P(Gallery, AmbientOcclusionIsNearTheReference) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    RenderOptions options{.width = kAmbientWidth, .height = kAmbientHeight, .show = RENDER_AMBIENT};
+    const Result<Picture> fast = player->frame(options);
+    ASSERT_TRUE(fast) << format(fast.error());
+    options.reference = true;
+    const Result<Picture> reference = player->frame(options);
+    ASSERT_TRUE(reference) << format(reference.error());
+    const Difference difference = compare(openness(*fast), openness(*reference));
+    std::printf(
+        "%s: ambient occlusion differs from the reference by %.4f on average, %.4f where there is any\n",
+        nameOf(GetParam()).c_str(), difference.everywhere, difference.occluded);
+    EXPECT_LT(difference.everywhere, 0.03);
+    EXPECT_LT(difference.occluded, 0.05);  // where a mesh's bevelled edges stand in for sharp ones
+}
+
+TEST_P(Gallery, AMovedViewIsSoonRight) {
+    ASSERT_NO_FATAL_FAILURE(open({.resolution = 64}));
+    // A live view rests until it has converged; then it turns by five degrees.
+    RenderOptions options{.width = kAmbientWidth, .height = kAmbientHeight, .show = RENDER_AMBIENT};
+    const auto points = player->outline();
+    ASSERT_TRUE(points) << format(points.error());
+    Camera camera = framingCamera(*points, float(kAmbientWidth) / kAmbientHeight);
+    const auto restFrom = [&](const Camera& from, Picture& picture) {
+        options.scene.camera = from;
+        int frames = 0;
+        while (frames < 1000 && *player->show(options, picture)) ++frames;
+        return frames;
+    };
+    Picture picture;
+    const int frames = restFrom(camera, picture);
+    EXPECT_GT(frames, 10);
+    EXPECT_LT(frames, 1000);
+    const double angle = 5.0 / 180.0 * 3.14159265, x = camera.position[0] - camera.target[0],
+                 z = camera.position[2] - camera.target[2];
+    camera.position[0] = camera.target[0] + std::cos(angle) * x + std::sin(angle) * z;
+    camera.position[2] = camera.target[2] - std::sin(angle) * x + std::cos(angle) * z;
+    options.scene.camera = camera;
+    ASSERT_TRUE(*player->show(options, picture));
+    const std::vector<double> first = openness(picture);
+    restFrom(camera, picture);
+    const Difference difference = compare(first, openness(picture));
+    std::printf(
+        "%s: five degrees on, the first frame differs from the converged one by %.4f, %.4f where there is "
+        "any\n",
+        nameOf(GetParam()).c_str(), difference.everywhere, difference.occluded);
+    EXPECT_LT(difference.everywhere, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, Gallery, testing::ValuesIn(samples()),
+                         [](const auto& sample) { return nameOf(sample.param); });
+
+}  // namespace
+}  // namespace fw
