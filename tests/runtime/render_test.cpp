@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "graph/json.h"
+#include "runtime/render/view.h"
 #include "runtime/session.h"
 #include "tests/support/gpu.h"
 #include "tests/support/temp_dir.h"
@@ -120,6 +121,41 @@ TEST(Render, ShadesSmoothlyWithoutAcne) {
             ASSERT_LT(std::abs(here.r - next.r), 22) << u << ' ' << v;
             ASSERT_LT(std::abs(here.r - below.r), 22) << u << ' ' << v;
         }
+}
+
+TEST(Render, OcclusionAboutARestingBallIsAsItsClosedFormSays) {
+    // On the ground, d from where a ball of radius R rests: open is 1 - (1 + (d/R)^2)^(-3/2).
+    constexpr double kRadius = 0.7;
+    RenderOptions options{.width = kWidth, .height = kHeight, .show = RENDER_AMBIENT};
+    options.scene.camera = Camera{.position = {0.5, 5.0, 2.0}, .target = {0, -0.7, 0}, .fov = 36};
+    options.scene.ao = AmbientOcclusion{.radius = 6.0};
+    const gpu::View view = cameraView(*options.scene.camera, {}, float(kWidth) / kHeight);
+    for (const bool reference : {false, true}) {
+        options.reference = reference;
+        const Result<Picture> picture = draw(kBall, {{}, 48}, options);
+        ASSERT_TRUE(picture) << format(picture.error());
+        double sum = 0, most = 0;
+        int count = 0;
+        for (int j = 0; j < kHeight; ++j)
+            for (int i = 0; i < kWidth; ++i) {
+                const glm::vec2 place = (glm::vec2(i, j) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
+                const glm::vec3 ray = view.forward + place.x * view.right - place.y * view.up;
+                const glm::vec3 p = view.eye + ray * ((float(-kRadius) - view.eye.y) / ray.y);
+                const double d = std::hypot(p.x, p.z) / kRadius;
+                // Neither behind the ball nor where the ground has faded.
+                if (glm::length(glm::cross(glm::normalize(ray), -view.eye)) < 1.05 * kRadius || d > 2.5)
+                    continue;
+                const double shown = pixel(*picture, i, j).r / 255.0;
+                const double open = shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4);
+                const double off = std::abs(open - (1.0 - std::pow(1.0 + d * d, -1.5)));
+                sum += off, most = std::max(most, off), ++count;
+            }
+        ASSERT_GT(count, 1000);
+        std::printf("about a resting ball, %s: mean difference %.4f, greatest %.4f over %d pixels\n",
+                    reference ? "reference" : "still", sum / count, most, count);
+        EXPECT_LT(sum / count, 0.015);
+        EXPECT_LT(most, 0.1);
+    }
 }
 
 TEST(Render, IsTheSameBytesEachTime) {
