@@ -2,6 +2,7 @@
 // what a frame costs, and how the geometry is used again between its passes.
 #include <cmath>
 
+#include "graph/evaluate.h"
 #include "graph/glsl.h"
 #include "runtime/session.h"
 #include "tests/bench/tables.h"
@@ -115,6 +116,86 @@ void ambientTable(Bench& bench, Stage& stage_) {
     print(table, bench.options.markdown);
 }
 
+/// A field that looks its distance up in a volume of side^3 samples over the tower's region.
+std::string bakedField(int side) {
+    return "const int kSide = " + std::to_string(side) + ";\n" + R"(
+layout(binding = FIELD_IMAGES, scalar) readonly buffer Volume { float volume[]; };
+void fieldBegin() {}
+#ifdef FIELD_VALUE
+float fieldValue(vec3 p) {
+    vec3 at = clamp((p + 2.5) * (float(kSide - 1) / 5.0), vec3(0.0), vec3(float(kSide) - 1.001)), f = fract(at);
+    ivec3 i = ivec3(at);
+    int corner = (i.z * kSide + i.y) * kSide + i.x, up = corner + kSide * kSide;
+    vec4 x = mix(vec4(volume[corner], volume[corner + kSide], volume[up], volume[up + kSide]),
+                 vec4(volume[corner + 1], volume[corner + kSide + 1], volume[up + 1], volume[up + kSide + 1]), f.x);
+    vec2 y = mix(x.xz, x.yw, f.y);
+    return mix(y.x, y.y, f.z);
+}
+#endif
+)";
+}
+
+std::vector<float> baked(const Program& program, int side) {
+    std::vector<Point> points;
+    for (int z = 0; z < side; ++z)
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x)
+                points.push_back(
+                    {-2.5 + 5.0 * x / (side - 1), -2.5 + 5.0 * y / (side - 1), -2.5 + 5.0 * z / (side - 1)});
+    std::vector<double> values(points.size());
+    evaluate(program.ir, program.distance(), program.parameters(), points, values);
+    return {values.begin(), values.end()};
+}
+
+/// What the picture of a frame without history differs by, 0 to 1, where there is occlusion in `exact`.
+double difference(const Picture& exact, const Picture& other) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); i += 4)
+        if (exact.pixels[i] < 253) sum += std::abs(exact.pixels[i] - other.pixels[i]) / 255.0, ++count;
+    return sum / double(std::max<std::size_t>(count, 1));
+}
+
+void bakedTable(Bench& bench, Stage& stage_, const Program& program) {
+    Table table{.title = "16 rays a pixel through the field's code, and through a volume baked from it (ms)",
+                .header = {"field", "ambient", "of the code", "off by, of 1"}};
+    Picture exact;
+    double code = 0;
+    for (const int side : {0, 64, 128}) {
+        const std::string field = side ? bakedField(side) : stage_.renderer.field;
+        Buffer volume;
+        RenderScene scene = stage_.scene();
+        if (side) {
+            const std::vector<float> values = baked(program, side);
+            volume = createBuffer(stage_.session.device(), 4 * values.size(), Memory::upload);
+            upload(stage_.session.device(), volume, values);
+            scene.buffers.images = &volume;
+        }
+        stage_.renderer.ambient = createAmbient(stage_.session.device(), field, with(16, false, false));
+        int frame = 0;
+        const Figure figure = measure(bench.options.repeats, [&] {
+            stage_.turn(frame++);
+            Commands commands(stage_.session.device(), true);
+            drawFrame(commands, stage_.renderer, scene, stage_.options, stage_.view(), false, 0);
+            submit(commands);
+            return stage(commands, "ambient");
+        });
+        stage_.turn(0);
+        RenderOptions options = stage_.options;
+        options.show = RENDER_AMBIENT;
+        stage_.renderer.shown.reset();
+        stage_.renderer.number = 0;
+        Picture picture;
+        if (!renderLive(stage_.renderer, scene, options, picture)) return;
+        if (!side) exact = picture, code = figure.median();
+        table.rows.push_back({side ? "volume of " + std::to_string(side) + " cubed" : "code", text(figure),
+                              number(figure.median() / code), number(difference(exact, picture))});
+    }
+    table.notes = {"The same rays in each. The renderer traces through the code."};
+    print(table, bench.options.markdown);
+    stage_.renderer.ambient = createAmbient(stage_.session.device(), stage_.renderer.field, {});
+}
+
 void frameTable(Bench& bench, Stage& stage_) {
     Table table{.title = "A frame, 1280 x 720, tower at 128 cells, the camera moving (ms)",
                 .header = {"primary rays", "mesh", "shadow", "depth", "tiles", "surface", "ambient", "light",
@@ -184,6 +265,7 @@ void lightTable(Bench& bench) {
     if (!device) return;
     Stage stage_(std::move(*device), *program);
     ambientTable(bench, stage_);
+    bakedTable(bench, stage_, *program);
     frameTable(bench, stage_);
 }
 
