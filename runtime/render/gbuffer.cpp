@@ -95,18 +95,18 @@ void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp loa
 }
 
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
-               const glm::mat4& clip, const MesherBuffers& mesh, bool triangles) {
+               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters) {
     resizeImage(commands, target.attachment, extent, kDepthFormat);
     imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_UNDEFINED,
                  VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR);
-    if (triangles) {
+    if (clusters) {
         bind(commands, pipelines.draw, &clip, sizeof clip, {});
         const VkDeviceSize start = 0;
         vkCmdBindVertexBuffers(commands.handle, 0, 1, &mesh.vertices.handle, &start);
-        vkCmdBindIndexBuffer(commands.handle, mesh.triangles.handle, 0, VK_INDEX_TYPE_UINT32);
-        vkCmdDrawIndexedIndirect(commands.handle, mesh.counts.handle, offsetof(gpu::MesherCounts, draw), 1,
-                                 0);
+        vkCmdBindIndexBuffer(commands.handle, clusters->indices.handle, 0, VK_INDEX_TYPE_UINT32);
+        vkCmdDrawIndexedIndirect(commands.handle, clusters->counts.handle, offsetof(gpu::ClusterCounts, draw),
+                                 1, 0);
     }
     vkCmdEndRendering(commands.handle);
     copyDepth(commands, target);

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "runtime/mesher.h"
+#include "runtime/render/clusters.h"
 #include "runtime/render/view.h"
 
 namespace fw {
@@ -46,9 +47,9 @@ DepthPipelines createDepthPipelines(const Device& device, std::string_view field
 /// Begins to draw into the whole of a depth attachment, y upwards in clip space.
 void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load);
 
-/// Draws the mesh's depth through `clip`; `triangles` says whether there is anything to draw.
+/// Draws the depth of the listed clusters (cullClusters) through `clip`; of nothing if `clusters` is null.
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
-               const glm::mat4& clip, const MesherBuffers& mesh, bool triangles);
+               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters);
 
 /// Traces the field's depth.
 void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace fw {
 
@@ -151,13 +152,25 @@ bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const 
     return options.reference || (scene.triangles > 0 && (measured || known));
 }
 
+/// Lists what of the mesh a pass draws; null if there is none.
+const Clusters* cull(Commands& commands, Renderer& renderer, const RenderScene& scene, const glm::mat4& clip,
+                     const glm::vec4& eye, bool backs) {
+    boundClusters(commands, renderer.clusters, scene.mesh, scene.triangles, scene.content);
+    if (scene.triangles == 0) return nullptr;
+    cullClusters(commands, renderer.clusters, scene.mesh, clip, eye, backs);
+    return &renderer.clusters;
+}
+
 void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced,
                const Care& care = kLiveCare) {
     const gpu::RenderFrame& frame = renderer.described;
     const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
     if (!traced) {
-        drawDepth(commands, renderer.depth, renderer.seen, extent, toClip(frame.now), scene.mesh,
-                  scene.triangles > 0);
+        const glm::mat4 clip = toClip(frame.now);
+        const bool outside = glm::any(glm::lessThan(frame.now.eye, frame.lo - 2.0f * frame.now.near)) ||
+                             glm::any(glm::greaterThan(frame.now.eye, frame.hi + 2.0f * frame.now.near));
+        drawDepth(commands, renderer.depth, renderer.seen, extent, clip, scene.mesh,
+                  cull(commands, renderer, scene, clip, glm::vec4(frame.now.eye, 1), !outside));
         return;
     }
     gpu::TracePush rays = raysOf(frame.now);
@@ -174,8 +187,10 @@ void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene
     const gpu::RenderFrame& frame = renderer.described;
     const uint32_t size = std::max(frame.shadowSize, 1u);
     if (!traced || frame.shadowSize == 0) {
-        drawDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, shadowClip(frame), scene.mesh,
-                  scene.triangles > 0 && frame.shadowSize > 0);
+        const glm::mat4 clip = shadowClip(frame);
+        const bool any = frame.shadowSize > 0;
+        drawDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, clip, scene.mesh,
+                  any ? cull(commands, renderer, scene, clip, glm::vec4(-frame.sun, 0), false) : nullptr);
         return;
     }
     gpu::TracePush rays = shadowRays(frame);
@@ -420,6 +435,7 @@ Renderer createRenderer(const Device& device, std::string field) {
     renderer.device = &device;
     renderer.field = std::move(field);
     renderer.depth = createDepthPipelines(device, renderer.field);
+    renderer.clusters = createClusters(device);
     renderer.gbuffer = createGBuffer(device, renderer.field);
     renderer.ambient = createAmbient(device, renderer.field, {});
     renderer.frame = createBuffer(device, sizeof(gpu::RenderFrame), Memory::upload);

@@ -75,6 +75,7 @@ struct Renderer {
     const Device* device = nullptr;
     std::string field;
     DepthPipelines depth;
+    Clusters clusters;
     GBuffer gbuffer;
     Ambient ambient;
     Pipeline light[3][16];  ///< by list of tiles and what light.comp defines; made when needed

@@ -110,6 +110,26 @@ struct AmbientHoles {
     DispatchArguments arguments;
 };
 
+// Successive triangles of the mesh, which its order keeps together: the box about them, and that about their
+// normals.
+#define CLUSTER_TRIANGLES 64
+struct Cluster {
+    vec3 lo, hi, normalLo, normalHi;
+};
+
+// The clusters that a pass draws: how many, as a dispatch of a group each, and the draw of their triangles.
+struct ClusterCounts {
+    DispatchArguments seen;
+    uint draw[5];  // arguments of vkCmdDrawIndexedIndirect
+};
+
+struct CullPush {
+    vec4 sides[4];  // of what is seen, planes with their inner sides positive
+    vec4 eye;       // w 1: where rays begin; w 0: their common direction
+    uint clusters;
+    uint backs;  // 1: clusters that face away are left out
+};
+
 // Rays of trace.comp: from origin + x originX + y originY along direction + x directionX + y directionY, over
 // t.
 struct TracePush {

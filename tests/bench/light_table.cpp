@@ -44,6 +44,7 @@ struct Stage {
     Renderer renderer;
     RenderOptions options{.width = kWidth, .height = kHeight, .samples = 1, .primary = Primary::measured};
     float lipschitz;
+    uint64_t content = 0;
 
     Stage(Device device, const Program& program)
         : session(std::move(device)), lipschitz(float(program.exactness.lipschitz)) {
@@ -60,7 +61,8 @@ struct Stage {
                 .triangles = mesh.triangles,
                 .grid = {{-2.5f, -2.5f, -2.5f}, {2.5f, 2.5f, 2.5f}, 5.0f / kResolution},
                 .lipschitz = lipschitz,
-                .buffers = {}};
+                .buffers = {},
+                .content = content};
     }
     void turn(int frame) { options.scene.camera = cameraAt(frame); }
     gpu::View view() const {
@@ -212,7 +214,7 @@ void frameTable(Bench& bench, Stage& stage_) {
         forgetHistory(stage_.renderer.ambient);
         const auto draw = [&](bool anew) {
             stage_.turn(frame++);
-            if (anew) stage_.renderer.shadowStands = false;
+            if (anew) stage_.renderer.shadowStands = false, ++stage_.content;
             Commands commands(stage_.session.device(), true);
             drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
             submit(commands);
@@ -256,6 +258,49 @@ void frameTable(Bench& bench, Stage& stage_) {
     print(table, bench.options.markdown);
 }
 
+/// Drawing the depth of a fine mesh, of all of its clusters and of those that are seen.
+void cullTable(Bench& bench, Stage& stage_) {
+    constexpr int kFine = 512;
+    MeshRequest request = Stage::request();
+    request.resolution = kFine;
+    const Result<MesherResult> mesh = stage_.session.polygonise(request);
+    if (!mesh) return;
+    const Device& device = stage_.session.device();
+    const MesherBuffers& buffers = stage_.session.meshBuffers();
+    Renderer& renderer = stage_.renderer;
+    const VkExtent3D extent = {kWidth, kHeight, 1};
+    Table table{.title = "Depth of the tower's mesh at " + std::to_string(kFine) + " cells, " +
+                         std::to_string(mesh->triangles) + " triangles, 1280 x 720 (ms)",
+                .header = {"from", "drawn, %", "all drawn", "culled and drawn", "of all"}};
+    const std::pair<const char*, Camera> views[] = {
+        {"afar", cameraAt(0)},
+        {"near a corner", {.position = {2.0, 1.5, 2.0}, .target = {1, 1, 1}, .fov = 40}},
+        {"inside", {.position = {0, 0, 0.1}, .target = {0.5, 0.1, -1}, .fov = 40}}};
+    for (const auto& [name, camera] : views) {
+        const gpu::View view = cameraView(camera, stage_.points, float(kWidth) / float(kHeight));
+        const glm::mat4 clip = toClip(view),
+                        everything = glm::mat4(glm::vec4(0), glm::vec4(0), glm::vec4(0), {0, 0, 0, 1});
+        const bool inside = std::string_view(name) == "inside";
+        const auto draw = [&](bool culled) {
+            Commands commands(device, true);
+            boundClusters(commands, renderer.clusters, buffers, mesh->triangles, stage_.content + 1);
+            beginStage(commands, "depth");
+            cullClusters(commands, renderer.clusters, buffers, culled ? clip : everything,
+                         glm::vec4(view.eye, 1), inside || !culled);
+            drawDepth(commands, renderer.depth, renderer.seen, extent, clip, buffers, &renderer.clusters);
+            submit(commands);
+            return stage(commands, "depth");
+        };
+        const Figure all = measure(bench.options.repeats, [&] { return draw(false); });
+        const Figure culled = measure(bench.options.repeats, [&] { return draw(true); });
+        const uint32_t drawn =
+            download<gpu::ClusterCounts>(device, renderer.clusters.counts, 1)[0].draw[0] / 3;
+        table.rows.push_back({name, number(100.0 * drawn / mesh->triangles), text(all), text(culled),
+                              number(culled.median() / all.median())});
+    }
+    print(table, bench.options.markdown);
+}
+
 }  // namespace
 
 void lightTable(Bench& bench) {
@@ -267,6 +312,7 @@ void lightTable(Bench& bench) {
     ambientTable(bench, stage_);
     bakedTable(bench, stage_, *program);
     frameTable(bench, stage_);
+    cullTable(bench, stage_);
 }
 
 }  // namespace fw::bench
