@@ -1,6 +1,7 @@
 // Fog with the sun's rays in it, at half the picture's width and height: marched from the eye to what is seen, the sun's shadow
-// map asked at each step. One step is taken somewhere in each of kSteps equal parts of the way, so that bands dissolve in the
-// mean over frames. Phase function: Henyey and Greenstein's.
+// map asked at each step. One step is taken somewhere in each of kSteps parts of the way, which grow with the distance, so that
+// bands dissolve in the mean over frames. Upwards the way ends where the fog has thinned out. Phase function: Henyey and
+// Greenstein's.
 #define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
@@ -16,6 +17,7 @@ layout(binding = 12, rgba16f) writeonly uniform image2D fog;
 #include "render/shadow.glsl"
 
 const uint kSteps = 32;
+const float kThin = 7.0;     // heights of the fog, above which there is next to none
 const float kForward = 0.6;  // how much of the light goes on: 0 equally everywhere, 1 straight on
 
 void main() {
@@ -33,14 +35,16 @@ void main() {
     vec3 eye = frame.now.eye;
     float densest = frame.fogDensity, falloff = frame.fogFalloff, low = max(frame.ground, frame.centre.y - frame.radius);
     bool shadows = frame.shadowSize != 0;
-    float start = evenly(pixel, frame.number).x, through = 1.0, step = end / float(kSteps);
+    if (falloff > 0.0 && d.y > 0.0) end = min(end, max(kThin / falloff + low - eye.y, 0.0) / d.y);
+    float start = evenly(pixel, frame.number).x, through = 1.0, step = 1.0 / float(kSteps);
     vec3 sum = vec3(0.0);
     uint i = 0;
     do {
-        vec3 p = eye + d * ((float(i) + start) * step);
+        float u = (float(i) + start) * step;
+        vec3 p = eye + d * (end * u * u);
         float density = densest * exp(-max(p.y - low, 0.0) * falloff);
         float lit = shadows ? sunReaches(inShadowMap(p), vec2(0.0)) : 1.0;
-        float kept = exp(-density * step);
+        float kept = exp(-density * (2.0 * end * step) * u);
         sum += through * (1.0 - kept) * (sunshine * lit + sky);
         through *= kept;
     } while (++i < kSteps);
