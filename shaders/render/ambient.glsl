@@ -14,8 +14,10 @@ float openRay(vec3 p, vec3 n, uvec2 pixel, uint number) {
     Bounds bounds = solidBounds();
     uint samples = frame.ambientSamples;
     float radius = frame.ambientRadius, bias = frame.bias;
+    // Above the ground also where a bevelled edge looks down on it.
+    float foot = bounds.ground + bias;
     vec3 start = p + n * bias;
-    start.y = max(start.y, bounds.ground + bias);  // also where a bevelled edge looks down on it
+    start.y = max(start.y, foot);
     float least = radius / float((samples - 1) * (samples - 1)), t = 0.0;
     float slope = 1.0, haste = 1.0;
     uint i = 0;
@@ -24,6 +26,7 @@ float openRay(vec3 p, vec3 n, uvec2 pixel, uint number) {
         float h = clearance(bounds, start + d * t);
         if (i == 0) {
             start += n * (h > 0.0 ? 0.0 : min(bias - h, kLift * bias));
+            start.y = max(start.y, foot);
             h = h > 0.0 ? h : bias;
             slope = clamp(h / bias, kFlattest, 1.0);
             haste = 1.0 / max(slope, kHaste);

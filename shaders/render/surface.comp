@@ -18,6 +18,8 @@ layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 
 #include "render/solid.glsl"
 
+const float kAbove = 0.6;  // cells
+
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, tile = tiles[RENDER_NEAR * frame.tiles + gl_WorkGroupID.x];
@@ -32,8 +34,13 @@ void main() {
     float toGround = groundAlong(view, ray);
 
     // The surface is the field's own, which lies within a cell of the mesh, or the side of the region.
-    vec3 p = view.eye + ray * (hit ? view.near / depth : toGround);
+    // It is looked for a little above the ground: where the mesh's edge on it is bevelled, what is nearest is the solid's
+    // foot, or the ground shows through where the solid stands.
+    float rise = min(kAbove * frame.cellSize / max(-ray.y, 1e-6), 0.5 * toGround), above = toGround > 0.0 ? toGround - rise : 1e30;
+    float first = min(hit ? view.near / depth : above, above);
+    vec3 p = view.eye + ray * first;
     vec4 g = fieldGradient(p), region = regionDistance(p);
+    hit = hit || (toGround > 0.0 && max(g.w + min(dot(g.xyz, ray), 0.0) * rise, region.w) < 0.0);
     float slope = max(length(g.xyz), 1e-6), off = g.w / slope;
     bool cap = region.w > off || !(abs(off) < 2.0 * frame.cellSize);
     vec3 n = cap ? region.xyz : g.xyz / slope;
@@ -42,7 +49,7 @@ void main() {
     n = facing < 0.0 ? normalize(n - 1.02 * facing * toEye) : n;
 
     // What is stored is a depth: where the pixel's ray meets the surface's plane.
-    float along = dot(n, p - view.eye) / min(dot(n, ray), -1e-6), first = view.near / max(depth, 1e-30);
+    float along = dot(n, p - view.eye) / min(dot(n, ray), -1e-6);
     along = clamp(along, first - 2.0 * frame.cellSize, first + 2.0 * frame.cellSize);
     FieldMaterial material = fieldMaterial(view.eye + ray * along);
     uvec4 surface = packSurface(view.near / along, n, material);
