@@ -43,13 +43,7 @@ void checkParameter(const ExposedParameter& parameter, const Scope& top, Finding
     const uint32_t i = found->second;
     if (!hasKnownSockets(top, i)) return;
     const InputValue* value = top.nodes[i].input(parameter.input);
-    std::optional<Socket> socket = inputSocket(top, i, parameter.input);
-    if (socket && top.is(i, "expression")) {
-        if (value)
-            socket->type = typeOfValue(*value);
-        else
-            socket.reset();
-    }
+    const std::optional<Socket> socket = settableSocket(top, i, parameter.input);
     if (!socket) {
         const std::vector<std::string> names = inputNames(top, i);
         return findings.error(

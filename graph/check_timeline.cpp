@@ -75,14 +75,8 @@ void checkInput(const Graph& graph, const Scope& top, const Track& track, Findin
     const auto found = top.byId.find(animated->node);
     if (found == top.byId.end() || !hasKnownSockets(top, found->second)) return;
     const uint32_t i = found->second;
-    std::optional<Socket> socket = inputSocket(top, i, animated->input);
+    const std::optional<Socket> socket = settableSocket(top, i, animated->input);
     const InputValue* value = top.nodes[i].input(animated->input);
-    if (socket && top.is(i, "expression")) {
-        if (value)
-            socket->type = typeOfValue(*value);
-        else
-            socket.reset();
-    }
     if (!socket) {
         if (track.target == Track::Target::parameter) return;  // the parameter has its own finding
         const std::vector<std::string> names = inputNames(top, i);

@@ -106,6 +106,15 @@ std::optional<Socket> inputSocket(const Scope& scope, uint32_t node, std::string
     return Socket{spec.type, &spec};
 }
 
+std::optional<Socket> settableSocket(const Scope& scope, uint32_t node, std::string_view name) {
+    std::optional<Socket> socket = inputSocket(scope, node, name);
+    if (!socket || !scope.is(node, "expression")) return socket;
+    const InputValue* value = scope.nodes[node].input(name);
+    if (!value) return std::nullopt;
+    socket->type = typeOfValue(*value);
+    return socket;
+}
+
 std::optional<Socket> outputSocket(const Scope& scope, uint32_t node, std::string_view name) {
     const NodeType& type = *scope.types[node];
     const auto firstOr = [name](const auto& entries) {

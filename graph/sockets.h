@@ -59,6 +59,9 @@ bool hasKnownSockets(const Scope& scope, uint32_t node);
 
 /// The named input of a node with known sockets, if it has one.
 std::optional<Socket> inputSocket(const Scope& scope, uint32_t node, std::string_view name);
+/// The same, as a parameter or a track may set it: of an expression's inputs those with a value, whose type
+/// is theirs.
+std::optional<Socket> settableSocket(const Scope& scope, uint32_t node, std::string_view name);
 /// The named output of a node with known sockets, the first one for an empty name, if it has one.
 std::optional<Socket> outputSocket(const Scope& scope, uint32_t node, std::string_view name);
 
