@@ -22,7 +22,8 @@ const float kForward = 0.6;  // how much of the light goes on: 0 equally everywh
 
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy, half2 = (frame.size + 1) / 2;
-    uvec2 full = min(pixel * 2, frame.size - 1);
+    // Each frame of a mean looks at another of the four pixels, so that edges get the fog of both their sides.
+    uvec2 full = min(pixel * 2 + uvec2(frame.mean & 1, frame.mean >> 1 & 1), frame.size - 1);
     float depth = imageLoad(seen, ivec2(full)).x;
     vec3 ray = rayOf(frame.now, placeOf(full, frame.size));
     float scale = length(ray), ground = groundAlong(frame.now, ray);
