@@ -24,7 +24,8 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
         0, options.frames.value_or(static_cast<int>(std::lround(timeline.length * timeline.framesPerSecond))),
         timeline.framesPerSecond};
     const double start = options.mesh.graph.time;
-    const RenderOptions render{.width = size.first, .height = size.second, .cancel = &interrupted};
+    const RenderOptions render{.width = size.first, .height = size.second, .primary = Primary::measured};
+    Picture picture;
     uint64_t built = 0;
     double seconds = 0.0;
     long made = 0;
@@ -34,10 +35,9 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
             player->seek(start + range.time(frame));
             std::optional<BeforeOutput> nothing;
             if (frame == 0) nothing.emplace();  // the driver compiles
-            const Result<Picture> picture = player->frame(render);
+            const Result<bool> shown = player->show(render, picture);
             nothing.reset();
-            if (!picture && interrupted) break;
-            if (!picture) return badInput(options.mesh, picture.error());
+            if (!shown) return badInput(options.mesh, shown.error());
             progress.next(true);
             if (frame == 0) built = player->pipelinesBuilt();
         }
