@@ -14,11 +14,7 @@ namespace {
 /// Beyond these, in metres, squares of lengths leave the range of single precision.
 constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 
-Error problem(std::string message) {
-    Error error;
-    error.message = std::move(message);
-    return error;
-}
+Error problem(std::string message) { return {.message = std::move(message)}; }
 
 double milliseconds(std::chrono::steady_clock::time_point since) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
@@ -189,6 +185,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
                             .buffers = {&parameters, &images},
+                            .bounds = boundsOf(options.framed),
                             .content = content};
     return draw(*renderer, scene, options);
 }

@@ -13,11 +13,9 @@ Done checkPictureSize(int width, int height) {
     if (std::min(width, height) >= kLeastPictureSide && std::max(width, height) <= kMostPictureSide &&
         int64_t(width) * height <= kMostPicturePixels)
         return done();
-    Error error;
-    error.message = "a picture's sides are from " + std::to_string(kLeastPictureSide) + " to " +
-                    std::to_string(kMostPictureSide) + " pixels, with at most " +
-                    std::to_string(kMostPicturePixels) + " in all";
-    return error;
+    return Error{.message = "a picture's sides are from " + std::to_string(kLeastPictureSide) + " to " +
+                            std::to_string(kMostPictureSide) + " pixels, with at most " +
+                            std::to_string(kMostPicturePixels) + " in all"};
 }
 
 Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel) {

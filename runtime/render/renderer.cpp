@@ -27,12 +27,6 @@ constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid'
 constexpr float kExposure = 0.66f;
 constexpr float kFogEnd = 12.0f;  // in the solid's radii
 
-Error problem(std::string message) {
-    Error error;
-    error.message = std::move(message);
-    return error;
-}
-
 glm::vec3 vector(const Triple& from) { return {float(from[0]), float(from[1]), float(from[2])}; }
 
 /// Evenly in the unit square, the first in its middle (Roberts' R2 sequence).
@@ -106,7 +100,7 @@ gpu::TracePush shadowRays(const gpu::RenderFrame& frame) {
 gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                           const gpu::View& view, bool resting, int mean, uint32_t shadowSize) {
     const Scene& look = options.scene;
-    const SeenBounds bounds = boundsOf(options.framed);
+    const SeenBounds& bounds = scene.bounds;
     gpu::RenderFrame frame{};
     frame.now = view;
     frame.now.pixel = glm::length(view.up) / float(options.height);
@@ -161,6 +155,17 @@ const Clusters* cull(Commands& commands, Renderer& renderer, const RenderScene& 
     return &renderer.clusters;
 }
 
+void trace(Commands& commands, Renderer& renderer, const RenderScene& scene, DepthTarget& target,
+           VkExtent3D extent, gpu::TracePush rays, const Care& care) {
+    const gpu::RenderFrame& frame = renderer.described;
+    rays.lo = frame.lo;
+    rays.hi = frame.hi;
+    rays.stepScale = frame.stepScale;
+    rays.close = care.close * rays.pixel;
+    rays.steps = care.steps;
+    traceDepth(commands, renderer.depth, target, extent, rays, scene.buffers);
+}
+
 void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced,
                const Care& care = kLiveCare) {
     const gpu::RenderFrame& frame = renderer.described;
@@ -175,12 +180,7 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
     }
     gpu::TracePush rays = raysOf(frame.now);
     rays.pixel = frame.now.pixel;
-    rays.lo = frame.lo;
-    rays.hi = frame.hi;
-    rays.stepScale = frame.stepScale;
-    rays.close = care.close * rays.pixel;
-    rays.steps = care.steps;
-    traceDepth(commands, renderer.depth, renderer.seen, extent, rays, scene.buffers);
+    trace(commands, renderer, scene, renderer.seen, extent, rays, care);
 }
 
 void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced) {
@@ -193,13 +193,7 @@ void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene
                   any ? cull(commands, renderer, scene, clip, glm::vec4(-frame.sun, 0), false) : nullptr);
         return;
     }
-    gpu::TracePush rays = shadowRays(frame);
-    rays.lo = frame.lo;
-    rays.hi = frame.hi;
-    rays.stepScale = frame.stepScale;
-    rays.close = kLiveCare.close * rays.pixel;
-    rays.steps = kLiveCare.steps;
-    traceDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, rays, scene.buffers);
+    trace(commands, renderer, scene, renderer.shadow, {size, size, 1}, shadowRays(frame), kLiveCare);
 }
 
 /// Copies an image of four bytes a pixel to where the host can read it.
@@ -312,9 +306,8 @@ void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
                 createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
         resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
         bound.push_back(storage(11, renderer.lampLight));
-        for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND}) {
+        for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND})
             dispatchIndirect(commands, renderer.lamps, gbuffer.arguments, argumentsOf(list), list, bound);
-        }
         barrier(commands);
     }
     if (fog) {
@@ -401,7 +394,7 @@ void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) 
 
 /// What ambient occlusion is to do for this scene.
 AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& options) {
-    const float radius = boundsOf(options.framed).radius;
+    const float radius = scene.bounds.radius;
     AmbientOptions ambient;
     ambient.radius = 0.35f * radius;
     if (options.scene.ao && options.scene.ao->radius > 0) ambient.radius = float(options.scene.ao->radius);
@@ -409,9 +402,9 @@ AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& opt
     return ambient;
 }
 
-gpu::View viewOf(const RenderOptions& options) {
+gpu::View viewOf(const RenderScene& scene, const RenderOptions& options) {
     const float aspect = float(options.width) / float(options.height);
-    return options.scene.camera ? cameraView(*options.scene.camera, options.framed, aspect)
+    return options.scene.camera ? cameraView(*options.scene.camera, scene.bounds, aspect)
                                 : framingView(options.framed, aspect);
 }
 
@@ -456,10 +449,8 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
                             before.shadowCentre == frame.shadowCentre &&
                             before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;
     resizeImage(commands, renderer.pixels, extent, VK_FORMAT_R32_UINT);
-    if (resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT) ||
-        resizeGBuffer(commands, renderer.gbuffer, extent))
-        forgetHistory(renderer.ambient);
-    resizeGBuffer(commands, renderer.gbuffer, extent);
+    resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT);
+    if (resizeGBuffer(commands, renderer.gbuffer, extent)) forgetHistory(renderer.ambient);
 
     const bool traced = wantsTracing(scene, options, renderer);
     if (!renderer.shadowStands) {
@@ -487,8 +478,9 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
 Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options) {
     if (const Done fits = checkPictureSize(options.width, options.height); !fits) return fits.error();
     if (options.samples < 1 || options.samples > kMostSamples)
-        return problem("a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel");
-    gpu::View view = viewOf(options);
+        return Error{.message =
+                         "a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel"};
+    gpu::View view = viewOf(scene, options);
     renderer.ambient.options = ambientOptions(scene, options);
     renderer.ambient.options.raysResting = kRaysStill;
     renderer.ambient.options.samplesMoving = renderer.ambient.options.samples;
@@ -497,7 +489,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     renderer.number = 0;
     renderer.shown.reset();
     for (int i = 0; i < options.samples; ++i) {
-        if (options.cancel && *options.cancel) return problem("cancelled");
+        if (options.cancel && *options.cancel) return Error{.message = "cancelled"};
         if (options.progress) options.progress(100 * i / options.samples);
         view.jitter = jitterOf(i, options);
         renderer.shadowStands = false;
@@ -514,7 +506,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     if (const Done fits = checkPictureSize(wishes.width, wishes.height); !fits) return fits.error();
     RenderOptions options = wishes;
     options.samples = 1;
-    const Shown shows = {viewOf(options),
+    const Shown shows = {viewOf(scene, options),
                          options.scene,
                          scene.content,
                          {uint32_t(options.width), uint32_t(options.height), 1}};

@@ -38,7 +38,8 @@ struct RenderScene {
     uint32_t vertices = 0, triangles = 0;  ///< of the mesh
     MeshGrid grid;                         ///< that it was made on
     float lipschitz = 1.0f;                ///< of the field; infinite if unknown
-    FieldBuffers buffers;                  ///< of the field
+    FieldBuffers buffers = {};             ///< of the field
+    SeenBounds bounds = {};                ///< of RenderOptions::framed
     uint64_t content =
         0;  ///< another number if mesh or field differ from those of the live view's last frame
 };

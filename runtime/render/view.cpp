@@ -38,14 +38,11 @@ gpu::View lookFrom(glm::vec3 eye, glm::vec3 target, float fov, float aspect, flo
     return view;
 }
 
-gpu::View cameraView(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect) {
+gpu::View cameraView(const Camera& camera, const SeenBounds& bounds, float aspect) {
     gpu::View view =
         lookFrom(vector(camera.position), vector(camera.target), glm::radians(float(camera.fov)), aspect);
-    float nearest = kInfinity;
-    for (const gpu::MeshVertex& vertex : points)
-        nearest = std::min(nearest, glm::dot(view.forward, vertex.position - view.eye));
-    const float radius = boundsOf(points).radius;
-    view.near = std::max(points.empty() ? 0.0f : 0.5f * nearest, 1e-3f * radius);
+    const float nearest = glm::dot(view.forward, bounds.centre - view.eye) - bounds.radius;
+    view.near = std::max(0.5f * nearest, 1e-3f * bounds.radius);
     return view;
 }
 

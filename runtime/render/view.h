@@ -27,8 +27,8 @@ SeenBounds boundsOf(std::span<const gpu::MeshVertex> points);
 /// Looks from `eye` to `target`, y upwards; `fov` is vertical, radians; `aspect` is width / height.
 gpu::View lookFrom(glm::vec3 eye, glm::vec3 target, float fov, float aspect, float near = 0.05f);
 
-/// The camera's view; `near` suits the points.
-gpu::View cameraView(const Camera& camera, std::span<const gpu::MeshVertex> points, float aspect);
+/// The camera's view; `near` suits what is within the bounds.
+gpu::View cameraView(const Camera& camera, const SeenBounds& bounds, float aspect);
 
 /// The view from three quarters that has all points in the picture. There is at least one.
 gpu::View framingView(std::span<const gpu::MeshVertex> points, float aspect);

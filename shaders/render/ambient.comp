@@ -12,6 +12,7 @@
 #include "field.glsl"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
+#include "render/history.glsl"
 
 layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
@@ -32,7 +33,7 @@ const float kSameNormal = 0.9;  // cosine
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, tile = tiles[RENDER_NEAR * frame.tiles + gl_WorkGroupID.x];
-    uvec2 size = frame.size, pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 size = frame.size, pixel = pixelOf(tile, lane);
     bool inPicture = all(lessThan(pixel, size));
     uvec2 here = min(pixel, size - 1);
     uvec4 words = imageLoad(surfaces, ivec2(here));

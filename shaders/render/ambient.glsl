@@ -37,6 +37,3 @@ float openRay(vec3 p, vec3 n, uvec2 pixel, uint number) {
     } while (i < samples && open && t < 1.001 * radius);
     return open ? 1.0 : 0.0;
 }
-
-uint packHistory(float openness, uint rays) { return uint(openness * 65535.0 + 0.5) | min(rays, 0xffff) << 16; }
-float opennessOf(uint history) { return float(history & 0xffff) / 65535.0; }

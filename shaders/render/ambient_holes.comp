@@ -8,6 +8,7 @@
 #include "field.glsl"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
+#include "render/history.glsl"
 
 layout(local_size_x = AMBIENT_HOLES * AMBIENT_LANES) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };

@@ -34,7 +34,7 @@ float lampSeen(vec3 p, vec3 d, float far, float size) {
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, tile = tiles[list * frame.tiles + gl_WorkGroupID.x];
-    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 pixel = pixelOf(tile, lane);
     uvec2 here = min(pixel, frame.size - 1);
     float toGround = groundAlong(frame.now, rayOf(frame.now, placeOf(here, frame.size)));
     Surface s = unpackSurface(imageLoad(surfaces, ivec2(here)));

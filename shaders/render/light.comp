@@ -9,6 +9,7 @@
 #include "render/render.h"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
+#include "render/history.glsl"
 #include "render/gbuffer.glsl"
 
 #ifndef LIST
@@ -50,7 +51,7 @@ vec3 toneMap(vec3 x) {
 
 void main() {
     uint lane = gl_LocalInvocationIndex, tile = tiles[LIST * frame.tiles + gl_WorkGroupID.x];
-    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 pixel = pixelOf(tile, lane);
     bool inPicture = all(lessThan(pixel, frame.size));
     ivec2 at = ivec2(min(pixel, frame.size - 1));
     vec2 place = placeOf(pixel, frame.size);
@@ -75,7 +76,7 @@ void main() {
     bool there = s.depth > 0.0;
     vec3 p = frame.now.eye + ray * (frame.now.near / (there ? s.depth : 1.0));
     bool occluded = there && (!s.ground || nearSolid(p, 0.0));
-    float open = mix(1.0, occluded ? float(imageLoad(history, at).x & 0xffff) / 65535.0 : 1.0, frame.ambientStrength);
+    float open = mix(1.0, occluded ? opennessOf(imageLoad(history, at).x) : 1.0, frame.ambientStrength);
     float sunlit = frame.shadowSize != 0 && there ? sunSeen(p, s.n, pixel) : 1.0;
 
     // The ground fades into what is behind it; of the wall's light a shadow on it leaves that of the sky.

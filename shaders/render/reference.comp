@@ -6,6 +6,7 @@
 #include "field.glsl"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
+#include "render/history.glsl"
 
 layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
@@ -28,7 +29,7 @@ uint random(inout uint state) {
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, tile = tiles[RENDER_NEAR * frame.tiles + gl_WorkGroupID.x];
-    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 pixel = pixelOf(tile, lane);
     uvec2 here = min(pixel, frame.size - 1);
     uvec4 words = imageLoad(surfaces, ivec2(here));
     float depth = uintBitsToFloat(words.x);
@@ -48,5 +49,5 @@ void main() {
         } while (least > 0.0 && t < radius);
         open += least > 0.0 ? 1.0 : 0.0;
     } while (++ray < rays);
-    if (surface) imageStore(historyNow, ivec2(here), uvec4(uint(open / float(rays) * 65535.0 + 0.5) | min(rays, 0xffff) << 16));
+    if (surface) imageStore(historyNow, ivec2(here), uvec4(packHistory(open / float(rays), rays)));
 }

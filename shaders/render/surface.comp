@@ -23,7 +23,7 @@ const float kAbove = 0.6;  // cells
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, tile = tiles[RENDER_NEAR * frame.tiles + gl_WorkGroupID.x];
-    uvec2 pixel = uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE);
+    uvec2 pixel = pixelOf(tile, lane);
     bool inPicture = all(lessThan(pixel, frame.size));
     float depth = imageLoad(seen, ivec2(min(pixel, frame.size - 1))).x;
     bool hit = depth > 0.0;

@@ -1,5 +1,8 @@
 // A picture's places, rays and depths. After render.h.
 
+// That a lane does of a listed tile.
+uvec2 pixelOf(uint tile, uint lane) { return uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE); }
+
 vec2 placeOf(uvec2 pixel, uvec2 size) {
     vec2 place = (vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0;
     return vec2(place.x, -place.y);

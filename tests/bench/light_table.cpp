@@ -40,8 +40,8 @@ Camera cameraAt(int frame) {
 struct Stage {
     Session session;
     MesherResult mesh;
-    std::vector<gpu::MeshVertex> points;
     Renderer renderer;
+    SeenBounds bounds;
     RenderOptions options{.width = kWidth, .height = kHeight, .samples = 1, .primary = Primary::measured};
     float lipschitz;
     uint64_t content = 0;
@@ -50,9 +50,9 @@ struct Stage {
         : session(std::move(device)), lipschitz(float(program.exactness.lipschitz)) {
         session.setProgram(program);
         mesh = *session.polygonise(request());
-        points = download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, mesh.vertices);
+        bounds = boundsOf(
+            download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, mesh.vertices));
         renderer = createRenderer(session.device(), emitField(program));
-        options.framed = points;
     }
     static MeshRequest request() { return {Box{{-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}}, kResolution}; }
     RenderScene scene() const {
@@ -61,12 +61,12 @@ struct Stage {
                 .triangles = mesh.triangles,
                 .grid = {{-2.5f, -2.5f, -2.5f}, {2.5f, 2.5f, 2.5f}, 5.0f / kResolution},
                 .lipschitz = lipschitz,
-                .buffers = {},
+                .bounds = bounds,
                 .content = content};
     }
     void turn(int frame) { options.scene.camera = cameraAt(frame); }
     gpu::View view() const {
-        return cameraView(*options.scene.camera, points, float(kWidth) / float(kHeight));
+        return cameraView(*options.scene.camera, bounds, float(kWidth) / float(kHeight));
     }
 };
 
@@ -75,6 +75,18 @@ double stage(const Commands& commands, std::string_view name) {
     for (const StageTime& time : commands.stages)
         if (time.name == name) return time.milliseconds;
     return 0;
+}
+
+/// What ambient occlusion takes while the camera moves.
+Figure timeAmbient(const Bench& bench, Stage& stage_, const RenderScene& scene) {
+    int frame = 0;
+    return measure(bench.options.repeats, [&] {
+        stage_.turn(frame++);
+        Commands commands(stage_.session.device(), true);
+        drawFrame(commands, stage_.renderer, scene, stage_.options, stage_.view(), false, 0);
+        submit(commands);
+        return stage(commands, "ambient");
+    });
 }
 
 void ambientTable(Bench& bench, Stage& stage_) {
@@ -92,14 +104,7 @@ void ambientTable(Bench& bench, Stage& stage_) {
     for (const Way& way : ways) {
         stage_.renderer.ambient.options = way.options;
         forgetHistory(stage_.renderer.ambient);
-        int frame = 0;
-        const Figure figure = measure(bench.options.repeats, [&] {
-            stage_.turn(frame++);
-            Commands commands(stage_.session.device(), true);
-            drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
-            submit(commands);
-            return stage(commands, "ambient");
-        });
+        const Figure figure = timeAmbient(bench, stage_, stage_.scene());
         if (&way == &ways[0]) all = figure.median();
         if (&way == &ways[2]) unshared = figure.median();
         if (&way == &ways[3]) shared = figure.median();
@@ -174,14 +179,7 @@ void bakedTable(Bench& bench, Stage& stage_, const Program& program) {
             scene.buffers.images = &volume;
         }
         stage_.renderer.ambient = createAmbient(stage_.session.device(), field, with(16, false, false));
-        int frame = 0;
-        const Figure figure = measure(bench.options.repeats, [&] {
-            stage_.turn(frame++);
-            Commands commands(stage_.session.device(), true);
-            drawFrame(commands, stage_.renderer, scene, stage_.options, stage_.view(), false, 0);
-            submit(commands);
-            return stage(commands, "ambient");
-        });
+        const Figure figure = timeAmbient(bench, stage_, scene);
         stage_.turn(0);
         RenderOptions options = stage_.options;
         options.show = RENDER_AMBIENT;
@@ -240,7 +238,6 @@ void frameTable(Bench& bench, Stage& stage_) {
         table.rows.push_back({traced ? "traced" : "drawn", number(part("mesh")), number(part("shadow")),
                               number(part("depth")), number(part("tiles")), number(part("surface")),
                               number(part("ambient")), number(part("light")), text(still), text(animated)});
-        if (getenv("SPLIT")) std::printf("plain %g\n", part("plain"));
         best = std::min(best, still.median());
         bestAnimated = std::min(bestAnimated, animated.median());
         if (!traced)
@@ -277,7 +274,7 @@ void cullTable(Bench& bench, Stage& stage_) {
         {"near a corner", {.position = {2.0, 1.5, 2.0}, .target = {1, 1, 1}, .fov = 40}},
         {"inside", {.position = {0, 0, 0.1}, .target = {0.5, 0.1, -1}, .fov = 40}}};
     for (const auto& [name, camera] : views) {
-        const gpu::View view = cameraView(camera, stage_.points, float(kWidth) / float(kHeight));
+        const gpu::View view = cameraView(camera, stage_.bounds, float(kWidth) / float(kHeight));
         const glm::mat4 clip = toClip(view),
                         everything = glm::mat4(glm::vec4(0), glm::vec4(0), glm::vec4(0), {0, 0, 0, 1});
         const bool inside = std::string_view(name) == "inside";

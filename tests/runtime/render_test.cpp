@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
+#include "graph/image.h"
 #include "graph/json.h"
 #include "runtime/render/view.h"
 #include "runtime/session.h"
@@ -129,7 +130,7 @@ TEST(Render, OcclusionAboutARestingBallIsAsItsClosedFormSays) {
     RenderOptions options{.width = kWidth, .height = kHeight, .show = RENDER_AMBIENT};
     options.scene.camera = Camera{.position = {0.5, 5.0, 2.0}, .target = {0, -0.7, 0}, .fov = 36};
     options.scene.ao = AmbientOcclusion{.radius = 6.0};
-    const gpu::View view = cameraView(*options.scene.camera, {}, float(kWidth) / kHeight);
+    const gpu::View view = cameraView(*options.scene.camera, SeenBounds{}, float(kWidth) / kHeight);
     for (const bool reference : {false, true}) {
         options.reference = reference;
         const Result<Picture> picture = draw(kBall, {{}, 48}, options);
@@ -145,8 +146,7 @@ TEST(Render, OcclusionAboutARestingBallIsAsItsClosedFormSays) {
                 // Neither behind the ball nor where the ground has faded.
                 if (glm::length(glm::cross(glm::normalize(ray), -view.eye)) < 1.05 * kRadius || d > 2.5)
                     continue;
-                const double shown = pixel(*picture, i, j).r / 255.0;
-                const double open = shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4);
+                const double open = decodeSrgb(pixel(*picture, i, j).r / 255.0);
                 const double off = std::abs(open - (1.0 - std::pow(1.0 + d * d, -1.5)));
                 sum += off, most = std::max(most, off), ++count;
             }
