@@ -10,10 +10,7 @@ namespace {
 const std::array<double, 256>& linearBytes() {
     static const std::array<double, 256> table = [] {
         std::array<double, 256> values;
-        for (int i = 0; i < 256; ++i) {
-            const double c = i / 255.0;
-            values[std::size_t(i)] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-        }
+        for (int i = 0; i < 256; ++i) values[std::size_t(i)] = decodeSrgb(i / 255.0);
         return values;
     }();
     return table;
@@ -42,6 +39,10 @@ Place place(double u, int size) {
 }
 
 }  // namespace
+
+double decodeSrgb(double code) {
+    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
 
 FieldImage::FieldImage(int width_, int height_, std::vector<uint32_t> texels_, std::string file_)
     : width(width_), height(height_), texels(std::move(texels_)), file(std::move(file_)) {

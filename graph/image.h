@@ -33,6 +33,9 @@ inline constexpr int kGreyLayer = 3;
 
 struct FieldImage;
 
+/// Linear light, 0 to 1, of an sRGB code, 0 to 1 (IEC 61966-2-1).
+double decodeSrgb(double code);
+
 /// One function of (u, v), with what bounds it.
 struct ImageLayer {
     const FieldImage* image = nullptr;

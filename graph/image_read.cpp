@@ -20,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Error problem(const std::string& path, const std::string& what) {
-    Error error;
-    error.message = "the picture " + inQuotes(path) + " " + what;
-    return error;
+    return {.message = "the picture " + inQuotes(path) + " " + what};
 }
 
 /// The file that the path leads to, symbolic links followed. It may not exist.

@@ -20,10 +20,7 @@ constexpr int kRegionSteps = 16;
 constexpr int kOutlineSteps = 16, kOutlineResolution = 40;
 
 Error problem(const Graph& graph, std::string message) {
-    Error error;
-    error.message = std::move(message);
-    error.file = graph.path;
-    return error;
+    return {.message = std::move(message), .file = graph.path};
 }
 
 /// The first error that check() finds; the rest goes to `warnings`, which may be null.

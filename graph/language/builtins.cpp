@@ -12,11 +12,7 @@ namespace {
 using Arguments = std::span<const Value>;
 using Builtin = Result<Value> (*)(Lowering&, Arguments);
 
-Error problem(std::string message) {
-    Error error;
-    error.message = std::move(message);
-    return error;
-}
+Error problem(std::string message) { return {.message = std::move(message)}; }
 
 bool isVector(Type type) { return type == Type::vec2 || type == Type::vec3; }
 bool isNumeric(Type type) { return componentCount(type) > 0; }

@@ -26,10 +26,7 @@ std::string_view wholeCharacter(std::string_view text) {
 }  // namespace
 
 Error codeError(Place place, std::string message) {
-    Error error;
-    error.message = std::move(message);
-    error.codeLine = place.line, error.codeColumn = place.column;
-    return error;
+    return {.message = std::move(message), .codeLine = place.line, .codeColumn = place.column};
 }
 
 Result<std::vector<Token>> tokenize(std::string_view code) {

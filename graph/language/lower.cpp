@@ -736,10 +736,9 @@ Result<uint32_t> imageAt(Lowering& state, const std::string& path) {
     for (const FieldImagePtr& held : state.ir.images())
         if (held != *image) texels += held->texels.size();
     if (texels * sizeof(uint32_t) >= kMaxImageBytes) {
-        Error error;
-        error.message = "the pictures of the graph together take " + std::to_string(kMaxImageBytes >> 20) +
-                        " MiB or more (4 bytes a pixel): use smaller ones";
-        return error;
+        return Error{.message = "the pictures of the graph together take " +
+                                std::to_string(kMaxImageBytes >> 20) +
+                                " MiB or more (4 bytes a pixel): use smaller ones"};
     }
     state.images.emplace(path, *image);
     return state.ir.addImage(*image);
@@ -786,9 +785,7 @@ Result<Value> convert(Lowering& state, const Value& value, Type type) {
         const std::string name(typeName(t));
         return (name[0] == 'i' ? "an " : "a ") + name;
     };
-    Error error;
-    error.message = named(value.type) + " cannot stand for " + named(type);
-    return error;
+    return Error{.message = named(value.type) + " cannot stand for " + named(type)};
 }
 
 }  // namespace fw::language

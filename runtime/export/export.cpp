@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "graph/image.h"
 #include "runtime/export/formats.h"
 
 namespace fw {
@@ -195,11 +196,8 @@ unsigned char encodeSrgb(float linear) {
     // power a call.
     static const std::array<float, 255> thresholds = [] {
         std::array<float, 255> limits{};
-        for (int i = 0; i < 255; ++i) {
-            const double code = (i + 0.5) / 255.0;
-            limits[static_cast<std::size_t>(i)] =
-                static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
-        }
+        for (int i = 0; i < 255; ++i)
+            limits[static_cast<std::size_t>(i)] = static_cast<float>(decodeSrgb((i + 0.5) / 255.0));
         return limits;
     }();
     return static_cast<unsigned char>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -

@@ -13,6 +13,7 @@
 #include <limits>
 #include <sstream>
 
+#include "graph/image.h"
 #include "runtime/export/read_back.h"
 #include "runtime/mesh_report.h"
 #include "tests/support/meshes.h"
@@ -243,10 +244,7 @@ TEST(Export, ObjNumbersReadBackAsTheSameFloats) {
         glm::vec3 p, c;
         if (std::sscanf(line.c_str(), "v %f %f %f %f %f %f", &p.x, &p.y, &p.z, &c.x, &c.y, &c.z) == 6) {
             ASSERT_EQ(p, mesh.positions.at(vertices));
-            for (int k = 0; k < 3; ++k) {
-                const double linear = c[k] <= 0.04045 ? c[k] / 12.92 : std::pow((c[k] + 0.055) / 1.055, 2.4);
-                EXPECT_NEAR(linear, mesh.colors[vertices][k], 0.006);
-            }
+            for (int k = 0; k < 3; ++k) { EXPECT_NEAR(decodeSrgb(c[k]), mesh.colors[vertices][k], 0.006); }
             ++vertices;
         } else if (std::sscanf(line.c_str(), "vn %f %f %f", &p.x, &p.y, &p.z) == 3) {
             ASSERT_EQ(p, mesh.normals.at(normals++));
@@ -278,7 +276,7 @@ TEST(Export, PlyColoursAreTheNearestSrgbCodes) {
     Mesh mesh;
     for (int i = 0; i <= 255; ++i) {
         const double code = i / 255.0;
-        const double linear = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+        const double linear = decodeSrgb(code);
         mesh.positions.emplace_back(i, 0, i * i);
         mesh.colors.emplace_back(linear, i % 2 ? -1.0 : 7.0, 0.0);
     }

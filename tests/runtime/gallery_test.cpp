@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "graph/image.h"
 #include "runtime/player.h"
 #include "tests/support/gpu.h"
 
@@ -51,10 +52,8 @@ class Gallery : public testing::TestWithParam<fs::path> {
 /// Openness, 0 to 1, of a picture of ambient occlusion.
 std::vector<double> openness(const Picture& picture) {
     std::vector<double> values;
-    for (std::size_t i = 0; i < picture.pixels.size(); i += 4) {
-        const double x = picture.pixels[i] / 255.0;
-        values.push_back(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-    }
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
+        values.push_back(decodeSrgb(picture.pixels[i] / 255.0));
     return values;
 }
 
