@@ -1,22 +1,27 @@
 #include "graph/scene.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "graph/placed_json.h"
 
 namespace fw {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::string numberText(double number) {
     std::string text = std::to_string(number);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
     return text;
+}
+
+std::string range(double least, double most) {
+    return "from " + numberText(least) + " to " + numberText(most);
+}
+
+/// False if this is no number in the range.
+bool readNumber(const Json& json, double& to, double least, double most) {
+    if (!json.is_number()) return false;
+    to = json.get<double>();
+    return to >= least && to <= most;
 }
 
 /// Every function returns false after it has stored the one error. `name` is a value's dotted path.
@@ -28,31 +33,21 @@ struct SceneReader {
         return false;
     }
 
-    bool number(const PlacedJson& value, const std::string& name, double& to, double least = -kInfinity,
-                double most = kInfinity) {
-        const Json& json = value.value();
-        to = json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
-        if (std::isfinite(to) && to >= least && to <= most) return true;
-        std::string wanted = "a finite number";
-        if (std::isfinite(least) && std::isfinite(most))
-            wanted = "a number from " + numberText(least) + " to " + numberText(most);
-        else if (std::isfinite(least))
-            wanted = "a finite number, at least " + numberText(least);
-        return fail(value, "the scene's " + name + " must be " + wanted);
+    bool number(const PlacedJson& value, const std::string& name, double& to,
+                double least = -kMostSceneNumber, double most = kMostSceneNumber) {
+        if (readNumber(value.value(), to, least, most)) return true;
+        return fail(value, "the scene's " + name + " must be a number " + range(least, most));
     }
 
-    bool triple(const PlacedJson& value, const std::string& name, Triple& to, double least = -kInfinity) {
+    bool triple(const PlacedJson& value, const std::string& name, Triple& to,
+                double least = -kMostSceneNumber) {
         const Json& json = value.value();
-        const bool fits = json.is_array() && json.size() == 3 &&
-                          std::all_of(json.begin(), json.end(), [&](const Json& component) {
-                              return component.is_number() && std::isfinite(component.get<double>()) &&
-                                     component.get<double>() >= least;
-                          });
-        if (!fits)
-            return fail(value, "the scene's " + name + " must be three finite numbers" +
-                                   (least == 0.0 ? ", none below 0: [red, green, blue]" : " [x, y, z]"));
-        for (std::size_t i = 0; i < 3; ++i) to[i] = json[i].get<double>();
-        return true;
+        bool fits = json.is_array() && json.size() == to.size();
+        for (std::size_t i = 0; i < to.size() && fits; ++i)
+            fits = readNumber(json[i], to[i], least, kMostSceneNumber);
+        return fits || fail(value, "the scene's " + name + " must be three numbers " +
+                                       range(least, kMostSceneNumber) +
+                                       (least == 0.0 ? ": [red, green, blue]" : ": [x, y, z]"));
     }
     bool color(const PlacedJson& value, const std::string& name, Triple& to) {
         return triple(value, name, to, 0.0);

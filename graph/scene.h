@@ -27,6 +27,9 @@ inline constexpr double kLeastFov = 1.0, kMostFov = 170.0;
 inline constexpr double kMostElevation = 90.0, kMostSunSize = 45.0;
 inline constexpr double kLeastLampAngle = 1.0, kMostLampAngle = 179.0;
 inline constexpr double kMostExposure = 20.0;
+/// Of numbers without a range of their own, on either side of 0: pictures are made in single precision, in
+/// which lengths are squared and strengths multiplied.
+inline constexpr double kMostSceneNumber = 1e9;
 inline constexpr std::size_t kMostLights = 16;
 
 using Triple = std::array<double, 3>;

@@ -161,23 +161,24 @@ Json groupSchema() {
 }
 
 /// Members of the scene, their defaults those that the reader starts from.
-Json sceneNumber(std::string text, double initial, std::optional<double> least = 0.0,
-                 std::optional<double> most = {}) {
-    Json schema = {{"type", "number"}, {"default", shortest(initial)}};
-    if (least) schema["minimum"] = shortest(*least);
-    if (most) schema["maximum"] = shortest(*most);
+Json sceneNumber(std::string text, std::optional<double> initial, double least = 0.0,
+                 double most = kMostSceneNumber) {
+    Json schema = {{"type", "number"}};
+    if (initial) schema["default"] = shortest(*initial);
+    schema["minimum"] = shortest(least);
+    schema["maximum"] = shortest(most);
     return described(std::move(text), std::move(schema));
 }
-Json sceneTriple(std::string text, const Triple& initial, const Json& component) {
-    Json schema = array(component, 3);
+Json sceneTriple(std::string text, const Triple& initial, double least) {
+    Json schema = array(sceneNumber("", {}, least), 3);
     for (double x : initial) schema["default"].push_back(shortest(x));
     return described(std::move(text), std::move(schema));
 }
 Json scenePoint(std::string text, const Triple& initial) {
-    return sceneTriple(std::move(text), initial, {{"type", "number"}});
+    return sceneTriple(std::move(text), initial, -kMostSceneNumber);
 }
 Json sceneColor(std::string text, const Triple& initial) {
-    return sceneTriple(std::move(text), initial, {{"type", "number"}, {"minimum", 0}});
+    return sceneTriple(std::move(text), initial, 0.0);
 }
 /// What may also be true, with the defaults of its members, or false.
 Json switched(std::string text, Json properties) {
@@ -216,13 +217,14 @@ Json sceneSchema() {
                             {"fov", sceneNumber("Degrees from the bottom of the picture to its top.",
                                                 camera.fov, kLeastFov, kMostFov)}},
                            {}))},
-         {"sun", switched("A light from afar, with shadows.",
-                          {{"azimuth", sceneNumber("Degrees from +z towards +x.", sun.azimuth, {})},
-                           {"elevation", sceneNumber("Degrees above the horizon.", sun.elevation, -up, up)},
-                           {"color", sceneColor("Linear.", sun.color)},
-                           {"strength", sceneNumber("Irradiance of a surface that faces it.", sun.strength)},
-                           {"size", sceneNumber("Degrees across: the larger, the softer its shadows.",
-                                                sun.size, 0.0, kMostSunSize)}})},
+         {"sun",
+          switched("A light from afar, with shadows.",
+                   {{"azimuth", sceneNumber("Degrees from +z towards +x.", sun.azimuth, -kMostSceneNumber)},
+                    {"elevation", sceneNumber("Degrees above the horizon.", sun.elevation, -up, up)},
+                    {"color", sceneColor("Linear.", sun.color)},
+                    {"strength", sceneNumber("Irradiance of a surface that faces it.", sun.strength)},
+                    {"size", sceneNumber("Degrees across: the larger, the softer its shadows.", sun.size, 0.0,
+                                         kMostSunSize)}})},
          {"sky", switched("What is behind the solid and lights it from all sides; a studio if absent.",
                           {{"zenith", sceneColor("Linear, as are the others.", sky.zenith)},
                            {"horizon", sceneColor("", sky.horizon)},
@@ -234,8 +236,8 @@ Json sceneSchema() {
                          {{"radius", sceneNumber("Metres that it looks around; 0: as suits the solid's size.",
                                                  ao.radius)},
                           {"strength", sceneNumber("", ao.strength, 0.0, 1.0)}})},
-         {"ground", switched("A level floor.", {{"height", described("Metres; the solid's foot if absent.",
-                                                                     {{"type", "number"}})}})},
+         {"ground", switched("A level floor.", {{"height", sceneNumber("Metres; the solid's foot if absent.",
+                                                                       {}, -kMostSceneNumber)}})},
          {"fog",
           switched("Fog, in which the sun's rays show; none if absent.",
                    {{"density", sceneNumber("At the height of the ground, 1 / metre.", fog.density)},

@@ -156,6 +156,8 @@ Json* sceneValue(Json& scene, std::string_view path) {
         const std::size_t dot = path.find('.');
         const std::string_view step = path.substr(0, dot);
         path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+        if (at->is_null() && step.find_first_of("0123456789") == 0)
+            return nullptr;  // an entry of a list that is not there
         if (at->is_null()) *at = Json::object();
         if (at->is_object()) {
             at = &(*at)[std::string(step)];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -16,12 +17,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Width and height that a PNG file states; none if it is no PNG.
+/// Width and height of the picture in a PNG file; none if it is no PNG, or not a whole one.
 std::optional<std::pair<int, int>> sizeOfPng(const fs::path& path) {
     std::array<unsigned char, 24> head{};
+    std::array<unsigned char, 8> tail{};  // name and checksum of the last chunk
     std::ifstream file(path, std::ios::binary);
-    if (!file.read(reinterpret_cast<char*>(head.data()), head.size()) || head[1] != 'P' || head[2] != 'N' ||
-        head[3] != 'G')
+    const auto read = [&](auto& bytes) -> bool {
+        return bool(file.read(reinterpret_cast<char*>(bytes.data()), bytes.size()));
+    };
+    if (!read(head) || std::memcmp(head.data() + 1, "PNG", 3) != 0 || !file.seekg(-8, std::ios::end) ||
+        !read(tail) || std::memcmp(tail.data(), "IEND", 4) != 0)
         return std::nullopt;
     const auto number = [&](std::size_t at) {
         return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
@@ -130,7 +135,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
         const RenderOptions render = renderOptions(options, size);
         for (long frame = range->first; frame < range->last && !interrupted; ++frame) {
             const std::string path = pathOf(frame).string();
-            const bool there = !options.overwrite && fs::exists(path);
+            const bool there = !options.overwrite && sizeOfPng(path) == size;
             if (!there) {
                 player->seek(range->time(frame));
                 std::optional<BeforeOutput> nothing;

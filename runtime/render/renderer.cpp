@@ -116,8 +116,11 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
         std::isfinite(scene.lipschitz) ? 1.0f / std::max(scene.lipschitz, 1.0f) : renderer.trust;
     frame.centre = bounds.centre;
     frame.radius = bounds.radius;
-    frame.ground = look.ground ? float(look.ground->height.value_or(bounds.foot)) : -1e30f;
-    frame.groundEnd = look.ground ? kGroundEnd : 0.0f;
+    // Seen from below there is none, so that the solid's underside is in the light.
+    const float ground = look.ground ? float(look.ground->height.value_or(bounds.foot)) : -1e30f;
+    const bool grounded = look.ground && view.eye.y >= ground;
+    frame.ground = grounded ? ground : -1e30f;
+    frame.groundEnd = grounded ? kGroundEnd : 0.0f;
     describeAmbient(renderer.ambient, frame);
     frame.ambientStrength = look.ao ? float(look.ao->strength) : 0.0f;
     describeSun(frame, look, bounds, mean > 0 ? evenly(mean) : glm::vec2(0), shadowSize);
@@ -143,6 +146,7 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
     const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
     const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
+    if (options.show == RENDER_WIREFRAME) return false;  // whose edges lie at the mesh's depth
     return options.reference || (scene.triangles > 0 && (measured || known));
 }
 
@@ -397,7 +401,8 @@ AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& opt
     const float radius = scene.bounds.radius;
     AmbientOptions ambient;
     ambient.radius = 0.35f * radius;
-    if (options.scene.ao && options.scene.ao->radius > 0) ambient.radius = float(options.scene.ao->radius);
+    if (options.scene.ao && options.scene.ao->radius > 0)  // no rays shorter than rounding, none for nothing
+        ambient.radius = std::clamp(float(options.scene.ao->radius), 1e-3f * radius, 1e3f * radius);
     ambient.bias = std::min(0.5f * scene.grid.cellSize, 0.004f * radius);
     return ambient;
 }
@@ -450,7 +455,8 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
                             before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;
     resizeImage(commands, renderer.pixels, extent, VK_FORMAT_R32_UINT);
     resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT);
-    if (resizeGBuffer(commands, renderer.gbuffer, extent)) forgetHistory(renderer.ambient);
+    if (resizeGBuffer(commands, renderer.gbuffer, extent) || before.groundEnd != frame.groundEnd)
+        forgetHistory(renderer.ambient);
 
     const bool traced = wantsTracing(scene, options, renderer);
     if (!renderer.shadowStands) {

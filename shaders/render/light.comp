@@ -45,7 +45,7 @@ float sunSeen(vec3 p, vec3 n, uvec2 pixel) {
 }
 
 vec3 toneMap(vec3 x) {
-    x *= frame.exposure;
+    x = min(x * frame.exposure, 1e4);  // far beyond white, and its square is finite
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 

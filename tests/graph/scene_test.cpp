@@ -181,13 +181,11 @@ TEST(Scene, TheSchemaKnowsWhatIsRead) {
         const Json& number = vector ? value["items"] : value;
         const auto written = [&](double x) { return vector ? Json({x, x, x}) : Json(x); };
         for (const auto& [bound, outward] : {std::pair("minimum", -1.0), std::pair("maximum", 1.0)}) {
-            if (number.contains(bound)) {
-                const double limit = number[bound].get<double>();
-                EXPECT_TRUE(readScene(sceneWith(path, written(limit)))) << path << " " << limit;
-                expectRefused(written(limit + outward * 1e-6));
-            } else {
-                EXPECT_TRUE(readScene(sceneWith(path, written(outward * 1e6)))) << path;
-            }
+            ASSERT_TRUE(number.contains(bound)) << path;
+            const double limit = number[bound].get<double>();
+            EXPECT_LE(std::abs(limit), kMostSceneNumber) << path;
+            EXPECT_TRUE(readScene(sceneWith(path, written(limit)))) << path << " " << limit;
+            expectRefused(written(limit + outward * 1e-6));
         }
     });
     EXPECT_EQ(values, 3 + 5 + 4 + 2 + 1 + 3 + 8 + 1);
@@ -216,13 +214,20 @@ TEST(Scene, ErrorsTellThePlace) {
     expectFinding("{\"ao\": {\"radius\": 1},\n  \"sun\": {\"size\": 1, \"elevation\": 91}}", "",
                   {"a.field.json:5:35: error: ", "sun.elevation must be a number from -90 to 90"});
     expectFinding("{\"lights\": [{},\n {\"strength\": -1}]}", "",
-                  {"a.field.json:5:15: error: ", "lights.1.strength must be a finite number, at least 0"});
+                  {"a.field.json:5:15: error: ", "lights.1.strength must be a number from 0 to 1000000000"});
     expectFinding("{\n\"camera\": {\"position\": [0, 0, 0]}}", "",
                   {"a.field.json:5:11: error: ", "camera stands"});
-    expectFinding("{\"fog\":\n{\"color\": [1, -1, 1]}}", "",
-                  {"a.field.json:5:11: error: ", "fog.color must be three finite numbers, none below 0"});
+    expectFinding(
+        "{\"fog\":\n{\"color\": [1, -1, 1]}}", "",
+        {"a.field.json:5:11: error: ", "fog.color must be three numbers from 0 to 1000000000: [red"});
     expectFinding("{\"exposure\":\n 21}", "",
                   {"a.field.json:5:2: error: ", "exposure must be a number from -20 to 20"});
+    expectFinding(
+        "{\"ground\":\n{\"height\": -1e10}}", "",
+        {"a.field.json:5:12: error: ", "ground.height must be a number from -1000000000 to 1000000000"});
+    expectFinding("{\"camera\":\n{\"position\": [0, 1e10, 0]}}", "",
+                  {"a.field.json:5:14: error: ",
+                   "camera.position must be three numbers from -1000000000 to 1000000000: [x, y, z]"});
 }
 
 TEST(Scene, RefusesNumbersBeyondAllBounds) {
@@ -258,10 +263,12 @@ TEST(SceneTracks, SayWhatCannotMove) {
     expectFinding(R"({"lights": [{}]})", track("lights.1.position.y", kRising), {line, "no value there"});
     expectFinding(R"({"lights": []})", track("lights.0.strength", kRising), {line, "no value there"});
     expectFinding(R"({"exposure": 1})", track("exposure.x", kRising), {line, "no value there"});
-    // A list and a vector cannot be made from one of their parts.
-    expectFinding("{}", track("lights.0.position.y", kOne), {line, "the scene's lights must be a list"});
+    for (const char* scene : {"", "{}", R"({"lights": [{}, {}]})"})
+        expectFinding(scene, track("lights.3.strength", kRising),
+                      {"scene 'lights.3.strength': the scene has no value there"});
+    // A vector cannot be made from one of its parts.
     expectFinding("{}", track("camera.position.y", kOne),
-                  {line, "the scene's camera.position must be three finite numbers"});
+                  {line, "the scene's camera.position must be three numbers"});
     // Out of range at one key.
     expectFinding("{}", track("sun.elevation", R"({"time": 0, "value": 9}, {"time": 1, "value": 99})"),
                   {line, "the key at 1 s", "sun.elevation must be a number from -90 to 90"});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <stb/stb_image.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -156,6 +157,87 @@ TEST(Render, OcclusionAboutARestingBallIsAsItsClosedFormSays) {
         EXPECT_LT(sum / count, 0.015);
         EXPECT_LT(most, 0.1);
     }
+}
+
+TEST(Render, TheWireframeIsDrawnHoweverThePictureIsMade) {
+    // Its edges are dark, and the same for every way of finding depth.
+    const MeshRequest coarse{{}, 12};
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 2};
+    options.primary = Primary::drawn;
+    const Result<Picture> plain = draw(kBall, coarse, options);
+    options.show = RENDER_WIREFRAME;
+    const Result<Picture> drawn = draw(kBall, coarse, options);
+    options.primary = Primary::traced;
+    const Result<Picture> traced = draw(kBall, coarse, options);
+    options.reference = true;
+    const Result<Picture> reference = draw(kBall, coarse, options);
+    ASSERT_TRUE(plain && drawn && traced && reference);
+    EXPECT_EQ(traced->pixels, drawn->pixels);
+    int edges = 0, missing = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const bool edge = red(*plain, x, y) && pixel(*drawn, x, y) != pixel(*plain, x, y);
+            edges += edge;
+            // Beside its more exact ambient occlusion the reference has the same edges.
+            missing += edge && std::abs(pixel(*reference, x, y).r - pixel(*drawn, x, y).r) > 8;
+        }
+    EXPECT_GT(edges, 500);
+    EXPECT_LT(missing, edges / 100);
+}
+
+TEST(Render, FromBelowThereIsNoGround) {
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 2};
+    options.scene.sky = Sky{};
+    for (const double height : {-3.0, 3.0}) {
+        options.scene.camera = Camera{.position = {1, height, 4}, .target = {0, 0, 0}, .fov = 40};
+        options.scene.ground = Ground{};
+        const Result<Picture> with = draw(kBall, {{}, 24}, options);
+        options.scene.ground.reset();
+        const Result<Picture> without = draw(kBall, {{}, 24}, options);
+        ASSERT_TRUE(with && without);
+        EXPECT_EQ(with->pixels == without->pixels, height < 0) << height;
+    }
+}
+
+TEST(Render, LightBeyondAllMeasureIsWhite) {
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 2};
+    Scene& scene = options.scene;
+    scene.exposure = kMostExposure;
+    scene.ao.reset();  // no light at all reaches what sees none of the sky
+    scene.camera = Camera{.position = {0, 0, 4}, .target = {0, 0, 0}, .fov = 30};
+    constexpr Triple kBrightest = {kMostSceneNumber, kMostSceneNumber, kMostSceneNumber};
+    scene.sun = Sun{.azimuth = 0, .elevation = 20, .color = kBrightest, .strength = kMostSceneNumber};
+    scene.sky = Sky{kBrightest, kBrightest, kBrightest, kMostSceneNumber};
+    for (const bool lamps : {false, true}) {
+        if (lamps) {
+            scene.lights = {Lamp{.position = {0, 0, 3}, .color = kBrightest, .strength = kMostSceneNumber}};
+            scene.fog = Fog{.density = 0.1, .color = kBrightest};
+        }
+        const Result<Picture> picture = draw(kBall, {{}, 24}, options);
+        ASSERT_TRUE(picture);
+        EXPECT_TRUE(std::all_of(picture->pixels.begin(), picture->pixels.end(),
+                                [](uint8_t byte) { return byte >= 254; }));
+    }
+}
+
+TEST(Render, TheReachOfOcclusionIsKeptToTheSolidsSize) {
+    // Farther than its rays can end, and nearer than single precision can tell from none.
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 2, .show = RENDER_AMBIENT};
+    const auto within = [&](double radius) {
+        options.scene.ao = AmbientOcclusion{.radius = radius};
+        const Result<Picture> picture = draw(kBall, {{}, 24}, options);
+        EXPECT_TRUE(picture);
+        return picture ? *picture : Picture{};
+    };
+    const Picture least = within(1e-5), far = within(kMostSceneNumber);
+    for (const double tiny : {1e-30, 1e-200}) EXPECT_TRUE(within(tiny).pixels == least.pixels) << tiny;
+    EXPECT_TRUE(far.pixels == within(1e5).pixels);
+    // What sees no farther than a thousandth of the solid sees next to none of it.
+    double open = 0, openFar = 0;
+    for (const uint8_t byte : least.pixels) open += byte;
+    for (const uint8_t byte : far.pixels) openFar += byte;
+    EXPECT_GT(open, 0.98 * 255 * double(least.pixels.size()));
+    EXPECT_LT(openFar, 0.97 * open);
 }
 
 TEST(Render, IsTheSameBytesEachTime) {

@@ -70,17 +70,37 @@ TEST_F(Sequence, GoesOnWhereItStopped) {
     EXPECT_EQ(render(frames, {"--to", "1"}).status, 0);
     const std::string second = frame(frames, 1), third = frame(frames, 2);
     std::filesystem::remove(frames + "/000002.png");
-    test::writeText(frames + "/000001.png", second + "mark");
+    // A whole picture still, as far as one can tell without decoding it: before its last chunk.
+    const std::string marked = std::string(second).insert(second.size() - 12, "mark");
+    test::writeText(frames + "/000001.png", marked);
     const CommandResult more = render(frames, {"--to", "1.5"});
     EXPECT_EQ(more.status, 0);
     EXPECT_NE(more.errors.find("3 of 6 frames were there already (--overwrite makes them anew)"),
               std::string::npos)
         << more.errors;
     EXPECT_EQ(names(frames).size(), 6u);
-    EXPECT_EQ(frame(frames, 1), second + "mark");
+    EXPECT_EQ(frame(frames, 1), marked);
     EXPECT_EQ(frame(frames, 2), third);
     EXPECT_EQ(render(frames, {"--to", "1.5", "--overwrite"}).status, 0);
     EXPECT_EQ(frame(frames, 1), second);
+}
+
+TEST_F(Sequence, MakesBrokenFramesAnew) {
+    EXPECT_EQ(render(frames, {"--to", "1"}).status, 0);
+    const std::string whole[] = {frame(frames, 0), frame(frames, 1), frame(frames, 2), frame(frames, 3)};
+    const auto breakFrame = [&](int number, const std::string& text) {
+        test::writeText(frames + "/00000" + std::to_string(number) + ".png", text);
+    };
+    breakFrame(0, "");
+    breakFrame(1, whole[1].substr(0, whole[1].size() - 1));
+    breakFrame(2, whole[2].substr(0, whole[2].size() / 2));
+    const CommandResult more = render(frames, {"--to", "1"});
+    EXPECT_EQ(more.status, 0) << more.errors;
+    EXPECT_NE(more.errors.find("1 of 4 frames were there already"), std::string::npos) << more.errors;
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(frame(frames, i) == whole[i]) << i;
+    breakFrame(3, "text" + std::string(100, ' '));
+    EXPECT_EQ(render(frames, {"--to", "1"}).status, 0);
+    EXPECT_TRUE(frame(frames, 3) == whole[3]);
 }
 
 TEST_F(Sequence, RefusesWhatMakesNoSequence) {
