@@ -1,5 +1,7 @@
 #include "graph/scene.h"
 
+#include <limits>
+
 #include "graph/placed_json.h"
 
 namespace fw {
@@ -22,6 +24,16 @@ bool readNumber(const Json& json, double& to, double least, double most) {
     if (!json.is_number()) return false;
     to = json.get<double>();
     return to >= least && to <= most;
+}
+
+/// Whether the way from one to the other has a direction in single precision.
+bool apart(const Triple& a, const Triple& b) {
+    float square = 0.0f;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const float step = float(b[i]) - float(a[i]);
+        square += step * step;
+    }
+    return square >= std::numeric_limits<float>::min();
 }
 
 /// Every function returns false after it has stored the one error. `name` is a value's dotted path.
@@ -81,7 +93,7 @@ struct SceneReader {
                    fail(entry, "the scene's camera.fov must be a number of degrees from 1 to 170");
         };
         if (!object(value, "camera", scene.camera, false, example, member)) return false;
-        return scene.camera->position != scene.camera->target ||
+        return apart(scene.camera->position, scene.camera->target) ||
                fail(value, "the scene's camera stands on its target: move one of them");
     }
 
@@ -158,7 +170,7 @@ struct SceneReader {
                        return key != "size" || number(entry, at, to.size, 0.0);
                    });
         if (!sound) return false;
-        return to.type == Lamp::Type::point || to.position != to.target ||
+        return to.type == Lamp::Type::point || apart(to.position, to.target) ||
                fail(value, "the scene's " + name + " stands on its target: move one of them");
     }
 

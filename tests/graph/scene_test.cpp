@@ -196,6 +196,11 @@ TEST(Scene, NothingStandsOnItsTarget) {
               "the scene's camera stands on its target: move one of them");
     EXPECT_EQ(refusal(Json::parse(R"({"camera": {"position": [0, 0, 0]}})")),
               "the scene's camera stands on its target: move one of them");
+    // In single precision; nor so near that no direction is left.
+    EXPECT_EQ(refusal(Json::parse(R"({"camera": {"position": [1e9, 0, 0], "target": [999999999, 0, 0]}})")),
+              "the scene's camera stands on its target: move one of them");
+    EXPECT_EQ(refusal(Json::parse(R"({"camera": {"position": [1e-30, 0, 0], "target": [0, 0, 0]}})")),
+              "the scene's camera stands on its target: move one of them");
     for (const char* type : {"spot", "directional"})
         EXPECT_EQ(refusal({{"lights", {Json::object(), {{"type", type}, {"position", {0, 0, 0}}}}}}),
                   "the scene's lights.1 stands on its target: move one of them");
