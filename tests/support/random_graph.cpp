@@ -68,9 +68,8 @@ class Generator {
         double value = usual + (usual == 0.0 ? 1.0 : std::abs(usual)) * (2.0 * unit() - 1.0);
         value = std::clamp(value, spec.min, spec.max);
         if (spec.positive && value <= 0.0) value = std::abs(usual) > 0.0 ? std::abs(usual) : 0.5;
-        return std::round(value * 1000.0) / 1000.0 == 0.0 && spec.positive
-                   ? 0.25
-                   : std::round(value * 1000.0) / 1000.0;
+        const double rounded = std::clamp(std::round(value * 1000.0) / 1000.0, spec.min, spec.max);
+        return rounded == 0.0 && spec.positive ? 0.25 : rounded;
     }
 
     void fill(Node& node, const InputSpec& spec) {
