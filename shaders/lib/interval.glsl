@@ -22,10 +22,11 @@ vec2 iDivide(vec2 a, vec2 b) {
     return b.x <= 0.0 && b.y >= 0.0 ? vec2(-1e30, 1e30) : iMultiply(a, iCut(1.0 / b.yx));
 }
 vec2 iExp(vec2 a) { return clamp(iSlack(exp(min(a, 69.0))), 0.0, 1e30); }
+// 0 to the power of 0 is 1.
+float iPowerOf(float a, float b) { return a > 0.0 ? pow(a, b) : b > 0.0 ? 0.0 : b < 0.0 ? 1e30 : 1.0; }
 vec2 iPower(vec2 a, vec2 b) {
     vec2 base = max(a, 0.0);
-    vec4 p = vec4(base.x > 0.0 ? pow(base.x, b.x) : b.x > 0.0 ? 0.0 : 1e30, base.x > 0.0 ? pow(base.x, b.y) : b.y > 0.0 ? 0.0 : 1e30,
-                  base.y > 0.0 ? pow(base.y, b.x) : b.x > 0.0 ? 0.0 : 1e30, base.y > 0.0 ? pow(base.y, b.y) : b.y > 0.0 ? 0.0 : 1e30);
+    vec4 p = vec4(iPowerOf(base.x, b.x), iPowerOf(base.x, b.y), iPowerOf(base.y, b.x), iPowerOf(base.y, b.y));
     return clamp(iSlack(vec2(min(min(p.x, p.y), min(p.z, p.w)), max(max(p.x, p.y), max(p.z, p.w)))), 0.0, 1e30);
 }
 // The quotient keeps one integer value over the interval: a shift; else the whole period.

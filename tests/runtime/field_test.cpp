@@ -205,6 +205,22 @@ TEST(Noise, EqualCoordinatesAreNoSpecialCase) {
     }
 }
 
+TEST(Power, OfNoughtIsWithinItsInterval) {
+    // All three signs of the exponent, none of which folds.
+    for (const char* exponent : {"max(p.y - 100.0, 0.0)", "max(p.y - 100.0, 0.0) + 1.0", "p.y"}) {
+        const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
+            {"id": "power", "type": "expression", "code": "return pow(max(p.x - 100.0, 0.0), )" +
+                                                   std::string(exponent) +
+                                                   R"() - 0.5;"},
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "power"}}}]})",
+                                               "power", nullptr);
+        ASSERT_TRUE(graph) << format(graph.error());
+        const Result<Program> program = compile(*graph);
+        ASSERT_TRUE(program) << format(program.error());
+        EXPECT_EQ(compare(*program, 1024, 1).firstFailure, "") << exponent;
+    }
+}
+
 TEST(LiveParameters, KeepTheHashAndFollowTheBuffer) {
     int tried = 0;
     for (uint32_t seed = 1; tried < 40; ++seed) {
