@@ -1,0 +1,70 @@
+// What the graph makes, computed beside the interface.
+//
+// A thread of its own with a device of its own checks, compiles, meshes and draws. The interface hands over
+// the newest wish at any time and takes the newest result when there is one; wishes that were overtaken are
+// never worked on. A graph with errors leaves the last good picture, marked as such. While a hand holds an
+// input, that input is a live parameter: its changes upload and never compile.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+#include "graph/result.h"
+#include "runtime/session.h"
+
+namespace fw::editor {
+
+struct PreviewWish {
+    std::shared_ptr<const Graph> graph;
+    uint64_t revision = 0;          ///< of the graph
+    std::string pinned = {};        ///< the node that is shown; empty: the output
+    std::set<std::string> held = {};  ///< "node.input" under the user's hand
+    double seconds = 0.0;           ///< on the timeline
+    std::optional<Camera> camera = {};  ///< none: the scene's, or the whole solid framed
+    int width = 800, height = 600;  ///< pixels
+    uint32_t view = RENDER_PICTURE;  ///< or another of shaders/render/render.h
+    int resolution = 0;             ///< cells along the longest side; 0: the graph's
+};
+
+struct PreviewStatistics {
+    uint32_t vertices = 0, triangles = 0;
+    std::vector<StageTime> stages;  ///< of the last mesh and picture
+    double milliseconds = 0.0;      ///< from taking the wish to the picture
+    uint64_t deviceBytes = 0;
+    int resolution = 0;             ///< of this picture's mesh; coarser than asked for while a hand moves
+};
+
+struct PreviewResult {
+    uint64_t revision = 0;          ///< of the graph that findings are about
+    std::vector<Error> findings = {};
+    bool current = false;           ///< the picture shows that graph; otherwise the last that was valid
+    Picture picture = {};           ///< empty: none yet
+    Camera seen = {};               ///< what it was seen by
+    std::string spoiledBy = {};     ///< the node since which the field is no exact distance
+    PreviewStatistics statistics = {};
+    std::string failure = {};       ///< the device or the system failed; the preview has stopped
+};
+
+class Preview {
+  public:
+    /// `changed` is called on the preview's thread whenever there is a new result: to wake the interface.
+    explicit Preview(DeviceOptions device, std::function<void()> changed);
+    ~Preview();
+
+    void ask(PreviewWish wish);
+    /// The newest result, once.
+    std::optional<PreviewResult> take();
+    /// Whether something is under way that will give a result.
+    bool busy() const;
+
+  private:
+    struct Shared;
+    std::shared_ptr<Shared> shared;
+};
+
+}  // namespace fw::editor
