@@ -21,14 +21,14 @@ namespace fw::editor {
 
 struct PreviewWish {
     std::shared_ptr<const Graph> graph;
-    uint64_t revision = 0;          ///< of the graph
-    std::string pinned = {};        ///< the node that is shown; empty: the output
-    std::set<std::string> held = {};  ///< "node.input" under the user's hand
-    double seconds = 0.0;           ///< on the timeline
+    uint64_t revision = 0;              ///< of the graph
+    std::string pinned = {};            ///< the node that is shown; empty: the output
+    std::set<std::string> held = {};    ///< "node.input" under the user's hand
+    double seconds = 0.0;               ///< on the timeline
     std::optional<Camera> camera = {};  ///< none: the scene's, or the whole solid framed
-    int width = 800, height = 600;  ///< pixels
-    uint32_t view = RENDER_PICTURE;  ///< or another of shaders/render/render.h
-    int resolution = 0;             ///< cells along the longest side; 0: the graph's
+    int width = 800, height = 600;      ///< pixels
+    uint32_t view = RENDER_PICTURE;     ///< or another of shaders/render/render.h
+    int resolution = 0;                 ///< cells along the longest side; 0: the graph's
 };
 
 struct PreviewStatistics {
@@ -36,18 +36,18 @@ struct PreviewStatistics {
     std::vector<StageTime> stages;  ///< of the last mesh and picture
     double milliseconds = 0.0;      ///< from taking the wish to the picture
     uint64_t deviceBytes = 0;
-    int resolution = 0;             ///< of this picture's mesh; coarser than asked for while a hand moves
+    int resolution = 0;  ///< of this picture's mesh; coarser than asked for while a hand moves
 };
 
 struct PreviewResult {
-    uint64_t revision = 0;          ///< of the graph that findings are about
+    uint64_t revision = 0;  ///< of the graph that findings are about
     std::vector<Error> findings = {};
-    bool current = false;           ///< the picture shows that graph; otherwise the last that was valid
-    Picture picture = {};           ///< empty: none yet
-    Camera seen = {};               ///< what it was seen by
-    std::string spoiledBy = {};     ///< the node since which the field is no exact distance
+    bool current = false;        ///< the picture shows that graph; otherwise the last that was valid
+    Picture picture = {};        ///< empty: none yet
+    Camera seen = {};            ///< what it was seen by
+    std::string spoiledBy = {};  ///< the node since which the field is no exact distance
     PreviewStatistics statistics = {};
-    std::string failure = {};       ///< the device or the system failed; the preview has stopped
+    std::string failure = {};  ///< the device or the system failed; the preview has stopped
 };
 
 class Preview {

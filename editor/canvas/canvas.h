@@ -1,0 +1,98 @@
+// The node canvas: draws a scope of the document and turns what mouse and keyboard do on it into edits.
+//
+// Everything about a node comes from its descriptor by way of boxes.h; there is no code for single types.
+// The canvas changes the document itself, one step of undo a gesture; what needs other parts of the program
+// (a menu to add from, entering a group) it asks of its caller. What keys do is in editor/commands.h.
+//
+//     mouse                        does
+//     left                         select; drag moves nodes, a wire from a socket, a box around nodes
+//     Alt + left drag              select by lasso (Shift adds, Ctrl takes away, as with the box)
+//     middle, Space + left drag    pan; the wheel zooms to the cursor
+//     right click                  asks for the add menu
+//     Ctrl + right drag            cuts wires; with Shift a reroute in each; with Alt connects two nodes
+//     double click                 enters a group
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "editor/canvas/fields.h"
+#include "editor/shell/shell.h"
+
+namespace fw::editor {
+
+/// What the canvas would like its caller to do.
+struct CanvasWishes {
+    struct Add {
+        ImVec2 at;                 ///< canvas units
+        std::optional<Plug> plug;  ///< the open end of a wire, to be connected with what is added
+        bool plugIsOutput = false;
+    };
+    std::optional<Add> add;
+    std::string enter;     ///< the id of a group
+    std::string activate;  ///< the id of a node to be shown in the preview
+};
+
+/// What the canvas shows besides the document.
+struct CanvasMarks {
+    std::map<std::string, const Error*, std::less<>>
+        findings;  ///< by node id within the scope, the worst of each
+    std::map<std::string, std::string, std::less<>> exactness;  ///< by node id: what is said of its wires
+    std::string spoiledBy;                                      ///< the node that spoiled the field
+    std::string pinned;                                         ///< the node that the preview shows
+};
+
+struct Canvas {
+    enum class Gesture : unsigned char {
+        none,
+        press,
+        pan,
+        move,
+        box,
+        lasso,
+        wire,
+        cut,
+        reroute,
+        lazy,
+        frame,
+        corner,
+        map
+    };
+
+    CanvasView view;
+    std::string scope;                ///< the group shown; empty: the document's nodes
+    std::set<std::string> selection;  ///< ids within the scope
+    std::string active;               ///< of them the one selected last: what the inspector shows
+    FieldEdit field;
+    bool minimap = true;
+
+    Gesture gesture = Gesture::none;
+    ImVec2 begin{0, 0};         ///< canvas units, where the button went down
+    std::vector<ImVec2> trail;  ///< of a lasso, a cut: canvas units
+    Graph base;                 ///< the document when the gesture began
+    Plug plug;                  ///< the fixed end of the wire under the mouse
+    bool plugIsOutput = false;
+    Hit pressed;
+    bool spacePans = false;  ///< Space went down and was used to pan: its release asks for nothing
+    bool frameNext = true;   ///< show all nodes with the next frame
+    std::string refused;     ///< why the wire under the mouse cannot be dropped here
+
+    /// Selects these alone.
+    void select(const NodeIds& nodes);
+    /// Forgets what is not in the document any more; leaves a group that is gone.
+    void follow(const Graph& graph);
+};
+
+/// Shows the canvas in the rest of ImGui's current window. `boxes` is made of the document as it is; it is
+/// left behind when the document changes.
+CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, const CanvasMarks& marks,
+                        const Shell& shell);
+
+/// Draws boxes, wires, frames and minimap (used by showCanvas).
+void drawCanvas(const Canvas& canvas, const Boxes& boxes, const std::vector<Frame>& frames,
+                const CanvasMarks& marks, const Shell& shell);
+/// Where the minimap is, pixels, and the part of the canvas that it shows.
+Area minimapArea(const CanvasView& view);
+Area minimapShows(const Canvas& canvas, const Boxes& boxes);
+
+}  // namespace fw::editor

@@ -1,0 +1,316 @@
+// How the canvas looks. The farther one is away, the less is drawn: below kFieldZoom numbers are not boxed,
+// below kTextZoom there is no text.
+#include <cmath>
+
+#include "editor/canvas/canvas.h"
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr float kFieldZoom = 0.6f, kTextZoom = 0.4f;  // pixels a unit
+constexpr float kGrid = 24.0f;
+constexpr float kRounding = 5.0f;
+constexpr float kWireWidth = 2.5f;
+
+ImU32 faded(ImU32 color, float alpha) {
+    ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
+    c.w *= alpha;
+    return ImGui::ColorConvertFloat4ToU32(c);
+}
+
+ImU32 mixed(ImU32 a, ImU32 b, float t) {
+    const ImVec4 x = ImGui::ColorConvertU32ToFloat4(a), y = ImGui::ColorConvertU32ToFloat4(b);
+    return ImGui::ColorConvertFloat4ToU32(
+        {x.x + (y.x - x.x) * t, x.y + (y.y - x.y) * t, x.z + (y.z - x.z) * t, x.w + (y.w - x.w) * t});
+}
+
+struct Pen {
+    ImDrawList* list;
+    const CanvasView& view;
+    ImFont* font;
+    float size;  // of text, pixels
+
+    void text(ImVec2 at, ImU32 color, std::string_view words, float width = 0.0f) const {
+        // Whole pixels, for crisp glyphs.
+        const ImVec2 pixel(std::floor(at.x), std::floor(at.y - 0.5f * size));
+        if (width <= 0.0f)
+            return list->AddText(font, size, pixel, color, words.data(), words.data() + words.size());
+        const ImVec4 clip(pixel.x, pixel.y, pixel.x + width, pixel.y + 2.0f * size);
+        list->AddText(font, size, pixel, color, words.data(), words.data() + words.size(), 0.0f, &clip);
+    }
+    float width(std::string_view words) const {
+        return font->CalcTextSizeA(size, FLT_MAX, 0.0f, words.data(), words.data() + words.size()).x;
+    }
+};
+
+void drawGrid(const Pen& pen) {
+    const CanvasView& view = pen.view;
+    float step = kGrid;
+    while (step * view.unit() < 14.0f) step *= 4.0f;
+    const Area seen = view.seen();
+    const ImU32 color = themeColor(ThemeColor::grid);
+    for (float x = std::floor(seen.lo.x / step) * step; x < seen.hi.x; x += step) {
+        const float at = std::floor(view.toScreen({x, 0}).x);
+        pen.list->AddRectFilled({at, view.panel.lo.y}, {at + 1, view.panel.hi.y}, color);
+    }
+    for (float y = std::floor(seen.lo.y / step) * step; y < seen.hi.y; y += step) {
+        const float at = std::floor(view.toScreen({0, y}).y);
+        pen.list->AddRectFilled({view.panel.lo.x, at}, {view.panel.hi.x, at + 1}, color);
+    }
+}
+
+void drawFrames(const Pen& pen, const std::vector<Frame>& frames, std::string_view scope) {
+    for (const Frame& frame : frames) {
+        if (frame.scope != scope) continue;
+        const ImVec2 at = vec(frame.at), size = vec(frame.size);
+        const Area area = pen.view.toScreen(Area{at, {at.x + size.x, at.y + size.y}});
+        if (!area.overlaps(pen.view.panel)) continue;
+        const auto color = frame.color.value_or(std::array{0.5, 0.5, 0.5});
+        const ImU32 ink =
+            ImGui::ColorConvertFloat4ToU32({float(color[0]), float(color[1]), float(color[2]), 1.0f});
+        pen.list->AddRectFilled(area.lo, area.hi, faded(ink, 0.16f), kRounding);
+        pen.list->AddRect(area.lo, area.hi, faded(ink, 0.6f), kRounding);
+        if (pen.view.unit() > 0.5f * kTextZoom)
+            pen.text({area.lo.x + 8, area.lo.y + 13 * pen.view.unit()}, themeColor(ThemeColor::text),
+                     frame.text, area.width() - 16);
+    }
+}
+
+void drawWire(const Pen& pen, const Curve& wire, ImU32 color, float width) {
+    ImVec2 p[4];
+    for (int i = 0; i < 4; ++i) p[i] = pen.view.toScreen(wire.points[i]);
+    pen.list->AddBezierCubic(p[0], p[1], p[2], p[3], color, width);
+    // Which way it leads: an arrowhead in the middle.
+    const ImVec2 middle = pen.view.toScreen(wire.at(0.5f)), on = pen.view.toScreen(wire.at(0.54f));
+    const float x = on.x - middle.x, y = on.y - middle.y, length = std::sqrt(x * x + y * y);
+    if (length < 1e-3f || pen.view.unit() < kTextZoom) return;
+    const ImVec2 d(5.0f * pen.view.unit() * x / length, 5.0f * pen.view.unit() * y / length);
+    pen.list->AddTriangleFilled({middle.x + d.x, middle.y + d.y},
+                                {middle.x - d.x - d.y, middle.y - d.y + d.x},
+                                {middle.x - d.x + d.y, middle.y - d.y - d.x}, color);
+}
+
+void drawWires(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks) {
+    const Area seen = pen.view.seen();
+    for (const Wire& wire : boxes.wires) {
+        const Curve path = curve(boxes.start(wire), boxes.end(wire));
+        if (!path.area().grown(4).overlaps(seen)) continue;
+        const NodeBox &from = boxes.nodes[wire.from], &to = boxes.nodes[wire.to];
+        ImU32 color = typeColor(from.rows[wire.fromRow].type);
+        const bool chosen =
+            canvas.selection.contains(from.node->id) || canvas.selection.contains(to.node->id);
+        if (!chosen) color = faded(color, from.node->muted || to.node->muted ? 0.35f : 0.8f);
+        drawWire(pen, path, color,
+                 (chosen ? 1.4f : 1.0f) * kWireWidth * pen.view.scale * std::max(pen.view.zoom, 0.5f));
+        if (!marks.spoiledBy.empty() && from.node->id == marks.spoiledBy) {
+            const ImVec2 middle = pen.view.toScreen(path.at(0.3f));
+            pen.list->AddCircle(middle, 4.0f * pen.view.unit(), themeColor(ThemeColor::warning), 0, 1.5f);
+        }
+    }
+}
+
+void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool filled) {
+    const ImU32 ink = typeColor(type), paper = themeColor(ThemeColor::node);
+    const float r = kSocketRadius * pen.view.unit();
+    const auto polygon = [&](std::initializer_list<ImVec2> unit) {
+        ImVec2 points[8];
+        int count = 0;
+        for (const ImVec2& p : unit) points[count++] = {at.x + r * p.x, at.y + r * p.y};
+        pen.list->AddConvexPolyFilled(points, count, filled ? ink : paper);
+        pen.list->AddPolyline(points, count, ink, ImDrawFlags_Closed, 1.5f);
+    };
+    switch (socketShape(type)) {
+        case SocketShape::circle:
+            pen.list->AddCircleFilled(at, r, filled ? ink : paper);
+            pen.list->AddCircle(at, r, ink, 0, 1.5f);
+            return;
+        case SocketShape::square:
+            return polygon({{-0.85f, -0.85f}, {0.85f, -0.85f}, {0.85f, 0.85f}, {-0.85f, 0.85f}});
+        case SocketShape::diamond: return polygon({{0, -1.2f}, {1.2f, 0}, {0, 1.2f}, {-1.2f, 0}});
+        case SocketShape::triangle: return polygon({{-0.8f, -1.1f}, {1.2f, 0}, {-0.8f, 1.1f}});
+        case SocketShape::hexagon:
+            return polygon({{-0.55f, -1}, {0.55f, -1}, {1.1f, 0}, {0.55f, 1}, {-0.55f, 1}, {-1.1f, 0}});
+    }
+}
+
+void drawRows(const Pen& pen, const Boxes& boxes, const NodeBox& box) {
+    (void)boxes;
+    const ImU32 ink = themeColor(ThemeColor::text), quiet = themeColor(ThemeColor::quiet);
+    const bool words = pen.view.unit() >= kTextZoom;
+    for (const Row& row : box.rows) {
+        const ImVec2 at = pen.view.toScreen(box.socket(row));
+        if (words && !box.node->collapsed && !box.reroute) {
+            const std::string name = readable(row.name);
+            const float inset = 12.0f * pen.view.unit();
+            if (row.output) {
+                pen.text({at.x - inset - pen.width(name), at.y}, ink, name);
+            } else {
+                const float room =
+                    (row.fields == 1 ? 0.5f * box.area.width() - 14.0f : box.area.width() - 24.0f);
+                pen.text({at.x + inset, at.y}, row.linked ? quiet : ink, name, room * pen.view.unit());
+                const std::string value = row.fields == 0 && !row.linked ? valueText(row) : std::string();
+                if (!value.empty())
+                    pen.text({at.x + 0.5f * box.area.width() * pen.view.unit(), at.y}, quiet, value,
+                             (0.5f * box.area.width() - 10.0f) * pen.view.unit());
+                // Too small to be edited, but not too small to be read.
+                if (row.fields > 0 && pen.view.unit() < kFieldZoom) {
+                    const std::vector<double> numbers = numbersOf(row);
+                    for (int i = 0; i < row.fields && i < int(numbers.size()); ++i) {
+                        const Area field = pen.view.toScreen(box.field(row, i));
+                        const std::string text =
+                            row.type == Type::string ? "" : numberText(numbers[std::size_t(i)]);
+                        pen.text({field.lo.x, field.centre().y}, quiet, text, field.width());
+                    }
+                }
+            }
+        }
+        if (pen.view.unit() > 0.5f * kTextZoom) drawSocket(pen, at, row.type, row.output || row.linked);
+    }
+}
+
+void drawNode(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const NodeBox& box,
+              const CanvasMarks& marks) {
+    const Area area = pen.view.toScreen(box.area);
+    const bool chosen = canvas.selection.contains(box.node->id);
+    const float alpha = box.node->muted ? 0.45f : 1.0f, round = kRounding * pen.view.unit();
+    const auto finding = marks.findings.find(box.node->id);
+    const bool found = finding != marks.findings.end();
+    const ImU32 alarm = !found ? 0
+                        : finding->second->severity == Error::Severity::error
+                            ? themeColor(ThemeColor::error)
+                            : themeColor(ThemeColor::warning);
+    if (box.reroute) {
+        pen.list->AddCircleFilled(area.centre(), 0.5f * area.width(), themeColor(ThemeColor::node));
+        if (!box.rows.empty())
+            pen.list->AddCircle(area.centre(), 0.5f * area.width(),
+                                chosen ? themeColor(ThemeColor::selected) : typeColor(box.rows[0].type), 0,
+                                2.0f * pen.view.scale);
+        return;
+    }
+    const ImU32 title = box.type ? categoryColor(box.type->category) : themeColor(ThemeColor::error);
+    const float strip = std::min(kTitleHeight * pen.view.unit(), area.height());
+    pen.list->AddRectFilled(area.lo, area.hi, faded(themeColor(ThemeColor::node), alpha), round);
+    pen.list->AddRectFilled(area.lo, {area.hi.x, area.lo.y + strip}, faded(title, alpha), round,
+                            box.node->collapsed ? ImDrawFlags_RoundCornersAll : ImDrawFlags_RoundCornersTop);
+    const ImU32 edge =
+        chosen  ? themeColor(canvas.active == box.node->id ? ThemeColor::active : ThemeColor::selected)
+        : found ? alarm
+                : themeColor(ThemeColor::edge);
+    pen.list->AddRect(area.lo, area.hi, edge, round, 0, (chosen ? 2.0f : 1.0f) * pen.view.scale);
+    if (pen.view.unit() >= 0.7f * kTextZoom) {
+        const float middle = area.lo.y + 0.5f * strip, room = area.width() - 34.0f * pen.view.unit();
+        pen.text({area.lo.x + 9.0f * pen.view.unit(), middle}, themeColor(ThemeColor::onTitle), titleOf(box),
+                 room);
+        if (marks.pinned == box.node->id)
+            pen.list->AddCircleFilled({area.hi.x - 30.0f * pen.view.unit(), middle}, 4.0f * pen.view.unit(),
+                                      themeColor(ThemeColor::active));
+    }
+    drawRows(pen, boxes, box);
+    if (box.node->muted)
+        pen.list->AddLine({area.lo.x, area.lo.y + 0.5f * strip}, {area.hi.x, area.lo.y + 0.5f * strip},
+                          themeColor(ThemeColor::quiet), 1.5f * pen.view.scale);
+    if (found) {
+        const ImVec2 at(area.hi.x - 13.0f * pen.view.unit(), area.lo.y + 0.5f * strip);
+        pen.list->AddCircleFilled(at, 8.0f * pen.view.unit(), alarm);
+        if (pen.view.unit() >= kTextZoom)
+            pen.text({at.x - 0.5f * pen.width("!"), at.y}, themeColor(ThemeColor::node), "!");
+    }
+}
+
+void drawMinimap(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
+    const Area place = minimapArea(canvas.view), all = minimapShows(canvas, boxes);
+    const float scale = place.width() / all.width();
+    const auto shrink = [&](const Area& area) {
+        return Area{
+            {place.lo.x + (area.lo.x - all.lo.x) * scale, place.lo.y + (area.lo.y - all.lo.y) * scale},
+            {place.lo.x + (area.hi.x - all.lo.x) * scale, place.lo.y + (area.hi.y - all.lo.y) * scale}};
+    };
+    pen.list->PushClipRect(place.lo, place.hi, true);
+    pen.list->AddRectFilled(place.lo, place.hi, faded(themeColor(ThemeColor::canvas), 0.85f));
+    for (const NodeBox& box : boxes.nodes) {
+        const Area small = shrink(box.area);
+        const bool chosen = canvas.selection.contains(box.node->id);
+        const ImU32 color = chosen     ? themeColor(ThemeColor::selected)
+                            : box.type ? categoryColor(box.type->category)
+                                       : themeColor(ThemeColor::error);
+        pen.list->AddRectFilled(
+            small.lo, {std::max(small.hi.x, small.lo.x + 2), std::max(small.hi.y, small.lo.y + 2)}, color);
+    }
+    const Area seen = shrink(canvas.view.seen());
+    pen.list->AddRectFilled(seen.lo, seen.hi, faded(themeColor(ThemeColor::text), 0.08f));
+    pen.list->AddRect(seen.lo, seen.hi, faded(themeColor(ThemeColor::text), 0.7f));
+    pen.list->PopClipRect();
+    pen.list->AddRect(place.lo, place.hi, themeColor(ThemeColor::edge));
+}
+
+/// The wire, box, lasso or cut under the mouse.
+void drawGesture(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
+    using Gesture = Canvas::Gesture;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const ImU32 ink = themeColor(ThemeColor::selected);
+    const auto trail = [&](ImU32 color, bool closed) {
+        std::vector<ImVec2> points;
+        for (ImVec2 p : canvas.trail) points.push_back(pen.view.toScreen(p));
+        pen.list->AddPolyline(points.data(), int(points.size()), color, closed ? ImDrawFlags_Closed : 0,
+                              1.5f * pen.view.scale);
+    };
+    if (canvas.gesture == Gesture::box) {
+        Area box{pen.view.toScreen(canvas.begin), pen.view.toScreen(canvas.begin)};
+        box.add(mouse);
+        pen.list->AddRectFilled(box.lo, box.hi, faded(ink, 0.1f));
+        pen.list->AddRect(box.lo, box.hi, ink);
+    } else if (canvas.gesture == Gesture::lasso) {
+        trail(ink, true);
+    } else if (canvas.gesture == Gesture::cut) {
+        trail(themeColor(ThemeColor::error), false);
+    } else if (canvas.gesture == Gesture::reroute || canvas.gesture == Gesture::lazy) {
+        trail(ink, false);
+    } else if (canvas.gesture == Gesture::wire) {
+        const NodeBox* box = boxes.find(canvas.plug.node);
+        const Row* row = boxes.row(canvas.plug, canvas.plugIsOutput);
+        if (!box || !row) return;
+        const ImVec2 fixed = box->socket(*row), loose = pen.view.toCanvas(mouse);
+        const ImU32 color = canvas.refused.empty() ? typeColor(row->type) : themeColor(ThemeColor::error);
+        drawWire(pen, canvas.plugIsOutput ? curve(fixed, loose) : curve(loose, fixed), color,
+                 kWireWidth * pen.view.scale);
+    }
+}
+
+}  // namespace
+
+Area minimapArea(const CanvasView& view) {
+    constexpr float kWidth = 180.0f, kHeight = 120.0f, kMargin = 10.0f;
+    const ImVec2 hi(view.panel.hi.x - kMargin * view.scale, view.panel.hi.y - kMargin * view.scale);
+    return {{hi.x - kWidth * view.scale, hi.y - kHeight * view.scale}, hi};
+}
+
+Area minimapShows(const Canvas& canvas, const Boxes& boxes) {
+    Area all = boxes.around();
+    all.add(canvas.view.seen());
+    const Area place = minimapArea(canvas.view);
+    const float aspect = place.width() / place.height();
+    const ImVec2 middle = all.centre();
+    const float half = 0.5f * std::max(all.width(), all.height() * aspect);
+    return {{middle.x - half, middle.y - half / aspect}, {middle.x + half, middle.y + half / aspect}};
+}
+
+void drawCanvas(const Canvas& canvas, const Boxes& boxes, const std::vector<Frame>& frames,
+                const CanvasMarks& marks, const Shell& shell) {
+    const float size = kTextSize * canvas.view.unit();
+    const Pen pen{ImGui::GetWindowDrawList(), canvas.view, shell.fonts().of(size), size};
+    pen.list->PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
+    pen.list->AddRectFilled(canvas.view.panel.lo, canvas.view.panel.hi, themeColor(ThemeColor::canvas));
+    drawGrid(pen);
+    drawFrames(pen, frames, canvas.scope);
+    drawWires(pen, canvas, boxes, marks);
+    const Area seen = canvas.view.seen().grown(2 * kSocketRadius);
+    for (const NodeBox& box : boxes.nodes)
+        if (box.area.overlaps(seen)) drawNode(pen, canvas, boxes, box, marks);
+    drawGesture(pen, canvas, boxes);
+    if (canvas.minimap && !boxes.nodes.empty()) drawMinimap(pen, canvas, boxes);
+    pen.list->PopClipRect();
+}
+
+}  // namespace fw::editor

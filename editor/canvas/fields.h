@@ -1,0 +1,58 @@
+// Values edited where they stand: numbers, switches and choices, on a node of the canvas and in the inspector
+// alike.
+//
+// A number is dragged (Shift: a tenth as fast; Alt: ten times as fast), or clicked and typed, as a number or
+// an expression of the field language ("2*pi/3"); Ctrl+click gives back the default. A drag is one gesture of
+// the document, and what it moves is `held`, so that the preview can follow without compiling.
+#pragma once
+
+#include <imgui.h>
+
+#include <set>
+#include <string>
+
+#include "editor/canvas/boxes.h"
+#include "editor/document/document.h"
+
+namespace fw::editor {
+
+/// The one field that is being edited.
+struct FieldEdit {
+    enum class State : unsigned char { none, pressed, dragging, typing } state = State::none;
+    std::string scope;
+    Plug input;
+    int component = 0;
+    double start = 0.0;   ///< the number when the drag began
+    float travelled = 0;  ///< pixels of the drag, those of Shift and Alt counted as they were
+    char text[256] = {};
+    bool opened = false;  ///< the text field has had its first frame
+    std::string complaint;
+
+    bool is(std::string_view of, const Plug& plug, int part) const {
+        return state != State::none && scope == of && input == plug && component == part;
+    }
+    /// "node.input" of what the hand holds, with the ids of groups before it; nothing otherwise.
+    std::set<std::string> held() const;
+};
+
+/// What the text says: a number or a constant expression. Error: why not.
+Result<double> numberOf(std::string_view text);
+/// As short as it is exact to nine digits.
+std::string numberText(double number);
+
+/// The numbers of the row's input: as given, else the default's.
+std::vector<double> numbersOf(const Row& row);
+/// The value with one component replaced, kept within the input's range and whole if it must be.
+InputValue withComponent(const Row& row, int component, double number);
+/// The words that stand for a value without fields: "position", "a.png", "12 points".
+std::string valueText(const Row& row);
+
+/// One field of a row of the node, in this place of the window; `font` at `size` pixels. Keys and mouse are
+/// heard of only if `enabled`. Changes go to the document.
+void showField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
+               const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled);
+
+/// The text of an input for a tooltip: name, type, range, unit, and what it means.
+std::string describe(const Row& row);
+
+}  // namespace fw::editor
