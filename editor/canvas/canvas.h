@@ -73,9 +73,10 @@ struct Canvas {
     Plug plug;                  ///< the fixed end of the wire under the mouse
     bool plugIsOutput = false;
     Hit pressed;
-    bool spacePans = false;  ///< Space went down and was used to pan: its release asks for nothing
-    bool frameNext = true;   ///< show all nodes with the next frame
-    std::string refused;     ///< why the wire under the mouse cannot be dropped here
+    bool spacePans = false;    ///< Space went down and was used to pan: its release asks for nothing
+    bool frameNext = true;     ///< show all nodes with the next frame
+    double restedSince = 0.0;  ///< seconds of ImGui's clock, when the mouse last moved
+    std::string refused;       ///< why the wire under the mouse cannot be dropped here
 
     /// Selects these alone.
     void select(const NodeIds& nodes);

@@ -177,12 +177,12 @@ std::set<std::string> FieldEdit::held() const {
 }
 
 Result<double> numberOf(std::string_view text) {
-    const Result<language::Tree> tree = language::parse("return float(" + std::string(text) + ");");
+    const auto tree = language::parse("return float(" + std::string(text) + ");");
     if (!tree) return tree.error();
     language::Lowering state;
     const language::Scope scope{
         .inputs = {}, .outputs = {{"value", Type::scalar}}, .refusesZeroDivision = true};
-    const Result<std::vector<language::Value>> values = language::lower(state, *tree, scope);
+    const Result<std::vector<language::Value>> values = language::lower(state, **tree, scope);
     if (!values) return values.error();
     const IrId id = values->at(0).id();
     if (!state.ir.isConstant(id)) return Error{.message = "this depends on the position or the time"};

@@ -1,0 +1,485 @@
+// What the mouse does on the canvas.
+#include <cmath>
+
+#include "editor/canvas/canvas.h"
+
+namespace fw::editor {
+
+namespace {
+
+using Gesture = Canvas::Gesture;
+using What = Hit::What;
+
+constexpr float kStill = 4.0f;        // pixels that a click may move
+constexpr float kReach = 9.0f;        // pixels about a socket or wire that still count
+constexpr float kWheel = 1.15f;       // zoom of a notch
+constexpr float kEdge = 28.0f;        // pixels from the panel's edge, within which dragging moves the canvas
+constexpr double kTooltipWait = 0.5;  // seconds that the mouse rests
+
+bool inPolygon(const std::vector<ImVec2>& polygon, ImVec2 p) {
+    bool inside = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const ImVec2 a = polygon[i], b = polygon[j];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+            inside = !inside;
+    }
+    return inside;
+}
+
+Plug plugOf(const Boxes& boxes, const Hit& hit) {
+    const NodeBox& box = boxes.nodes[hit.index];
+    return {box.node->id, box.rows[hit.row].name};
+}
+
+/// What one frame of gestures works on.
+struct Hand {
+    Canvas& canvas;
+    Document& document;
+    const Boxes& boxes;
+    const std::vector<Frame>& frames;
+    CanvasWishes wishes = {};
+
+    const ImGuiIO& io = ImGui::GetIO();
+    ImVec2 mouse = canvas.view.toCanvas(io.MousePos);
+    Hit hit = hitTest(boxes, frames, canvas.scope, mouse, kReach / canvas.view.unit());
+
+    NodeIds chosen() const { return {canvas.selection.begin(), canvas.selection.end()}; }
+
+    void pickNode(const std::string& id) {
+        if (io.KeyShift) {
+            if (canvas.selection.contains(id)) {
+                canvas.selection.erase(id);
+                if (canvas.active == id) canvas.active.clear();
+                return;
+            }
+        } else if (!canvas.selection.contains(id)) {
+            canvas.selection.clear();
+        }
+        canvas.selection.insert(id);
+        canvas.active = id;
+    }
+
+    void pick(const std::set<std::string>& found) {
+        if (!io.KeyShift && !io.KeyCtrl) canvas.selection.clear();
+        for (const std::string& id : found) {
+            if (io.KeyCtrl)
+                canvas.selection.erase(id);
+            else
+                canvas.selection.insert(id);
+        }
+        if (!canvas.selection.contains(canvas.active))
+            canvas.active = canvas.selection.empty() ? std::string() : *canvas.selection.rbegin();
+    }
+
+    /// The wire's open end is taken up: of a wired input that wire itself, else a new one.
+    void takeWire() {
+        canvas.gesture = Gesture::wire;
+        canvas.refused.clear();
+        canvas.plug = plugOf(boxes, hit);
+        canvas.plugIsOutput = hit.what == What::output;
+        const Row& row = boxes.nodes[hit.index].rows[hit.row];
+        document.begin("Connect");
+        if (canvas.plugIsOutput || !row.linked) return;
+        const auto wire = std::find_if(boxes.wires.begin(), boxes.wires.end(), [&](const Wire& each) {
+            return each.to == hit.index && each.toRow == hit.row;
+        });
+        if (wire == boxes.wires.end()) return;
+        const Plug input = canvas.plug;
+        canvas.plug = boxes.output(*wire);
+        canvas.plugIsOutput = true;
+        document.update(disconnect(document.graph(), canvas.scope, input));
+        canvas.base = document.graph();
+    }
+
+    /// What the loose end would be connected to here, and in `refused` why it may not.
+    std::optional<Plug> target() {
+        canvas.refused.clear();
+        const bool wantsInput = canvas.plugIsOutput;
+        if (hit.what == (wantsInput ? What::input : What::output)) {
+            const Plug plug = plugOf(boxes, hit);
+            canvas.refused = wantsInput ? refusal(document.graph(), canvas.scope, canvas.plug, plug)
+                                        : refusal(document.graph(), canvas.scope, plug, canvas.plug);
+            return plug;
+        }
+        const bool onNode = hit.what == What::node || hit.what == What::title || hit.what == What::field ||
+                            hit.what == What::input || hit.what == What::output;
+        if (!onNode || boxes.nodes[hit.index].node->id == canvas.plug.node) return std::nullopt;
+        const std::string& id = boxes.nodes[hit.index].node->id;
+        const std::optional<Plug> plug = wantsInput
+                                             ? fittingInput(document.graph(), canvas.scope, canvas.plug, id)
+                                             : fittingOutput(document.graph(), canvas.scope, id, canvas.plug);
+        if (!plug) canvas.refused = titleOf(boxes.nodes[hit.index]) + " has no socket that fits";
+        return plug;
+    }
+
+    void dropWire() {
+        const std::optional<Plug> plug = target();
+        if (plug && canvas.refused.empty()) {
+            document.update(canvas.plugIsOutput
+                                ? connect(document.graph(), canvas.scope, canvas.plug, *plug)
+                                : connect(document.graph(), canvas.scope, *plug, canvas.plug));
+        } else if (canvas.refused.empty() && hit.what != What::node && hit.what != What::title &&
+                   !(document.graph() == canvas.base && hit.what == What::field)) {
+            // Over the canvas: a wire that was taken off stays off, a new one asks what is to be added.
+            const bool tookOff = canvas.plugIsOutput && canvas.pressed.what == What::input;
+            if (!tookOff) wishes.add = {mouse, canvas.plug, canvas.plugIsOutput};
+        } else if (!canvas.refused.empty()) {
+            document.cancel();
+            canvas.gesture = Gesture::none;
+            canvas.refused.clear();
+            return;
+        }
+        document.end();
+        canvas.gesture = Gesture::none;
+        canvas.refused.clear();
+    }
+
+    void beginMove() {
+        canvas.gesture = Gesture::move;
+        canvas.base = document.graph();
+        document.begin(canvas.selection.size() > 1 ? "Move Nodes" : "Move Node");
+    }
+
+    Position moved() const {
+        ImVec2 by(mouse.x - canvas.begin.x, mouse.y - canvas.begin.y);
+        if (io.KeyCtrl) by = {std::round(by.x / 24.0f) * 24.0f, std::round(by.y / 24.0f) * 24.0f};
+        return position({std::round(by.x), std::round(by.y)});
+    }
+
+    void move() { document.update(moveNodes(canvas.base, canvas.scope, chosen(), moved())); }
+
+    /// A single unwired node that was let go of on a wire goes into it.
+    void endMove() {
+        if (canvas.selection.size() == 1 && io.KeyCtrl == false) {
+            const NodeBox* box = boxes.find(*canvas.selection.begin());
+            const auto wired = [&](const Wire& wire) {
+                return boxes.nodes[wire.from].node == box->node || boxes.nodes[wire.to].node == box->node;
+            };
+            if (box && std::none_of(boxes.wires.begin(), boxes.wires.end(), wired)) {
+                const Area area = box->area;
+                for (const Wire& wire : boxes.wires) {
+                    const Curve path = curve(boxes.start(wire), boxes.end(wire));
+                    const bool over =
+                        path.crosses({area.lo.x, area.centre().y}, {area.hi.x, area.centre().y}) ||
+                        path.crosses({area.centre().x, area.lo.y}, {area.centre().x, area.hi.y});
+                    if (!over) continue;
+                    document.update(
+                        dropOnWire(document.graph(), canvas.scope, boxes.input(wire), box->node->id));
+                    break;
+                }
+            }
+        }
+        document.end();
+        canvas.gesture = Gesture::none;
+    }
+
+    /// A frame moves with all that it holds, or changes its size by its corner.
+    void dragFrame(bool corner) {
+        const std::vector<Frame> before = framesOf(canvas.base);
+        if (canvas.pressed.index >= before.size()) return;
+        Frame frame = before[canvas.pressed.index];
+        const Position by = moved();
+        Graph next = canvas.base;
+        if (corner) {
+            frame.size = {std::max(80.0, frame.size[0] + by[0]), std::max(60.0, frame.size[1] + by[1])};
+        } else {
+            NodeIds held;
+            for (const Node& node : nodesOf(canvas.base, canvas.scope)) {
+                if (!node.at) continue;
+                const double x = (*node.at)[0] - frame.at[0], y = (*node.at)[1] - frame.at[1];
+                if (x >= 0 && y >= 0 && x < frame.size[0] && y < frame.size[1]) held.push_back(node.id);
+            }
+            next = moveNodes(next, canvas.scope, held, by);
+            frame.at = {frame.at[0] + by[0], frame.at[1] + by[1]};
+        }
+        document.update(setFrame(next, canvas.pressed.index, frame));
+    }
+
+    /// Wires that the trail crosses.
+    std::vector<Wire> crossed() const {
+        std::vector<Wire> found;
+        for (const Wire& wire : boxes.wires) {
+            const Curve path = curve(boxes.start(wire), boxes.end(wire));
+            for (std::size_t i = 1; i < canvas.trail.size(); ++i)
+                if (path.crosses(canvas.trail[i - 1], canvas.trail[i])) {
+                    found.push_back(wire);
+                    break;
+                }
+        }
+        return found;
+    }
+
+    void cut() {
+        Graph next = document.graph();
+        for (const Wire& wire : crossed()) next = disconnect(next, canvas.scope, boxes.input(wire));
+        document.apply("Cut Wires", std::move(next));
+    }
+
+    void rerouteCrossed() {
+        Graph next = document.graph();
+        NodeIds made;
+        for (const Wire& wire : crossed()) {
+            // Where the trail is nearest to the wire.
+            const Curve path = curve(boxes.start(wire), boxes.end(wire));
+            ImVec2 best = canvas.trail.front();
+            for (ImVec2 p : canvas.trail)
+                if (path.distance(p) < path.distance(best)) best = p;
+            Edited edited = addReroute(next, canvas.scope, boxes.input(wire), position(best));
+            next = std::move(edited.graph);
+            made.insert(made.end(), edited.nodes.begin(), edited.nodes.end());
+        }
+        if (made.empty()) return;
+        document.apply("Add Reroute", std::move(next));
+        canvas.select(made);
+    }
+
+    /// From the node where the drag began to the one where it ends, by the first sockets that fit.
+    void connectLazily() {
+        const Hit start = hitTest(boxes, frames, canvas.scope, canvas.begin, kReach / canvas.view.unit());
+        const auto nodeOf = [&](const Hit& at) -> const NodeBox* {
+            const bool none = at.what == What::nothing || at.what == What::wire || at.what == What::frame ||
+                              at.what == What::frameTitle || at.what == What::frameCorner;
+            return none ? nullptr : &boxes.nodes[at.index];
+        };
+        const NodeBox *from = nodeOf(start), *to = nodeOf(hit);
+        if (!from || !to || from == to) return;
+        for (const Row& row : from->rows) {
+            if (!row.output) continue;
+            const Plug output{from->node->id, row.name};
+            const auto input = fittingInput(document.graph(), canvas.scope, output, to->node->id);
+            if (!input) continue;
+            document.apply("Connect", connect(document.graph(), canvas.scope, output, *input));
+            return;
+        }
+    }
+
+    void press() {
+        canvas.begin = mouse;
+        canvas.pressed = hit;
+        canvas.trail = {mouse};
+        const bool space = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Space));
+        if (canvas.minimap && minimapArea(canvas.view).contains(io.MousePos)) {
+            canvas.gesture = Gesture::map;
+        } else if (space) {
+            canvas.gesture = Gesture::pan;
+            canvas.spacePans = true;
+        } else if (io.KeyAlt) {
+            canvas.gesture = Gesture::lasso;
+        } else if (hit.what == What::output || hit.what == What::input) {
+            canvas.base = document.graph();
+            takeWire();
+        } else if (hit.what == What::title || hit.what == What::node) {
+            canvas.gesture = Gesture::press;
+        } else if (hit.what == What::frameTitle || hit.what == What::frameCorner) {
+            canvas.gesture = hit.what == What::frameTitle ? Gesture::frame : Gesture::corner;
+            canvas.base = document.graph();
+            document.begin(hit.what == What::frameTitle ? "Move Frame" : "Resize Frame");
+        } else if (hit.what != What::field) {
+            canvas.gesture = Gesture::box;
+        }
+    }
+
+    void pressRight() {
+        canvas.begin = mouse;
+        canvas.trail = {mouse};
+        canvas.gesture = io.KeyCtrl    ? Gesture::cut
+                         : io.KeyShift ? Gesture::reroute
+                         : io.KeyAlt   ? Gesture::lazy
+                                       : Gesture::none;
+        if (canvas.gesture == Gesture::none) wishes.add = {mouse, std::nullopt, false};
+    }
+
+    /// A press that did not become a drag.
+    void click() {
+        const std::string id = boxes.nodes[canvas.pressed.index].node->id;
+        if (!io.KeyShift) canvas.selection.clear();
+        pickNode(id);
+        if (io.KeyCtrl && io.KeyShift) wishes.activate = id;
+    }
+
+    void during() {
+        const ImGuiMouseButton button = canvas.gesture == Gesture::cut ||
+                                                canvas.gesture == Gesture::reroute ||
+                                                canvas.gesture == Gesture::lazy
+                                            ? 1
+                                        : canvas.gesture == Gesture::pan && !canvas.spacePans ? 2
+                                                                                              : 0;
+        const bool up = !ImGui::IsMouseDown(button);
+        const float far = std::hypot(mouse.x - canvas.begin.x, mouse.y - canvas.begin.y) * canvas.view.unit();
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && canvas.gesture != Gesture::pan) {
+            if (document.inGesture()) document.cancel();
+            canvas.gesture = Gesture::none;
+            canvas.refused.clear();
+            return;
+        }
+        switch (canvas.gesture) {
+            case Gesture::none: return;
+            case Gesture::press:
+                if (far > kStill) {
+                    const std::string& id = boxes.nodes[canvas.pressed.index].node->id;
+                    if (!canvas.selection.contains(id)) pickNode(id);
+                    beginMove();
+                    return move();
+                }
+                if (up) click(), canvas.gesture = Gesture::none;
+                return;
+            case Gesture::pan: canvas.view.pan(io.MouseDelta); break;
+            case Gesture::move:
+                if (up) return endMove();
+                return move();
+            case Gesture::frame:
+            case Gesture::corner:
+                dragFrame(canvas.gesture == Gesture::corner);
+                if (up) document.end();
+                break;
+            case Gesture::map: {
+                const Area place = minimapArea(canvas.view), all = minimapShows(canvas, boxes);
+                const float scale = all.width() / place.width();
+                canvas.view.middle = {all.lo.x + (io.MousePos.x - place.lo.x) * scale,
+                                      all.lo.y + (io.MousePos.y - place.lo.y) * scale};
+                break;
+            }
+            case Gesture::wire:
+                if (up) return dropWire();
+                target();
+                return;
+            case Gesture::box: {
+                if (!up) return;
+                Area area{canvas.begin, canvas.begin};
+                area.add(mouse);
+                std::set<std::string> found;
+                if (far > kStill)
+                    for (const NodeBox& box : boxes.nodes)
+                        if (box.area.overlaps(area)) found.insert(box.node->id);
+                pick(found);
+                break;
+            }
+            case Gesture::lasso:
+            case Gesture::cut:
+            case Gesture::reroute:
+            case Gesture::lazy: {
+                const ImVec2 last = canvas.trail.back();
+                if (std::hypot(mouse.x - last.x, mouse.y - last.y) * canvas.view.unit() > 2.0f)
+                    canvas.trail.push_back(mouse);
+                if (!up) return;
+                const Gesture done = canvas.gesture;
+                canvas.gesture = Gesture::none;
+                if (done == Gesture::cut) return cut();
+                if (done == Gesture::reroute) return rerouteCrossed();
+                if (done == Gesture::lazy) return connectLazily();
+                std::set<std::string> found;
+                for (const NodeBox& box : boxes.nodes)
+                    if (inPolygon(canvas.trail, box.area.centre())) found.insert(box.node->id);
+                return pick(found);
+            }
+        }
+        if (up) canvas.gesture = Gesture::none;
+    }
+
+    /// Dragging to the panel's edge shows more of the canvas.
+    void moveAtEdge() {
+        if (canvas.gesture != Gesture::wire && canvas.gesture != Gesture::move &&
+            canvas.gesture != Gesture::box)
+            return;
+        const Area& panel = canvas.view.panel;
+        const auto push = [](float at, float lo, float hi) {
+            return at < lo + kEdge ? lo + kEdge - at : at > hi - kEdge ? hi - kEdge - at : 0.0f;
+        };
+        const float speed = 8.0f * io.DeltaTime;
+        canvas.view.pan({speed * std::clamp(push(io.MousePos.x, panel.lo.x, panel.hi.x), -60.0f, 60.0f),
+                         speed * std::clamp(push(io.MousePos.y, panel.lo.y, panel.hi.y), -60.0f, 60.0f)});
+    }
+
+    void hover(const CanvasMarks& marks) const {
+        if (!canvas.refused.empty()) return ImGui::SetTooltip("%s", canvas.refused.c_str());
+        if (canvas.gesture != Gesture::none || hit.what == What::nothing ||
+            ImGui::GetTime() - canvas.restedSince < kTooltipWait)
+            return;
+        if (hit.what == What::wire) {
+            const auto said = marks.exactness.find(boxes.nodes[boxes.wires[hit.index].from].node->id);
+            if (said != marks.exactness.end()) ImGui::SetTooltip("%s", said->second.c_str());
+            return;
+        }
+        if (hit.what == What::frame || hit.what == What::frameTitle || hit.what == What::frameCorner) return;
+        const NodeBox& box = boxes.nodes[hit.index];
+        if (hit.what == What::input || hit.what == What::output || hit.what == What::field)
+            return ImGui::SetTooltip("%s", describe(box.rows[hit.row]).c_str());
+        if (hit.what != What::title) return;
+        const auto finding = marks.findings.find(box.node->id);
+        if (finding != marks.findings.end()) return ImGui::SetTooltip("%s", finding->second->message.c_str());
+        if (box.type)
+            ImGui::SetTooltip("%s (%s)\n%s", box.type->label.c_str(), box.node->id.c_str(),
+                              box.type->doc.c_str());
+    }
+};
+
+}  // namespace
+
+void Canvas::select(const NodeIds& nodes) {
+    selection = {nodes.begin(), nodes.end()};
+    active = nodes.empty() ? std::string() : nodes.back();
+}
+
+void Canvas::follow(const Graph& graph) {
+    if (!scope.empty() && !graph.group(scope)) scope.clear(), selection.clear(), frameNext = true;
+    std::set<std::string> there;
+    for (const Node& node : nodesOf(graph, scope)) there.insert(node.id);
+    std::erase_if(selection, [&](const std::string& id) { return !there.contains(id); });
+    if (!there.contains(active)) active.clear();
+}
+
+CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, const CanvasMarks& marks,
+                        const Shell& shell) {
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    canvas.view.panel = {at, {at.x + std::max(room.x, 1.0f), at.y + std::max(room.y, 1.0f)}};
+    canvas.view.scale = shell.scale();
+    if (canvas.frameNext) canvas.view.frame(boxes.around()), canvas.frameNext = false;
+    const std::vector<Frame> frames = framesOf(document.graph());
+    const uint64_t revision = document.revision();
+    drawCanvas(canvas, boxes, frames, marks, shell);
+
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool hovered = ImGui::IsWindowHovered() && canvas.view.panel.contains(io.MousePos);
+    // Fields above the drawing; the first that changes the document ends what the others stand on.
+    const bool idle = canvas.gesture == Gesture::none;
+    const float size = kTextSize * canvas.view.unit();
+    if (canvas.view.unit() >= 0.6f) {
+        ImGui::PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
+        const Area seen = canvas.view.seen();
+        for (const NodeBox& box : boxes.nodes) {
+            if (box.node->collapsed || !box.area.overlaps(seen)) continue;
+            for (const Row& row : box.rows)
+                for (int i = 0; i < row.fields; ++i)
+                    showField(canvas.field, document, canvas.scope, box, row, i,
+                              canvas.view.toScreen(box.field(row, i)), shell.fonts().of(size), size,
+                              hovered && idle);
+        }
+        ImGui::PopClipRect();
+    }
+    if (document.revision() != revision) return {};
+
+    if (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f) canvas.restedSince = ImGui::GetTime();
+    Hand hand{canvas, document, boxes, frames};
+    if (hovered && io.MouseWheel != 0.0f && canvas.field.state == FieldEdit::State::none)
+        canvas.view.zoomTo(canvas.view.zoom * std::pow(kWheel, io.MouseWheel), io.MousePos);
+    if (canvas.gesture != Gesture::none) {
+        hand.moveAtEdge();
+        hand.during();
+    } else if (hovered && canvas.field.state == FieldEdit::State::none) {
+        hand.hover(marks);
+        if (ImGui::IsMouseDoubleClicked(0) && (hand.hit.what == What::title || hand.hit.what == What::node)) {
+            hand.wishes.enter = boxes.nodes[hand.hit.index].node->group;
+            if (hand.wishes.enter.empty()) hand.press();
+        } else if (ImGui::IsMouseClicked(0)) {
+            hand.press();
+        } else if (ImGui::IsMouseClicked(1)) {
+            hand.pressRight();
+        } else if (ImGui::IsMouseClicked(2)) {
+            canvas.gesture = Gesture::pan;
+            canvas.spacePans = false;
+        }
+    }
+    return std::move(hand.wishes);
+}
+
+}  // namespace fw::editor
