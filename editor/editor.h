@@ -1,0 +1,97 @@
+// The editor: all that a person has before them, as one plain struct, and one frame of the interface.
+//
+// The document is the truth. What is drawn of it (boxes), found in it (findings) and made of it (the picture)
+// is made anew from its snapshots: boxes at once, the rest by the preview's thread. Panels are functions on
+// the Editor, one file each under panels/; every command is one row of commands.h.
+//
+// Lifetime: one Editor on one Shell, which outlives it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/canvas/canvas.h"
+#include "editor/document/document.h"
+#include "editor/preview/preview.h"
+#include "runtime/window/viewer.h"
+
+namespace fw::editor {
+
+/// What the viewport shows and how.
+struct Viewport {
+    std::optional<Orbit> orbit;  ///< none: the scene's camera, or the solid framed
+    uint32_t view = RENDER_PICTURE;
+    std::string pinned;    ///< the node shown; empty: the output
+    int resolution = 0;    ///< cells; 0: the graph's
+    double seconds = 0.0;  ///< on the timeline
+    bool playing = false;
+    int width = 0, height = 0;  ///< pixels, of the panel
+    ImTextureID texture = nullptr;
+    PreviewResult shown = {};  ///< the last result; its picture is in the texture
+};
+
+/// The menu to add nodes from, where it is open.
+struct AddMenu {
+    CanvasWishes::Add wish;
+    char search[64] = {};
+    int chosen = 0;
+    bool opened = false;  ///< to be opened in this frame
+};
+
+struct Panels {
+    bool inspector = true, outliner = true, problems = true, parameters = true, scene = true,
+         timeline = false, statistics = false;
+    float side = 0.36f;  ///< of the window's width, for viewport and inspector
+    float top = 0.55f;   ///< of its height, for the viewport
+};
+
+struct Editor {
+    Editor(Shell& shell, Graph graph, DeviceOptions device);
+
+    Shell& shell;
+    Document document;
+    Canvas canvas;
+    Viewport viewport;
+    AddMenu add;
+    Panels panels;
+    std::string notice;        ///< the last thing that could not be done, in the status line
+    double noticeUntil = 0.0;  ///< seconds of ImGui's clock
+    bool quit = false;
+
+    /// The document as it is drawn: of revision `drawn`.
+    std::shared_ptr<const Graph> graph;
+    uint64_t drawn = 0;
+    std::optional<Boxes> boxes;
+    Preview preview;
+};
+
+/// Takes what the preview made, and hands it the newest wish. Whether there is anything new to show.
+bool exchange(Editor& editor);
+/// One frame of the whole interface.
+void showEditor(Editor& editor);
+/// Whether frames should follow each other without waiting for input: something moves.
+bool moves(const Editor& editor);
+
+/// One step of undo with the result selected.
+void apply(Editor& editor, std::string name, Edited edited);
+/// Says something in the status line for some seconds.
+void say(Editor& editor, std::string words);
+/// The findings about nodes of the scope shown.
+CanvasMarks marksOf(const Editor& editor);
+/// Shows the node: enters its scope, selects and frames it. `path` as in Error::node: "group/node".
+void reveal(Editor& editor, std::string_view path);
+
+// panels/, each in the rest of ImGui's current window
+void showAddMenu(Editor& editor);
+void showInspector(Editor& editor);
+void showOutliner(Editor& editor);
+void showProblems(Editor& editor);
+void showParameters(Editor& editor);
+void showScene(Editor& editor);
+void showTimeline(Editor& editor);
+void showViewport(Editor& editor);
+void showStatistics(Editor& editor);
+
+}  // namespace fw::editor
