@@ -21,13 +21,12 @@ namespace fw::editor {
 
 /// What the viewport shows and how.
 struct Viewport {
-    std::optional<Orbit> orbit;  ///< none: the scene's camera, or the solid framed
+    Viewer camera;  ///< orbits; until it does, the scene's camera or the solid framed
     uint32_t view = RENDER_PICTURE;
     std::string pinned;    ///< the node shown; empty: the output
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline
     bool playing = false;
-    int width = 0, height = 0;  ///< pixels, of the panel
     ImTextureID texture = nullptr;
     PreviewResult shown = {};  ///< the last result; its picture is in the texture
 };

@@ -1,0 +1,221 @@
+#include "editor/editor.h"
+
+#include <algorithm>
+
+#include "editor/commands.h"
+#include "editor/document/layout.h"
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr double kNoticeSeconds = 6.0;
+constexpr float kLeastPart = 0.15f, kMostPart = 0.8f;  // of the window, for what a splitter divides
+
+void drawAnew(Editor& editor) {
+    if (editor.drawn == editor.document.revision() && editor.boxes) return;
+    editor.boxes.reset();
+    editor.graph = std::make_shared<const Graph>(editor.document.graph());
+    editor.canvas.follow(*editor.graph);
+    editor.boxes.emplace(*editor.graph, editor.canvas.scope);
+    editor.drawn = editor.document.revision();
+}
+
+void enter(Editor& editor, std::string scope) {
+    editor.canvas.scope = std::move(scope);
+    editor.canvas.select({});
+    editor.canvas.frameNext = true;
+    editor.boxes.reset();
+}
+
+/// "Document > group", each part a button back to it.
+void showBreadcrumb(Editor& editor) {
+    if (editor.canvas.scope.empty()) return;
+    if (ImGui::SmallButton("Document")) return enter(editor, "");
+    ImGui::SameLine();
+    ImGui::TextUnformatted(("› " + readable(editor.canvas.scope)).c_str());
+}
+
+/// A bar that divides two parts; dragged, it changes how much the second has.
+void splitter(const char* id, bool upright, float& part, float whole, float scale) {
+    const float thick = 5.0f * scale;
+    const ImVec2 size = upright ? ImVec2(thick, -1) : ImVec2(-1, thick);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    ImGui::InvisibleButton(id, {size.x < 0 ? room.x : size.x, size.y < 0 ? room.y : size.y});
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+        ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    if (!ImGui::IsItemActive()) return;
+    const ImVec2 by = ImGui::GetIO().MouseDelta;
+    part = std::clamp(part + (upright ? -by.x : by.y) / whole, kLeastPart, kMostPart);
+}
+
+void tab(const char* label, bool& open, void (*show)(Editor&), Editor& editor) {
+    if (!open || !ImGui::BeginTabItem(label)) return;
+    ImGui::BeginChild("##content");
+    show(editor);
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+}
+
+void showSide(Editor& editor, float height) {
+    const float top = height * editor.panels.top;
+    ImGui::BeginChild("##viewport", {0, top});
+    showViewport(editor);
+    ImGui::EndChild();
+    splitter("##below", false, editor.panels.top, height, editor.shell.scale());
+    if (!ImGui::BeginTabBar("##side")) return;
+    tab("Inspector", editor.panels.inspector, showInspector, editor);
+    tab("Outliner", editor.panels.outliner, showOutliner, editor);
+    const std::size_t found = editor.viewport.shown.findings.size();
+    tab(found == 0 ? "Problems###problems" : ("Problems (" + std::to_string(found) + ")###problems").c_str(),
+        editor.panels.problems, showProblems, editor);
+    tab("Parameters", editor.panels.parameters, showParameters, editor);
+    tab("Scene", editor.panels.scene, showScene, editor);
+    tab("Statistics", editor.panels.statistics, showStatistics, editor);
+    ImGui::EndTabBar();
+}
+
+void showStatus(Editor& editor) {
+    const PreviewResult& shown = editor.viewport.shown;
+    if (ImGui::GetTime() < editor.noticeUntil) return ImGui::TextUnformatted(editor.notice.c_str());
+    if (!shown.failure.empty())
+        return ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::error)), "%s",
+                                  shown.failure.c_str());
+    ImGui::Text("%zu nodes", nodesOf(*editor.graph, editor.canvas.scope).size());
+    if (shown.statistics.triangles > 0) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("· %u triangles · %.0f ms%s", shown.statistics.triangles,
+                            shown.statistics.milliseconds, editor.preview.busy() ? " · working" : "");
+    }
+}
+
+void showCanvasPart(Editor& editor) {
+    showBreadcrumb(editor);
+    const CanvasWishes wishes =
+        showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
+    if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
+    if (!wishes.enter.empty()) enter(editor, wishes.enter);
+    if (!wishes.activate.empty())
+        editor.viewport.pinned = editor.viewport.pinned == wishes.activate ? std::string() : wishes.activate;
+    showAddMenu(editor);
+}
+
+}  // namespace
+
+Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device)
+    : shell(shell_), document(placeAll(opened)), preview(std::move(device), [] { Shell::wake(); }) {
+    viewport.camera.moves = false;
+    // Places that nodes lacked are no edit of the user's.
+    document.markSaved();
+    drawAnew(*this);
+}
+
+bool exchange(Editor& editor) {
+    drawAnew(editor);
+    Viewport& view = editor.viewport;
+    PreviewWish wish{.graph = editor.graph, .revision = editor.drawn, .pinned = view.pinned};
+    wish.held = editor.canvas.field.held();
+    wish.seconds = view.seconds;
+    if (view.camera.ownCamera) wish.camera = view.camera.orbit.camera();
+    wish.width = view.camera.width, wish.height = view.camera.height;
+    wish.view = view.view;
+    wish.resolution = view.resolution;
+    if (wish.width > 0 && wish.height > 0) editor.preview.ask(std::move(wish));
+    std::optional<PreviewResult> result = editor.preview.take();
+    if (!result) return false;
+    if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
+    view.shown = std::move(*result);
+    return true;
+}
+
+void showEditor(Editor& editor) {
+    drawAnew(editor);
+    const ImGuiViewport* whole = ImGui::GetMainViewport();
+    ImGui::SetNextWindowPos(whole->WorkPos);
+    ImGui::SetNextWindowSize(whole->WorkSize);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(4, 4));
+    ImGui::Begin("##editor", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar |
+                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNavInputs);
+    ImGui::PopStyleVar();
+    if (ImGui::BeginMenuBar()) {
+        showMenus(editor);
+        ImGui::EndMenuBar();
+    }
+    runShortcuts(editor);
+    drawAnew(editor);
+
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float timeline = editor.panels.timeline ? 0.25f * room.y : 0.0f, high = room.y - line - timeline;
+    ImGui::BeginChild(
+        "##canvas", {room.x * (1.0f - editor.panels.side), high}, false,
+        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+    showCanvasPart(editor);
+    ImGui::EndChild();
+    ImGui::SameLine(0, 0);
+    ImGui::BeginChild("##bar", {5.0f * editor.shell.scale(), high});
+    splitter("##beside", true, editor.panels.side, room.x, editor.shell.scale());
+    ImGui::EndChild();
+    ImGui::SameLine(0, 0);
+    drawAnew(editor);  // for what the canvas changed
+    ImGui::BeginChild("##side", {0, high}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    showSide(editor, high);
+    ImGui::EndChild();
+    if (editor.panels.timeline) {
+        ImGui::BeginChild("##timeline", {0, timeline - ImGui::GetStyle().ItemSpacing.y});
+        showTimeline(editor);
+        ImGui::EndChild();
+    }
+    showStatus(editor);
+    ImGui::End();
+}
+
+bool moves(const Editor& editor) {
+    return editor.viewport.playing || editor.canvas.gesture != Canvas::Gesture::none ||
+           editor.canvas.field.state != FieldEdit::State::none;
+}
+
+void apply(Editor& editor, std::string name, Edited edited) {
+    editor.document.apply(std::move(name), std::move(edited.graph));
+    if (!edited.nodes.empty()) editor.canvas.select(edited.nodes);
+}
+
+void say(Editor& editor, std::string words) {
+    editor.notice = std::move(words);
+    editor.noticeUntil = ImGui::GetTime() + kNoticeSeconds;
+}
+
+CanvasMarks marksOf(const Editor& editor) {
+    CanvasMarks marks;
+    marks.pinned = editor.viewport.pinned;
+    if (editor.canvas.scope.empty()) marks.spoiledBy = editor.viewport.shown.spoiledBy;
+    const std::string prefix = editor.canvas.scope.empty() ? std::string() : editor.canvas.scope + "/";
+    for (const Error& finding : editor.viewport.shown.findings) {
+        if (!finding.node.starts_with(prefix)) continue;
+        const std::string id = finding.node.substr(prefix.size());
+        if (id.empty() || id.find('/') != std::string::npos) continue;
+        const Error*& worst = marks.findings[id];
+        if (!worst || finding.severity == Error::Severity::error) worst = &finding;
+    }
+    return marks;
+}
+
+void reveal(Editor& editor, std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    const std::string scope(slash == std::string_view::npos ? std::string_view() : path.substr(0, slash));
+    const std::string id(slash == std::string_view::npos ? path : path.substr(slash + 1));
+    if (!scope.empty() && !editor.document.graph().group(scope)) return;
+    if (scope != editor.canvas.scope) enter(editor, scope);
+    drawAnew(editor);
+    const NodeBox* box = editor.boxes->find(id);
+    if (!box) return;
+    editor.canvas.select({id});
+    editor.canvas.frameNext = false;
+    editor.canvas.view.middle = box->area.centre();
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,99 @@
+// The picture of what the graph makes, and the camera that it is seen by.
+#include <algorithm>
+
+#include "editor/editor.h"
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr std::pair<uint32_t, const char*> kViews[] = {
+    {RENDER_PICTURE, "Lit"},     {RENDER_AMBIENT, "Ambient occlusion"},
+    {RENDER_NORMALS, "Normals"}, {RENDER_BASE, "Colours"},
+    {RENDER_SHADOW, "Shadow"},   {RENDER_STEPS, "Steps"},
+    {RENDER_SLICE, "Slice"},     {RENDER_EXACTNESS, "Exactness"},
+    {RENDER_CELLS, "Cells"},     {RENDER_WIREFRAME, "Wireframe"}};
+constexpr int kResolutions[] = {0, 32, 64, 128, 192, 256, 384, 512};
+
+void showChoices(Editor& editor) {
+    Viewport& view = editor.viewport;
+    const float unit = editor.shell.scale();
+    const auto chosen = std::ranges::find(kViews, view.view, &std::pair<uint32_t, const char*>::first);
+    ImGui::SetNextItemWidth(140 * unit);
+    if (ImGui::BeginCombo("##view", chosen->second)) {
+        for (const auto& [id, name] : kViews)
+            if (ImGui::Selectable(name, id == view.view)) view.view = id;
+        ImGui::EndCombo();
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(110 * unit);
+    const auto cells = [](int count) {
+        return count == 0 ? std::string("As exported") : std::to_string(count) + " cells";
+    };
+    if (ImGui::BeginCombo("##cells", cells(view.resolution).c_str())) {
+        for (int count : kResolutions)
+            if (ImGui::Selectable(cells(count).c_str(), count == view.resolution)) view.resolution = count;
+        ImGui::EndCombo();
+    }
+    if (view.camera.ownCamera) {
+        ImGui::SameLine();
+        if (ImGui::Button("Reset view")) view.camera.ownCamera = false;
+    }
+    if (view.pinned.empty()) return;
+    ImGui::SameLine();
+    if (ImGui::Button(("Showing " + view.pinned + " ×").c_str())) view.pinned.clear();
+}
+
+void moveCamera(Viewer& camera, const Area& place, bool hovered) {
+    const ImGuiIO& io = ImGui::GetIO();
+    camera.move(io.MousePos.x - place.lo.x, io.MousePos.y - place.lo.y);
+    if (hovered) {
+        if (ImGui::IsMouseClicked(0)) camera.press(io.KeyShift ? MouseButton::middle : MouseButton::left);
+        if (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))
+            camera.press(io.KeyShift || ImGui::IsMouseClicked(1) ? MouseButton::middle : MouseButton::left);
+        if (io.MouseWheel != 0.0f) camera.scroll(double(io.MouseWheel));
+    }
+    if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
+        camera.release(MouseButton::left);
+}
+
+/// Words over the picture, top left.
+void caption(const Area& place, const char* words, ImU32 color, float scale) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImVec2 size = ImGui::CalcTextSize(words), at(place.lo.x + 8 * scale, place.lo.y + 8 * scale);
+    list->AddRectFilled({at.x - 5 * scale, at.y - 3 * scale},
+                        {at.x + size.x + 5 * scale, at.y + size.y + 3 * scale}, IM_COL32(0, 0, 0, 170),
+                        4 * scale);
+    list->AddText(at, color, words);
+}
+
+}  // namespace
+
+void showViewport(Editor& editor) {
+    Viewport& view = editor.viewport;
+    showChoices(editor);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    if (room.x < 1.0f || room.y < 1.0f) return;
+    const Area place{at, {at.x + room.x, at.y + room.y}};
+    view.camera.resize(std::clamp(int(room.x), kLeastPictureSide, kMostPictureSide),
+                       std::clamp(int(room.y), kLeastPictureSide, kMostPictureSide));
+    view.camera.seen = view.shown.seen;
+    ImGui::InvisibleButton("##picture", room,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                               ImGuiButtonFlags_MouseButtonRight);
+    moveCamera(view.camera, place, ImGui::IsItemHovered());
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
+    if (view.texture) list->AddImage(view.texture, place.lo, place.hi);
+    const float scale = editor.shell.scale();
+    if (view.texture && !view.shown.current)
+        caption(place, "showing the last valid version", themeColor(ThemeColor::warning), scale);
+    else if (!view.texture)
+        caption(place,
+                view.shown.findings.empty() ? "making the first picture …"
+                                            : "the graph has problems: see the list",
+                themeColor(ThemeColor::text), scale);
+}
+
+}  // namespace fw::editor
