@@ -14,10 +14,6 @@ constexpr std::size_t kMaxCompared =
     50'000'000;  // pairs of letters, in all hints together: tenths of a second
 constexpr std::size_t kLongestHinted = 64;
 
-bool isLower(char c) { return c >= 'a' && c <= 'z'; }
-bool isLetter(char c) { return isLower(c) || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
 void checkCounts(const Graph& graph, Findings& findings) {
     std::size_t count = graph.nodes.size();
     for (const Group& group : graph.groups) count += group.nodes.size();
@@ -134,34 +130,8 @@ std::vector<Error> Findings::take() {
     return std::move(list);
 }
 
-bool isId(std::string_view text) {
-    const auto fits = [](char c) { return isLower(c) || isDigit(c) || c == '_'; };
-    return !text.empty() && isLower(text[0]) && std::all_of(text.begin(), text.end(), fits);
-}
-
-bool isName(std::string_view text) {
-    const auto fits = [](char c) { return isLetter(c) || isDigit(c); };
-    return !text.empty() && isLetter(text[0]) && std::all_of(text.begin(), text.end(), fits);
-}
-
 std::string firstInLine(const TextPosition& at) {
     return at.line > 0 ? ", the first in line " + std::to_string(at.line) : std::string();
-}
-
-std::string arrows(const std::vector<std::string_view>& names) {
-    constexpr std::size_t kLongestPath = 12;
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i > 0) text += " -> ";
-        if (names.size() > kLongestPath && i == kLongestPath / 2) {
-            const std::size_t skipped = names.size() - kLongestPath + 1;
-            text += "(" + std::to_string(skipped) + " more) -> ";
-            i += skipped;
-        }
-        const std::string name = inQuotes(names[i]);
-        text.append(name, 1, name.size() - 2);
-    }
-    return text;
 }
 
 void checkParameters(const Graph& graph, const Scope& top, Findings& findings) {

@@ -70,16 +70,8 @@ void checkParameters(const Graph& graph, const Scope& top, Findings& findings);
 /// The scene, and the timeline: its form, what its tracks move, their keys.
 void checkTimeline(const Graph& graph, const Scope& top, Findings& findings);
 
-/// [a-z][a-z0-9_]*
-bool isId(std::string_view text);
-/// [A-Za-z_][A-Za-z0-9_]*
-bool isName(std::string_view text);
-
 /// ", the first in line 12", or nothing if the line is unknown.
 std::string firstInLine(const TextPosition& at);
-
-/// "a -> b -> c -> a"; a long one is shortened in the middle.
-std::string arrows(const std::vector<std::string_view>& names);
 
 /// Edges of a directed graph: for each vertex the vertices it leads to, in order.
 using Edges = std::vector<std::vector<uint32_t>>;

@@ -119,4 +119,20 @@ std::string listed(const std::vector<std::string>& names) {
     return names.size() > 40 ? text + ", …" : text;
 }
 
+std::string arrows(const std::vector<std::string_view>& names) {
+    constexpr std::size_t kLongestPath = 12;
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += " -> ";
+        if (names.size() > kLongestPath && i == kLongestPath / 2) {
+            const std::size_t skipped = names.size() - kLongestPath + 1;
+            text += "(" + std::to_string(skipped) + " more) -> ";
+            i += skipped;
+        }
+        const std::string name = inQuotes(names[i]);
+        text.append(name, 1, name.size() - 2);
+    }
+    return text;
+}
+
 }  // namespace fw

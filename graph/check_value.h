@@ -28,4 +28,7 @@ std::string shortNumber(double value);
 /// "a, b, c", cut after 40.
 std::string listed(const std::vector<std::string>& names);
 
+/// "a -> b -> c -> a"; a long one is shortened in the middle.
+std::string arrows(const std::vector<std::string_view>& names);
+
 }  // namespace fw

@@ -15,6 +15,10 @@ auto find(Entries& entries, std::string_view id) -> decltype(entries.data()) {
     return found == entries.end() ? nullptr : &*found;
 }
 
+bool isLower(char c) { return c >= 'a' && c <= 'z'; }
+bool isLetter(char c) { return isLower(c) || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
 }  // namespace
 
 const InputValue* Node::input(std::string_view name) const {
@@ -34,5 +38,15 @@ Node* Graph::node(std::string_view id) { return find(nodes, id); }
 const Group* Graph::group(std::string_view id) const { return find(groups, id); }
 
 const Node* findNode(const std::vector<Node>& nodes, std::string_view id) { return find(nodes, id); }
+
+bool isId(std::string_view text) {
+    const auto fits = [](char c) { return isLower(c) || isDigit(c) || c == '_'; };
+    return !text.empty() && isLower(text[0]) && std::all_of(text.begin(), text.end(), fits);
+}
+
+bool isName(std::string_view text) {
+    const auto fits = [](char c) { return isLetter(c) || isDigit(c); };
+    return !text.empty() && isLetter(text[0]) && std::all_of(text.begin(), text.end(), fits);
+}
 
 }  // namespace fw

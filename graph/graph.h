@@ -136,4 +136,9 @@ struct Graph {
 /// The entry of `nodes` with this id, or nullptr.
 const Node* findNode(const std::vector<Node>& nodes, std::string_view id);
 
+/// Whether the text is fit for the id of a node or a group: [a-z][a-z0-9_]*
+bool isId(std::string_view text);
+/// Whether it is fit for an input of a group or an expression: [A-Za-z_][A-Za-z0-9_]*
+bool isName(std::string_view text);
+
 }  // namespace fw

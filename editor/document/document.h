@@ -33,7 +33,8 @@ class Document {
     /// calls it: "Add Box". Inside a gesture as update().
     void apply(std::string name, Graph next);
 
-    /// A gesture: all that happens until end() is one step. cancel() goes back to where it began.
+    /// A gesture: all that happens until end() is one step. cancel() goes back to where it began. There is
+    /// none in a gesture.
     void begin(std::string name);
     void update(Graph next);
     void end();

@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "graph/graph.h"
@@ -41,7 +43,20 @@ std::vector<Node>& nodesOf(Graph& graph, std::string_view scope);
 /// An id that no node of the scope has: `base` made fit for one, with a number if it is taken.
 std::string freshId(const std::vector<Node>& nodes, std::string_view base);
 
-/// A node of this type. An expression comes with code that works, a group node with `group`.
+/// Fresh ids for many nodes: each that next() gives is taken from then on.
+class FreshIds {
+  public:
+    explicit FreshIds(const std::vector<Node>& nodes);
+    std::string next(std::string_view base);
+
+  private:
+    std::unordered_set<std::string> taken;
+    std::unordered_map<std::string, int> numbers;  ///< the last given to a base
+};
+
+/// A node of this type. An expression comes with code that works, a group node with `group`. The graph as it
+/// is, and no node, where such a node cannot stand (canAdd() of wiring.h; a group in itself; beyond the
+/// limits of graph.h).
 Edited addNode(const Graph& graph, std::string_view scope, std::string_view type, Position at,
                std::string_view group = {});
 
@@ -62,7 +77,7 @@ std::vector<const NodeType*> typesThatFit(const Graph& graph, std::string_view s
 
 /// A wire; it takes the place of what fed the input. It has no refusal.
 Graph connect(const Graph& graph, std::string_view scope, const Plug& output, const Plug& input);
-/// Without what feeds this input; it has its default again.
+/// Without what feeds this input; it has its default again, that of an expression zeros.
 Graph disconnect(const Graph& graph, std::string_view scope, const Plug& input);
 
 /// A node of this type where the wire into `input` was, with that wire through it; the same for a node that
@@ -71,11 +86,12 @@ Edited insertOnWire(const Graph& graph, std::string_view scope, const Plug& inpu
                     Position at);
 Graph dropOnWire(const Graph& graph, std::string_view scope, const Plug& input, std::string_view node);
 
-/// Without the nodes. With `heal`, what fed the first input of each feeds what the node fed, where it fits.
+/// Without the nodes, and the parameters and tracks that set their inputs. With `heal`, each input that they
+/// fed is fed by the first of the node's own sources that fits, which is what muting passes on.
 Graph removeNodes(const Graph& graph, std::string_view scope, std::span<const std::string> nodes, bool heal);
 
 /// The nodes again, beside themselves, wired among each other; with `keepInputs` also to what feeds the
-/// originals from outside.
+/// originals from outside. Without those that can stand only once.
 Edited duplicate(const Graph& graph, std::string_view scope, std::span<const std::string> nodes,
                  bool keepInputs);
 
@@ -84,7 +100,8 @@ Graph moveNodes(const Graph& graph, std::string_view scope, std::span<const std:
 Graph toggleMuted(const Graph& graph, std::string_view scope, std::span<const std::string> nodes);
 Graph toggleCollapsed(const Graph& graph, std::string_view scope, std::span<const std::string> nodes);
 
-/// An input's value, or none: its default. Graph as it is if the node has no such input.
+/// An input's value, or none: its default. The graph as it is if the node has no such input or the value does
+/// not fit it. An expression gets the input if it has none of that name, and loses it without a value.
 Graph setInput(const Graph& graph, std::string_view scope, const Plug& input,
                std::optional<InputValue> value);
 Graph setLabel(const Graph& graph, std::string_view scope, std::string_view node, std::string label);
@@ -92,7 +109,7 @@ Graph setCode(const Graph& graph, std::string_view scope, std::string_view node,
 /// Another id for a node; links, parameters and tracks follow. Error: no id, or taken.
 Result<Graph> renameNode(const Graph& graph, std::string_view scope, std::string_view node,
                          std::string_view id);
-/// The values or links of the node's first two inputs of equal type change places.
+/// What the first two inputs of equal type hold changes places, where both fit.
 Graph swapInputs(const Graph& graph, std::string_view scope, std::string_view node);
 
 /// A reroute in the wire into `input`.

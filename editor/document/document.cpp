@@ -1,0 +1,281 @@
+#include "editor/document/document.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace fw::editor {
+
+namespace {
+
+using NodePointer = std::shared_ptr<const Node>;
+/// Nodes are kept by the block, so that a step on one of a thousand nodes keeps one block of pointers, not a
+/// thousand pointers.
+using Block = std::vector<NodePointer>;
+using Blocks = std::vector<std::shared_ptr<const Block>>;
+constexpr std::size_t kBlockSize = 32;
+
+struct GroupPart {
+    std::shared_ptr<const Group> declared;  ///< without its nodes
+    Blocks nodes;
+};
+
+/// All but nodes and groups.
+struct Rest {
+    int version = kFormatVersion;
+    std::vector<ExposedParameter> parameters;
+    Json extra;
+    bool operator==(const Rest&) const = default;
+};
+
+struct KeptJson {
+    Json json;
+    TextPlaces places;
+};
+
+}  // namespace
+
+struct Snapshot {
+    Blocks nodes;
+    std::vector<GroupPart> groups;
+    std::shared_ptr<const Rest> rest;
+    std::shared_ptr<const KeptJson> scene, timeline, frames;
+};
+
+namespace {
+
+// Equality of what is written: 0 and -0, which compare equal, are two texts.
+
+bool same(double a, double b) { return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b); }
+
+bool same(const Json& a, const Json& b) {
+    if (a.is_number_float() && b.is_number_float()) return same(a.get<double>(), b.get<double>());
+    if (!a.is_structured()) return a == b;
+    if (a.type() != b.type() || a.size() != b.size()) return false;
+    auto other = b.items().begin();
+    for (const auto& [key, value] : a.items()) {
+        if ((a.is_object() && key != other.key()) || !same(value, other.value())) return false;
+        ++other;
+    }
+    return true;
+}
+
+bool same(const InputValue& a, const InputValue& b) {
+    if (a.value.index() != b.value.index() || a.pairs != b.pairs || !same(a.extra, b.extra)) return false;
+    if (const double* number = std::get_if<double>(&a.value)) return same(*number, std::get<double>(b.value));
+    const auto* numbers = std::get_if<std::vector<double>>(&a.value);
+    if (!numbers) return a.value == b.value;
+    return std::ranges::equal(*numbers, std::get<std::vector<double>>(b.value),
+                              [](double x, double y) { return same(x, y); });
+}
+
+bool same(const Node& a, const Node& b) {
+    const bool placed = a.at.has_value();
+    if (placed != b.at.has_value() ||
+        (placed && !(same((*a.at)[0], (*b.at)[0]) && same((*a.at)[1], (*b.at)[1]))))
+        return false;
+    return a.id == b.id && a.type == b.type && a.label == b.label && a.muted == b.muted &&
+           a.collapsed == b.collapsed && a.code == b.code && a.group == b.group && same(a.extra, b.extra) &&
+           std::ranges::equal(a.inputs, b.inputs, [](const auto& x, const auto& y) {
+               return x.first == y.first && same(x.second, y.second);
+           });
+}
+
+bool same(const Group& a, const Group& b) {
+    return a == b && std::ranges::equal(a.inputs, b.inputs, [](const GroupInput& x, const GroupInput& y) {
+               return !x.value || same(*x.value, *y.value);
+           });
+}
+
+bool same(const Rest& a, const Rest& b) { return a == b && same(a.extra, b.extra); }
+bool same(const KeptJson& a, const KeptJson& b) { return same(a.json, b.json); }
+
+/// `value` as the former snapshot holds it, if it does.
+template <class T>
+std::shared_ptr<const T> shared(const std::shared_ptr<const T>& former, T value) {
+    return former && same(*former, value) ? former : std::make_shared<const T>(std::move(value));
+}
+
+const NodePointer* nodeAt(const Blocks& blocks, std::size_t index) {
+    const std::size_t block = index / kBlockSize;
+    return block < blocks.size() && index % kBlockSize < blocks[block]->size()
+               ? &(*blocks[block])[index % kBlockSize]
+               : nullptr;
+}
+
+Blocks blocksOf(const std::vector<Node>& nodes, const Blocks& former) {
+    std::unordered_map<std::string_view, NodePointer> byId;  // of the former nodes, made when one has moved
+    const auto shareable = [&](const Node& node, std::size_t index) -> NodePointer {
+        const NodePointer* there = nodeAt(former, index);
+        if (there && (*there)->id == node.id) return same(**there, node) ? *there : nullptr;
+        if (byId.empty())
+            for (const auto& block : former)
+                for (const NodePointer& each : *block) byId.try_emplace(each->id, each);
+        const auto found = byId.find(node.id);
+        return found != byId.end() && same(*found->second, node) ? found->second : nullptr;
+    };
+    Blocks blocks;
+    for (std::size_t begin = 0; begin < nodes.size(); begin += kBlockSize) {
+        Block block;
+        block.reserve(std::min(kBlockSize, nodes.size() - begin));
+        for (std::size_t i = begin; i < nodes.size() && i < begin + kBlockSize; ++i) {
+            NodePointer node = shareable(nodes[i], i);
+            block.push_back(node ? std::move(node) : std::make_shared<const Node>(nodes[i]));
+        }
+        const std::size_t index = begin / kBlockSize;
+        const bool unchanged = index < former.size() && *former[index] == block;
+        blocks.push_back(unchanged ? former[index] : std::make_shared<const Block>(std::move(block)));
+    }
+    return blocks;
+}
+
+GroupPart partOf(const Group& group, const GroupPart& former) {
+    Group declared{group.id, group.inputs, group.outputs, {}, group.extra, group.place};
+    return {shared(former.declared, std::move(declared)), blocksOf(group.nodes, former.nodes)};
+}
+
+std::shared_ptr<const Snapshot> snapshotOf(const Graph& graph, const Snapshot& former) {
+    auto made = std::make_shared<Snapshot>();
+    made->nodes = blocksOf(graph.nodes, former.nodes);
+    for (const Group& group : graph.groups) {
+        const auto found = std::ranges::find_if(
+            former.groups, [&](const GroupPart& part) { return part.declared->id == group.id; });
+        made->groups.push_back(partOf(group, found == former.groups.end() ? GroupPart{} : *found));
+    }
+    made->rest = shared(former.rest, Rest{graph.version, graph.parameters, graph.extra});
+    made->scene = shared(former.scene, KeptJson{graph.scene, graph.scenePlaces});
+    made->timeline = shared(former.timeline, KeptJson{graph.timeline, graph.timelinePlaces});
+    made->frames = shared(former.frames, KeptJson{graph.frames, {}});
+    return made;
+}
+
+std::vector<Node> nodesOf(const Blocks& blocks) {
+    std::vector<Node> nodes;
+    nodes.reserve(blocks.size() * kBlockSize);
+    for (const auto& block : blocks)
+        for (const NodePointer& node : *block) nodes.push_back(*node);
+    return nodes;
+}
+
+Graph graphOf(const Snapshot& snapshot, std::string path) {
+    Graph graph;
+    graph.version = snapshot.rest->version;
+    graph.nodes = nodesOf(snapshot.nodes);
+    for (const GroupPart& part : snapshot.groups) {
+        graph.groups.push_back(*part.declared);
+        graph.groups.back().nodes = nodesOf(part.nodes);
+    }
+    graph.parameters = snapshot.rest->parameters;
+    graph.scene = snapshot.scene->json, graph.scenePlaces = snapshot.scene->places;
+    graph.timeline = snapshot.timeline->json, graph.timelinePlaces = snapshot.timeline->places;
+    graph.frames = snapshot.frames->json;
+    graph.extra = snapshot.rest->extra;
+    graph.path = std::move(path);
+    return graph;
+}
+
+template <class T>
+bool same(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) {
+    return a == b || same(*a, *b);
+}
+
+bool same(const Blocks& a, const Blocks& b) {
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+        return x == y || std::ranges::equal(
+                             *x, *y, [](const NodePointer& m, const NodePointer& n) { return same(m, n); });
+    });
+}
+
+bool same(const Snapshot& a, const Snapshot& b) {
+    return same(a.nodes, b.nodes) && same(a.rest, b.rest) && same(a.scene, b.scene) &&
+           same(a.timeline, b.timeline) && same(a.frames, b.frames) &&
+           std::ranges::equal(a.groups, b.groups, [](const GroupPart& x, const GroupPart& y) {
+               return same(x.declared, y.declared) && same(x.nodes, y.nodes);
+           });
+}
+
+const std::string kNoName;
+
+}  // namespace
+
+Document::Document(Graph graph) : current(std::move(graph)) {
+    steps.push_back({"", snapshotOf(current, Snapshot{})});
+    saved = steps.front().after;
+}
+
+void Document::apply(std::string name, Graph next) {
+    if (inGesture()) return update(std::move(next));
+    auto after = snapshotOf(next, *steps[at].after);
+    if (same(*after, *steps[at].after)) return;
+    next.path = current.path;
+    current = std::move(next);
+    ++changes;
+    steps.resize(at + 1);
+    steps.push_back({std::move(name), std::move(after)});
+    if (steps.size() > kMostSteps + 1) steps.pop_front();
+    at = steps.size() - 1;
+}
+
+void Document::begin(std::string name) {
+    assert(!inGesture());
+    gesture = steps[at].after;
+    gestureName = std::move(name);
+}
+
+void Document::update(Graph next) {
+    assert(inGesture());
+    next.path = current.path;
+    current = std::move(next);
+    ++changes;
+}
+
+void Document::end() {
+    assert(inGesture());
+    gesture.reset();
+    Graph next = current;
+    apply(std::exchange(gestureName, {}), std::move(next));
+}
+
+void Document::cancel() {
+    assert(inGesture());
+    current = graphOf(*std::exchange(gesture, nullptr), std::move(current.path));
+    ++changes;
+}
+
+bool Document::canUndo() const { return !inGesture() && at > 0; }
+bool Document::canRedo() const { return !inGesture() && at + 1 < steps.size(); }
+const std::string& Document::undoName() const { return canUndo() ? steps[at].name : kNoName; }
+const std::string& Document::redoName() const { return canRedo() ? steps[at + 1].name : kNoName; }
+
+bool Document::undo() {
+    if (!canUndo()) return false;
+    current = graphOf(*steps[--at].after, std::move(current.path));
+    ++changes;
+    return true;
+}
+
+bool Document::redo() {
+    if (!canRedo()) return false;
+    current = graphOf(*steps[++at].after, std::move(current.path));
+    ++changes;
+    return true;
+}
+
+bool Document::unsaved() const {
+    if (!inGesture()) return !same(*steps[at].after, *saved);
+    return !same(*snapshotOf(current, *saved), *saved);
+}
+
+void Document::markSaved() { saved = inGesture() ? snapshotOf(current, *gesture) : steps[at].after; }
+
+void Document::setPath(std::string path) {
+    if (path == current.path) return;
+    current.path = std::move(path);
+    ++changes;
+}
+
+}  // namespace fw::editor
