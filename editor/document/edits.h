@@ -47,6 +47,7 @@ std::string freshId(const std::vector<Node>& nodes, std::string_view base);
 class FreshIds {
   public:
     explicit FreshIds(const std::vector<Node>& nodes);
+    explicit FreshIds(const std::vector<Group>& groups);
     std::string next(std::string_view base);
 
   private:

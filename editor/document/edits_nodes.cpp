@@ -4,8 +4,8 @@
 
 #include "editor/document/edits.h"
 #include "editor/document/references.h"
+#include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
-#include "graph/check.h"
 #include "graph/check_value.h"
 #include "graph/compile.h"
 
@@ -40,21 +40,6 @@ Graph toggled(const Graph& graph, std::string_view scope, std::span<const std::s
     const bool all = std::ranges::all_of(
         nodesOf(graph, scope), [&](const Node& node) { return node.*flag || !names.contains(node.id); });
     return changed(graph, scope, ids, [&](Node& node) { node.*flag = !all; });
-}
-
-/// Whether `next` breaks a limit, or has a group in itself, and `graph` did not.
-bool outgrows(const Graph& graph, const Graph& next) {
-    const auto count = [](const Graph& of) {
-        std::size_t nodes = of.nodes.size();
-        for (const Group& group : of.groups) nodes += group.nodes.size();
-        return nodes;
-    };
-    if (count(next) > std::max(kMaxNodes, count(graph))) return true;
-    if (next.groups.empty()) return false;
-    const auto errors = [](const Graph& of) {
-        return std::ranges::count(checkStructure(of), Error::Severity::error, &Error::severity);
-    };
-    return errors(next) > errors(graph);
 }
 
 /// Only a parameter with a name is offered to players, and they tell it from others by it.
@@ -112,6 +97,10 @@ std::vector<Node>& nodesOf(Graph& graph, std::string_view scope) {
 
 FreshIds::FreshIds(const std::vector<Node>& nodes) {
     for (const Node& node : nodes) taken.insert(node.id);
+}
+
+FreshIds::FreshIds(const std::vector<Group>& groups) {
+    for (const Group& group : groups) taken.insert(group.id);
 }
 
 std::string FreshIds::next(std::string_view wanted) {
@@ -227,10 +216,10 @@ Graph setInput(const Graph& graph, std::string_view scope, const Plug& input,
                std::optional<InputValue> value) {
     const Wiring wiring(graph, scope);
     const auto at = wiring.find(input.node);
-    if (!at || !wiring.input(input) || (value && !takes(wiring, input, *value))) return graph;
+    if (!at || (value && !takes(wiring, input, *value))) return graph;
     Graph result = graph;
     Node& node = nodesOf(result, scope)[*at];
-    if (!value) {
+    if (!value) {  // that an input is unknown is no reason to keep what the document gives for it
         std::erase_if(node.inputs, [&](const auto& entry) { return entry.first == input.name; });
         dropLost(result, graph);
         return result;

@@ -5,9 +5,13 @@
 
 namespace fw::editor {
 
+/// Width and height that a node is drawn with, about: for what is placed before it is drawn.
+Position aboutSize(const Scope& scope, uint32_t node);
+
 /// Places for the nodes in columns from left to right along the wires, crossings kept few (Sugiyama's layers:
-/// longest path, barycentres); `height` gives each node's height in canvas units. Nodes with a place in the
-/// file keep their order where that costs nothing. The middle of what moves stays where it was.
+/// longest path, barycentres); `heights` has each node's in canvas units, in the order of `nodes`. Nodes with
+/// a place in the file keep their order where that costs nothing. The middle of what moves stays where it
+/// was.
 Graph layOut(const Graph& graph, std::string_view scope, std::span<const std::string> nodes,
              const std::vector<double>& heights);
 
@@ -16,7 +20,7 @@ Graph placeAll(const Graph& graph);
 
 enum class Alignment { left, middle, right, top, centre, bottom };
 Graph align(const Graph& graph, std::string_view scope, std::span<const std::string> nodes, Alignment how);
-/// Equal gaps, along x or y.
+/// Equal gaps between the nodes, along x (`along`) or y. The first and the last stay.
 Graph distribute(const Graph& graph, std::string_view scope, std::span<const std::string> nodes, bool along);
 
 }  // namespace fw::editor

@@ -1,0 +1,47 @@
+#include "editor/document/soundness.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "graph/check.h"
+
+namespace fw::editor {
+
+namespace {
+
+std::size_t nodeCount(const Graph& graph) {
+    std::size_t count = graph.nodes.size();
+    for (const Group& group : graph.groups) count += group.nodes.size();
+    return count;
+}
+
+/// Whether the graph has what checkStructure() wants to be there: each message that says otherwise goes once
+/// it is.
+bool isMissing(const Error& finding) {
+    return finding.message.find("has no node of type 'output'") != std::string::npos ||
+           finding.message.find("no node of type 'group_output'") != std::string::npos ||
+           finding.message.ends_with("link a node that gives a mesh");
+}
+
+}  // namespace
+
+std::optional<Error> newError(const Graph& graph, const Graph& next) {
+    std::multiset<std::tuple<std::string, std::string, std::string>> former;
+    const auto key = [](const Error& error) { return std::tuple(error.node, error.input, error.message); };
+    for (const Error& finding : checkStructure(graph)) former.insert(key(finding));
+    for (const Error& finding : checkStructure(next)) {
+        if (finding.severity != Error::Severity::error || isMissing(finding)) continue;
+        const auto known = former.find(key(finding));
+        if (known == former.end()) return finding;
+        former.erase(known);
+    }
+    return {};
+}
+
+bool outgrows(const Graph& graph, const Graph& next) {
+    if (nodeCount(next) > std::max(kMaxNodes, nodeCount(graph))) return true;
+    return !next.groups.empty() && newError(graph, next);
+}
+
+}  // namespace fw::editor
