@@ -4,6 +4,7 @@
 
 #include "editor/commands.h"
 #include "editor/document/layout.h"
+#include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -116,6 +117,7 @@ bool exchange(Editor& editor) {
     Viewport& view = editor.viewport;
     PreviewWish wish{.graph = editor.graph, .revision = editor.drawn, .pinned = view.pinned};
     wish.held = editor.canvas.field.held();
+    wish.held.merge(editor.panelState.heldInputs());
     wish.seconds = view.seconds;
     if (view.camera.ownCamera) wish.camera = view.camera.orbit.camera();
     wish.width = view.camera.width, wish.height = view.camera.height;
@@ -130,6 +132,7 @@ bool exchange(Editor& editor) {
 }
 
 void showEditor(Editor& editor) {
+    finishLost(editor);
     drawAnew(editor);
     const ImGuiViewport* whole = ImGui::GetMainViewport();
     ImGui::SetNextWindowPos(whole->WorkPos);

@@ -14,6 +14,7 @@
 
 #include "editor/canvas/canvas.h"
 #include "editor/document/document.h"
+#include "editor/panels/panel_state.h"
 #include "editor/preview/preview.h"
 #include "runtime/window/viewer.h"
 
@@ -55,6 +56,7 @@ struct Editor {
     Viewport viewport;
     AddMenu add;
     Panels panels;
+    PanelState panelState;
     std::string notice;        ///< the last thing that could not be done, in the status line
     double noticeUntil = 0.0;  ///< seconds of ImGui's clock
     bool quit = false;

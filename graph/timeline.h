@@ -47,6 +47,11 @@ enum class Ease : unsigned char { none, in, out, inOut };
 /// What follows the end of the timeline: it rests there, begins again, or runs back and forth.
 enum class Loop : unsigned char { once, repeat, pingPong };
 
+/// As files have them, in the order of the values.
+const std::vector<std::string>& interpolationNames();
+const std::vector<std::string>& easeNames();
+const std::vector<std::string>& loopNames();
+
 struct Key {
     double time = 0.0;          ///< seconds
     std::vector<double> value;  ///< 1 to 4 numbers, as many as the track's other keys have

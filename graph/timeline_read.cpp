@@ -18,10 +18,6 @@ std::string_view kindOf(const Json& json) {
     return json.is_array() ? "an array" : "an object";
 }
 
-const std::vector<std::string> kInterpolations = {"step", "linear", "cubic"};
-const std::vector<std::string> kEases = {"none", "in", "out", "in-out"};
-const std::vector<std::string> kLoops = {"once", "repeat", "ping-pong"};
-
 /// Every function returns false after it has stored the one error.
 class Reader {
   public:
@@ -35,7 +31,7 @@ class Reader {
         const bool sound = root.forMembers([&](const std::string& key, const PlacedJson& value) {
             if (key == "length") return hasLength = true, number(value, key, timeline.length);
             if (key == "fps") return number(value, key, timeline.framesPerSecond);
-            if (key == "loop") return choice(value, key, kLoops, timeline.loop);
+            if (key == "loop") return choice(value, key, loopNames(), timeline.loop);
             if (key == "tracks") return tracks(value);
             return unknown(value, key, {"length", "fps", "loop", "tracks"});
         });
@@ -134,8 +130,8 @@ class Reader {
             if (key == "input") return hasInput = true, text(member, key, to.name);
             if (key == "parameter") return hasParameter = true, text(member, key, to.name);
             if (key == "scene") return hasScene = true, text(member, key, to.name);
-            if (key == "interpolation") return choice(member, key, kInterpolations, usual.interpolation);
-            if (key == "ease") return choice(member, key, kEases, usual.ease);
+            if (key == "interpolation") return choice(member, key, interpolationNames(), usual.interpolation);
+            if (key == "ease") return choice(member, key, easeNames(), usual.ease);
             if (key == "keys") return hasKeys = true;
             return unknown(member, key,
                            {"node", "input", "parameter", "scene", "interpolation", "ease", "keys"});
@@ -174,8 +170,8 @@ class Reader {
         const bool sound = value.forMembers([&](const std::string& name, const PlacedJson& member) {
             if (name == "time") return hasTime = true, number(member, name, to.time);
             if (name == "value") return hasValue = true, numbers(member, to.value);
-            if (name == "interpolation") return choice(member, name, kInterpolations, to.interpolation);
-            if (name == "ease") return choice(member, name, kEases, to.ease);
+            if (name == "interpolation") return choice(member, name, interpolationNames(), to.interpolation);
+            if (name == "ease") return choice(member, name, easeNames(), to.ease);
             return unknown(member, name, {"time", "value", "interpolation", "ease"});
         });
         if (!sound) return false;
@@ -200,6 +196,21 @@ class Reader {
 };
 
 }  // namespace
+
+const std::vector<std::string>& interpolationNames() {
+    static const std::vector<std::string> names = {"step", "linear", "cubic"};
+    return names;
+}
+
+const std::vector<std::string>& easeNames() {
+    static const std::vector<std::string> names = {"none", "in", "out", "in-out"};
+    return names;
+}
+
+const std::vector<std::string>& loopNames() {
+    static const std::vector<std::string> names = {"once", "repeat", "ping-pong"};
+    return names;
+}
 
 Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings) {
     if (graph.timeline.is_null()) return Timeline{};

@@ -1,0 +1,336 @@
+// The inputs of the active node: a row each.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "editor/document/expression_inputs.h"
+#include "editor/document/parameters.h"
+#include "editor/document/timeline_edits.h"
+#include "editor/panels/inspector.h"
+#include "editor/panels/properties.h"
+#include "editor/shell/theme.h"
+#include "graph/compile.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr std::size_t kPointsShown = 12;  // of a list, before it scrolls
+
+/// What the parts of a row share.
+struct Input {
+    Editor& editor;
+    const NodeBox& box;
+    const Row& row;
+    Plug plug;
+    std::string_view scope() const { return editor.canvas.scope; }
+    const Graph& graph() const { return editor.document.graph(); }
+    std::string setName() const { return "Set " + readable(row.name) + " of " + titleOf(box); }
+    void set(std::optional<InputValue> value) const {
+        std::string name = value ? setName() : "Reset " + readable(row.name) + " of " + titleOf(box);
+        editor.document.apply(std::move(name), setInput(graph(), scope(), plug, std::move(value)));
+    }
+    /// The input as PreviewWish::held has it.
+    std::string held() const { return pathOf(editor, plug.node) + "." + plug.name; }
+};
+
+bool isColor(const Row& row) { return row.spec && row.spec->unit == "color" && row.type == Type::vec3; }
+
+/// Numbers side by side, each a field as on the canvas.
+void showNumbers(const Input& input, float room) {
+    PanelState& state = input.editor.panelState;
+    const int count = input.row.type ? componentCount(*input.row.type) : 0;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, high = ImGui::GetFrameHeight();
+    const float whole = std::max(ImGui::GetContentRegionAvail().x - room, 20.0f);
+    const float wide = (whole - gap * float(count - 1)) / float(count);
+    state.fieldFrame = state.field.state == FieldEdit::State::none ? state.fieldFrame : ImGui::GetFrameCount();
+    for (int c = 0; c < count; ++c) {
+        const float x = at.x + float(c) * (wide + gap);
+        const Area place{{x, at.y}, {x + wide, at.y + high}};
+        const bool typed = state.field.is(input.scope(), input.plug, c) &&
+                           state.field.state == FieldEdit::State::typing;
+        bool hovered = false;
+        ImGui::PushID(c);
+        if (!typed) {
+            ImGui::SetCursorScreenPos(place.lo);
+            const bool pressed = ImGui::InvisibleButton("##number", {wide, high});
+            hovered = ImGui::IsItemHovered();
+            if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)
+                ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi,
+                                                    themeColor(ThemeColor::active), 3.0f);
+            const bool byKey = pressed && !ImGui::IsMouseReleased(0);
+            if (byKey && state.field.state == FieldEdit::State::none) {
+                state.field.state = FieldEdit::State::typing;
+                state.field.scope = input.scope();
+                state.field.input = input.plug;
+                state.field.component = c;
+                state.field.start = numbersOf(input.row).at(std::size_t(c));
+                std::snprintf(state.field.text, sizeof state.field.text, "%s",
+                              numberText(state.field.start).c_str());
+            }
+        }
+        showField(state.field, input.editor.document, input.scope(), input.box, input.row, c, place,
+                  ImGui::GetFont(), ImGui::GetFontSize(), hovered);
+        ImGui::PopID();
+    }
+    if (state.field.state != FieldEdit::State::none) state.fieldFrame = ImGui::GetFrameCount();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({whole, high});
+}
+
+/// A colour's button before its numbers.
+void showColor(const Input& input) {
+    std::vector<double> numbers = numbersOf(input.row);
+    const Touched touched = pickColor("##color", numbers);
+    follow(
+        input.editor, "##color", touched, input.setName(),
+        [&] {
+            InputValue value{.value = numbers};
+            return setInput(input.graph(), input.scope(), input.plug, std::move(value));
+        },
+        input.held());
+    ImGui::SameLine();
+}
+
+/// The value that a track gives at the time shown; a change is a key there.
+void showAnimated(const Input& input, const Track& track) {
+    const double now = input.editor.viewport.seconds;
+    std::vector<double> value = evaluate(track, now);
+    NumberRange range;
+    if (input.row.spec) range.min = input.row.spec->min, range.max = input.row.spec->max;
+    ImGui::PushStyleColor(ImGuiCol_Border, themeColor(ThemeColor::active));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
+    const Touched touched = dragNumbers("##animated", value, range);
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+    const Moved moved = movedBy(track);
+    follow(
+        input.editor, "##animated", touched, "Set Key of " + readable(input.row.name),
+        [&] { return setKey(input.graph(), moved, now, value); }, input.held());
+}
+
+void setPoints(const Input& input, std::vector<double> numbers) {
+    InputValue value{.value = std::move(numbers)};
+    value.pairs = true;
+    input.set(std::move(value));
+}
+
+void showPoints(const Input& input) {
+    std::vector<double> numbers = input.row.spec ? input.row.spec->value.numbers : std::vector<double>();
+    if (input.row.value)
+        if (const auto* given = std::get_if<std::vector<double>>(&input.row.value->value)) numbers = *given;
+    const std::size_t count = numbers.size() / 2;
+    if (!ImGui::TreeNode("points", "%zu points", count)) return;
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    ImGui::BeginChild("##points", {0, line * float(std::clamp<std::size_t>(count, 1, kPointsShown))});
+    std::optional<std::size_t> removed, doubled;
+    ImGuiListClipper clipper;
+    clipper.Begin(int(count), line);
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const std::size_t at = 2 * std::size_t(i);
+            ImGui::PushID(i);
+            ImGui::SetNextItemWidth(-2.6f * ImGui::GetFrameHeight());
+            const Touched touched = dragNumbers("##point", std::span(numbers).subspan(at, 2));
+            follow(input.editor, "##point", touched, input.setName(), [&] {
+                InputValue value{.value = numbers};
+                value.pairs = true;
+                return setInput(input.graph(), input.scope(), input.plug, std::move(value));
+            });
+            ImGui::SameLine();
+            if (ImGui::SmallButton("+")) doubled = at;
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add a point between this one and the next");
+            ImGui::SameLine();
+            if (ImGui::SmallButton("×")) removed = at;
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Remove the point");
+            ImGui::PopID();
+        }
+    ImGui::EndChild();
+    ImGui::TreePop();
+    if (doubled) {
+        const std::size_t next = *doubled + 2 < numbers.size() ? *doubled + 2 : 0;
+        const double x = 0.5 * (numbers[*doubled] + numbers[next]),
+                     y = 0.5 * (numbers[*doubled + 1] + numbers[next + 1]);
+        numbers.insert(numbers.begin() + std::ptrdiff_t(*doubled) + 2, {x, y});
+        setPoints(input, std::move(numbers));
+    } else if (removed) {
+        numbers.erase(numbers.begin() + std::ptrdiff_t(*removed),
+                      numbers.begin() + std::ptrdiff_t(*removed) + 2);
+        setPoints(input, std::move(numbers));
+    }
+}
+
+void showText(const Input& input) {
+    const bool picture = input.row.type == Type::image;
+    const Plug plug = input.plug;
+    const std::string scope(input.scope()), name = input.setName();
+    editText(input.editor, "##text", valueText(input.row),
+             picture ? "a picture's path, from the graph's file on" : "",
+             [plug, scope, name](Editor& in, const std::string& text) {
+                 in.document.apply(name,
+                                   setInput(in.document.graph(), scope, plug, InputValue{.value = text}));
+             });
+}
+
+void showChoice(const Input& input) {
+    const std::vector<std::string>& options = input.row.spec->options;
+    const std::string chosen = valueText(input.row);
+    std::size_t index = std::size_t(std::ranges::find(options, chosen) - options.begin());
+    if (chooseName("##choice", options, index)) input.set(InputValue{.value = options[index]});
+}
+
+void showLink(const Input& input, float room, std::string& goTo) {
+    const Link& link = std::get<Link>(input.row.value->value);
+    const NodeBox* source = input.editor.boxes->find(link.node);
+    std::string words = "from " + (source ? titleOf(*source) : link.node);
+    if (!link.output.empty()) words += " · " + readable(link.output);
+    const float cut = ImGui::CalcTextSize("×").x + 2 * ImGui::GetStyle().FramePadding.x;
+    const float wide = ImGui::GetContentRegionAvail().x - room - cut - ImGui::GetStyle().ItemSpacing.x;
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, ImVec2(0.0f, 0.5f));
+    if (ImGui::Button((words + "###from").c_str(), {std::max(wide, 20.0f), 0}))
+        goTo = pathOf(input.editor, link.node);
+    ImGui::PopStyleVar();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s\nClick to go there", words.c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("×"))
+        input.editor.document.apply("Cut Wire", disconnect(input.graph(), input.scope(), input.plug));
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Cut the wire");
+}
+
+/// What an input without value starts with when it gets one: zeros.
+std::optional<InputValue> firstValue(const Row& row) {
+    if (row.type == Type::scalar || row.type == Type::integer) return InputValue{.value = 0.0};
+    if (row.type == Type::vec2 || row.type == Type::vec3)
+        return InputValue{.value = std::vector<double>(std::size_t(componentCount(*row.type)), 0.0)};
+    return std::nullopt;
+}
+
+void showUnset(const Input& input) {
+    const std::string words = valueText(input.row);
+    ImGui::TextDisabled("%s", words.empty() ? "not connected" : words.c_str());
+    const std::optional<InputValue> first = firstValue(input.row);
+    if (!first) return;
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Set")) input.set(first);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Give it a value of its own");
+}
+
+void showValue(const Input& input, const Track* track, float room, std::string& goTo) {
+    const Row& row = input.row;
+    if (row.linked) return showLink(input, room, goTo);
+    if (track) return showAnimated(input, *track);
+    if (row.type == Type::string && row.spec && !row.spec->options.empty()) return showChoice(input);
+    if (row.type == Type::string || row.type == Type::image) return showText(input);
+    if (row.type == Type::points) return showPoints(input);
+    if (row.type == Type::boolean) {
+        bool on = numbersOf(row).at(0) != 0.0;
+        if (ImGui::Checkbox("##on", &on)) input.set(InputValue{.value = on});
+        return;
+    }
+    const bool number = row.type == Type::scalar || row.type == Type::integer || row.type == Type::vec2 ||
+                        row.type == Type::vec3;
+    const bool given = row.value || (row.spec && row.spec->value.kind == InputDefault::Kind::numbers);
+    if (!number || !given) return showUnset(input);
+    if (isColor(row)) showColor(input);
+    showNumbers(input, room);
+}
+
+void toggleKey(const Input& input, const Timeline& timeline, std::optional<std::size_t> track) {
+    const double now = input.editor.viewport.seconds;
+    Document& document = input.editor.document;
+    const auto key = track ? keyAt(timeline.tracks[*track], now) : std::nullopt;
+    if (key) return document.apply("Remove Key", removeKey(document.graph(), *track, *key));
+    const std::vector<double> value = track ? evaluate(timeline.tracks[*track], now)
+                                            : inputNumbers(*input.box.node, input.plug.name);
+    const Moved moved = track ? movedBy(timeline.tracks[*track])
+                              : Moved{Track::Target::input, input.plug.node, input.plug.name};
+    document.apply("Add Key", setKey(document.graph(), moved, now, value));
+}
+
+/// Rename, type and removal of an expression's input.
+void showExpressionMenu(const Input& input) {
+    ImGui::Separator();
+    const Plug plug = input.plug;
+    const std::string scope(input.scope());
+    ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
+    editText(input.editor, "Name", plug.name, "", [plug, scope](Editor& in, const std::string& text) {
+        Result<Graph> renamed = renameExpressionInput(in.document.graph(), scope, plug, text);
+        if (!renamed) return say(in, "cannot rename: " + renamed.error().message);
+        in.document.apply("Rename Input", std::move(*renamed));
+    });
+    if (!input.row.linked)
+        for (const Type type : kExpressionTypes)
+            if (ImGui::MenuItem(std::string(typeName(type)).c_str(), nullptr, input.row.type == type))
+                input.editor.document.apply(
+                    "Set Type of " + readable(plug.name),
+                    setExpressionType(input.graph(), input.scope(), plug, type));
+    if (ImGui::MenuItem("Remove input"))
+        input.editor.document.apply("Remove Input", setInput(input.graph(), input.scope(), plug, {}));
+}
+
+void showMenu(const Input& input) {
+    const bool expression = input.box.node->type == "expression";
+    if (!expression && ImGui::MenuItem("Reset to default", nullptr, false, input.row.value != nullptr))
+        input.set(std::nullopt);
+    Document& document = input.editor.document;
+    if (input.scope().empty()) {
+        if (const auto parameter = parameterOf(input.graph(), input.plug)) {
+            if (ImGui::MenuItem("Remove parameter"))
+                document.apply("Remove Parameter", removeParameter(input.graph(), *parameter));
+        } else {
+            const std::string refusal = exposureRefusal(input.graph(), input.plug);
+            if (ImGui::MenuItem("Expose as parameter", nullptr, false, refusal.empty()))
+                document.apply("Expose " + readable(input.plug.name), exposeInput(input.graph(), input.plug));
+            if (!refusal.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+                ImGui::SetTooltip("%s", refusal.c_str());
+        }
+    }
+    if (expression) showExpressionMenu(input);
+}
+
+void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& goTo) {
+    const Input input{editor, box, row, {box.node->id, row.name}};
+    const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
+    const auto track =
+        timeline ? trackOfInput(editor.document.graph(), *timeline, input.plug) : std::nullopt;
+    const bool movable = timeline && (track || motionRefusal(editor.document.graph(), input.plug).empty());
+
+    const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const float menu = 0.9f * side, key = movable ? 0.8f * side + gap : 0.0f, room = menu + gap + key;
+    propertyRow(readable(row.name), describe(row), room);
+    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+    const float top = ImGui::GetCursorPosY();
+    showValue(input, track && !row.linked ? &timeline->tracks[*track] : nullptr, room, goTo);
+    const ImVec2 after = ImGui::GetCursorPos();
+    if (movable) {
+        const bool here = track && keyAt(timeline->tracks[*track], editor.viewport.seconds);
+        ImGui::SetCursorPos({right - menu - key, top});
+        if (keyButton("##key", here, track.has_value(),
+                      here ? "Remove the key at the time shown" : "Add a key at the time shown"))
+            toggleKey(input, *timeline, track);
+    }
+    ImGui::SetCursorPos({right - menu, top});
+    if (ImGui::Button("…", {menu, side})) ImGui::OpenPopup("menu");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("What else can be done with this input");
+    if (ImGui::BeginPopup("menu")) {
+        showMenu(input);
+        ImGui::EndPopup();
+    }
+    ImGui::SetCursorPos({after.x, std::max(after.y, ImGui::GetCursorPosY())});
+}
+
+}  // namespace
+
+void showInputs(Editor& editor, const NodeBox& box, std::string& goTo) {
+    if (!beginProperties("inputs")) return;
+    for (const Row& row : box.rows) {
+        if (row.output) continue;
+        ImGui::PushID(row.name.c_str());
+        showInput(editor, box, row, goTo);
+        ImGui::PopID();
+    }
+    endProperties();
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,65 @@
+// What the panels remember from one frame to the next: texts that are being typed, values under the hand,
+// what is searched for. None of it is of the document.
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "editor/canvas/fields.h"
+#include "graph/scene.h"
+#include "graph/timeline.h"
+
+namespace fw::editor {
+
+struct Editor;
+
+/// The one text that is being typed into a panel. It reaches the document when the field loses the keyboard.
+struct TextEdit {
+    ImGuiID field = 0;  ///< 0: none
+    int frame = 0;      ///< ImGui's, in which it was last shown
+    std::string text;
+    std::function<void(Editor&, const std::string&)> commit;
+};
+
+/// The one value that a hand drags in a panel: a gesture of the document.
+struct HeldValue {
+    ImGuiID field = 0;  ///< 0: none
+    int frame = 0;
+    std::set<std::string> inputs;  ///< "node.input" of what it moves, as in PreviewWish::held
+};
+
+struct PanelState {
+    FieldEdit field;     ///< of the inspector's numbers
+    int fieldFrame = 0;  ///< ImGui's, in which it was last shown
+    TextEdit text;
+    HeldValue held;
+    ImGuiID refocus = 0;  ///< a text field that gets the keyboard again in the next frame
+
+    std::string newInput;  ///< names typed for inputs to be added
+    int newInputType = 0;
+    std::string newSocket;
+    int newSocketType = 0;
+
+    std::string search;  ///< of the outliner
+
+    /// The document's timeline as it was read, or why it could not be: of revision `read`.
+    uint64_t read = 0;
+    Timeline timeline;
+    std::string timelineProblem;
+    double played = 0.0;  ///< seconds since play began at 0, beyond the timeline's length when it repeats
+    std::optional<std::size_t> track, key;  ///< selected on the timeline
+
+    /// Inputs under the hand in any panel.
+    std::set<std::string> heldInputs() const {
+        std::set<std::string> all = field.held();
+        all.insert(held.inputs.begin(), held.inputs.end());
+        return all;
+    }
+};
+
+}  // namespace fw::editor

@@ -1,0 +1,239 @@
+#include "editor/panels/properties.h"
+
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr float kNameShare = 0.38f;  // of a panel's width
+
+float toDisplay(double linear) {
+    const double x = std::clamp(linear, 0.0, 1.0);
+    return float(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
+}
+
+double toLinear(float display) {
+    const double x = double(std::clamp(display, 0.0f, 1.0f));
+    const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    return std::round(linear * 1e5) / 1e5;  // no more digits than the picker can tell apart
+}
+
+/// Keeps what is being typed, and hands it over when the field has lost the keyboard.
+void followText(Editor& editor, ImGuiID id, const std::string& before, const std::string& now,
+                std::function<void(Editor&, const std::string&)> commit) {
+    TextEdit& edit = editor.panelState.text;
+    if (ImGui::GetActiveID() == id) {
+        // A field further down was left for this one.
+        if (edit.field != id && edit.field != 0 && edit.commit) edit.commit(editor, edit.text);
+        edit.field = id;
+        edit.frame = ImGui::GetFrameCount();
+        edit.text = now;
+        edit.commit = std::move(commit);
+    } else if (edit.field == id) {
+        edit = {};
+        if (now != before) commit(editor, now);
+    }
+}
+
+/// What the field shows: what is being typed in it, else the document's text.
+std::string shownText(const Editor& editor, const char* id, const std::string& text) {
+    const TextEdit& edit = editor.panelState.text;
+    return edit.field == ImGui::GetID(id) ? edit.text : text;
+}
+
+}  // namespace
+
+bool beginProperties(const char* id) {
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX))
+        return false;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, kNameShare);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.0f - kNameShare);
+    return true;
+}
+
+void endProperties() { ImGui::EndTable(); }
+
+void propertyRow(const std::string& name, const std::string& tip, float room) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(name.c_str());
+    if (!tip.empty() && ImGui::IsItemHovered()) {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
+        ImGui::TextUnformatted(tip.c_str());
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-std::max(room, FLT_MIN));
+}
+
+Touched dragNumbers(const char* id, std::span<double> numbers, const NumberRange& range) {
+    const bool least = std::isfinite(range.min), most = std::isfinite(range.max);
+    const std::vector<double> before(numbers.begin(), numbers.end());
+    Touched touched;
+    touched.changed =
+        ImGui::DragScalarN(id, ImGuiDataType_Double, numbers.data(), int(numbers.size()), float(range.speed),
+                           least ? &range.min : nullptr, most ? &range.max : nullptr, "%.6g",
+                           least || most ? ImGuiSliderFlags_AlwaysClamp : ImGuiSliderFlags_None);
+    touched.active = ImGui::IsItemActive();
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (!std::isfinite(numbers[i])) numbers[i] = before[i];
+    return touched;
+}
+
+Touched pickColor(const char* id, std::span<double> linear) {
+    // A picker knows colours up to white: what is brighter is one of them times its strength.
+    const double strength = std::max({1.0, linear[0], linear[1], linear[2]});
+    float shown[3];
+    for (std::size_t i = 0; i < 3; ++i) shown[i] = toDisplay(linear[i] / strength);
+    Touched touched;
+    ImGui::PushID(id);
+    const float height = ImGui::GetFrameHeight();
+    if (ImGui::ColorButton("##color", {shown[0], shown[1], shown[2], 1.0f},
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                           {1.6f * height, height}))
+        ImGui::OpenPopup("picker");
+    if (ImGui::BeginPopup("picker")) {
+        ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
+        touched.changed = ImGui::ColorPicker3(
+            "##picker", shown,
+            ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayRGB |
+                ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueBar);
+        touched.active = ImGui::IsItemActive();
+        ImGui::EndPopup();
+    }
+    ImGui::PopID();
+    if (touched.changed)
+        for (std::size_t i = 0; i < 3; ++i) linear[i] = toLinear(shown[i]) * strength;
+    return touched;
+}
+
+bool chooseName(const char* id, std::span<const std::string> names, std::size_t& chosen) {
+    bool taken = false;
+    if (!ImGui::BeginCombo(id, chosen < names.size() ? readable(names[chosen]).c_str() : "")) return false;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (ImGui::Selectable(readable(names[i]).c_str(), i == chosen) && i != chosen)
+            chosen = i, taken = true;
+        if (i == chosen) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+    return taken;
+}
+
+void follow(Editor& editor, const char* id, const Touched& touched, const std::string& name,
+            const std::function<Graph()>& next, const std::string& input) {
+    HeldValue& held = editor.panelState.held;
+    const ImGuiID field = ImGui::GetID(id);
+    if (touched.changed) {
+        if (held.field != field) {
+            if (held.field != 0) editor.document.end();
+            editor.document.begin(name);
+            held.field = field;
+            held.inputs.clear();
+            if (!input.empty()) held.inputs.insert(input);
+        }
+        editor.document.update(next());
+    }
+    if (held.field != field) return;
+    held.frame = ImGui::GetFrameCount();
+    if (touched.active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+        ImGui::ClearActiveID();
+        editor.document.cancel();
+        held = {};
+    } else if (!touched.active) {
+        editor.document.end();
+        held = {};
+    }
+}
+
+void editText(Editor& editor, const char* id, const std::string& text, const char* hint,
+              std::function<void(Editor&, const std::string&)> commit) {
+    std::string shown = shownText(editor, id, text);
+    ImGui::InputTextWithHint(id, hint, &shown);
+    followText(editor, ImGui::GetID(id), text, shown, std::move(commit));
+}
+
+void editCode(Editor& editor, const char* id, const std::string& code, float height,
+              std::function<void(Editor&, const std::string&)> commit) {
+    const ImGuiID field = ImGui::GetID(id);
+    std::string shown = shownText(editor, id, code);
+    if (editor.panelState.refocus == field) {
+        ImGui::SetKeyboardFocusHere();
+        editor.panelState.refocus = 0;
+    }
+    const float size = ImGui::GetFontSize();
+    ImGui::PushFont(editor.shell.fonts().codeOf(size));
+    ImGui::InputTextMultiline(id, &shown, {-FLT_MIN, height}, ImGuiInputTextFlags_AllowTabInput);
+    const bool applied = editor.panelState.text.field == field && ImGui::GetActiveID() != field &&
+                         ImGui::GetIO().KeyCtrl &&
+                         (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
+                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter)));
+    followText(editor, field, code, shown, std::move(commit));
+    ImGui::PopFont();
+    if (applied) editor.panelState.refocus = field;  // one goes on writing after a look at the result
+}
+
+bool keyButton(const char* id, bool filled, bool animated, const char* tip) {
+    const float side = ImGui::GetFrameHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool pressed = ImGui::InvisibleButton(id, {0.8f * side, side});
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+    const ImU32 color = ImGui::IsItemHovered() || animated || ImGui::GetFocusID() == ImGui::GetItemID()
+                            ? themeColor(ThemeColor::active)
+                            : themeColor(ThemeColor::quiet);
+    const ImVec2 c(at.x + 0.4f * side, at.y + 0.5f * side);
+    const float r = 0.24f * side;
+    const ImVec2 top(c.x, c.y - r), right(c.x + r, c.y), bottom(c.x, c.y + r), left(c.x - r, c.y);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    if (filled)
+        list->AddQuadFilled(top, right, bottom, left, color);
+    else
+        list->AddQuad(top, right, bottom, left, color, 1.5f);
+    return pressed;
+}
+
+void finishLost(Editor& editor) {
+    const int frame = ImGui::GetFrameCount();
+    TextEdit& text = editor.panelState.text;
+    if (text.field != 0 && text.frame < frame - 1) {
+        const TextEdit lost = std::exchange(text, {});
+        if (lost.commit) lost.commit(editor, lost.text);
+    }
+    HeldValue& held = editor.panelState.held;
+    if (held.field != 0 && held.frame < frame - 1) {
+        editor.document.end();
+        held = {};
+    }
+    // A number that was dragged or typed in a panel that is gone: the button went up elsewhere.
+    FieldEdit& field = editor.panelState.field;
+    if (field.state != FieldEdit::State::none && editor.panelState.fieldFrame < frame - 1) {
+        if (field.state == FieldEdit::State::dragging) editor.document.end();
+        field = {};
+    }
+}
+
+const Timeline* timelineOf(Editor& editor) {
+    PanelState& state = editor.panelState;
+    if (state.read != editor.document.revision()) {
+        state.read = editor.document.revision();
+        const Result<Timeline> timeline = readTimeline(editor.document.graph());
+        state.timeline = timeline ? *timeline : Timeline{};
+        state.timelineProblem = timeline ? "" : format(timeline.error());
+    }
+    return state.timelineProblem.empty() ? &state.timeline : nullptr;
+}
+
+std::string pathOf(const Editor& editor, std::string_view node) {
+    return editor.canvas.scope.empty() ? std::string(node) : editor.canvas.scope + "/" + std::string(node);
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,65 @@
+// The panels' two columns of properties: a name on the left, its value on the right. What is dragged is one
+// gesture of the document; what is typed reaches it when the field is left.
+//
+// All in ImGui's current window. Lifetime: nothing here outlives the frame; what must is in PanelState.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "editor/editor.h"
+
+namespace fw::editor {
+
+/// What a hand did to a value that was shown.
+struct Touched {
+    bool changed = false;  ///< in this frame
+    bool active = false;   ///< still under the hand
+};
+
+/// Bounds of a number. A range that is not finite is none.
+struct NumberRange {
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+    double speed = 0.01;  ///< a pixel of a drag
+};
+
+/// Begins the two columns; false if they are not seen. Only then endProperties() is called.
+bool beginProperties(const char* id);
+void endProperties();
+/// The next row: its name, cut where it does not fit, with `tip` on hover. The value is to follow, as wide as
+/// the column less `room` pixels.
+void propertyRow(const std::string& name, const std::string& tip = {}, float room = 0.0f);
+
+/// Numbers side by side that are dragged, or typed after Ctrl+click.
+Touched dragNumbers(const char* id, std::span<double> numbers, const NumberRange& range = {});
+/// A colour in linear sRGB: a button that opens ImGui's picker. What is brighter than white keeps its
+/// strength.
+Touched pickColor(const char* id, std::span<double> linear);
+/// A choice among names; whether another was taken.
+bool chooseName(const char* id, std::span<const std::string> names, std::size_t& chosen);
+
+/// Hands on to the document what a hand did to the value of `id`: a drag is one step of undo. `next` gives
+/// the document with the value; `input` is "node.input" where it can be live.
+void follow(Editor& editor, const char* id, const Touched& touched, const std::string& name,
+            const std::function<Graph()>& next, const std::string& input = {});
+
+/// A line of text, or several of `code`. `commit` is called with what was typed when the field is left, if
+/// it was changed; Escape takes it back.
+void editText(Editor& editor, const char* id, const std::string& text, const char* hint,
+              std::function<void(Editor&, const std::string&)> commit);
+void editCode(Editor& editor, const char* id, const std::string& code, float height,
+              std::function<void(Editor&, const std::string&)> commit);
+
+/// A small button with a diamond: filled where there is a key. Whether it was pressed.
+bool keyButton(const char* id, bool filled, bool animated, const char* tip);
+
+/// Ends what was under the hand or typed in a field that is not shown any more: called once a frame.
+void finishLost(Editor& editor);
+
+/// The document's timeline, read anew when the document changed; nullptr if it cannot be read.
+const Timeline* timelineOf(Editor& editor);
+
+/// "group/node" of a node in the scope shown.
+std::string pathOf(const Editor& editor, std::string_view node);
+
+}  // namespace fw::editor
