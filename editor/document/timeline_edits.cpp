@@ -131,13 +131,12 @@ Graph setTimelineLength(const Graph& graph, double seconds) {
 
 Graph setFramesPerSecond(const Graph& graph, double frames) {
     if (!(frames > 0.0)) return graph;
-    return edited(
-        graph, [&](Json& json, const Timeline&) { json["fps"] = std::min(frames, kMostFramesPerSecond); });
+    return edited(graph,
+                  [&](Json& json, const Timeline&) { json["fps"] = std::min(frames, kMostFramesPerSecond); });
 }
 
 Graph setLoop(const Graph& graph, Loop loop) {
-    return edited(graph,
-                  [&](Json& json, const Timeline&) { json["loop"] = loopNames()[std::size_t(loop)]; });
+    return edited(graph, [&](Json& json, const Timeline&) { json["loop"] = loopNames()[std::size_t(loop)]; });
 }
 
 Graph setKey(const Graph& graph, const Moved& moved, double time, std::span<const double> value) {

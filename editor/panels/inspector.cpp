@@ -25,9 +25,9 @@ void showType(const NodeBox& box) {
     const ImU32 color = box.type ? categoryColor(box.type->category) : themeColor(ThemeColor::error);
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, {at.x + width, at.y + height}, color, 3.0f);
-    const std::string words =
-        box.type ? box.type->label + "  ·  " + std::string(categoryName(box.type->category))
-                 : "unknown type \"" + box.node->type + "\"";
+    const std::string words = box.type
+                                  ? box.type->label + "  ·  " + std::string(categoryName(box.type->category))
+                                  : "unknown type \"" + box.node->type + "\"";
     list->AddText({at.x + 0.4f * height, at.y + 0.5f * (height - ImGui::GetFontSize())},
                   themeColor(ThemeColor::onTitle), words.c_str());
     ImGui::Dummy({width, height});
@@ -54,13 +54,12 @@ void showNames(Editor& editor, const NodeBox& box) {
     propertyRow("Shown", "A muted node passes on its first input of its output's type.");
     bool muted = box.node->muted, collapsed = box.node->collapsed;
     if (ImGui::Checkbox("Muted", &muted))
-        editor.document.apply("Mute",
-                              toggleMuted(editor.document.graph(), scope, std::span<const std::string>(&id, 1)));
+        editor.document.apply(
+            "Mute", toggleMuted(editor.document.graph(), scope, std::span<const std::string>(&id, 1)));
     ImGui::SameLine();
     if (ImGui::Checkbox("Collapsed", &collapsed))
-        editor.document.apply(
-            "Collapse",
-            toggleCollapsed(editor.document.graph(), scope, std::span<const std::string>(&id, 1)));
+        editor.document.apply("Collapse", toggleCollapsed(editor.document.graph(), scope,
+                                                          std::span<const std::string>(&id, 1)));
     endProperties();
 }
 
@@ -100,8 +99,7 @@ void showInspector(Editor& editor) {
     showExactness(editor, box->node->id);
     const bool expression = box->node->type == "expression";
     if (expression) showExpression(editor, *box);
-    const bool anyInput =
-        std::ranges::any_of(box->rows, [](const Row& row) { return !row.output; });
+    const bool anyInput = std::ranges::any_of(box->rows, [](const Row& row) { return !row.output; });
     if (anyInput) {
         ImGui::Spacing();
         showInputs(editor, *box, goTo);

@@ -58,8 +58,7 @@ void showExpression(Editor& editor, const NodeBox& box) {
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5.0f * em);
-    if (ImGui::BeginCombo("##type",
-                          std::string(typeName(kExpressionTypes[state.newInputType])).c_str())) {
+    if (ImGui::BeginCombo("##type", std::string(typeName(kExpressionTypes[state.newInputType])).c_str())) {
         for (int i = 0; i < int(std::size(kExpressionTypes)); ++i)
             if (ImGui::Selectable(std::string(typeName(kExpressionTypes[i])).c_str(),
                                   i == state.newInputType))

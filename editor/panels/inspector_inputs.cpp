@@ -44,12 +44,13 @@ void showNumbers(const Input& input, float room) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x, high = ImGui::GetFrameHeight();
     const float whole = std::max(ImGui::GetContentRegionAvail().x - room, 20.0f);
     const float wide = (whole - gap * float(count - 1)) / float(count);
-    state.fieldFrame = state.field.state == FieldEdit::State::none ? state.fieldFrame : ImGui::GetFrameCount();
+    state.fieldFrame =
+        state.field.state == FieldEdit::State::none ? state.fieldFrame : ImGui::GetFrameCount();
     for (int c = 0; c < count; ++c) {
         const float x = at.x + float(c) * (wide + gap);
         const Area place{{x, at.y}, {x + wide, at.y + high}};
-        const bool typed = state.field.is(input.scope(), input.plug, c) &&
-                           state.field.state == FieldEdit::State::typing;
+        const bool typed =
+            state.field.is(input.scope(), input.plug, c) && state.field.state == FieldEdit::State::typing;
         bool hovered = false;
         ImGui::PushID(c);
         if (!typed) {
@@ -57,8 +58,7 @@ void showNumbers(const Input& input, float room) {
             const bool pressed = ImGui::InvisibleButton("##number", {wide, high});
             hovered = ImGui::IsItemHovered();
             if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)
-                ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi,
-                                                    themeColor(ThemeColor::active), 3.0f);
+                ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), 3.0f);
             const bool byKey = pressed && !ImGui::IsMouseReleased(0);
             if (byKey && state.field.state == FieldEdit::State::none) {
                 state.field.state = FieldEdit::State::typing;
@@ -241,8 +241,8 @@ void toggleKey(const Input& input, const Timeline& timeline, std::optional<std::
     Document& document = input.editor.document;
     const auto key = track ? keyAt(timeline.tracks[*track], now) : std::nullopt;
     if (key) return document.apply("Remove Key", removeKey(document.graph(), *track, *key));
-    const std::vector<double> value = track ? evaluate(timeline.tracks[*track], now)
-                                            : inputNumbers(*input.box.node, input.plug.name);
+    const std::vector<double> value =
+        track ? evaluate(timeline.tracks[*track], now) : inputNumbers(*input.box.node, input.plug.name);
     const Moved moved = track ? movedBy(timeline.tracks[*track])
                               : Moved{Track::Target::input, input.plug.node, input.plug.name};
     document.apply("Add Key", setKey(document.graph(), moved, now, value));
@@ -262,9 +262,8 @@ void showExpressionMenu(const Input& input) {
     if (!input.row.linked)
         for (const Type type : kExpressionTypes)
             if (ImGui::MenuItem(std::string(typeName(type)).c_str(), nullptr, input.row.type == type))
-                input.editor.document.apply(
-                    "Set Type of " + readable(plug.name),
-                    setExpressionType(input.graph(), input.scope(), plug, type));
+                input.editor.document.apply("Set Type of " + readable(plug.name),
+                                            setExpressionType(input.graph(), input.scope(), plug, type));
     if (ImGui::MenuItem("Remove input"))
         input.editor.document.apply("Remove Input", setInput(input.graph(), input.scope(), plug, {}));
 }
@@ -292,8 +291,7 @@ void showMenu(const Input& input) {
 void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& goTo) {
     const Input input{editor, box, row, {box.node->id, row.name}};
     const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
-    const auto track =
-        timeline ? trackOfInput(editor.document.graph(), *timeline, input.plug) : std::nullopt;
+    const auto track = timeline ? trackOfInput(editor.document.graph(), *timeline, input.plug) : std::nullopt;
     const bool movable = timeline && (track || motionRefusal(editor.document.graph(), input.plug).empty());
 
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;

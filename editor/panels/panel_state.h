@@ -43,7 +43,7 @@ struct PanelState {
     std::string newInput;  ///< names typed for inputs to be added
     int newInputType = 0;
     std::string newSocket;
-    int newSocketType = 0;
+    int newSocketType = int(Type::scalar);
 
     std::string search;  ///< of the outliner
 

@@ -104,10 +104,10 @@ Touched pickColor(const char* id, std::span<double> linear) {
         ImGui::OpenPopup("picker");
     if (ImGui::BeginPopup("picker")) {
         ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
-        touched.changed = ImGui::ColorPicker3(
-            "##picker", shown,
-            ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayRGB |
-                ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueBar);
+        touched.changed =
+            ImGui::ColorPicker3("##picker", shown,
+                                ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayRGB |
+                                    ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueBar);
         touched.active = ImGui::IsItemActive();
         ImGui::EndPopup();
     }
