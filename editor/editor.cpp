@@ -4,6 +4,7 @@
 
 #include "editor/commands.h"
 #include "editor/document/layout.h"
+#include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
 
@@ -133,6 +134,7 @@ bool exchange(Editor& editor) {
 
 void showEditor(Editor& editor) {
     finishLost(editor);
+    playOn(editor);
     drawAnew(editor);
     const ImGuiViewport* whole = ImGui::GetMainViewport();
     ImGui::SetNextWindowPos(whole->WorkPos);

@@ -59,7 +59,6 @@ Graph withScene(const Graph& graph) {
 }
 
 constexpr std::string_view kLights = "lights.";
-constexpr const char* kLampTypes[] = {"point", "spot", "directional"};
 
 /// Leads tracks of lamps behind the one removed to where these stand now; drops those of that one.
 void followLamps(Graph& graph, std::size_t removed) {
@@ -112,13 +111,18 @@ Graph setSceneCamera(const Graph& graph, const std::optional<Camera>& camera) {
     return setSceneValue(result, "camera.fov", camera->fov);
 }
 
+const std::vector<std::string>& lampTypes() {
+    static const std::vector<std::string> names = {"point", "spot", "directional"};
+    return names;
+}
+
 Graph addLamp(const Graph& graph, const Lamp& lamp) {
     Graph result = withScene(graph);
     if (!result.scene.is_object()) result.scene = Json::object();
     Json& lights = result.scene["lights"];
     if (!lights.is_array()) lights = Json::array();
     if (lights.size() >= kMostLights) return graph;
-    Json json = {{"type", kLampTypes[std::size_t(lamp.type)]}, {"position", jsonOf(lamp.position)}};
+    Json json = {{"type", lampTypes()[std::size_t(lamp.type)]}, {"position", jsonOf(lamp.position)}};
     if (lamp.type != Lamp::Type::point) json["target"] = jsonOf(lamp.target);
     json["color"] = jsonOf(lamp.color);
     json["strength"] = lamp.strength;

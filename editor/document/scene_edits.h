@@ -21,6 +21,8 @@ Graph switchScene(const Graph& graph, std::string_view part, bool on);
 /// The camera; none: the whole solid is framed.
 Graph setSceneCamera(const Graph& graph, const std::optional<Camera>& camera);
 
+/// As files have them, in the order of Lamp::Type.
+const std::vector<std::string>& lampTypes();
 /// A lamp behind the others; the graph itself if there are kMostLights.
 Graph addLamp(const Graph& graph, const Lamp& lamp);
 /// Without the lamp. Tracks of its values go with it, those of later lamps follow.

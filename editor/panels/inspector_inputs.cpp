@@ -5,7 +5,6 @@
 
 #include "editor/document/expression_inputs.h"
 #include "editor/document/parameters.h"
-#include "editor/document/timeline_edits.h"
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
@@ -91,23 +90,6 @@ void showColor(const Input& input) {
         },
         input.held());
     ImGui::SameLine();
-}
-
-/// The value that a track gives at the time shown; a change is a key there.
-void showAnimated(const Input& input, const Track& track) {
-    const double now = input.editor.viewport.seconds;
-    std::vector<double> value = evaluate(track, now);
-    NumberRange range;
-    if (input.row.spec) range.min = input.row.spec->min, range.max = input.row.spec->max;
-    ImGui::PushStyleColor(ImGuiCol_Border, themeColor(ThemeColor::active));
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
-    const Touched touched = dragNumbers("##animated", value, range);
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-    const Moved moved = movedBy(track);
-    follow(
-        input.editor, "##animated", touched, "Set Key of " + readable(input.row.name),
-        [&] { return setKey(input.graph(), moved, now, value); }, input.held());
 }
 
 void setPoints(const Input& input, std::vector<double> numbers) {
@@ -219,7 +201,11 @@ void showUnset(const Input& input) {
 void showValue(const Input& input, const Track* track, float room, std::string& goTo) {
     const Row& row = input.row;
     if (row.linked) return showLink(input, room, goTo);
-    if (track) return showAnimated(input, *track);
+    if (track) {
+        NumberRange range;
+        if (row.spec) range.min = row.spec->min, range.max = row.spec->max;
+        return editAnimated(input.editor, "##animated", *track, range, readable(row.name), input.held());
+    }
     if (row.type == Type::string && row.spec && !row.spec->options.empty()) return showChoice(input);
     if (row.type == Type::string || row.type == Type::image) return showText(input);
     if (row.type == Type::points) return showPoints(input);
@@ -234,18 +220,6 @@ void showValue(const Input& input, const Track* track, float room, std::string& 
     if (!number || !given) return showUnset(input);
     if (isColor(row)) showColor(input);
     showNumbers(input, room);
-}
-
-void toggleKey(const Input& input, const Timeline& timeline, std::optional<std::size_t> track) {
-    const double now = input.editor.viewport.seconds;
-    Document& document = input.editor.document;
-    const auto key = track ? keyAt(timeline.tracks[*track], now) : std::nullopt;
-    if (key) return document.apply("Remove Key", removeKey(document.graph(), *track, *key));
-    const std::vector<double> value =
-        track ? evaluate(timeline.tracks[*track], now) : inputNumbers(*input.box.node, input.plug.name);
-    const Moved moved = track ? movedBy(timeline.tracks[*track])
-                              : Moved{Track::Target::input, input.plug.node, input.plug.name};
-    document.apply("Add Key", setKey(document.graph(), moved, now, value));
 }
 
 /// Rename, type and removal of an expression's input.
@@ -306,7 +280,10 @@ void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& 
         ImGui::SetCursorPos({right - menu - key, top});
         if (keyButton("##key", here, track.has_value(),
                       here ? "Remove the key at the time shown" : "Add a key at the time shown"))
-            toggleKey(input, *timeline, track);
+            toggleKey(editor, *timeline,
+                      track ? movedBy(timeline->tracks[*track])
+                            : Moved{Track::Target::input, input.plug.node, input.plug.name},
+                      inputNumbers(*box.node, input.plug.name));
     }
     ImGui::SetCursorPos({right - menu, top});
     if (ImGui::Button("…", {menu, side})) ImGui::OpenPopup("menu");

@@ -45,7 +45,8 @@ struct PanelState {
     std::string newSocket;
     int newSocketType = int(Type::scalar);
 
-    std::string search;  ///< of the outliner
+    std::string search;            ///< of the outliner
+    std::set<std::string> folded;  ///< the scopes whose nodes it hides
 
     /// The document's timeline as it was read, or why it could not be: of revision `read`.
     uint64_t read = 0;
@@ -53,6 +54,9 @@ struct PanelState {
     std::string timelineProblem;
     double played = 0.0;  ///< seconds since play began at 0, beyond the timeline's length when it repeats
     std::optional<std::size_t> track, key;  ///< selected on the timeline
+    Graph keyBase;                          ///< the document when a key was taken hold of
+    std::size_t keyTaken = 0;               ///< that key's index then
+    float keyOffset = 0.0f;                 ///< pixels from the mouse to it
 
     /// Inputs under the hand in any panel.
     std::set<std::string> heldInputs() const {

@@ -201,6 +201,32 @@ bool keyButton(const char* id, bool filled, bool animated, const char* tip) {
     return pressed;
 }
 
+void editAnimated(Editor& editor, const char* id, const Track& track, const NumberRange& range,
+                  const std::string& name, const std::string& input) {
+    const double now = editor.viewport.seconds;
+    std::vector<double> value = evaluate(track, now);
+    ImGui::PushStyleColor(ImGuiCol_Border, themeColor(ThemeColor::active));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
+    const Touched touched = dragNumbers(id, value, range);
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+    const Moved moved = movedBy(track);
+    follow(
+        editor, id, touched, "Set Key of " + name,
+        [&] { return setKey(editor.document.graph(), moved, now, value); }, input);
+}
+
+void toggleKey(Editor& editor, const Timeline& timeline, const Moved& moved, std::span<const double> value) {
+    const double now = editor.viewport.seconds;
+    Document& document = editor.document;
+    const auto track = trackOf(timeline, moved);
+    const auto key = track ? keyAt(timeline.tracks[*track], now) : std::nullopt;
+    if (key) return document.apply("Remove Key", removeKey(document.graph(), *track, *key));
+    std::vector<double> there(value.begin(), value.end());
+    if (track) there = evaluate(timeline.tracks[*track], now);
+    document.apply("Add Key", setKey(document.graph(), moved, now, there));
+}
+
 void finishLost(Editor& editor) {
     const int frame = ImGui::GetFrameCount();
     TextEdit& text = editor.panelState.text;

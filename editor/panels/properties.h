@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "editor/document/timeline_edits.h"
 #include "editor/editor.h"
 
 namespace fw::editor {
@@ -52,6 +53,13 @@ void editCode(Editor& editor, const char* id, const std::string& code, float hei
 
 /// A small button with a diamond: filled where there is a key. Whether it was pressed.
 bool keyButton(const char* id, bool filled, bool animated, const char* tip);
+
+/// The numbers that a track gives at the time shown, in a frame of their own; a change is a key there.
+void editAnimated(Editor& editor, const char* id, const Track& track, const NumberRange& range,
+                  const std::string& name, const std::string& input = {});
+/// A key of what the track moves at the time shown, of the value that it has there, or of `value` if nothing
+/// moves it yet; without the one that is there.
+void toggleKey(Editor& editor, const Timeline& timeline, const Moved& moved, std::span<const double> value);
 
 /// Ends what was under the hand or typed in a field that is not shown any more: called once a frame.
 void finishLost(Editor& editor);

@@ -1,0 +1,14 @@
+// Time in the editor: it plays, rests or is scrubbed.
+#pragma once
+
+#include "editor/editor.h"
+
+namespace fw::editor {
+
+/// Lets the time of this frame pass if it plays: called once a frame.
+void playOn(Editor& editor);
+void togglePlay(Editor& editor);
+/// Shows the time on the timeline, seconds; from there it plays on.
+void showTime(Editor& editor, double seconds);
+
+}  // namespace fw::editor

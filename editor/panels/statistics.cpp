@@ -1,0 +1,51 @@
+// What the last picture took: triangles, time by stage, memory.
+#include <algorithm>
+#include <cstdio>
+
+#include "editor/editor.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr double kMebibyte = 1024.0 * 1024.0;
+
+void row(const char* name, const char* format, double value) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::Text(format, value);
+}
+
+}  // namespace
+
+void showStatistics(Editor& editor) {
+    const PreviewResult& shown = editor.viewport.shown;
+    const PreviewStatistics& statistics = shown.statistics;
+    if (shown.picture.width == 0 && statistics.triangles == 0)
+        return ImGui::TextDisabled("Nothing has been made yet.");
+    if (!ImGui::BeginTable("statistics", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg))
+        return;
+    row("Nodes", "%.0f", double(editor.graph->nodes.size()));
+    row("Triangles", "%.0f", double(statistics.triangles));
+    row("Vertices", "%.0f", double(statistics.vertices));
+    row("Cells along the longest side", "%.0f", double(statistics.resolution));
+    row("Memory of the device", "%.1f MiB", double(statistics.deviceBytes) / kMebibyte);
+    row("From edit to picture", "%.1f ms", statistics.milliseconds);
+    double all = 0.0;
+    for (const StageTime& stage : statistics.stages) all += stage.milliseconds;
+    for (const StageTime& stage : statistics.stages) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(("   " + stage.name).c_str());
+        ImGui::TableNextColumn();
+        char text[32];
+        std::snprintf(text, sizeof text, "%.2f ms", stage.milliseconds);
+        ImGui::ProgressBar(all > 0.0 ? float(stage.milliseconds / all) : 0.0f, {-FLT_MIN, 0}, text);
+    }
+    row("Frame of the interface", "%.1f ms", 1000.0 / double(std::max(ImGui::GetIO().Framerate, 1.0f)));
+    ImGui::EndTable();
+}
+
+}  // namespace fw::editor
