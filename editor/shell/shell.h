@@ -10,23 +10,14 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "editor/shell/fonts.h"
 #include "runtime/gpu/resources.h"
 #include "runtime/render/picture.h"
 
 struct GLFWwindow;
 
 namespace fw::editor {
-
-/// Text at any size between the smallest and largest baked one stays crisp: the nearest baked size is taken.
-struct Fonts {
-    std::vector<ImFont*> text;  ///< by rising size
-    std::vector<ImFont*> code;  ///< the same, of fixed width
-    /// The font whose pixels are nearest to this size.
-    ImFont* of(float pixels) const;
-    ImFont* codeOf(float pixels) const;
-};
 
 struct ShellOptions {
     std::string device = {};
@@ -36,21 +27,26 @@ struct ShellOptions {
 
 class Shell {
   public:
+    /// Opens the window. Throws SystemError where there is no window system, no such device, or none that
+    /// can show pictures.
     explicit Shell(const ShellOptions& options);
     ~Shell();
 
-    /// Sleeps until something happened, or so many seconds; 0: only takes what is there.
-    void waitEvents(double seconds);
-    /// From any thread: ends the sleep.
+    /// Sleeps until something happened, or so many seconds; 0: only takes what is there. Whether there is a
+    /// reason to draw: input, a wake(), a window of another size. ImGui needs some frames to come to rest
+    /// after input; those are reasons too.
+    bool waitEvents(double seconds);
+    /// From any thread: ends the sleep, and gives a reason to draw.
     static void wake();
     /// One frame: show() builds the interface, which is then drawn and presented. A minimised window draws
-    /// nothing.
+    /// nothing, and show() is not called.
     void frame(const std::function<void()>& show);
     bool closed() const;
     void keepOpen();  ///< after closed(): the user was asked and stays
 
-    /// A picture for ImGui::Image: uploaded, or replaced if its size is the same. `id` null: a new one.
+    /// A picture for ImGui::Image, in place of what `id` showed; null: a new one. Returns the id.
     ImTextureID show(ImTextureID id, const Picture& picture);
+    /// Its last frame may still show it. Null: nothing.
     void forget(ImTextureID id);
 
     const Fonts& fonts() const;
@@ -58,7 +54,7 @@ class Shell {
     const Device& device() const;
     GLFWwindow* window() const;
     void setTitle(const std::string& title);
-    /// The last frame as it was shown, for tests and the pictures of the tutorial.
+    /// The last frame, drawn once more, for tests and the pictures of the tutorial. There was one.
     Picture capture();
 
   private:

@@ -274,11 +274,12 @@ Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& opt
     auto vertices = zeroed<VkPipelineVertexInputStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     const VkVertexInputBindingDescription vertex = {0, options.vertexStride, VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription position = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
-    vertices.vertexBindingDescriptionCount = vertices.vertexAttributeDescriptionCount =
-        options.vertexStride > 0;
-    vertices.pVertexBindingDescriptions = &vertex;
-    vertices.pVertexAttributeDescriptions = &position;
+    if (options.vertexStride > 0) {
+        vertices.vertexBindingDescriptionCount = 1;
+        vertices.pVertexBindingDescriptions = &vertex;
+        vertices.vertexAttributeDescriptionCount = uint32_t(options.vertexAttributes.size());
+        vertices.pVertexAttributeDescriptions = options.vertexAttributes.data();
+    }
     auto assembly = zeroed<VkPipelineInputAssemblyStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = options.topology;

@@ -95,13 +95,14 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
                                              CompileTimes* times = nullptr, Compile when = Compile::now);
 Pipeline createComputePipeline(const Device& device, const ShaderOptions& shader);
 
-/// A pipeline for dynamic rendering. Vertex shaders fetch from storage buffers, but for a position that
-/// `vertexStride` asks for.
+/// A pipeline for dynamic rendering. Vertex shaders fetch from storage buffers, unless `vertexStride` asks
+/// for the attributes.
 struct GraphicsOptions {
     std::vector<ShaderOptions> shaders = {};  ///< vertex, fragment and, where the device has them, geometry
     std::vector<VkFormat> colorFormats = {};
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
-    uint32_t vertexStride = 0;  ///< bytes; if not 0, location 0 is a vec3 at the start of each vertex
+    uint32_t vertexStride = 0;  ///< bytes; 0: no attributes
+    std::vector<VkVertexInputAttributeDescription> vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkCullModeFlags cull = VK_CULL_MODE_BACK_BIT;
     VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  ///< reversed depth: 1 is near

@@ -3,37 +3,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
-
 #include "runtime/gpu/commands.h"
 
 namespace fw {
 
 namespace {
-
-/// What GLFW last had to say.
-std::string complaint() {
-    const char* text = nullptr;
-    glfwGetError(&text);
-    return text ? text : "no reason given";
-}
-
-/// A layout transition of an image that no Image owns.
-void transition(Commands& commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    auto barrier = zeroed<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_MEMORY_READ_BIT;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    auto info = zeroed<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    info.imageMemoryBarrierCount = 1;
-    info.pImageMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands.handle, &info);
-}
 
 Viewer& viewerOf(GLFWwindow* window) { return *static_cast<Viewer*>(glfwGetWindowUserPointer(window)); }
 
@@ -92,7 +66,7 @@ void onRefresh(GLFWwindow* window) { viewerOf(window).dirty = true; }
 
 Desktop::Desktop() {
     if (!glfwInit())
-        throw SystemError("there is no window system here (" + complaint() +
+        throw SystemError("there is no window system here (" + windowSystemComplaint() +
                           "): use --headless, or render to pictures");
     if (!glfwVulkanSupported()) {
         glfwTerminate();
@@ -115,7 +89,7 @@ Window::Window(const Device& device_, const std::string& title, int width, int h
     : device(device_), viewer(viewer_) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     handle = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-    if (!handle) throw SystemError("cannot open a window: " + complaint());
+    if (!handle) throw SystemError("cannot open a window: " + windowSystemComplaint());
     glfwSetWindowUserPointer(handle, &viewer);
     glfwSetKeyCallback(handle, onKey);
     glfwSetMouseButtonCallback(handle, onButton);
@@ -127,30 +101,12 @@ Window::Window(const Device& device_, const std::string& title, int width, int h
     const auto [wide, high] = size();
     viewer.resize(wide, high);
 
-    check(glfwCreateWindowSurface(device.instance, handle, nullptr, &surface),
-          "making a surface of the window");
-    VkBool32 presents = VK_FALSE;
-    check(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical, device.queueFamily, surface, &presents),
-          "asking whether the device presents");
-    if (!presents)
-        throw SystemError("device '" + device.name() +
-                          "' cannot show pictures in a window: pick another with --device");
-    const auto info = zeroed<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vkCreateFence(device.handle, &info, nullptr, &acquired), "making a fence");
+    swapchain.emplace(device, handle);
 }
 
 Window::~Window() {
-    vkDeviceWaitIdle(device.handle);
-    destroySwapchain();
-    if (acquired) vkDestroyFence(device.handle, acquired, nullptr);
-    if (surface) vkDestroySurfaceKHR(device.instance, surface, nullptr);
+    swapchain.reset();
     if (handle) glfwDestroyWindow(handle);
-}
-
-void Window::destroySwapchain() {
-    if (swapchain) vkDestroySwapchainKHR(device.handle, swapchain, nullptr);
-    swapchain = VK_NULL_HANDLE;
-    images.clear();
 }
 
 std::pair<int, int> Window::size() const {
@@ -190,71 +146,13 @@ void Window::setFullScreen(bool wanted) {
     }
 }
 
-void Window::makeSwapchain() {
-    vkDeviceWaitIdle(device.handle);
-    destroySwapchain();
-    VkSurfaceCapabilitiesKHR can{};
-    check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical, surface, &can),
-          "asking what the surface can do");
-    extent = can.currentExtent;
-    if (extent.width == UINT32_MAX) {
-        const auto [width, height] = size();
-        extent.width = std::clamp(uint32_t(width), can.minImageExtent.width, can.maxImageExtent.width);
-        extent.height = std::clamp(uint32_t(height), can.minImageExtent.height, can.maxImageExtent.height);
-    }
-    if (extent.width == 0 || extent.height == 0) return;  // minimised
-    uint32_t count = 0;
-    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical, surface, &count, nullptr), "listing formats");
-    std::vector<VkSurfaceFormatKHR> formats(count);
-    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical, surface, &count, formats.data()),
-          "listing formats");
-    // Pictures are sRGB already: a format that does not encode once more.
-    const auto plain = std::find_if(formats.begin(), formats.end(), [](const VkSurfaceFormatKHR& format) {
-        return format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM;
-    });
-    if (plain == formats.end() || !(can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT))
-        throw SystemError("the window takes no pictures of 8 bits a colour on device '" + device.name() +
-                          "'");
-    auto info = zeroed<VkSwapchainCreateInfoKHR>(VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR);
-    info.surface = surface;
-    info.minImageCount =
-        can.maxImageCount > 0 ? std::min(can.minImageCount + 1, can.maxImageCount) : can.minImageCount + 1;
-    info.imageFormat = plain->format;
-    info.imageColorSpace = plain->colorSpace;
-    info.imageExtent = extent;
-    info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    info.preTransform = can.currentTransform;
-    info.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-                              ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-                              : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
-    info.clipped = VK_TRUE;
-    check(vkCreateSwapchainKHR(device.handle, &info, nullptr, &swapchain), "making a swapchain");
-    check(vkGetSwapchainImagesKHR(device.handle, swapchain, &count, nullptr),
-          "listing the swapchain's images");
-    images.resize(count);
-    check(vkGetSwapchainImagesKHR(device.handle, swapchain, &count, images.data()),
-          "listing the swapchain's images");
-}
-
 bool Window::show(const Picture& picture) {
-    const auto [width, height] = size();
-    if (width == 0 || height == 0 || picture.pixels.empty()) return false;
-    if (!swapchain || extent.width != uint32_t(width) || extent.height != uint32_t(height)) makeSwapchain();
-    if (!swapchain) return false;
-    uint32_t index = 0;
-    const VkResult got =
-        vkAcquireNextImageKHR(device.handle, swapchain, UINT64_MAX, VK_NULL_HANDLE, acquired, &index);
-    if (got == VK_ERROR_OUT_OF_DATE_KHR) {
-        destroySwapchain();  // made anew for the next picture
-        viewer.dirty = true;
+    if (picture.pixels.empty()) return false;
+    const SwapchainImage target = swapchain->acquire();
+    if (!target) {
+        viewer.dirty = viewer.dirty || target.changed;
         return false;
     }
-    if (got != VK_SUBOPTIMAL_KHR) check(got, "taking an image of the swapchain");
-    check(vkWaitForFences(device.handle, 1, &acquired, VK_TRUE, UINT64_MAX), "waiting for the window");
-    check(vkResetFences(device.handle, 1, &acquired), "resetting a fence");
-
     const VkExtent3D drawn = {uint32_t(picture.width), uint32_t(picture.height), 1};
     if (!shown || shown.extent.width != drawn.width || shown.extent.height != drawn.height)
         shown =
@@ -273,30 +171,20 @@ bool Window::show(const Picture& picture) {
                                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
         imageBarrier(commands, shown, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        transition(commands, images[index], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        transition(commands, target.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         VkImageBlit blit{};
         blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         blit.srcOffsets[1] = {picture.width, picture.height, 1};
-        blit.dstOffsets[1] = {int32_t(extent.width), int32_t(extent.height), 1};
-        vkCmdBlitImage(commands.handle, shown.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, images[index],
+        blit.dstOffsets[1] = {int32_t(target.extent.width), int32_t(target.extent.height), 1};
+        vkCmdBlitImage(commands.handle, shown.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
-        transition(commands, images[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        transition(commands, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                    VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
         submit(commands);
     }
-    auto info = zeroed<VkPresentInfoKHR>(VK_STRUCTURE_TYPE_PRESENT_INFO_KHR);
-    info.swapchainCount = 1;
-    info.pSwapchains = &swapchain;
-    info.pImageIndices = &index;
-    const VkResult presented = vkQueuePresentKHR(device.queue, &info);
-    if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR) {
-        vkDeviceWaitIdle(device.handle);
-        destroySwapchain();
-        viewer.dirty = viewer.dirty || presented == VK_ERROR_OUT_OF_DATE_KHR;
-        return presented == VK_SUBOPTIMAL_KHR;
-    }
-    check(presented, "presenting a picture");
-    return true;
+    const bool presented = swapchain->present(target);
+    viewer.dirty = viewer.dirty || !presented;
+    return presented;
 }
 
 }  // namespace fw

@@ -1,4 +1,4 @@
-// A window that shows pictures: GLFW, a Vulkan surface and its swapchain.
+// A window that shows pictures: GLFW, and the swapchain of the window.
 //
 // A picture is copied to an image of the device and blitted to the swapchain, scaled where their sizes
 // differ, so a renderer may work at another resolution than the window's. Each picture is awaited before it
@@ -12,12 +12,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "runtime/gpu/resources.h"
 #include "runtime/render/picture.h"
+#include "runtime/window/swapchain.h"
 #include "runtime/window/viewer.h"
 
 struct GLFWwindow;
@@ -55,17 +56,10 @@ class Window {
     void setFullScreen(bool full);
 
   private:
-    void makeSwapchain();
-    void destroySwapchain();
-
     const Device& device;
     Viewer& viewer;
     GLFWwindow* handle = nullptr;
-    VkSurfaceKHR surface = VK_NULL_HANDLE;
-    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-    VkFence acquired = VK_NULL_HANDLE;
-    VkExtent2D extent = {};
-    std::vector<VkImage> images;
+    std::optional<Swapchain> swapchain;
     Buffer staging;
     Image shown;
     bool full = false;

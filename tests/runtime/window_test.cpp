@@ -7,73 +7,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <fstream>
 #include <glm/vec3.hpp>
-#include <sstream>
-#include <thread>
 
 #include "tests/support/temp_dir.h"
+#include "tests/support/virtual_display.h"
 
 namespace fw {
 namespace {
 
+using test::rest;
 using test::TempDir;
-
-void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
-
-/// An X server without a screen; DISPLAY leads to it as long as it lives.
-class VirtualDisplay {
-  public:
-    VirtualDisplay() {
-        int ends[2];
-        if (pipe(ends) != 0) return;
-        process = fork();
-        if (process == 0) {
-            close(ends[0]);
-            const std::string pipeEnd = std::to_string(ends[1]);
-            execlp("Xvfb", "Xvfb", "-displayfd", pipeEnd.c_str(), "-screen", "0", "640x480x24", "-fbdir",
-                   folder.folder.c_str(), nullptr);
-            _exit(127);
-        }
-        close(ends[1]);
-        char text[16] = {};
-        for (ssize_t got = 0, n = 0; got < 15 && (n = read(ends[0], text + got, 1)) > 0 && text[got] != '\n';)
-            got += n;
-        close(ends[0]);
-        number = text[0] ? std::atoi(text) : -1;
-        if (number >= 0) setenv("DISPLAY", (":" + std::to_string(number)).c_str(), 1);
-    }
-    ~VirtualDisplay() {
-        if (process > 0) kill(process, SIGTERM), waitpid(process, nullptr, 0);
-        unsetenv("DISPLAY");
-    }
-    bool works() const { return number >= 0; }
-
-    /// The colour of a pixel of the screen now.
-    glm::ivec3 pixel(int x, int y) const {
-        std::ifstream file(folder.path("Xvfb_screen0"), std::ios::binary);
-        std::ostringstream content;
-        content << file.rdbuf();
-        const std::string data = content.str();
-        const auto word = [&](std::size_t i) {
-            std::size_t value = 0;
-            for (std::size_t k = 0; k < 4; ++k)
-                value = value << 8 | static_cast<unsigned char>(data.at(4 * i + k));
-            return value;
-        };
-        const std::size_t pixels = word(0) + 12 * word(19);  // after the XWD header and the colour map
-        const std::size_t at = pixels + std::size_t(y) * word(12) + 4 * std::size_t(x);
-        const auto byte = [&](std::size_t i) { return int(static_cast<unsigned char>(data.at(at + i))); };
-        return {byte(2), byte(1), byte(0)};
-    }
-
-  private:
-    TempDir folder;
-    pid_t process = -1;
-    int number = -1;
-};
+using test::VirtualDisplay;
 
 Picture filled(int width, int height, glm::ivec3 color) {
     Picture picture{width, height, {}};
@@ -81,10 +25,6 @@ Picture filled(int width, int height, glm::ivec3 color) {
         for (const int c : {color.r, color.g, color.b, 255}) picture.pixels.push_back(uint8_t(c));
     return picture;
 }
-
-/// Skips the test where there is no X server.
-#define NEEDS_DISPLAY(display) \
-    if (!(display).works()) GTEST_SKIP() << "Xvfb is not installed"
 
 TEST(Window, ShowsPicturesAtEverySize) {
     const VirtualDisplay display;

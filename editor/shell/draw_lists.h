@@ -1,0 +1,40 @@
+// Dear ImGui's draw lists on the runtime's Vulkan layer.
+//
+// One pipeline, one vertex and one index buffer that stay mapped and grow, a push descriptor a texture. What
+// was drawn must be awaited before the next is drawn. Colours are blended as they are, in sRGB, as ImGui
+// means them.
+//
+// Lifetime: the pipeline is of one colour format; a Texture is of the picture last put into it.
+#pragma once
+
+#include <imgui.h>
+
+#include "runtime/gpu/commands.h"
+#include "runtime/render/picture.h"
+
+namespace fw::editor {
+
+/// What an ImTextureID points to.
+struct Texture {
+    Image image;
+};
+
+struct DrawLists {
+    Pipeline pipeline;
+    Sampler sampler;
+    Buffer vertices, indices, staging;
+};
+
+DrawLists createDrawLists(const Device& device, VkFormat format);
+
+/// Four bytes a pixel, rows from the top, into the texture, which is made or replaced if its size is another.
+/// Waits until they are there.
+void fillTexture(const Device& device, DrawLists& lists, Texture& texture, int width, int height,
+                 const void* pixels);
+
+/// Draws what ImGui::Render() made over `background`. The target is of the pipeline's format, in
+/// VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, and as large as the draw data's display.
+void draw(Commands& commands, DrawLists& lists, const ImDrawData& data, VkImageView target, VkExtent2D extent,
+          ImU32 background);
+
+}  // namespace fw::editor

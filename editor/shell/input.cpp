@@ -1,0 +1,139 @@
+#include "editor/shell/input.h"
+
+#define GLFW_INCLUDE_NONE
+#include <backends/imgui_impl_glfw.h>
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <vector>
+
+namespace fw::editor {
+
+namespace {
+
+bool isModifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
+
+/// The key that carries this letter in the user's layout.
+int namedKey(int key, int scancode) {
+    if (key > GLFW_KEY_GRAVE_ACCENT) return key;  // no printed sign
+    const char* name = glfwGetKeyName(key, scancode);
+    return name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0 ? GLFW_KEY_A + (name[0] - 'a') : key;
+}
+
+/// From the window's coordinates to pixels, which differ on some screens.
+double pixelsPerUnit(GLFWwindow* window) {
+    int units = 0, pixels = 0;
+    glfwGetWindowSize(window, &units, nullptr);
+    glfwGetFramebufferSize(window, &pixels, nullptr);
+    return units > 0 ? double(pixels) / units : 1.0;
+}
+
+}  // namespace
+
+Input& Input::of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
+
+Input::Input(GLFWwindow* window_) : window(window_) {
+    using Kind = Event::Kind;
+    glfwSetWindowUserPointer(window, this);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double px, double py) {
+        const double scale = pixelsPerUnit(w);
+        of(w).add({.kind = Kind::move, .x = px * scale, .y = py * scale});
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+        if (entered) return;  // its first move says where
+        of(w).add({.kind = Kind::leave});
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        if (button < int(of(w).buttons.size()))
+            of(w).add({.kind = Kind::button, .code = button, .down = action == GLFW_PRESS});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double dx, double dy) {
+        of(w).add({.kind = Kind::wheel, .x = dx, .y = dy});
+    });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+        of(w).anything = true;  // ImGui repeats held keys itself, in frames
+        if (action == GLFW_REPEAT) return;
+        of(w).add({.kind = Kind::key,
+                   .code = namedKey(key, scancode),
+                   .down = action == GLFW_PRESS,
+                   .scancode = scancode,
+                   .modifiers = modifiers});
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int character) {
+        of(w).add({.kind = Kind::character, .code = int(character)});
+    });
+    glfwSetWindowFocusCallback(
+        window, [](GLFWwindow* w, int focused) { of(w).add({.kind = Kind::focus, .code = focused}); });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).anything = true; });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).anything = true; });
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).anything = true; });
+}
+
+void Input::add(const Event& event) {
+    anything = true;
+    // Of moves in a row the last one counts.
+    if (event.kind == Event::Kind::move && !events.empty() && events.back().kind == Event::Kind::move)
+        events.back() = event;
+    else
+        events.push_back(event);
+}
+
+bool Input::mouseHeld() const { return std::ranges::count(buttons, true) > 0; }
+
+void Input::feed() {
+    // What this frame already reacts to: it does so once, with the state of mouse and modifiers at that time.
+    enum class Act { none, wheel, key, button } act = Act::none;
+    std::vector<int> released;
+    const auto fits = [&](const Event& event) {
+        switch (event.kind) {
+            case Event::Kind::move:
+            case Event::Kind::leave: return act == Act::none;
+            case Event::Kind::button: return act == Act::none;
+            case Event::Kind::wheel: return act == Act::none || act == Act::wheel;
+            case Event::Kind::character: return act == Act::none || act == Act::key;
+            case Event::Kind::key:
+                return act == Act::none && (!event.down || !std::ranges::count(released, event.code));
+            case Event::Kind::focus: return act == Act::none;
+        }
+        return true;
+    };
+    while (!events.empty() && fits(events.front())) {
+        const Event event = events.front();
+        events.pop_front();
+        switch (event.kind) {
+            case Event::Kind::move: inside = true, x = event.x, y = event.y; break;
+            case Event::Kind::leave: inside = false; break;
+            case Event::Kind::button:
+                buttons[std::size_t(event.code)] = event.down;
+                act = Act::button;
+                break;
+            case Event::Kind::wheel:
+                ImGui_ImplGlfw_ScrollCallback(window, event.x, event.y);
+                act = Act::wheel;
+                break;
+            case Event::Kind::character:
+                ImGui_ImplGlfw_CharCallback(window, unsigned(event.code));
+                act = Act::key;
+                break;
+            case Event::Kind::key:
+                ImGui_ImplGlfw_KeyCallback(window, event.code, event.scancode,
+                                           event.down ? GLFW_PRESS : GLFW_RELEASE, event.modifiers);
+                if (!event.down)
+                    released.push_back(event.code);
+                else if (!isModifier(event.code))
+                    act = Act::key;
+                break;
+            case Event::Kind::focus:
+                ImGui_ImplGlfw_WindowFocusCallback(window, event.code);
+                if (!event.code) buttons.fill(false);
+                break;
+        }
+    }
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = inside || mouseHeld() ? ImVec2(float(x), float(y)) : ImVec2(-FLT_MAX, -FLT_MAX);
+    std::ranges::copy(buttons, io.MouseDown);
+}
+
+}  // namespace fw::editor

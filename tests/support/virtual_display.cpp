@@ -1,0 +1,60 @@
+#include "tests/support/virtual_display.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace fw::test {
+
+void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+VirtualDisplay::VirtualDisplay(int width, int height) {
+    const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    process = fork();
+    if (process == 0) {
+        close(ends[0]);
+        const std::string pipeEnd = std::to_string(ends[1]);
+        execlp("Xvfb", "Xvfb", "-displayfd", pipeEnd.c_str(), "-screen", "0", screen.c_str(), "-fbdir",
+               folder.folder.c_str(), nullptr);
+        _exit(127);
+    }
+    close(ends[1]);
+    char text[16] = {};
+    for (ssize_t got = 0, n = 0; got < 15 && (n = read(ends[0], text + got, 1)) > 0 && text[got] != '\n';)
+        got += n;
+    close(ends[0]);
+    number = text[0] ? std::atoi(text) : -1;
+    if (number >= 0) setenv("DISPLAY", (":" + std::to_string(number)).c_str(), 1);
+}
+
+VirtualDisplay::~VirtualDisplay() {
+    if (process > 0) kill(process, SIGTERM), waitpid(process, nullptr, 0);
+    unsetenv("DISPLAY");
+}
+
+glm::ivec3 VirtualDisplay::pixel(int x, int y) const {
+    std::ifstream file(folder.path("Xvfb_screen0"), std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    const std::string data = content.str();
+    const auto word = [&](std::size_t i) {
+        std::size_t value = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            value = value << 8 | static_cast<unsigned char>(data.at(4 * i + k));
+        return value;
+    };
+    const std::size_t pixels = word(0) + 12 * word(19);  // after the XWD header and the colour map
+    const std::size_t at = pixels + std::size_t(y) * word(12) + 4 * std::size_t(x);
+    const auto byte = [&](std::size_t i) { return int(static_cast<unsigned char>(data.at(at + i))); };
+    return {byte(2), byte(1), byte(0)};
+}
+
+}  // namespace fw::test

@@ -1,0 +1,38 @@
+// A display for tests of real windows, and what is seen on it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "tests/support/temp_dir.h"
+
+namespace fw::test {
+
+void rest(double seconds);
+
+/// An X server without a screen; DISPLAY leads to it as long as it lives.
+class VirtualDisplay {
+  public:
+    explicit VirtualDisplay(int width = 640, int height = 480);
+    VirtualDisplay(const VirtualDisplay&) = delete;
+    VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+    ~VirtualDisplay();
+    bool works() const { return number >= 0; }
+
+    /// The colour of a pixel of the screen now.
+    glm::ivec3 pixel(int x, int y) const;
+
+  private:
+    TempDir folder;
+    pid_t process = -1;
+    int number = -1;
+};
+
+/// Skips the test where there is no X server.
+#define NEEDS_DISPLAY(display) \
+    if (!(display).works()) GTEST_SKIP() << "Xvfb is not installed"
+
+}  // namespace fw::test
