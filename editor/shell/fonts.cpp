@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace fw::editor {
 
@@ -82,9 +83,10 @@ Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
             path.empty() ? nullptr : atlas.AddFontFromFileTTF(path.c_str(), pixels, &config, kGlyphs);
         return font ? font : atlas.AddFontDefault(&config);
     };
+    float before = 0;
     for (float size : kSizes) {
         const float pixels = std::round(std::min(size * scale, kLargest));
-        if (!fonts.text.empty() && fonts.text.back()->ConfigData->SizePixels >= pixels) continue;
+        if (std::exchange(before, pixels) == pixels) continue;
         fonts.text.push_back(bake(text, pixels));
         fonts.code.push_back(bake(code, pixels));
     }
@@ -93,7 +95,7 @@ Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
             "the fonts DejaVu Sans and DejaVu Sans Mono are not installed (Debian: fonts-dejavu-core): "
             "text is coarser than it should be, and some signs are missing";
     atlas.Build();
-    ImGui::GetIO().FontDefault = fonts.of(std::round(kFontSize * scale));
+    ImGui::GetIO().FontDefault = fonts.of(kFontSize * scale);
     return fonts;
 }
 

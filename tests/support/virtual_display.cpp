@@ -1,6 +1,7 @@
 #include "tests/support/virtual_display.h"
 
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@ VirtualDisplay::VirtualDisplay(int width, int height) {
     if (pipe(ends) != 0) return;
     process = fork();
     if (process == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGTERM);  // no server outlives a test that crashed
         close(ends[0]);
         const std::string pipeEnd = std::to_string(ends[1]);
         execlp("Xvfb", "Xvfb", "-displayfd", pipeEnd.c_str(), "-screen", "0", screen.c_str(), "-fbdir",
