@@ -78,6 +78,18 @@ class Compiler {
         return done;
     }
 
+    /// What a group receives from an instance that gives nothing.
+    Lowered defaultsOf(const Group& group) {
+        Lowered inputs;
+        inputs.exactness = kExact;
+        for (const GroupInput& input : group.inputs) {
+            inputs.outputs.push_back({input.name, typeNamed(input.type).value_or(Type::scalar)});
+            inputs.values.push_back(
+                language::defaultValue(state, {input.name, inputs.outputs.back().type, {}}));
+        }
+        return inputs;
+    }
+
     const Ir& ir() const { return state.ir; }
     std::vector<Error> errors;
     std::vector<LiveParameter> live;
@@ -483,6 +495,22 @@ std::vector<double> Program::parameters() const {
     std::vector<double> values;
     for (const LiveParameter& parameter : live) values.push_back(parameter.value);
     return values;
+}
+
+std::optional<Type> compiledType(const Graph& graph, std::string_view group, const Link& link) {
+    const Group* inside = group.empty() ? nullptr : graph.group(group);
+    const std::vector<Node>& nodes = inside ? inside->nodes : graph.nodes;
+    const Node* node = findNode(nodes, link.node);
+    if (!node) return {};
+    const CompileOptions options;
+    Compiler compiler(graph, options);
+    const Lowered inputs = inside ? compiler.defaultsOf(*inside) : Lowered{};
+    const LoweredNodes lowered = compiler.lowerAll(nodes, "", inside ? &inputs : nullptr, {node});
+    const Lowered& made = lowered.at(node->id);
+    if (made.failed) return {};
+    for (const OutputSpec& output : made.outputs)
+        if (link.output.empty() || output.name == link.output) return output.type;
+    return {};
 }
 
 std::vector<double> inputNumbers(const Node& node, std::string_view input) {

@@ -90,6 +90,11 @@ std::vector<NamedParameter> namedParameters(const Graph& graph);
 /// The one with this name.
 std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view name);
 
+/// The type of what a link gives among the document's nodes, or those of a group: also of an expression's
+/// output, which nothing declares. Empty if there is no such output or its code has errors. The graph is
+/// structurally sound.
+std::optional<Type> compiledType(const Graph& graph, std::string_view group, const Link& link);
+
 /// The number or numbers that a node gives for an input, else its default; empty if there are none.
 std::vector<double> inputNumbers(const Node& node, std::string_view input);
 

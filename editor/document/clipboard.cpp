@@ -51,7 +51,8 @@ void unlinkOutside(std::vector<Node>& nodes, const Wiring& wiring) {
 /// The text as a whole graph: with what stands around its nodes in a file.
 struct Wrapped {
     std::string text;
-    int shift = 0;  ///< columns by which its first line has moved
+    int shift = 0;  ///< columns by which one of its lines has moved
+    int line = 1;   ///< that one
 };
 
 /// Blanks, each byte for itself so that all keeps its place, for what pages and editors put around or into a
@@ -100,8 +101,10 @@ Result<Wrapped> wrapped(const std::string& text) {
             isNode = isNode || key == "id" || key == "type";
         }
     if (hasNodes) {
-        const std::size_t content = text.find('{') + 1;
-        return around("{\"fieldwright\": 1, ", std::string_view(text).substr(content), "");
+        const std::string version = "\"fieldwright\": 1, ";
+        Wrapped whole{text, static_cast<int>(version.size()), root.at.line};
+        whole.text.insert(text.find('{') + 1, version);
+        return whole;
     }
     if (isNode) return around(nodes + "[", text, "]}");
     return Error{.message =
@@ -112,8 +115,9 @@ Result<Wrapped> wrapped(const std::string& text) {
                  .column = root.at.column};
 }
 
-Error placed(Error error, int shift) {
-    if (error.line == 1) error.column = std::max(1, error.column - shift);
+/// The error with its place in the text as it was given.
+Error placed(Error error, const Wrapped& whole) {
+    if (error.line == whole.line) error.column = std::max(1, error.column - whole.shift);
     return error;
 }
 
@@ -175,7 +179,7 @@ Result<Edited> pasteNodes(const Graph& graph, std::string_view scope, std::strin
     const Result<Wrapped> whole = wrapped(cleaned(text));
     if (!whole) return whole.error();
     Result<Graph> parsed = parseGraph(whole->text, kSource, nullptr);
-    if (!parsed) return placed(parsed.error(), whole->shift);
+    if (!parsed) return placed(parsed.error(), *whole);
 
     Graph part = placeAll(*parsed);
     std::set<std::string_view> standing;  // types of which there is one
@@ -210,7 +214,7 @@ Result<Edited> pasteNodes(const Graph& graph, std::string_view scope, std::strin
     }
     if (auto error = newError(graph, result.graph)) {
         error->file = kSource;
-        return placed(*error, whole->shift);
+        return placed(*error, *whole);
     }
     return result;
 }

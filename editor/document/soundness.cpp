@@ -16,8 +16,7 @@ std::size_t nodeCount(const Graph& graph) {
     return count;
 }
 
-/// Whether the graph has what checkStructure() wants to be there: each message that says otherwise goes once
-/// it is.
+/// Whether the finding only says that something is not there yet.
 bool isMissing(const Error& finding) {
     return finding.message.find("has no node of type 'output'") != std::string::npos ||
            finding.message.find("no node of type 'group_output'") != std::string::npos ||
@@ -37,6 +36,13 @@ std::optional<Error> newError(const Graph& graph, const Graph& next) {
         former.erase(known);
     }
     return {};
+}
+
+std::size_t errorCount(const Graph& graph) {
+    const std::vector<Error> findings = checkStructure(graph);
+    return static_cast<std::size_t>(std::ranges::count_if(findings, [](const Error& finding) {
+        return finding.severity == Error::Severity::error && !isMissing(finding);
+    }));
 }
 
 bool outgrows(const Graph& graph, const Graph& next) {

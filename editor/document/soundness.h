@@ -13,6 +13,9 @@ namespace fw::editor {
 /// that something is still missing, an output or a link to a mesh, is no such error.
 std::optional<Error> newError(const Graph& graph, const Graph& next);
 
+/// How many errors of that kind there are.
+std::size_t errorCount(const Graph& graph);
+
 /// Whether `next` breaks a limit of graph.h, or has a group in itself, and `graph` did not. Costs less than
 /// newError() while there are no groups.
 bool outgrows(const Graph& graph, const Graph& next);

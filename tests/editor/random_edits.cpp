@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "editor/document/clipboard.h"
 #include "editor/document/wiring.h"
 #include "graph/node_type.h"
 #include "tests/support/random_graph.h"
@@ -69,6 +70,12 @@ Graph RandomEdits::value(const Graph& graph, const std::string& scope) {
     }
 }
 
+Graph RandomEdits::paste(const Graph& graph, const std::string& scope, const NodeIds& some, Position at) {
+    const std::string text = copyNodes(graph, scope, some);
+    const Result<Edited> pasted = pasteNodes(graph, scopeOf(graph), text, at);
+    return pasted ? pasted->graph : graph;
+}
+
 Graph RandomEdits::next(const Graph& graph, std::string& name) {
     const std::string scope = scopeOf(graph);
     const Node* node = nodeOf(graph, scope);
@@ -76,7 +83,7 @@ Graph RandomEdits::next(const Graph& graph, std::string& name) {
     const auto& types = nodeTypes();
     const Position at{number(), number()};
     if (!node) return name = "add", addNode(graph, scope, types[below(types.size())].id, at).graph;
-    switch (below(20)) {
+    switch (below(22)) {
         case 0:
         case 1: {
             const std::string group = graph.groups.empty() ? "" : graph.groups[below(graph.groups.size())].id;
@@ -111,6 +118,16 @@ Graph RandomEdits::next(const Graph& graph, std::string& name) {
         }
         case 15: return name = "swap", swapInputs(graph, scope, node->id);
         case 16: return name = "reroute", addReroute(graph, scope, inputOf(graph, scope, *node), at).graph;
+        case 17: {
+            const Result<Edited> made = groupNodes(graph, scope, some);
+            return name = "group", made ? made->graph : graph;
+        }
+        case 18: {
+            for (const Node& each : nodesOf(graph, scope))
+                if (each.type == "group" && chance(0.5))
+                    return name = "ungroup", ungroup(graph, scope, each.id).graph;
+            return name = "paste", paste(graph, scope, some, at);
+        }
         default: return name = "value", value(graph, scope);
     }
 }

@@ -29,6 +29,7 @@ class RandomEdits {
     Plug inputOf(const Graph& graph, const std::string& scope, const Node& node);
     Plug outputOf(const Graph& graph, const std::string& scope, const Node& node);
     Graph wire(const Graph& graph, const std::string& scope);
+    Graph paste(const Graph& graph, const std::string& scope, const NodeIds& some, Position at);
     Graph value(const Graph& graph, const std::string& scope);
 
     std::mt19937 random;
