@@ -1,0 +1,228 @@
+// The canvas' geometry, from descriptors alone: what is where, and what the mouse hits.
+#include <gtest/gtest.h>
+
+#include "editor/canvas/fields.h"
+#include "editor/document/library.h"
+#include "editor/shortcuts.h"
+#include "graph/json.h"
+
+namespace fw::editor {
+namespace {
+
+Graph parsed(const char* text) {
+    Result<Graph> graph = parseGraph(text, "test", nullptr);
+    EXPECT_TRUE(graph) << format(graph.error());
+    return graph ? std::move(*graph) : Graph();
+}
+
+/// A document with one node of this type.
+Graph alone(const NodeType& type) {
+    Graph graph;
+    Node& node = graph.nodes.emplace_back();
+    node.id = "it";
+    node.type = type.id;
+    node.at = {10, 20};
+    return graph;
+}
+
+const char* const kSmall = R"({"fieldwright": 1, "nodes": [
+    {"id": "ball", "type": "sphere", "at": [0, 0], "inputs": {"radius": 2}},
+    {"id": "block", "type": "box", "at": [0, 200]},
+    {"id": "cut", "type": "subtract", "at": [300, 0], "inputs": {"a": {"from": "ball"}, "b": {"from": "block"}}},
+    {"id": "way", "type": "reroute", "at": [520, 60], "inputs": {"value": {"from": "cut"}}},
+    {"id": "out", "type": "output", "at": [600, 0], "inputs": {"surface": {"from": "way"}}}]})";
+
+TEST(Boxes, EveryNodeTypeHasABoxWithARowASocket) {
+    for (const NodeType& type : nodeTypes()) {
+        const Graph graph = alone(type);
+        const Boxes boxes(graph, "");
+        ASSERT_EQ(boxes.nodes.size(), 1u);
+        const NodeBox& box = boxes.nodes[0];
+        EXPECT_EQ(box.type, &type);
+        if (!type.open) {
+            EXPECT_EQ(box.rows.size(), type.inputs.size() + type.outputs.size()) << type.id;
+            EXPECT_FALSE(titleOf(box).empty());
+        }
+        for (const Row& row : box.rows) {
+            EXPECT_TRUE(box.area.grown(1).contains(box.socket(row))) << type.id << '.' << row.name;
+            for (int i = 0; i < row.fields; ++i) {
+                const Area field = box.field(row, i);
+                EXPECT_GT(field.width(), 20.0f);
+                EXPECT_TRUE(box.area.contains(field.lo) && box.area.contains(field.hi))
+                    << type.id << '.' << row.name;
+            }
+            EXPECT_LE(row.fields, 3);
+        }
+    }
+}
+
+TEST(Boxes, RowsOfANodeDoNotOverlap) {
+    for (const NodeType& type : nodeTypes()) {
+        const Graph graph = alone(type);
+        const Boxes boxes(graph, "");
+        float last = kTitleHeight;
+        for (const Row& row : boxes.nodes[0].rows) {
+            if (boxes.nodes[0].reroute) break;
+            EXPECT_GE(row.y - 0.5f * kRowHeight, last - 0.01f) << type.id;
+            last = row.y + 0.5f * kRowHeight + (row.fields > 1 ? kRowHeight : 0.0f);
+        }
+    }
+}
+
+TEST(Boxes, WiresLeadFromOutputsToInputs) {
+    const Graph graph = parsed(kSmall);
+    const Boxes boxes(graph, "");
+    ASSERT_EQ(boxes.wires.size(), 4u);
+    for (const Wire& wire : boxes.wires) {
+        EXPECT_TRUE(boxes.nodes[wire.from].rows[wire.fromRow].output);
+        EXPECT_FALSE(boxes.nodes[wire.to].rows[wire.toRow].output);
+    }
+    EXPECT_EQ(boxes.output(boxes.wires[0]).node, "ball");
+    EXPECT_EQ(boxes.input(boxes.wires[0]), (Plug{"cut", "a"}));
+}
+
+TEST(Boxes, CollapsedNodesAreTheirTitle) {
+    Graph graph = parsed(kSmall);
+    graph.nodes[1].collapsed = true;
+    const Boxes boxes(graph, "");
+    EXPECT_EQ(boxes.nodes[1].area.height(), kTitleHeight);
+    for (const Row& row : boxes.nodes[1].rows) EXPECT_EQ(row.fields, 0);
+}
+
+TEST(Boxes, BrokenDocumentsAreDrawnTheSame) {
+    const Graph graph = parsed(R"({"fieldwright": 1, "nodes": [
+        {"id": "a", "type": "no_such_type", "inputs": {"x": 1, "y": {"from": "nowhere"}}},
+        {"id": "b", "type": "sphere", "inputs": {"no_such_input": {"from": "b"}, "radius": "text"}},
+        {"id": "c", "type": "group", "group": "missing", "inputs": {"z": [1, 2, 3]}}]})");
+    const Boxes boxes(graph, "");
+    ASSERT_EQ(boxes.nodes.size(), 3u);
+    EXPECT_EQ(boxes.nodes[0].rows.size(), 2u);
+    EXPECT_TRUE(boxes.row({"b", "no_such_input"}, false));
+    EXPECT_EQ(titleOf(boxes.nodes[0]), "no_such_type");
+}
+
+TEST(HitTest, FindsWhatIsThere) {
+    const Graph graph = parsed(kSmall);
+    const Boxes boxes(graph, "");
+    const auto at = [&](ImVec2 p) { return hitTest(boxes, {}, "", p, 8.0f); };
+    const NodeBox& ball = boxes.nodes[0];
+    EXPECT_EQ(at({90, 10}).what, Hit::What::title);
+    EXPECT_EQ(at({-500, -500}).what, Hit::What::nothing);
+    for (uint32_t r = 0; r < ball.rows.size(); ++r) {
+        const Hit hit = at(ball.socket(ball.rows[r]));
+        EXPECT_EQ(hit.what, ball.rows[r].output ? Hit::What::output : Hit::What::input);
+        EXPECT_EQ(hit.row, r);
+    }
+    const Row* radius = boxes.row({"ball", "radius"}, false);
+    ASSERT_TRUE(radius && radius->fields == 1);
+    EXPECT_EQ(at(ball.field(*radius, 0).centre()).what, Hit::What::field);
+    const Curve wire = curve(boxes.start(boxes.wires[0]), boxes.end(boxes.wires[0]));
+    const Hit onWire = at(wire.at(0.5f));
+    EXPECT_EQ(onWire.what, Hit::What::wire);
+    EXPECT_EQ(onWire.index, 0u);
+    // A reroute is moved by its middle; wires begin and end at its sides.
+    const ImVec2 middle = boxes.nodes[3].area.centre();
+    EXPECT_EQ(at(middle).what, Hit::What::title);
+    EXPECT_EQ(at({middle.x + 6, middle.y}).what, Hit::What::output);
+    EXPECT_EQ(at({middle.x - 6, middle.y}).what, Hit::What::input);
+}
+
+TEST(HitTest, WhatIsDrawnLastIsHitFirst) {
+    Graph graph = parsed(kSmall);
+    graph.nodes[1].at = graph.nodes[0].at;
+    const Boxes boxes(graph, "");
+    EXPECT_EQ(hitTest(boxes, {}, "", {90, 10}, 8.0f).index, 1u);
+}
+
+TEST(HitTest, FramesLieBelowEverything) {
+    const Graph graph = parsed(kSmall);
+    const Boxes boxes(graph, "");
+    Frame frame;
+    frame.at = {-50, -50};
+    frame.size = {400, 400};
+    const std::vector<Frame> frames = {frame};
+    const auto at = [&](ImVec2 p) { return hitTest(boxes, frames, "", p, 8.0f).what; };
+    EXPECT_EQ(at({-40, -40}), Hit::What::frameTitle);
+    EXPECT_EQ(at({345, 345}), Hit::What::frameCorner);
+    EXPECT_EQ(at({-40, 100}), Hit::What::frame);
+    EXPECT_EQ(at({90, 10}), Hit::What::title);
+}
+
+TEST(Curve, DistanceAndCrossing) {
+    const Curve wire = curve({0, 0}, {200, 0});
+    EXPECT_NEAR(wire.distance({100, 30}), 30.0f, 0.01f);
+    EXPECT_NEAR(wire.distance({0, 0}), 0.0f, 0.01f);
+    EXPECT_TRUE(wire.crosses({100, -20}, {100, 20}));
+    EXPECT_FALSE(wire.crosses({100, 10}, {100, 20}));
+    EXPECT_FALSE(wire.crosses({300, -20}, {300, 20}));
+}
+
+TEST(CanvasView, TheCursorStaysWhereItWasOnTheCanvas) {
+    CanvasView view;
+    view.panel = {{100, 50}, {900, 650}};
+    const ImVec2 cursor(300, 200), before = view.toCanvas(cursor);
+    for (float zoom : {0.3f, 1.7f, 100.0f, 0.001f}) {
+        view.zoomTo(zoom, cursor);
+        EXPECT_GE(view.zoom, kLeastZoom);
+        EXPECT_LE(view.zoom, kMostZoom);
+        EXPECT_NEAR(view.toCanvas(cursor).x, before.x, 1e-2f);
+        EXPECT_NEAR(view.toCanvas(cursor).y, before.y, 1e-2f);
+        EXPECT_NEAR(view.toScreen(view.toCanvas({5, 7})).x, 5.0f, 1e-2f);
+    }
+    view.frame({{-100, -100}, {5000, 400}});
+    EXPECT_TRUE(view.panel.contains(view.toScreen({-100, -100})) || view.zoom == kLeastZoom);
+}
+
+TEST(Fields, NumbersAreTypedAsExpressions) {
+    EXPECT_NEAR(*numberOf("2*pi/3"), 2.0943951, 1e-6);
+    EXPECT_EQ(*numberOf("-1.5e3"), -1500.0);
+    EXPECT_EQ(*numberOf(" 7 "), 7.0);
+    EXPECT_NEAR(*numberOf("sqrt(2)"), 1.41421356, 1e-7);
+    for (const char* bad : {"", "1,5", "two", "1/0", "p.x", "time", "1; return 2", "(", "1e999"})
+        EXPECT_FALSE(numberOf(bad)) << bad;
+}
+
+TEST(Fields, ValuesStayInRange) {
+    const Graph graph = parsed(kSmall);
+    const Boxes boxes(graph, "");
+    const Row* radius = boxes.row({"ball", "radius"}, false);
+    ASSERT_TRUE(radius);
+    EXPECT_EQ(numbersOf(*radius), std::vector<double>{2.0});
+    EXPECT_GE(std::get<double>(withComponent(*radius, 0, -5.0).value), 0.0);
+    const Row* half = boxes.row({"block", "half_extents"}, false);
+    ASSERT_TRUE(half);
+    ASSERT_EQ(half->fields, 3);
+    EXPECT_EQ(std::get<std::vector<double>>(withComponent(*half, 1, 3.0).value).at(1), 3.0);
+    const Row* cells = boxes.row({"out", "resolution"}, false);
+    ASSERT_TRUE(cells);
+    EXPECT_EQ(std::get<double>(withComponent(*cells, 0, 63.6).value), 64.0);
+    EXPECT_EQ(std::get<double>(withComponent(*cells, 0, 1e9).value), cells->spec->max);
+}
+
+TEST(Library, TheBestMatchIsFirst) {
+    std::vector<const NodeType*> all;
+    for (const NodeType& type : nodeTypes()) all.push_back(&type);
+    EXPECT_EQ(findTypes("", all).size(), all.size());
+    for (const NodeType* type : all) {
+        EXPECT_EQ(findTypes(type->id, all).front()->id, type->id);
+        EXPECT_FALSE(findTypes(type->label.substr(0, 3), all).empty());
+    }
+    EXPECT_EQ(findTypes("sph", all).front()->id, "sphere");
+    EXPECT_EQ(findTypes("SUBTR", all).front()->id, "subtract");
+    EXPECT_TRUE(findTypes("no such thing at all", all).empty());
+}
+
+TEST(Shortcuts, AreReadAsTheyAreWritten) {
+    for (const char* text :
+         {"Ctrl+Shift+D", "X", "F1", "Space", "Alt+S", "Shift+Tab", "Delete", "Pad0", "Period"}) {
+        const auto shortcut = shortcutOf(text);
+        ASSERT_TRUE(shortcut) << text;
+        EXPECT_EQ(textOf(*shortcut), text);
+    }
+    EXPECT_EQ(shortcutOf("ctrl+z"), shortcutOf("Ctrl+Z"));
+    for (const char* bad : {"", "Ctrl+", "Hyper+X", "Ctrl+Ctrl+X", "F99", "+"})
+        EXPECT_FALSE(shortcutOf(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace fw::editor
