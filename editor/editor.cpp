@@ -24,6 +24,22 @@ void drawAnew(Editor& editor) {
     editor.drawn = editor.document.revision();
 }
 
+/// The scope and the node that a path names: "group/node" as the structure's findings have it, or the group
+/// nodes that lead there as the compiler's have.
+std::pair<std::string, std::string> placeOf(const Graph& graph, std::string_view path) {
+    std::string scope;
+    for (std::size_t slash = path.find('/'); slash != std::string_view::npos; slash = path.find('/')) {
+        const std::string_view part = path.substr(0, slash);
+        const Node* instance = findNode(nodesOf(graph, scope), part);
+        if (instance && graph.group(instance->group))
+            scope = instance->group;
+        else if (graph.group(part))
+            scope = part;
+        path.remove_prefix(slash + 1);
+    }
+    return {std::move(scope), std::string(path)};
+}
+
 void enter(Editor& editor, std::string scope) {
     editor.canvas.scope = std::move(scope);
     editor.canvas.select({});
@@ -197,12 +213,12 @@ void say(Editor& editor, std::string words) {
 CanvasMarks marksOf(const Editor& editor) {
     CanvasMarks marks;
     marks.pinned = editor.viewport.pinned;
-    if (editor.canvas.scope.empty()) marks.spoiledBy = editor.viewport.shown.spoiledBy;
-    const std::string prefix = editor.canvas.scope.empty() ? std::string() : editor.canvas.scope + "/";
-    for (const Error& finding : editor.viewport.shown.findings) {
-        if (!finding.node.starts_with(prefix)) continue;
-        const std::string id = finding.node.substr(prefix.size());
-        if (id.empty() || id.find('/') != std::string::npos) continue;
+    const PreviewResult& shown = editor.viewport.shown;
+    if (const auto [scope, id] = placeOf(*editor.graph, shown.spoiledBy); scope == editor.canvas.scope)
+        marks.spoiledBy = id;
+    for (const Error& finding : shown.findings) {
+        const auto [scope, id] = placeOf(*editor.graph, finding.node);
+        if (id.empty() || scope != editor.canvas.scope) continue;
         const Error*& worst = marks.findings[id];
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }
@@ -210,10 +226,7 @@ CanvasMarks marksOf(const Editor& editor) {
 }
 
 void reveal(Editor& editor, std::string_view path) {
-    const std::size_t slash = path.rfind('/');
-    const std::string scope(slash == std::string_view::npos ? std::string_view() : path.substr(0, slash));
-    const std::string id(slash == std::string_view::npos ? path : path.substr(slash + 1));
-    if (!scope.empty() && !editor.document.graph().group(scope)) return;
+    const auto [scope, id] = placeOf(editor.document.graph(), path);
     if (scope != editor.canvas.scope) enter(editor, scope);
     drawAnew(editor);
     const NodeBox* box = editor.boxes->find(id);
