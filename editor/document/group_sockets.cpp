@@ -5,6 +5,7 @@
 
 #include "editor/document/references.h"
 #include "editor/document/wiring.h"
+#include "graph/check_value.h"
 
 namespace fw::editor {
 
@@ -99,15 +100,8 @@ const Link& linkOf(const Node& node, std::string_view input) {
     return std::get<Link>(node.input(input)->value);
 }
 
-/// Whether a value by itself is of the type.
-bool isOf(const InputValue& value, Type type) {
-    const auto* numbers = std::get_if<std::vector<double>>(&value.value);
-    const std::size_t count = std::size_t(componentCount(type));
-    if (std::holds_alternative<double>(value.value)) return count > 0 && type != Type::boolean;
-    if (std::holds_alternative<bool>(value.value)) return type == Type::boolean;
-    if (numbers) return type == Type::points ? value.pairs : numbers->size() == count;
-    return std::holds_alternative<std::string>(value.value) && (type == Type::string || type == Type::image);
-}
+/// Whether a value by itself may stand where the type is asked for.
+bool isOf(const InputValue& value, Type type) { return !valueProblem(type, nullptr, value); }
 
 /// Cuts the wires that join types which do not convert and did before.
 void cutMisfits(Graph& graph, const Graph& before) {
