@@ -13,9 +13,14 @@ namespace fw::editor {
 namespace {
 
 using NodePointer = std::shared_ptr<const Node>;
+using Place = std::optional<std::array<double, 2>>;
+
 /// Nodes are kept by the block, so that a step on one of a thousand nodes keeps one block of pointers, not a
-/// thousand pointers.
-using Block = std::vector<NodePointer>;
+/// thousand pointers; their places apart, so that a step that moves all of them keeps no more than that.
+struct Block {
+    std::vector<NodePointer> nodes;  ///< without their places
+    std::vector<Place> places;
+};
 using Blocks = std::vector<std::shared_ptr<const Block>>;
 constexpr std::size_t kBlockSize = 32;
 
@@ -73,16 +78,23 @@ bool same(const InputValue& a, const InputValue& b) {
                               [](double x, double y) { return same(x, y); });
 }
 
+bool same(const Place& a, const Place& b) {
+    return a.has_value() == b.has_value() && (!a || (same((*a)[0], (*b)[0]) && same((*a)[1], (*b)[1])));
+}
+
+/// Whatever their places are.
 bool same(const Node& a, const Node& b) {
-    const bool placed = a.at.has_value();
-    if (placed != b.at.has_value() ||
-        (placed && !(same((*a.at)[0], (*b.at)[0]) && same((*a.at)[1], (*b.at)[1]))))
-        return false;
     return a.id == b.id && a.type == b.type && a.label == b.label && a.muted == b.muted &&
            a.collapsed == b.collapsed && a.code == b.code && a.group == b.group && same(a.extra, b.extra) &&
            std::ranges::equal(a.inputs, b.inputs, [](const auto& x, const auto& y) {
                return x.first == y.first && same(x.second, y.second);
            });
+}
+
+bool same(const Block& a, const Block& b) {
+    return std::ranges::equal(a.nodes, b.nodes,
+                              [](const auto& x, const auto& y) { return x == y || same(*x, *y); }) &&
+           std::ranges::equal(a.places, b.places, [](const Place& x, const Place& y) { return same(x, y); });
 }
 
 bool same(const Group& a, const Group& b) {
@@ -102,9 +114,14 @@ std::shared_ptr<const T> shared(const std::shared_ptr<const T>& former, T value)
 
 const NodePointer* nodeAt(const Blocks& blocks, std::size_t index) {
     const std::size_t block = index / kBlockSize;
-    return block < blocks.size() && index % kBlockSize < blocks[block]->size()
-               ? &(*blocks[block])[index % kBlockSize]
+    return block < blocks.size() && index % kBlockSize < blocks[block]->nodes.size()
+               ? &blocks[block]->nodes[index % kBlockSize]
                : nullptr;
+}
+
+NodePointer withoutPlace(Node node) {
+    node.at.reset();
+    return std::make_shared<const Node>(std::move(node));
 }
 
 Blocks blocksOf(const std::vector<Node>& nodes, const Blocks& former) {
@@ -114,21 +131,23 @@ Blocks blocksOf(const std::vector<Node>& nodes, const Blocks& former) {
         if (there && (*there)->id == node.id) return same(**there, node) ? *there : nullptr;
         if (byId.empty())
             for (const auto& block : former)
-                for (const NodePointer& each : *block) byId.try_emplace(each->id, each);
+                for (const NodePointer& each : block->nodes) byId.try_emplace(each->id, each);
         const auto found = byId.find(node.id);
         return found != byId.end() && same(*found->second, node) ? found->second : nullptr;
     };
     Blocks blocks;
     for (std::size_t begin = 0; begin < nodes.size(); begin += kBlockSize) {
+        const std::size_t end = std::min(nodes.size(), begin + kBlockSize);
         Block block;
-        block.reserve(std::min(kBlockSize, nodes.size() - begin));
-        for (std::size_t i = begin; i < nodes.size() && i < begin + kBlockSize; ++i) {
+        block.nodes.reserve(end - begin), block.places.reserve(end - begin);
+        for (std::size_t i = begin; i < end; ++i) {
             NodePointer node = shareable(nodes[i], i);
-            block.push_back(node ? std::move(node) : std::make_shared<const Node>(nodes[i]));
+            block.nodes.push_back(node ? std::move(node) : withoutPlace(nodes[i]));
+            block.places.push_back(nodes[i].at);
         }
         const std::size_t index = begin / kBlockSize;
-        const bool unchanged = index < former.size() && *former[index] == block;
-        blocks.push_back(unchanged ? former[index] : std::make_shared<const Block>(std::move(block)));
+        blocks.push_back(index < former.size() ? shared(former[index], std::move(block))
+                                               : std::make_shared<const Block>(std::move(block)));
     }
     return blocks;
 }
@@ -157,7 +176,10 @@ std::vector<Node> nodesOf(const Blocks& blocks) {
     std::vector<Node> nodes;
     nodes.reserve(blocks.size() * kBlockSize);
     for (const auto& block : blocks)
-        for (const NodePointer& node : *block) nodes.push_back(*node);
+        for (std::size_t i = 0; i < block->nodes.size(); ++i) {
+            nodes.push_back(*block->nodes[i]);
+            nodes.back().at = block->places[i];
+        }
     return nodes;
 }
 
@@ -184,10 +206,7 @@ bool same(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) 
 }
 
 bool same(const Blocks& a, const Blocks& b) {
-    return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
-        return x == y || std::ranges::equal(
-                             *x, *y, [](const NodePointer& m, const NodePointer& n) { return same(m, n); });
-    });
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return same(x, y); });
 }
 
 bool same(const Snapshot& a, const Snapshot& b) {
