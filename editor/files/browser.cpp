@@ -1,0 +1,207 @@
+#include "editor/files/browser.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kOpenTitle = "Open###files", *kSaveTitle = "Save as###files";
+
+bool isFolder(const std::string& path) {
+    std::error_code error;
+    return fs::is_directory(path, error);
+}
+bool exists(const std::string& path) {
+    std::error_code error;
+    return fs::exists(path, error);
+}
+
+std::string lower(std::string text) {
+    for (char& each : text) each = char(std::tolower(static_cast<unsigned char>(each)));
+    return text;
+}
+
+/// Absolute and without "..".
+std::string plain(const fs::path& path) {
+    std::error_code error;
+    std::string text = fs::absolute(path, error).lexically_normal().string();
+    if (text.size() > 1 && text.ends_with('/')) text.pop_back();
+    return text;
+}
+
+/// Each part of the folder's path, a button that leads there.
+void showPath(FileBrowser& browser) {
+    std::string there;
+    const fs::path path = browser.folder;
+    int id = 0;
+    for (const fs::path& part : path) {
+        there = there.empty() || there == "/" ? there + part.string() : there + "/" + part.string();
+        ImGui::PushID(id++);
+        if (id > 1) ImGui::SameLine(0, 2);
+        if (ImGui::SmallButton(part.string().c_str())) {
+            enter(browser, there);
+            ImGui::PopID();
+            return;
+        }
+        ImGui::PopID();
+    }
+}
+
+/// The list; whether an entry was double-clicked or confirmed by Enter.
+bool showEntries(FileBrowser& browser, float height) {
+    bool confirmed = false;
+    std::string go;
+    ImGui::BeginChild("##entries", {0, height}, true);
+    if (browser.folder != "/" && ImGui::Selectable("..")) go = "..";
+    for (const FolderEntry& entry : browser.entries) {
+        const std::string label = (entry.folder ? "▸ " : "   ") + entry.name;
+        if (ImGui::Selectable(label.c_str(), entry.name == browser.name,
+                              ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
+            const bool byKey = !ImGui::IsMouseReleased(0) && !ImGui::IsMouseClicked(0);
+            if (entry.folder && (byKey || ImGui::IsMouseDoubleClicked(0))) go = entry.name;
+            if (!entry.folder) {
+                browser.name = entry.name;
+                browser.problem.clear();
+                confirmed = byKey || ImGui::IsMouseDoubleClicked(0);
+            }
+        }
+    }
+    ImGui::EndChild();
+    if (!go.empty()) enter(browser, go);
+    return confirmed;
+}
+
+}  // namespace
+
+std::vector<FolderEntry> listFolder(const std::string& folder, const std::string& ending,
+                                    std::string& problem) {
+    std::vector<FolderEntry> entries;
+    std::error_code error;
+    fs::directory_iterator each(folder, error);
+    problem = error ? "this folder cannot be read: " + error.message() : std::string();
+    for (; !error && each != fs::directory_iterator(); each.increment(error)) {
+        const std::string name = each->path().filename().string();
+        std::error_code none;
+        const bool isDirectory = each->is_directory(none);
+        if (name.starts_with('.') || (!isDirectory && !lower(name).ends_with(ending))) continue;
+        entries.push_back({name, isDirectory});
+    }
+    std::ranges::sort(entries, [](const FolderEntry& a, const FolderEntry& b) {
+        if (a.folder != b.folder) return a.folder;
+        return std::pair(lower(a.name), a.name) < std::pair(lower(b.name), b.name);
+    });
+    return entries;
+}
+
+void open(FileBrowser& browser, FileBrowser::Kind kind, const std::string& path) {
+    browser.kind = kind;
+    browser.name.clear();
+    if (path.empty()) {
+        enter(browser, browser.folder.empty() ? plain(".") : browser.folder);
+    } else if (isFolder(path)) {
+        enter(browser, plain(path));
+    } else {
+        const fs::path full = plain(path);
+        enter(browser, full.parent_path().string());
+        browser.name = full.filename().string();
+    }
+    browser.opening = true;
+}
+
+void enter(FileBrowser& browser, const std::string& folder) {
+    const bool up = folder == "..";
+    browser.folder = plain(fs::path(browser.folder) / folder);
+    browser.entries = listFolder(browser.folder, browser.ending, browser.problem);
+    browser.asking = false;
+    if (up || browser.kind == FileBrowser::Kind::open) browser.name.clear();
+    browser.fresh = true;
+}
+
+std::optional<std::string> choose(FileBrowser& browser) {
+    browser.problem.clear();
+    if (browser.name.empty()) {
+        browser.problem = "choose a file or type its name";
+        return std::nullopt;
+    }
+    std::string path = plain(fs::path(browser.folder) / browser.name);
+    if (isFolder(path)) {
+        enter(browser, path);
+        browser.name.clear();
+        return std::nullopt;
+    }
+    if (browser.kind == FileBrowser::Kind::open) {
+        if (!exists(path) && exists(path + browser.ending)) path += browser.ending;
+        if (exists(path)) return path;
+        browser.problem = "there is no such file here";
+        return std::nullopt;
+    }
+    if (!lower(path).ends_with(browser.ending)) path += browser.ending;
+    if (!isFolder(fs::path(path).parent_path().string())) {
+        browser.problem = "there is no such folder";
+    } else if (exists(path) && !std::exchange(browser.asking, true)) {
+        browser.name = fs::path(path).filename().string();
+    } else {
+        browser.asking = false;
+        return path;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> show(FileBrowser& browser, float scale) {
+    const bool saves = browser.kind == FileBrowser::Kind::save;
+    const char* title = saves ? kSaveTitle : kOpenTitle;
+    if (std::exchange(browser.opening, false)) {
+        ImGui::OpenPopup(title);
+        browser.fresh = true;
+    }
+    const ImVec2 whole = ImGui::GetMainViewport()->Size;
+    ImGui::SetNextWindowSize(
+        {std::min(640.0f * scale, whole.x * 0.95f), std::min(480.0f * scale, whole.y * 0.95f)},
+        ImGuiCond_Appearing);
+    ImGui::SetNextWindowPos({0.5f * whole.x, 0.5f * whole.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    bool stays = true;
+    if (!ImGui::BeginPopupModal(title, &stays, ImGuiWindowFlags_NoSavedSettings)) return std::nullopt;
+    showPath(browser);
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    const bool asked = browser.asking;
+    bool confirmed = showEntries(browser, -2.0f * line - ImGui::GetTextLineHeightWithSpacing());
+
+    if (std::exchange(browser.fresh, false)) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-1);
+    const std::string before = browser.name;
+    confirmed |= ImGui::InputTextWithHint("##name", saves ? "name of the file" : "name of a file or a folder",
+                                          &browser.name, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (browser.name != before) browser.asking = false, browser.problem.clear();
+    if (browser.asking)
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::warning)),
+                           "%s exists. Replace it?", browser.name.c_str());
+    else
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::error)), "%s",
+                           browser.problem.c_str());
+    const char* label = browser.asking ? "Replace" : saves ? "Save" : "Open";
+    confirmed |= ImGui::Button(label, {100 * scale, 0});
+    ImGui::SameLine();
+    const bool cancelled = ImGui::Button("Cancel", {100 * scale, 0}) ||
+                           (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && !asked);
+    if (asked && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) browser.asking = false;
+
+    std::optional<std::string> chosen;
+    if (confirmed) chosen = choose(browser);
+    if (browser.asking != asked && browser.asking) browser.fresh = true;  // Enter again says yes
+    if (chosen || cancelled) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    return chosen;
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,47 @@
+// Choosing a file to open or a name to save under, in a window of the interface.
+//
+// Lifetime: one FileBrowser a program; what it shows is read anew when its folder changes or it opens.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fw::editor {
+
+struct FolderEntry {
+    std::string name;
+    bool folder = false;
+    bool operator==(const FolderEntry&) const = default;
+};
+
+/// The folders and the files with this ending in a folder, folders first, by name whatever its case; hidden
+/// ones are left out. `problem` says why a folder cannot be read.
+std::vector<FolderEntry> listFolder(const std::string& folder, const std::string& ending,
+                                    std::string& problem);
+
+struct FileBrowser {
+    enum class Kind { open, save } kind = Kind::open;
+    std::string folder;                     ///< absolute
+    std::string ending = ".field.json";     ///< of the files shown
+    std::string name;                       ///< typed or chosen
+    std::vector<FolderEntry> entries = {};  ///< of the folder
+    std::string problem = {};               ///< why it cannot be read, or the name not be taken
+    bool asking = false;                    ///< whether to replace a file
+    bool opening = false, fresh = false;
+};
+
+/// Opens it on the file's folder with the file's name, on the folder, or where it was for an empty path.
+void open(FileBrowser& browser, FileBrowser::Kind kind, const std::string& path);
+
+/// Goes into the folder: a name in the present one, "..", or an absolute path.
+void enter(FileBrowser& browser, const std::string& folder);
+
+/// What pressing the button means: enters a folder, asks about a file that exists, says what is wrong, or
+/// returns the absolute path chosen. A name to save under gets the ending if it has none.
+std::optional<std::string> choose(FileBrowser& browser);
+
+/// One frame of it, if it is open. The path, once, when it was chosen; the window is closed then.
+std::optional<std::string> show(FileBrowser& browser, float scale);
+
+}  // namespace fw::editor

@@ -1,0 +1,112 @@
+#include "editor/files/preferences.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "runtime/export/output_file.h"
+
+namespace fw::editor {
+
+namespace {
+
+/// Takes the key out of the object if its value is as it should be; what is not stays and is complained of.
+template <class Is, class Use>
+void take(Json& all, const char* key, Is is, Use use, std::string& problem) {
+    const auto found = all.find(key);
+    if (found == all.end()) return;
+    if (is(*found))
+        use(*found);
+    else if (problem.empty())
+        problem = std::string("'") + key + "' is not what it should be";
+    all.erase(found);
+}
+
+bool isScale(const Json& value) {
+    return value.is_number() &&
+           (value.get<double>() == 0.0 || (value.get<double>() >= 0.5 && value.get<double>() <= 4.0));
+}
+
+}  // namespace
+
+std::string preferencesPath() {
+    if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder && *folder)
+        return std::string(folder) + "/fieldwright/editor.json";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return std::string(home) + "/.config/fieldwright/editor.json";
+    return {};
+}
+
+Preferences readPreferences(const std::string& path, std::string& problem) {
+    Preferences preferences;
+    problem.clear();
+    std::ifstream file(path, std::ios::binary);
+    if (path.empty() || !file) return preferences;
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    Json all = Json::parse(text, nullptr, false);
+    if (!all.is_object()) {
+        std::error_code error;
+        std::filesystem::rename(path, path + ".broken", error);
+        problem = path + " cannot be read: the editor starts with its defaults" +
+                  (error ? "" : ", and the file is now " + path + ".broken");
+        return preferences;
+    }
+    take(
+        all, "recent", [](const Json& value) { return value.is_array(); },
+        [&](const Json& value) {
+            for (const Json& each : value)
+                if (each.is_string() && preferences.recent.size() < kMostRecent)
+                    preferences.recent.push_back(each.get<std::string>());
+        },
+        problem);
+    take(
+        all, "layout", [](const Json& value) { return value.is_string(); },
+        [&](const Json& value) { preferences.layout = value.get<std::string>(); }, problem);
+    take(
+        all, "scale", isScale, [&](const Json& value) { preferences.scale = value.get<float>(); }, problem);
+    take(
+        all, "shortcuts", [](const Json& value) { return value.is_object(); },
+        [&](const Json& value) {
+            for (const auto& [id, keys] : value.items())
+                if (keys.is_string()) preferences.shortcuts[id] = keys.get<std::string>();
+        },
+        problem);
+    take(
+        all, "panels", [](const Json& value) { return value.is_object(); },
+        [&](const Json& value) { preferences.panels = value; }, problem);
+    if (!all.empty()) preferences.extra = std::move(all);
+    if (!problem.empty()) problem = path + ": " + problem + ": its default is taken";
+    return preferences;
+}
+
+Done savePreferences(const Preferences& preferences, const std::string& path) {
+    if (path.empty()) return done();
+    Json all = Json::object();
+    all["recent"] = preferences.recent;
+    all["scale"] = preferences.scale;
+    all["shortcuts"] = preferences.shortcuts;
+    if (!preferences.panels.is_null()) all["panels"] = preferences.panels;
+    all["layout"] = preferences.layout;
+    if (preferences.extra.is_object())
+        for (const auto& [key, value] : preferences.extra.items()) all[key] = value;
+    std::error_code error;  // shows as the Error of the file
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+    Result<OutputFile> file = OutputFile::open(path, nullptr);
+    if (!file) return file.error();
+    // Paths may hold bytes that are no UTF-8.
+    file->write(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    return file->commit();
+}
+
+void addRecent(Preferences& preferences, const std::string& path) {
+    std::error_code error;
+    const std::filesystem::path full = std::filesystem::absolute(path, error);
+    const std::string name = error ? path : full.lexically_normal().string();
+    std::erase(preferences.recent, name);
+    preferences.recent.insert(preferences.recent.begin(), name);
+    if (preferences.recent.size() > kMostRecent) preferences.recent.resize(kMostRecent);
+}
+
+}  // namespace fw::editor

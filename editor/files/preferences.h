@@ -1,0 +1,40 @@
+// What the editor remembers from one time to the next: editor.json in the user's configuration folder.
+//
+// Preferences are no document: whatever is wrong with the file, the editor starts, with defaults for what
+// could not be read. A file that is no JSON is set aside under another name before it is written anew. Keys
+// of a newer version are kept.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+#include "graph/result.h"
+
+namespace fw::editor {
+
+inline constexpr std::size_t kMostRecent = 12;
+
+struct Preferences {
+    std::vector<std::string> recent = {};               ///< absolute paths of files, the last opened first
+    std::string layout = {};                            ///< ImGui's windows: SaveIniSettingsToMemory()
+    float scale = 0.0f;                                 ///< of the interface, 0.5 to 4; 0: the display's
+    std::map<std::string, std::string> shortcuts = {};  ///< id of a command to keys, "Ctrl+Z"; where changed
+    Json panels = nullptr;  ///< an object: what the editor's panels keep of how they stand
+    Json extra = nullptr;   ///< unknown keys
+    bool operator==(const Preferences&) const = default;
+};
+
+/// $XDG_CONFIG_HOME/fieldwright/editor.json, or under ~/.config; empty where neither variable is set.
+std::string preferencesPath();
+
+/// Defaults where there is no file. `problem` says what could not be read, and stays empty otherwise.
+Preferences readPreferences(const std::string& path, std::string& problem);
+/// Makes the folder if need be. Nothing for an empty path. Errors: as OutputFile.
+Done savePreferences(const Preferences& preferences, const std::string& path);
+
+/// The file as the first of the recent ones.
+void addRecent(Preferences& preferences, const std::string& path);
+
+}  // namespace fw::editor
