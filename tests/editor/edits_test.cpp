@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "editor/document/wiring.h"
 #include "tests/editor/random_edits.h"
@@ -326,6 +327,7 @@ TEST(Streams, FollowTheWires) {
 
 TEST(Edits, LeaveNoGraphLessSoundThanItWas) {
     uint32_t seed = 100;
+    std::map<std::string, int> changes;  // by the kind of edit
     for (Graph graph : test::graphsToEdit(60)) {
         test::RandomEdits edits(++seed);
         std::vector<std::string> former = structuralErrors(graph);
@@ -338,12 +340,15 @@ TEST(Edits, LeaveNoGraphLessSoundThanItWas) {
                     << "seed " << seed << ", edit " << i << ", " << name << ": " << error << "\n"
                     << writeGraph(graph);
             former = errors;
+            changes[name] += next != graph;
             graph = std::move(next);
         }
         const Result<Graph> read = parseGraph(writeGraph(graph), "", nullptr);
         ASSERT_TRUE(read) << format(read.error());
         EXPECT_EQ(writeGraph(*read), writeGraph(graph));
     }
+    EXPECT_GE(changes.size(), 18u);
+    for (const auto& [name, count] : changes) EXPECT_GT(count, 20) << name << " hardly ever did anything";
 }
 
 }  // namespace
