@@ -4,6 +4,7 @@
 
 #include "editor/document/clipboard.h"
 #include "editor/document/layout.h"
+#include "editor/panels/playback.h"
 
 namespace fw::editor {
 
@@ -193,6 +194,8 @@ void runShortcuts(Editor& editor) {
     if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || editor.document.inGesture() ||
         editor.canvas.field.state != FieldEdit::State::none)
         return;
+    if (deletesKey(editor) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)))
+        return removeSelectedKey(editor);
     // Space asks for the menu when it goes up, if nothing was panned with it.
     if (ImGui::IsKeyReleased(ImGui::GetKeyIndex(ImGuiKey_Space))) {
         if (!editor.canvas.spacePans && !io.KeyCtrl && !io.KeyAlt) addHere(editor);

@@ -45,4 +45,16 @@ void showTime(Editor& editor, double seconds) {
     editor.panelState.played = editor.viewport.seconds;
 }
 
+bool deletesKey(const Editor& editor) {
+    const PanelState& state = editor.panelState;
+    return state.track && state.key && state.timelineFrame == ImGui::GetFrameCount() - 1;
+}
+
+void removeSelectedKey(Editor& editor) {
+    PanelState& state = editor.panelState;
+    if (!state.track || !state.key) return;
+    editor.document.apply("Remove Key", removeKey(editor.document.graph(), *state.track, *state.key));
+    state.key.reset();
+}
+
 }  // namespace fw::editor

@@ -171,13 +171,7 @@ void showKey(Editor& editor, const Timeline& timeline) {
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Whether it starts or ends slowly");
     ImGui::SameLine();
-    const bool pressed = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)) &&
-                         ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) &&
-                         !ImGui::GetIO().WantTextInput;
-    if (ImGui::Button("Remove key") || pressed) {
-        document.apply("Remove Key", removeKey(document.graph(), *state.track, *state.key));
-        state.key.reset();
-    }
+    if (ImGui::Button("Remove key")) removeSelectedKey(editor);
 }
 
 /// The strip of times: numbers, and the time shown. Dragging in it scrubs.
@@ -285,6 +279,8 @@ void showTimeline(Editor& editor) {
         ImGui::PopTextWrapPos();
         return;
     }
+    if (ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows))
+        editor.panelState.timelineFrame = ImGui::GetFrameCount();
     const Timeline timeline = *read;  // what is done below makes it another
     showTransport(editor, timeline);
     showAddTrack(editor, timeline);
