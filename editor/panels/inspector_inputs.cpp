@@ -267,7 +267,10 @@ void showMenu(const Input& input) {
 void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& goTo) {
     const Input input{editor, box, row, {box.node->id, row.name}};
     const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
-    const auto track = timeline ? trackOfInput(editor.document.graph(), *timeline, input.plug) : std::nullopt;
+    const Track* track = nullptr;
+    if (timeline)
+        if (const auto index = trackOfInput(editor.document.graph(), *timeline, input.plug))
+            track = &timeline->tracks[*index];
     const bool movable = timeline && (track || motionRefusal(editor.document.graph(), input.plug).empty());
 
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
@@ -275,16 +278,15 @@ void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& 
     propertyRow(readable(row.name), describe(row), room);
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     const float top = ImGui::GetCursorPosY();
-    showValue(input, track && !row.linked ? &timeline->tracks[*track] : nullptr, room, goTo);
+    showValue(input, track, room, goTo);
     const ImVec2 after = ImGui::GetCursorPos();
     if (movable) {
-        const bool here = track && keyAt(timeline->tracks[*track], editor.viewport.seconds);
+        const bool here = track && keyAt(*track, editor.viewport.seconds);
         ImGui::SetCursorPos({right - menu - key, top});
-        if (keyButton("##key", here, track.has_value(),
+        if (keyButton("##key", here, track != nullptr,
                       here ? "Remove the key at the time shown" : "Add a key at the time shown"))
             toggleKey(editor, *timeline,
-                      track ? movedBy(timeline->tracks[*track])
-                            : Moved{Track::Target::input, input.plug.node, input.plug.name},
+                      track ? movedBy(*track) : Moved{Track::Target::input, input.plug.node, input.plug.name},
                       inputNumbers(*box.node, input.plug.name));
     }
     ImGui::SetCursorPos({right - menu, top});

@@ -57,8 +57,9 @@ void showValue(Editor& editor, const ExposedParameter& parameter) {
     if (std::isfinite(range.max - range.min)) range.speed = (range.max - range.min) / 250.0;
     const std::string held = parameter.node + "." + parameter.input;
     const Timeline* timeline = timelineOf(editor);
-    if (const auto track = timeline ? trackOfInput(graph, *timeline, plug) : std::nullopt)
-        return editAnimated(editor, "##value", timeline->tracks[*track], range, parameter.name, held);
+    if (timeline)
+        if (const auto track = trackOfInput(graph, *timeline, plug))
+            return editAnimated(editor, "##value", timeline->tracks[*track], range, parameter.name, held);
     std::vector<double> numbers = inputNumbers(*node, parameter.input);
     if (numbers.empty()) return ImGui::TextDisabled("no number");
     if (spec && std::size_t(componentCount(spec->type)) > numbers.size())

@@ -219,11 +219,12 @@ void editAnimated(Editor& editor, const char* id, const Track& track, const Numb
 void toggleKey(Editor& editor, const Timeline& timeline, const Moved& moved, std::span<const double> value) {
     const double now = editor.viewport.seconds;
     Document& document = editor.document;
-    const auto track = trackOf(timeline, moved);
-    const auto key = track ? keyAt(timeline.tracks[*track], now) : std::nullopt;
-    if (key) return document.apply("Remove Key", removeKey(document.graph(), *track, *key));
     std::vector<double> there(value.begin(), value.end());
-    if (track) there = evaluate(timeline.tracks[*track], now);
+    if (const auto track = trackOf(timeline, moved)) {
+        if (const auto key = keyAt(timeline.tracks[*track], now))
+            return document.apply("Remove Key", removeKey(document.graph(), *track, *key));
+        there = evaluate(timeline.tracks[*track], now);
+    }
     document.apply("Add Key", setKey(document.graph(), moved, now, there));
 }
 

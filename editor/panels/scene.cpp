@@ -37,7 +37,9 @@ void numbersRow(Editor& editor, const std::string& path, const char* label, cons
     std::vector<double> value(now.begin(), now.end());
     const Timeline* timeline = timelineOf(editor);
     const Moved moved{Track::Target::scene, "", path};
-    const auto track = timeline ? trackOf(*timeline, moved) : std::nullopt;
+    const Track* track = nullptr;
+    if (timeline)
+        if (const auto index = trackOf(*timeline, moved)) track = &timeline->tracks[*index];
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const float room = timeline ? 0.8f * side + gap : 0.0f;
     ImGui::PushID(path.c_str());
@@ -47,7 +49,7 @@ void numbersRow(Editor& editor, const std::string& path, const char* label, cons
         return sound(graph, setSceneValue(graph, path, jsonOf(value)));
     };
     if (track) {
-        editAnimated(editor, "##animated", timeline->tracks[*track], range, label);
+        editAnimated(editor, "##animated", *track, range, label);
     } else {
         if (color) {
             follow(editor, "##color", pickColor("##color", value), std::string("Set ") + label, next);
@@ -59,8 +61,8 @@ void numbersRow(Editor& editor, const std::string& path, const char* label, cons
     }
     if (timeline) {
         ImGui::SameLine();
-        const bool here = track && keyAt(timeline->tracks[*track], editor.viewport.seconds);
-        if (keyButton("##key", here, track.has_value(),
+        const bool here = track && keyAt(*track, editor.viewport.seconds);
+        if (keyButton("##key", here, track != nullptr,
                       here ? "Remove the key at the time shown" : "Add a key at the time shown"))
             toggleKey(editor, *timeline, moved, value);
     }
