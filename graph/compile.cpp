@@ -166,6 +166,21 @@ class Compiler {
             if (const auto* number = std::get_if<double>(&given->value)) numbers = {*number};
             if (const auto* flag = std::get_if<bool>(&given->value)) numbers = {*flag ? 1.0 : 0.0};
             if (const auto* list = std::get_if<std::vector<double>>(&given->value)) numbers = *list;
+        }
+        const bool mayBeLive =
+            (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3) &&
+            !numbers.empty();
+        if (mayBeLive && canBeLive) canBeLive->push_back(prefix + node.id + "." + spec.name);
+        const std::string name = mayBeLive ? liveName(node, prefix, spec.name) : std::string();
+        if (!name.empty()) {
+            // Its numbers are no constants of the program: the code is the same whatever they are.
+            language::Lowering apart;
+            const Value now = language::constantValue(apart, spec.type, numbers);
+            for (int i = 0; i < componentCount(spec.type); ++i)
+                value.ids[i] = liveComponent(name, i, apart.ir.number(now.ids[i]));
+            return value;
+        }
+        if (given) {
             if (const auto* words = std::get_if<std::string>(&given->value)) {
                 value.text = *words;
                 if (spec.type == Type::image) {
@@ -185,14 +200,6 @@ class Compiler {
                                                  Type::surface)
                             : language::constantValue(state, spec.type, numbers);
         }
-        const bool mayBeLive =
-            (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3) &&
-            !numbers.empty();
-        if (mayBeLive && canBeLive) canBeLive->push_back(prefix + node.id + "." + spec.name);
-        const std::string name = mayBeLive ? liveName(node, prefix, spec.name) : std::string();
-        if (!name.empty())
-            for (int i = 0; i < componentCount(spec.type); ++i)
-                value.ids[i] = liveComponent(name, i, state.ir.number(value.ids[i]));
         return value;
     }
 

@@ -32,6 +32,10 @@ std::optional<Error> firstError(const Graph& graph, std::vector<Error>* warnings
     return std::nullopt;
 }
 
+bool hasLamps(const Graph& graph) {
+    return graph.scene.is_object() && graph.scene.contains("lights") && !graph.scene["lights"].empty();
+}
+
 /// Times on the timeline at which the solid's bounds are looked for.
 std::vector<double> regionTimes(const Timeline& timeline) {
     std::set<double> times;
@@ -72,8 +76,9 @@ Result<Player> Player::open(const std::string& path, const PlayerOptions& option
     return player;
 }
 
-Result<Player> Player::create(Graph graph, Device device, const PlayerOptions& options) {
-    if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
+Result<Player> Player::create(Graph graph, Device&& device, const PlayerOptions& options) {
+    if (!options.checked)
+        if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
     Result<Prepared> prepared = prepare(std::move(graph), options);
     if (!prepared) return prepared.error();
     Player player(std::move(device), options);
@@ -91,6 +96,7 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& optio
     compileOptions.live = animatedInputs(graph, made.timeline);
     compileOptions.live.insert("time");
     const std::set<std::string> moving = compileOptions.live;
+    compileOptions.live.insert(options.live.begin(), options.live.end());
     if (options.liveParameters)
         for (const NamedParameter& parameter : namedParameters(graph))
             compileOptions.live.insert(parameter.node + "." + parameter.input);
@@ -111,8 +117,8 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& optio
     for (std::size_t slot = 0; slot < live.size(); ++slot) {
         const std::size_t dot = live[slot].name.rfind('.');
         const Node* node = dot == std::string::npos ? nullptr : graph.node(live[slot].name.substr(0, dot));
-        if (!node) {  // the time
-            made.fieldMoves = made.fieldMoves || made.read[slot];
+        if (!node) {  // the time, or an input within a group
+            made.fieldMoves = made.fieldMoves || (dot == std::string::npos && made.read[slot]);
             continue;
         }
         LiveInput& input = made.inputs[live[slot].name];
@@ -196,10 +202,18 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
 }
 
 void Player::adopt(Prepared prepared) {
+    const std::vector<double> values = valuesAt(prepared, seconds);
+    for (std::size_t slot = 0; slot < values.size(); ++slot) prepared.program.live[slot].value = values[slot];
+    const bool same = meshed && session.program().structureHash == prepared.program.structureHash &&
+                      session.program().parameters() == values && now.region == prepared.region &&
+                      now.program.resolution == prepared.program.resolution;
+    const bool moved = prepared.fieldMoves || now.fieldMoves;
     now = std::move(prepared);
-    const std::vector<double> values = valuesAt(now, seconds);
-    for (std::size_t slot = 0; slot < values.size(); ++slot) now.program.live[slot].value = values[slot];
-    session.setProgram(now.program);
+    if (options.compileBehind)
+        session.replaceProgram(now.program, {.lamps = hasLamps(now.graph), .show = options.fieldViews});
+    else
+        session.setProgram(now.program);
+    if (same && !moved) return;
     meshed.reset();
     points.clear();
 }
@@ -290,6 +304,7 @@ Result<MesherResult> Player::meshOnDevice() {
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
+    meshedOnHost = options.compileBehind && session.compiling();
     return result;
 }
 
@@ -366,7 +381,17 @@ Result<Scene> Player::scene() const {
     return scene;
 }
 
-Done Player::reload(Graph graph) {
+Done Player::reload(Graph graph) { return reload(std::move(graph), options); }
+
+bool Player::compiling() {
+    const bool meshing = session.compiling(), drafting = session.drafting();
+    // The mesh of the host has no colours.
+    if (!meshing && std::exchange(meshedOnHost, false) && now.program.hasMaterial()) meshed.reset();
+    return meshing || drafting;
+}
+
+Done Player::reload(Graph graph, const PlayerOptions& options_) {
+    const PlayerOptions changed = options_;  // it may be our own
     std::vector<std::pair<std::string, std::vector<double>>> kept;
     for (const auto& [name, value] : chosen) {
         const std::optional<NamedParameter> parameter = findParameter(graph, name);
@@ -375,9 +400,12 @@ Done Player::reload(Graph graph) {
             setParameter(graph, name, value))
             kept.emplace_back(name, value);
     }
-    if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
-    Result<Prepared> prepared = prepare(std::move(graph), options);
+    if (!changed.checked)
+        if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
+    Result<Prepared> prepared = prepare(std::move(graph), changed);
     if (!prepared) return prepared.error();
+    if (changed.resolution != options.resolution) meshed.reset();
+    options = changed;
     adopt(std::move(*prepared));
     chosen.clear();
     for (auto& [name, value] : kept) chosen.emplace(std::move(name), std::move(value));

@@ -35,10 +35,16 @@
 namespace fw {
 
 struct PlayerOptions {
-    std::string device = {};           ///< index or part of the name of the device; empty: chosen
-    std::optional<Box> region = {};    ///< metres; none: found
-    int resolution = 0;                ///< cells along the region's longest side; 0: the graph's
-    bool liveParameters = true;        ///< set() uploads; otherwise it compiles, and the field is faster
+    std::string device = {};          ///< index or part of the name of the device; empty: chosen
+    std::optional<Box> region = {};   ///< metres; none: found
+    int resolution = 0;               ///< cells along the region's longest side; 0: the graph's
+    bool liveParameters = true;       ///< set() uploads; otherwise it compiles, and the field is faster
+    std::set<std::string> live = {};  ///< further inputs, "node.input", that reload() uploads
+    /// Nothing waits for kernels to be compiled: until they are there, meshes are made on the host and
+    /// pictures are drafts (Session::replaceProgram).
+    bool compileBehind = false;
+    bool checked = false;     ///< check() was called: only what the output needs must be free of errors
+    bool fieldViews = false;  ///< pictures will be of the views from RENDER_STEPS on
     DeviceOptions deviceOptions = {};  ///< further wishes, for a device that presents
 };
 
@@ -58,7 +64,8 @@ class Player {
     static Result<Player> open(const std::string& path, const PlayerOptions& options = {},
                                std::vector<Error>* warnings = nullptr);
     /// The same with a document that was read, on a device that is given.
-    static Result<Player> create(Graph graph, Device device, const PlayerOptions& options = {});
+    /// The device is taken only if that succeeds.
+    static Result<Player> create(Graph graph, Device&& device, const PlayerOptions& options = {});
 
     const Graph& graph() const { return now.graph; }
     const Timeline& timeline() const { return now.timeline; }
@@ -108,6 +115,14 @@ class Player {
     /// Plays another state of the document, at the same time, with the parameters that were set and still
     /// fit. If it cannot be played, the Error says why and the player goes on with what it has.
     Done reload(Graph graph);
+    /// The same with other options; the device stays. If only values of live inputs differ, that is an
+    /// upload.
+    Done reload(Graph graph, const PlayerOptions& changed);
+
+    const Program& program() const { return now.program; }
+    /// Whether kernels are still being compiled behind: then meshes and pictures will change without another
+    /// call.
+    bool compiling();
 
     const Device& device() const { return session.device(); }
     /// Pipelines that the device has built so far: what a seek leaves as it is.
@@ -151,7 +166,8 @@ class Player {
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
-    std::optional<MesherResult> meshed;   ///< of the values that the session has
+    std::optional<MesherResult> meshed;  ///< of the values that the session has
+    bool meshedOnHost = false;
     std::vector<gpu::MeshVertex> points;  ///< the outline; empty until it is asked for
 };
 

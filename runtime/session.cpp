@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/glsl.h"
 #include "graph/region.h"
@@ -52,6 +53,10 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
 
 Session::Session(Device device) : gpu(std::make_unique<Device>(std::move(device))) {}
 
+Session::~Session() {
+    if (overtaken) *overtaken = true;
+}
+
 void Session::take(Program program) {
     const bool sameImages = images && program.ir.images() == current.ir.images();
     current = std::move(program);
@@ -69,6 +74,7 @@ void Session::take(Program program) {
 
 bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     take(std::move(program));
+    if (std::exchange(kernelsBehind, false)) renderer.reset();
     if (built && builtHash == current.structureHash) return false;
 
     const auto start = std::chrono::steady_clock::now();
@@ -83,9 +89,12 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     return true;
 }
 
-void Session::replaceProgram(Program program) {
+void Session::replaceProgram(Program program, const FieldKernelOptions& kernels) {
     take(std::move(program));
-    compiling();
+    if (!std::exchange(kernelsBehind, true)) renderer.reset(), hasKernels = false;
+    kernelOptions = kernels;
+    kernelOptions.when = Compile::behind;
+    drafting();
 }
 
 bool Session::compiling() {
@@ -94,7 +103,7 @@ bool Session::compiling() {
         MesherPipelines made = next.get();
         if (nextHash == current.structureHash && !isBuilt()) {
             pipelines = std::move(made);
-            renderer.reset();
+            if (!kernelsBehind) renderer.reset();
             builtHash = nextHash;
             built = true;
         }
@@ -106,6 +115,37 @@ bool Session::compiling() {
                                                colors = current.hasMaterial(), previous = pipelines] {
             return createMesherPipelines(*device, field, colors, previous, nullptr, Compile::behind);
         });
+    }
+    return true;
+}
+
+bool Session::drafting() {
+    if (!kernelsBehind) return false;
+    const bool meshing = compiling();  // the mesher's kernels come first
+    const auto there = [&] { return hasKernels && kernelsHash == current.structureHash; };
+    const auto wanted = [&] { return nextKernelsHash == current.structureHash && overtaken && !*overtaken; };
+    if (nextKernels.valid() && nextKernels.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        std::optional<FieldKernels> made = nextKernels.get();
+        if (made && wanted() && !there()) {
+            if (!renderer) renderer = createRenderer(*gpu);
+            setField(*renderer, std::move(*made));
+            kernelsHash = nextKernelsHash;
+            hasKernels = true;
+            ++content;
+        }
+    }
+    if (there()) return false;
+    if (nextKernels.valid()) {
+        if (!wanted()) *overtaken = true;
+    } else if (!meshing) {
+        nextKernelsHash = current.structureHash;
+        overtaken = std::make_shared<std::atomic<bool>>(false);
+        FieldKernelOptions options = kernelOptions;
+        options.cancel = overtaken.get();
+        nextKernels = std::async(std::launch::async,
+                                 [device = gpu.get(), field = emitField(current), options, flag = overtaken] {
+                                     return createFieldKernels(*device, field, options);
+                                 });
     }
     return true;
 }
@@ -155,25 +195,38 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     return runMesher(*gpu, pipelines, buffers, config);
 }
 
-Mesh Session::download(const MesherResult& result) const {
-    Mesh mesh = downloadMesh(*gpu, buffers, result);
+gpu::DraftMaterial Session::material() const {
     const auto constant = [&](int component) {
         const IrId id = current.surface[component];
         return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
                                          : static_cast<float>(kDefaultMaterial[component - 1]);
     };
-    mesh.roughness = constant(roughnessComponent);
-    mesh.metallic = constant(metallicComponent);
+    gpu::DraftMaterial constants{};
+    constants.roughness = constant(roughnessComponent);
+    constants.metallic = constant(metallicComponent);
     for (int i = 0; i < 3; ++i) {
-        mesh.baseColor[i] = constant(baseColorComponent + i);
-        mesh.emission[i] = constant(emissionComponent + i);
+        constants.base[i] = constant(baseColorComponent + i);
+        constants.emission[i] = constant(emissionComponent + i);
+    }
+    return constants;
+}
+
+Mesh Session::download(const MesherResult& result) const {
+    Mesh mesh = downloadMesh(*gpu, buffers, result);
+    const gpu::DraftMaterial constants = material();
+    mesh.roughness = constants.roughness;
+    mesh.metallic = constants.metallic;
+    for (int i = 0; i < 3; ++i) {
+        mesh.baseColor[i] = constants.base[i];
+        mesh.emission[i] = constants.emission[i];
     }
     return mesh;
 }
 
 template <class Draw>
 auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw) {
-    if (!renderer) renderer = createRenderer(*gpu, emitField(current));
+    const bool draft = drafting();
+    if (!renderer) renderer = draft ? createRenderer(*gpu) : createRenderer(*gpu, emitField(current));
     std::vector<gpu::MeshVertex> points;
     if (options.framed.empty() && result.vertices > 0) {
         points = fw::download<gpu::MeshVertex>(*gpu, buffers.vertices, result.vertices);
@@ -186,6 +239,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
                             .buffers = {&parameters, &images},
                             .bounds = boundsOf(options.framed),
+                            .draft = draft ? std::optional(material()) : std::nullopt,
                             .content = content};
     return draw(*renderer, scene, options);
 }

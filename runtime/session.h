@@ -38,10 +38,13 @@ class Session {
 
     /// The same without waiting: kernels of a new structure are compiled on a thread of their own. Until they
     /// are there, polygonise() evaluates the field on the host (runtime/mesher_host.h), and its mesh has no
-    /// colours.
-    void replaceProgram(Program program);
+    /// colours; then the renderer's are compiled, and until those are there pictures are drafts
+    /// (runtime/render/draft.h). `kernels` says which of them are wanted.
+    void replaceProgram(Program program, const FieldKernelOptions& kernels = {});
     /// Whether the next polygonise() would do without the program's kernels.
     bool compiling();
+    /// Whether the next picture would be a draft.
+    bool drafting();
 
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
@@ -61,8 +64,13 @@ class Session {
     /// renderLive.
     Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture);
 
+    ~Session();
+    Session(Session&&) = default;
+    Session& operator=(Session&&) = default;
+
   private:
     void take(Program program);
+    gpu::DraftMaterial material() const;
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
     template <class Draw>
     auto draw(const MesherResult& result, RenderOptions options, Draw draw);
@@ -79,6 +87,13 @@ class Session {
     Buffer parameters, images;
     std::future<MesherPipelines> next;  ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;
+    /// Of the renderer: compiled behind, those there are, and those being compiled.
+    bool kernelsBehind = false;
+    FieldKernelOptions kernelOptions;
+    uint64_t kernelsHash = 0, nextKernelsHash = 0;
+    bool hasKernels = false;
+    std::future<std::optional<FieldKernels>> nextKernels;
+    std::shared_ptr<std::atomic<bool>> overtaken;  ///< ends what nextKernels does
 };
 
 /// The region that a program is meshed in: the request's, the program's own, or the solid's bounds with a

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -36,7 +37,8 @@ struct PreviewStatistics {
     std::vector<StageTime> stages;  ///< of the last mesh and picture
     double milliseconds = 0.0;      ///< from taking the wish to the picture
     uint64_t deviceBytes = 0;
-    int resolution = 0;  ///< of this picture's mesh; coarser than asked for while a hand moves
+    uint64_t pipelines = 0;  ///< that the device has built so far
+    int resolution = 0;      ///< of this picture's mesh; coarser than asked for while a hand moves
 };
 
 struct PreviewResult {
@@ -44,6 +46,7 @@ struct PreviewResult {
     std::vector<Error> findings = {};
     bool current = false;        ///< the picture shows that graph; otherwise the last that was valid
     Picture picture = {};        ///< empty: none yet
+    bool draft = false;          ///< of the mesh alone: better ones come when kernels are compiled
     Camera seen = {};            ///< what it was seen by
     std::string spoiledBy = {};  ///< the node since which the field is no exact distance
     PreviewStatistics statistics = {};

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <deque>
 #include <exception>
+#include <map>
 #include <optional>
 #include <thread>
 
@@ -138,7 +139,7 @@ class FirstRuns {
     /// One call at a time. `pipeline` must stay where it is.
     void start(const Pipeline& pipeline, const ShaderOptions& options, const Spirv& spirv) {
         for (const ShaderBinding& binding : pipeline.shader.bindings)
-            if (!isBuffer(binding)) return;
+            if (!isBuffer(binding) && !(behind && binding.format != VK_FORMAT_UNDEFINED)) return;
         const bool toSibling = behind || (siblingUse.owns_lock() && sibling.words < own.words);
         Lane& lane = toSibling ? sibling : own;
         lane.words += spirv.size();
@@ -167,7 +168,8 @@ class FirstRuns {
         }
         const Device& device;
         Buffer nothing;
-        std::size_t words = 0;  // of SPIR-V so far: a measure of its work
+        std::map<VkFormat, Image> images = {};  // that stand for those a kernel stores to
+        std::size_t words = 0;                  // of SPIR-V so far: a measure of its work
         std::vector<std::unique_ptr<Commands>> recorded = {};
         std::vector<VkFence> fences = {};
     };
@@ -179,11 +181,25 @@ class FirstRuns {
     }
     static void wait(Lane& lane) { check(vkQueueWaitIdle(lane.device.queue), "waiting for first runs"); }
 
+    /// The code that a software device makes of a kernel depends on the images' formats, and on whether their
+    /// sides are powers of two: those of pictures seldom are.
+    static const Image& imageOf(Lane& lane, Commands& commands, VkFormat format) {
+        Image& image = lane.images[format];
+        if (image) return image;
+        image = createImage(lane.device, {.extent = {3, 3, 1}, .format = format});
+        imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+        return image;
+    }
+
     static void run(Lane& lane, const Pipeline& pipeline) {
+        Commands& commands = *lane.recorded.emplace_back(std::make_unique<Commands>(lane.device));
         std::vector<Descriptor> descriptors;
         for (const ShaderBinding& binding : pipeline.shader.bindings)
-            descriptors.push_back({binding.binding, lane.nothing});
-        Commands& commands = *lane.recorded.emplace_back(std::make_unique<Commands>(lane.device));
+            if (isBuffer(binding))
+                descriptors.push_back({binding.binding, lane.nothing});
+            else
+                descriptors.push_back(
+                    {binding.binding, imageOf(lane, commands, binding.format).view, VK_IMAGE_LAYOUT_GENERAL});
         const std::array<std::byte, 256> push{};
         dispatch(commands, pipeline, {0, 0, 0}, push.data(), pipeline.shader.pushConstantSize, descriptors);
         check(vkEndCommandBuffer(commands.handle), "recording a first run");

@@ -63,6 +63,19 @@ VkDescriptorType descriptorType(Ids& ids, const Id& variable) {
     }
 }
 
+VkFormat storageFormat(Ids& ids, const Id& variable) {
+    const Id& image = ids[ids[variable.type].operands[1]];
+    if (image.op != spv::OpTypeImage || image.operands[5] != 2) return VK_FORMAT_UNDEFINED;
+    switch (spv::ImageFormat(image.operands[6])) {
+        case spv::ImageFormatR32f: return VK_FORMAT_R32_SFLOAT;
+        case spv::ImageFormatR32ui: return VK_FORMAT_R32_UINT;
+        case spv::ImageFormatRg32ui: return VK_FORMAT_R32G32_UINT;
+        case spv::ImageFormatRgba32ui: return VK_FORMAT_R32G32B32A32_UINT;
+        case spv::ImageFormatRgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
+        default: return VK_FORMAT_UNDEFINED;
+    }
+}
+
 VkShaderStageFlags stageFlag(uint32_t model) {
     switch (model) {
         case spv::ExecutionModelVertex: return VK_SHADER_STAGE_VERTEX_BIT;
@@ -135,7 +148,9 @@ ShaderInterface reflect(std::span<const uint32_t> spirv) {
         if (id.op != spv::OpVariable) continue;
         if (id.storage == spv::StorageClassPushConstant)
             result.pushConstantSize = sizeOf(ids, ids[id.type].operands[1]);
-        if (id.binding >= 0) result.bindings.push_back({uint32_t(id.binding), descriptorType(ids, id)});
+        if (id.binding >= 0)
+            result.bindings.push_back(
+                {uint32_t(id.binding), descriptorType(ids, id), storageFormat(ids, id)});
     }
     for (std::size_t i = 0; i < localSizeIds.size(); ++i) result.localSize[i] = ids[localSizeIds[i]].constant;
     auto byBinding = [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; };

@@ -50,6 +50,7 @@ Result<Spirv> compileShader(const ShaderOptions& options);
 struct ShaderBinding {
     uint32_t binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    VkFormat format = VK_FORMAT_UNDEFINED;  ///< of a storage image, where the shader names it
     bool operator==(const ShaderBinding&) const = default;
 };
 

@@ -16,15 +16,20 @@ uint32_t raysWithin(int rays) { return uint32_t(std::clamp(rays, 1, RENDER_MOST_
 
 }  // namespace
 
-Ambient createAmbient(const Device& device, std::string_view field, const AmbientOptions& options) {
+Ambient createAmbient(const Device& device) {
     Ambient ambient;
+    ambient.holeCount = createBuffer(device, sizeof(gpu::AmbientHoles));
+    return ambient;
+}
+
+Ambient createAmbient(const Device& device, std::string_view field, const AmbientOptions& options) {
+    Ambient ambient = createAmbient(device);
     ambient.options = options;
     const ShaderOptions shaders[] = {{.name = "render/ambient.comp", .field = field},
                                      {.name = "render/ambient_holes.comp", .field = field}};
     std::vector<Pipeline> pipelines = createComputePipelines(device, shaders);
     ambient.trace = std::move(pipelines[0]);
     ambient.addRays = std::move(pipelines[1]);
-    ambient.holeCount = createBuffer(device, sizeof(gpu::AmbientHoles));
     return ambient;
 }
 
@@ -69,6 +74,11 @@ void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
     ambient.rays = (described.resting ? ambient.rays : 0) +
                    int(described.resting ? described.raysKept : described.raysNew);
     ambient.hasHistory = true;
+}
+
+void resizeHistory(Commands& commands, Ambient& ambient, VkExtent3D extent) {
+    for (Image& history : ambient.history) resizeImage(commands, history, extent, VK_FORMAT_R32_UINT);
+    forgetHistory(ambient);
 }
 
 void forgetHistory(Ambient& ambient) { ambient.hasHistory = false; }

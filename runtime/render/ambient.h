@@ -40,6 +40,8 @@ struct Ambient {
 
 /// `field` is the text that answers #include "field.glsl", empty for the default field.
 Ambient createAmbient(const Device& device, std::string_view field, const AmbientOptions& options);
+/// Without the pipelines.
+Ambient createAmbient(const Device& device);
 
 /// Fills in what ambient occlusion is told of a frame; `resting` is already set, as is the number.
 void describeAmbient(const Ambient& ambient, gpu::RenderFrame& frame);
@@ -48,6 +50,9 @@ void describeAmbient(const Ambient& ambient, gpu::RenderFrame& frame);
 /// `anew`, nothing is kept.
 void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
                  const gpu::RenderFrame& described, const Buffer& frame, const FieldBuffers& field);
+
+/// Images for the history of a frame that is drawn without ambient occlusion.
+void resizeHistory(Commands& commands, Ambient& ambient, VkExtent3D extent);
 
 /// What was seen or the field has changed otherwise than by the view: the history is of no use.
 void forgetHistory(Ambient& ambient);

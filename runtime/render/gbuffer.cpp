@@ -6,27 +6,7 @@ namespace fw {
 
 namespace {
 
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr uint32_t kTraceGroup = 8;  // pixels along each side of a work group of trace.comp
-
-void copyDepth(Commands& commands, DepthTarget& target) {
-    const VkExtent3D extent = target.attachment.extent;
-    resizeImage(commands, target.depth, extent, VK_FORMAT_R32_SFLOAT);
-    reserve(commands.device, target.copy, 4ull * extent.width * extent.height);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {target.attachment.aspect, 0, 0, 1};
-    region.imageExtent = extent;
-    imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    vkCmdCopyImageToBuffer(commands.handle, target.attachment.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           target.copy.handle, 1, &region);
-    barrier(commands);
-    region.imageSubresource.aspectMask = target.depth.aspect;
-    imageBarrier(commands, target.depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(commands.handle, target.copy.handle, target.depth.handle,
-                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    imageBarrier(commands, target.depth, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
-}
 
 }  // namespace
 
@@ -61,31 +41,34 @@ bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat f
     return true;
 }
 
-DepthPipelines createDepthPipelines(const Device& device, std::string_view field) {
+DepthPipelines createDepthPipelines(const Device& device) {
     DepthPipelines pipelines;
     pipelines.draw = createGraphicsPipeline(device, {.shaders = {{.name = "render/depth.vert"}},
                                                      .depthFormat = kDepthFormat,
                                                      .vertexStride = sizeof(gpu::MeshVertex),
                                                      .depthTest = true,
                                                      .depthWrite = true});
-    const ShaderOptions shaders[] = {{.name = "render/trace.comp", .field = field, .defines = {"CONES"}},
-                                     {.name = "render/trace.comp", .field = field}};
-    std::vector<Pipeline> tracing = createComputePipelines(device, shaders);
-    pipelines.cones = std::move(tracing[0]);
-    pipelines.trace = std::move(tracing[1]);
     return pipelines;
 }
 
-void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load) {
+void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load, const Image* color) {
     auto attachment = zeroed<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
     attachment.imageView = depth.view;
     attachment.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     attachment.loadOp = load;
     attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    VkRenderingAttachmentInfo painted = attachment;
     auto info = zeroed<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
     info.renderArea.extent = {depth.extent.width, depth.extent.height};
     info.layerCount = 1;
     info.pDepthAttachment = &attachment;
+    if (color) {
+        painted.imageView = color->view;
+        painted.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+        painted.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        info.colorAttachmentCount = 1;
+        info.pColorAttachments = &painted;
+    }
     vkCmdBeginRendering(commands.handle, &info);
     // A negative height keeps y upwards, and with it the winding.
     const auto width = float(depth.extent.width), height = float(depth.extent.height);
@@ -94,20 +77,46 @@ void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp loa
     vkCmdSetScissor(commands.handle, 0, 1, &info.renderArea);
 }
 
-void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
-               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters) {
+void drawClusters(Commands& commands, const Pipeline& pipeline, const glm::mat4& clip,
+                  const MesherBuffers& mesh, const Clusters& clusters) {
+    bind(commands, pipeline, &clip, sizeof clip, {});
+    const VkDeviceSize start = 0;
+    vkCmdBindVertexBuffers(commands.handle, 0, 1, &mesh.vertices.handle, &start);
+    vkCmdBindIndexBuffer(commands.handle, clusters.indices.handle, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexedIndirect(commands.handle, clusters.counts.handle, offsetof(gpu::ClusterCounts, draw), 1,
+                             0);
+}
+
+void prepareDepth(Commands& commands, DepthTarget& target, VkExtent3D extent) {
     resizeImage(commands, target.attachment, extent, kDepthFormat);
     imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_UNDEFINED,
                  VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+}
+
+void copyDepth(Commands& commands, DepthTarget& target) {
+    const VkExtent3D extent = target.attachment.extent;
+    resizeImage(commands, target.depth, extent, VK_FORMAT_R32_SFLOAT);
+    reserve(commands.device, target.copy, 4ull * extent.width * extent.height);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {target.attachment.aspect, 0, 0, 1};
+    region.imageExtent = extent;
+    imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    vkCmdCopyImageToBuffer(commands.handle, target.attachment.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           target.copy.handle, 1, &region);
+    barrier(commands);
+    region.imageSubresource.aspectMask = target.depth.aspect;
+    imageBarrier(commands, target.depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdCopyBufferToImage(commands.handle, target.copy.handle, target.depth.handle,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    imageBarrier(commands, target.depth, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
+}
+
+void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
+               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters) {
+    prepareDepth(commands, target, extent);
     beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR);
-    if (clusters) {
-        bind(commands, pipelines.draw, &clip, sizeof clip, {});
-        const VkDeviceSize start = 0;
-        vkCmdBindVertexBuffers(commands.handle, 0, 1, &mesh.vertices.handle, &start);
-        vkCmdBindIndexBuffer(commands.handle, clusters->indices.handle, 0, VK_INDEX_TYPE_UINT32);
-        vkCmdDrawIndexedIndirect(commands.handle, clusters->counts.handle, offsetof(gpu::ClusterCounts, draw),
-                                 1, 0);
-    }
+    if (clusters) drawClusters(commands, pipelines.draw, clip, mesh, *clusters);
     vkCmdEndRendering(commands.handle);
     copyDepth(commands, target);
 }
@@ -129,14 +138,16 @@ void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget
     pass(pipelines.trace, extent, target.depth);
 }
 
-GBuffer createGBuffer(const Device& device, std::string_view field) {
+GBuffer createGBuffer(const Device& device) {
     GBuffer gbuffer;
-    const std::array shaders = {ShaderOptions{.name = "render/tiles.comp"},
-                                ShaderOptions{.name = "render/surface.comp", .field = field}};
-    std::vector<Pipeline> pipelines = createComputePipelines(device, shaders);
-    gbuffer.tiles = std::move(pipelines[0]);
-    gbuffer.surface = std::move(pipelines[1]);
+    gbuffer.tiles = createComputePipeline(device, {.name = "render/tiles.comp"});
     gbuffer.arguments = createBuffer(device, RENDER_LISTS * sizeof(gpu::DispatchArguments));
+    return gbuffer;
+}
+
+GBuffer createGBuffer(const Device& device, std::string_view field) {
+    GBuffer gbuffer = createGBuffer(device);
+    gbuffer.surface = createComputePipeline(device, {.name = "render/surface.comp", .field = field});
     return gbuffer;
 }
 

@@ -28,6 +28,8 @@ struct FieldBuffers {
 /// Adds them to what a shader is given.
 void addField(std::vector<Descriptor>& bound, const FieldBuffers& field);
 
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;  ///< of an attachment
+
 /// A depth image. What is drawn is copied into it, for a depth attachment cannot be a storage image, and
 /// fetching from a sampler is several times slower on software devices than loading from an image.
 struct DepthTarget {
@@ -41,11 +43,21 @@ struct DepthPipelines {
     Pipeline draw, cones, trace;
 };
 
-/// `field` is the text that answers #include "field.glsl", empty for the default field.
-DepthPipelines createDepthPipelines(const Device& device, std::string_view field);
+/// Without those that trace, which belong to a field.
+DepthPipelines createDepthPipelines(const Device& device);
 
-/// Begins to draw into the whole of a depth attachment, y upwards in clip space.
-void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load);
+/// Begins to draw into the whole of a depth attachment, and of a colour attachment that is cleared to zeros
+/// if there is one, y upwards in clip space.
+void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp load,
+                  const Image* color = nullptr);
+
+/// Draws the listed clusters (cullClusters) between beginDrawing and its end.
+void drawClusters(Commands& commands, const Pipeline& pipeline, const glm::mat4& clip,
+                  const MesherBuffers& mesh, const Clusters& clusters);
+
+/// Makes the attachment of this size, ready to be drawn into; and copies what was drawn to `depth`.
+void prepareDepth(Commands& commands, DepthTarget& target, VkExtent3D extent);
+void copyDepth(Commands& commands, DepthTarget& target);
 
 /// Draws the depth of the listed clusters (cullClusters) through `clip`; of nothing if `clusters` is null.
 void drawDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget& target, VkExtent3D extent,
@@ -66,7 +78,9 @@ struct GBuffer {
     const Image& before() const { return surfaces[1 - current]; }
 };
 
+/// With the pipeline for a field, or without it.
 GBuffer createGBuffer(const Device& device, std::string_view field);
+GBuffer createGBuffer(const Device& device);
 
 /// Takes the size; whether it is another than before, so that `before()` holds nothing.
 bool resizeGBuffer(Commands& commands, GBuffer& gbuffer, VkExtent3D extent);

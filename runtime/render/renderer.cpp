@@ -146,7 +146,7 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
     const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
     const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
-    if (options.show == RENDER_WIREFRAME) return false;  // whose edges lie at the mesh's depth
+    if (scene.draft || options.show == RENDER_WIREFRAME) return false;  // whose edges lie at the mesh's depth
     return options.reference || (scene.triangles > 0 && (measured || known));
 }
 
@@ -178,8 +178,12 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
         const glm::mat4 clip = toClip(frame.now);
         const bool outside = glm::any(glm::lessThan(frame.now.eye, frame.lo - 2.0f * frame.now.near)) ||
                              glm::any(glm::greaterThan(frame.now.eye, frame.hi + 2.0f * frame.now.near));
-        drawDepth(commands, renderer.depth, renderer.seen, extent, clip, scene.mesh,
-                  cull(commands, renderer, scene, clip, glm::vec4(frame.now.eye, 1), !outside));
+        const Clusters* clusters =
+            cull(commands, renderer, scene, clip, glm::vec4(frame.now.eye, 1), !outside);
+        if (scene.draft)
+            drawDraft(commands, renderer.draft, renderer.seen, extent, clip, scene.mesh, clusters);
+        else
+            drawDepth(commands, renderer.depth, renderer.seen, extent, clip, scene.mesh, clusters);
         return;
     }
     gpu::TracePush rays = raysOf(frame.now);
@@ -375,7 +379,7 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
 
 void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) {
     const uint32_t view = renderer.described.show;
-    if (view < RENDER_STEPS) return;
+    if (view < RENDER_STEPS || (scene.draft && view != RENDER_WIREFRAME)) return;
     beginStage(commands, "view");
     if (view == RENDER_WIREFRAME) {
         const uint64_t most = commands.device.properties.limits.maxStorageBufferRange;
@@ -428,16 +432,65 @@ Picture readPicture(const Renderer& renderer) {
 
 }  // namespace
 
-Renderer createRenderer(const Device& device, std::string field) {
+std::optional<FieldKernels> createFieldKernels(const Device& device, std::string field,
+                                               const FieldKernelOptions& options) {
+    FieldKernels kernels;
+    kernels.field = std::move(field);
+    std::vector<ShaderOptions> shaders;
+    std::vector<Pipeline*> places;
+    const auto add = [&](Pipeline& place, const char* name, std::vector<std::string> defines = {}) {
+        shaders.push_back({.name = name, .field = kernels.field, .defines = std::move(defines)});
+        places.push_back(&place);
+    };
+    add(kernels.cones, "render/trace.comp", {"CONES"});
+    add(kernels.trace, "render/trace.comp");
+    add(kernels.surface, "render/surface.comp");
+    add(kernels.ambient, "render/ambient.comp");
+    add(kernels.ambientHoles, "render/ambient_holes.comp");
+    if (options.lamps) add(kernels.lamps, "render/lamps.comp");
+    if (options.show) add(kernels.show, "render/show.comp");
+    const std::size_t step = options.when == Compile::behind ? 1 : shaders.size();
+    for (std::size_t i = 0; i < shaders.size(); i += step) {
+        if (options.cancel && *options.cancel) return std::nullopt;
+        std::vector<Pipeline> made =
+            createComputePipelines(device, std::span(shaders).subspan(i, step), nullptr, options.when);
+        for (std::size_t j = 0; j < step; ++j) *places[i + j] = std::move(made[j]);
+    }
+    return kernels;
+}
+
+Renderer createRenderer(const Device& device) {
     Renderer renderer;
     renderer.device = &device;
-    renderer.field = std::move(field);
-    renderer.depth = createDepthPipelines(device, renderer.field);
+    renderer.depth = createDepthPipelines(device);
     renderer.clusters = createClusters(device);
-    renderer.gbuffer = createGBuffer(device, renderer.field);
-    renderer.ambient = createAmbient(device, renderer.field, {});
+    renderer.gbuffer = createGBuffer(device);
+    renderer.ambient = createAmbient(device);
     renderer.frame = createBuffer(device, sizeof(gpu::RenderFrame), Memory::upload);
     return renderer;
+}
+
+Renderer createRenderer(const Device& device, std::string field) {
+    Renderer renderer = createRenderer(device);
+    setField(renderer, std::move(*createFieldKernels(device, std::move(field))));
+    return renderer;
+}
+
+void setField(Renderer& renderer, FieldKernels kernels) {
+    renderer.field = std::move(kernels.field);
+    renderer.depth.cones = std::move(kernels.cones);
+    renderer.depth.trace = std::move(kernels.trace);
+    renderer.gbuffer.surface = std::move(kernels.surface);
+    renderer.ambient.trace = std::move(kernels.ambient);
+    renderer.ambient.addRays = std::move(kernels.ambientHoles);
+    renderer.lamps = std::move(kernels.lamps);
+    renderer.show = std::move(kernels.show);
+    renderer.reference = {};
+    renderer.shown.reset();
+    renderer.shadowStands = false;
+    renderer.tracing.reset();
+    renderer.trust = 0.5f;
+    forgetHistory(renderer.ambient);
 }
 
 void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
@@ -449,6 +502,8 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     renderer.described =
         describe(renderer, scene, options, view, resting, mean, still ? kStillShadowSize : kShadowSize);
     const gpu::RenderFrame& frame = renderer.described;
+    if (scene.draft) renderer.described.ambientStrength = 0, renderer.described.lightCount = 0;
+    if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(device);
     uploadBytes(device, renderer.frame, &frame, sizeof frame);
     renderer.shadowStands = renderer.shadowStands && before.sun == frame.sun &&
                             before.shadowCentre == frame.shadowCentre &&
@@ -470,9 +525,15 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
               : still           ? kStillCare
                                 : kLiveCare);
     renderer.gbuffer.current = 1 - renderer.gbuffer.current;
-    fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
+    if (scene.draft)
+        fillFromDraft(commands, renderer.draft, renderer.gbuffer, renderer.seen.depth, renderer.frame,
+                      *scene.draft);
+    else
+        fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
     beginStage(commands, "ambient");
-    if (options.reference)
+    if (scene.draft)
+        resizeHistory(commands, renderer.ambient, extent);
+    else if (options.reference)
         traceReference(commands, renderer, scene);
     else
         drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.buffers);
@@ -533,7 +594,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     renderer.ambient.options = ambient;
     gpu::View view = shows.view;
     view.jitter = jitterOf(renderer.rested, options);
-    if (options.primary == Primary::measured && !renderer.tracing) {
+    if (options.primary == Primary::measured && !renderer.tracing && !scene.draft) {
         renderer.described = describe(renderer, scene, options, view, false, 0, kShadowSize);
         measurePrimary(renderer, scene);
     }

@@ -12,8 +12,10 @@
 // one frame at a time with what the last one knew (ambient.h), goes on to the same mean while nothing
 // changes, and then stops.
 //
-// Lifetime: a Renderer belongs to one field on one device; images and buffers take the size of the picture
-// and keep it until another is asked for.
+// Until the kernels of a field are compiled, the renderer draws drafts (draft.h).
+//
+// Lifetime: a Renderer belongs to one device and has the kernels of one field at a time; images and buffers
+// take the size of the picture and keep it until another is asked for.
 #pragma once
 
 #include <functional>
@@ -22,6 +24,7 @@
 #include <string>
 
 #include "runtime/render/ambient.h"
+#include "runtime/render/draft.h"
 #include "runtime/render/picture.h"
 
 namespace fw {
@@ -40,6 +43,8 @@ struct RenderScene {
     float lipschitz = 1.0f;                ///< of the field; infinite if unknown
     FieldBuffers buffers = {};             ///< of the field
     SeenBounds bounds = {};                ///< of RenderOptions::framed
+    /// If given, the mesh alone is drawn, in this material: the renderer need not have the field's kernels.
+    std::optional<gpu::DraftMaterial> draft = {};
     uint64_t content =
         0;  ///< another number if mesh or field differ from those of the live view's last frame
 };
@@ -72,10 +77,29 @@ struct Shown {
     VkExtent3D extent = {};
 };
 
+/// The kernels that evaluate the field.
+struct FieldKernels {
+    std::string field;
+    Pipeline cones, trace, surface, ambient, ambientHoles;
+    Pipeline lamps, show;  ///< only if asked for
+};
+
+struct FieldKernelOptions {
+    bool lamps = false;  ///< the scene has some
+    bool show = false;   ///< for the views from RENDER_STEPS on
+    Compile when = Compile::now;
+    const std::atomic<bool>* cancel = nullptr;  ///< looked at between kernels if they are compiled behind
+};
+
+/// `field` is the text that answers #include "field.glsl", empty for the default field. None, if cancelled.
+std::optional<FieldKernels> createFieldKernels(const Device& device, std::string field,
+                                               const FieldKernelOptions& options = {});
+
 struct Renderer {
     const Device* device = nullptr;
     std::string field;
     DepthPipelines depth;
+    Draft draft;  ///< made by the first one
     Clusters clusters;
     GBuffer gbuffer;
     Ambient ambient;
@@ -97,8 +121,13 @@ struct Renderer {
     float trust = 0.5f;  ///< part of its value by which a field without a known constant may be stepped
 };
 
-/// `field` is the text that answers #include "field.glsl", empty for the default field.
+/// `field` as for createFieldKernels.
 Renderer createRenderer(const Device& device, std::string field);
+/// Without a field: for drafts, until it has one.
+Renderer createRenderer(const Device& device);
+
+/// Draws this field from now on. The device is not using the kernels that the renderer had.
+void setField(Renderer& renderer, FieldKernels kernels);
 
 /// A still picture. Errors: as checkPictureSize, samples out of range, cancelled.
 Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options);

@@ -130,6 +130,14 @@ struct CullPush {
     uint backs;  // 1: clusters that face away are left out
 };
 
+// What a draft shows the solid in: as FieldMaterial of field.glsl.
+struct DraftMaterial {
+    vec3 base;
+    float roughness;
+    vec3 emission;
+    float metallic;
+};
+
 // Rays of trace.comp: from origin + x originX + y originY along direction + x directionX + y directionY, over
 // t.
 struct TracePush {

@@ -133,7 +133,7 @@ void main() { a[0] = inner.b + uint(c[1].x + d + u.x + texture(s, vec3(0)).x + i
     EXPECT_EQ(found.localSize, (std::array<uint32_t, 3>{16, 4, 2}));
     std::vector<ShaderBinding> expected = {{2, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
                                            {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                           {5, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                                           {5, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_FORMAT_R32_SFLOAT},
                                            {9, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
     EXPECT_EQ(found.bindings, expected);
 }

@@ -1,0 +1,358 @@
+#include "editor/preview/preview.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "editor/preview/pinned.h"
+#include "graph/check.h"
+#include "runtime/player.h"
+
+namespace fw::editor {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Inputs that stay live after the hand has let go of them: taking hold again, or undoing, compiles nothing.
+constexpr std::size_t kMostLive = 6;
+constexpr auto kCompilePoll = std::chrono::milliseconds(5);
+/// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
+constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
+constexpr int kLeastHeldResolution = 48;
+/// Where a node is meshed whose solid has no bounds: about the last solid, or this box.
+constexpr Box kUnbounded = {{-2, -2, -2}, {2, 2, 2}};
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+bool sameWish(const PreviewWish& a, const PreviewWish& b) {
+    return a.graph == b.graph && a.revision == b.revision && a.pinned == b.pinned && a.held == b.held &&
+           a.seconds == b.seconds && a.camera == b.camera && a.width == b.width && a.height == b.height &&
+           a.view == b.view && a.resolution == b.resolution;
+}
+
+bool isPowerOfTwo(int number) { return number > 0 && (number & (number - 1)) == 0; }
+
+}  // namespace
+
+/// What the interface's thread and the preview's both touch; each holds the lock for moves alone.
+struct Preview::Shared {
+    DeviceOptions deviceOptions;
+    std::function<void()> changed;
+    std::mutex mutex;
+    std::condition_variable asked;
+    std::optional<PreviewWish> next, last;  ///< to be worked on; the newest that was asked for
+    std::optional<PreviewResult> ready;
+    PreviewResult told;  ///< the last result but for its picture
+    bool stop = false, working = true;
+    std::thread thread;
+
+    void publish(PreviewResult result) {
+        {
+            std::lock_guard lock(mutex);
+            ready = std::move(result);
+            told = {.revision = ready->revision,
+                    .findings = ready->findings,
+                    .seen = ready->seen,
+                    .spoiledBy = ready->spoiledBy,
+                    .statistics = ready->statistics};
+        }
+        if (changed) changed();
+    }
+    void run();
+};
+
+namespace {
+
+/// The preview's side: what is shown, and what is still to be done for it.
+class Maker {
+  public:
+    Maker(Device opened, std::function<void(PreviewResult)> publish_)
+        : device(std::move(opened)), publish(std::move(publish_)) {}
+
+    void take(PreviewWish newer);
+    /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
+    bool work();
+    /// Whether more will have to be done when kernels are compiled.
+    bool waits() { return player && player->compiling(); }
+
+  private:
+    void load();
+    PlayerOptions playerOptions() const;
+    Done play(const Graph& graph);
+    bool draw();
+    bool aim(RenderOptions& options);
+    void adapt(double took);
+    void tell();
+    void refuse(Error error);
+
+    std::optional<Device> device;  ///< until the player has it
+    std::function<void(PreviewResult)> publish;
+    std::optional<Player> player;
+    PreviewWish wish;
+    std::deque<std::string> live;  ///< held last first
+    PreviewResult result;          ///< as it was told last
+    Picture picture;
+    Box solid = kUnbounded;  ///< where the last one was
+    int heldResolution = 0;  ///< cells while a hand moves; 0: as many as at rest
+    int refined = 0;         ///< pictures since the last change
+    bool due = false;        ///< something changed since the last picture
+    bool await = false;      ///< what changed is only what is held: the picture stays until kernels are there
+    bool compiled = true;    ///< all kernels were there for the last picture
+    bool good = false;       ///< the graph can be drawn
+    Clock::time_point since;  ///< when the wish was taken
+    double loading = 0;
+};
+
+PlayerOptions Maker::playerOptions() const {
+    PlayerOptions options;
+    options.resolution = wish.resolution;
+    if (!wish.held.empty() && heldResolution > 0) options.resolution = heldResolution;
+    options.liveParameters = false;
+    options.live = {live.begin(), live.end()};
+    options.compileBehind = options.checked = true;
+    options.fieldViews = wish.view >= RENDER_STEPS && wish.view != RENDER_WIREFRAME;
+    return options;
+}
+
+Done Maker::play(const Graph& graph) {
+    const auto with = [&](const PlayerOptions& options) -> Done {
+        if (player) return player->reload(graph, options);
+        Result<Player> made = Player::create(graph, std::move(*device), options);
+        if (!made) return made.error();
+        player.emplace(std::move(*made));
+        device.reset();
+        return done();
+    };
+    PlayerOptions options = playerOptions();
+    Done played = with(options);
+    if (played) {
+        solid = player->region();
+        return played;
+    }
+    // A node on the way to the solid may have no bounds.
+    if (wish.pinned.empty() || !graph.node(wish.pinned)) return played;
+    options.region = solid;
+    return with(options) ? done() : std::move(played);
+}
+
+void Maker::refuse(Error error) {
+    result.findings.push_back(std::move(error));
+    result.current = false;
+    good = false;
+}
+
+void Maker::load() {
+    const auto start = Clock::now();
+    for (const std::string& name : wish.held) {
+        std::erase(live, name);
+        live.push_front(name);
+    }
+    if (live.size() > std::max(kMostLive, wish.held.size()))
+        live.resize(std::max(kMostLive, wish.held.size()));
+    result.revision = wish.revision;
+    result.findings = check(*wish.graph);
+    // What the output does not need may be broken.
+    const Graph shown = showingNode(*wish.graph, wish.pinned);
+    const Done played = play(shown);
+    good = bool(played);
+    if (!played) {
+        if (!hasErrors(result.findings)) result.findings.push_back(played.error());
+        result.current = false;
+    } else {
+        result.spoiledBy = player->program().spoiledBy;
+    }
+    loading = millisecondsSince(start);
+}
+
+void Maker::take(PreviewWish newer) {
+    since = Clock::now();
+    refined = 0;
+    const bool first = !wish.graph;
+    const bool sameGraph =
+        !first && newer.graph == wish.graph && newer.revision == wish.revision && newer.pinned == wish.pinned;
+    const bool sameHeld = newer.held == wish.held, sameMesh = newer.resolution == wish.resolution;
+    const bool samePicture = newer.seconds == wish.seconds && newer.camera == wish.camera &&
+                             newer.width == wish.width && newer.height == wish.height &&
+                             newer.view == wish.view;
+    if (newer.held.empty()) heldResolution = 0;
+    const bool coarse = !wish.held.empty() && newer.held.empty();
+    wish = std::move(newer);
+    if (!wish.graph) return;
+    if (!sameGraph || !sameHeld || !sameMesh || first) load();
+    if (player) player->seek(wish.seconds);
+    // Taking hold of an input changes the code and not the picture.
+    await = sameGraph && sameMesh && samePicture && !sameHeld && !coarse && result.current;
+    due = good ? !await : !samePicture;  // what was valid last can be looked at from elsewhere
+    if (!good) tell();
+}
+
+bool Maker::aim(RenderOptions& options) {
+    const Result<Scene> scene = player->scene();
+    if (!scene) return refuse(scene.error()), false;
+    if (wish.camera) {
+        options.scene.camera = wish.camera;
+    } else if (scene->camera) {
+        options.scene.camera = scene->camera;
+    } else if (!wish.held.empty() && !picture.pixels.empty()) {
+        options.scene.camera = result.seen;  // what the hand moves, not the eye
+    } else {
+        const auto points = player->outline();
+        if (!points) return refuse(points.error()), false;
+        if (!points->empty())
+            options.scene.camera = framingCamera(*points, float(wish.width) / float(wish.height));
+    }
+    return true;
+}
+
+void Maker::adapt(double took) {
+    if (wish.held.empty() || player->compiling()) return;
+    const int now = player->resolution();
+    const int full = wish.resolution > 0 ? wish.resolution : player->program().resolution;
+    if (took > kMostHeld && now > kLeastHeldResolution)
+        heldResolution = std::max(kLeastHeldResolution, now * 3 / 4);
+    else if (took < kFewHeld && now < full)
+        heldResolution = std::min(full, now * 4 / 3 + 1);
+}
+
+bool Maker::draw() {
+    RenderOptions options{.width = std::clamp(wish.width, kLeastPictureSide, kMostPictureSide),
+                          .height = std::clamp(wish.height, kLeastPictureSide, kMostPictureSide),
+                          .primary = Primary::measured,
+                          .show = wish.view};
+    const auto start = Clock::now();
+    const Result<MesherResult> mesh = player->meshOnDevice();
+    const double meshing = millisecondsSince(start);
+    if (!mesh) return refuse(mesh.error()), tell(), false;
+    if (!aim(options)) return tell(), false;
+    const auto drawing = Clock::now();
+    const Result<bool> drawn = player->show(options, picture);
+    if (!drawn) return refuse(drawn.error()), tell(), false;
+    if (!*drawn) {  // it shows that already
+        result.current = good;
+        result.draft = player->compiling();
+        if (due) tell();
+        return false;
+    }
+    const double drew = millisecondsSince(drawing);
+    if (options.scene.camera) result.seen = *options.scene.camera;
+    result.current = good;
+    result.draft = player->compiling();
+    if (due) {
+        result.statistics.stages = {{"compile", loading}, {"mesh", meshing}, {"picture", drew}};
+        result.statistics.milliseconds = millisecondsSince(since);
+        adapt(loading + meshing + drew);
+        loading = 0;
+    }
+    result.statistics.vertices = mesh->vertices;
+    result.statistics.triangles = mesh->triangles;
+    result.statistics.resolution = player->resolution();
+    result.statistics.pipelines = player->pipelinesBuilt();
+    result.statistics.deviceBytes = player->device().record->allocated;
+    return true;
+}
+
+void Maker::tell() {
+    result.picture = picture;
+    publish(result);
+}
+
+bool Maker::work() {
+    if (!player) return false;
+    const bool compiling = player->compiling();
+    if (!compiling && !compiled) due = true, since = Clock::now(), refined = 0;  // from the draft to the full
+    compiled = !compiling;
+    if (await && !compiling) await = false, due = true;
+    if (await || (!due && (compiling || !wish.held.empty()))) return false;
+    const bool fresh = due, drew = draw();
+    due = false;
+    if (!drew) {
+        if (refined > 0 && !isPowerOfTwo(refined)) tell();
+        return false;
+    }
+    ++refined;
+    // Each picture refines the one before: not every one is worth waking the interface.
+    if (fresh || isPowerOfTwo(refined)) tell();
+    return !compiling && wish.held.empty();
+}
+
+}  // namespace
+
+void Preview::Shared::run() {
+    try {
+        Result<Device> device = createDevice(deviceOptions);
+        if (!device) throw SystemError(device.error().message);
+        Maker maker(std::move(*device), [this](PreviewResult result) { publish(std::move(result)); });
+        bool more = false;
+        for (;;) {
+            const bool waits = maker.waits();
+            std::optional<PreviewWish> newer;
+            {
+                std::unique_lock lock(mutex);
+                const auto woken = [&] { return stop || next; };
+                if (!more && waits) {
+                    asked.wait_for(lock, kCompilePoll, woken);
+                } else if (!more) {
+                    working = next.has_value();
+                    asked.wait(lock, woken);
+                }
+                if (stop) return;
+                working = true;
+                newer = std::exchange(next, std::nullopt);
+            }
+            if (newer) maker.take(std::move(*newer));
+            more = maker.work();
+        }
+    } catch (const std::exception& error) {
+        {
+            std::lock_guard lock(mutex);
+            if (!ready) ready = told;
+            ready->failure = error.what();
+            ready->current = false;
+            working = false;
+        }
+        if (changed) changed();
+    }
+}
+
+Preview::Preview(DeviceOptions device, std::function<void()> changed) : shared(std::make_shared<Shared>()) {
+    shared->deviceOptions = std::move(device);
+    shared->changed = std::move(changed);
+    shared->thread = std::thread([state = shared.get()] { state->run(); });
+}
+
+Preview::~Preview() {
+    {
+        std::lock_guard lock(shared->mutex);
+        shared->stop = true;
+    }
+    shared->asked.notify_all();
+    shared->thread.join();
+}
+
+void Preview::ask(PreviewWish wish) {
+    std::lock_guard lock(shared->mutex);
+    if (shared->last && sameWish(*shared->last, wish)) return;
+    shared->last = wish;
+    shared->next = std::move(wish);
+    shared->asked.notify_all();
+}
+
+std::optional<PreviewResult> Preview::take() {
+    std::lock_guard lock(shared->mutex);
+    return std::exchange(shared->ready, std::nullopt);
+}
+
+bool Preview::busy() const {
+    std::lock_guard lock(shared->mutex);
+    return shared->working || shared->next.has_value();
+}
+
+}  // namespace fw::editor

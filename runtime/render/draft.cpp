@@ -1,0 +1,62 @@
+#include "runtime/render/draft.h"
+
+#include <cstddef>
+
+namespace fw {
+
+namespace {
+
+void resizeNormals(Commands& commands, Draft& draft, VkExtent3D extent) {
+    if (draft.normals && draft.normals.extent.width == extent.width &&
+        draft.normals.extent.height == extent.height)
+        return;
+    draft.normals = {};
+    draft.normals = createImage(commands.device,
+                                {.extent = extent,
+                                 .format = VK_FORMAT_R32_UINT,
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
+    imageBarrier(commands, draft.normals, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+}
+
+}  // namespace
+
+Draft createDraft(const Device& device) {
+    Draft draft;
+    draft.draw = createGraphicsPipeline(
+        device, {.shaders = {{.name = "render/draft.vert"}, {.name = "render/draft.frag"}},
+                 .colorFormats = {VK_FORMAT_R32_UINT},
+                 .depthFormat = kDepthFormat,
+                 .vertexStride = sizeof(gpu::MeshVertex),
+                 .vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::MeshVertex, position)},
+                                      {1, 0, VK_FORMAT_R32_UINT, offsetof(gpu::MeshVertex, normal)}},
+                 .depthTest = true,
+                 .depthWrite = true});
+    draft.surface = createComputePipeline(device, {.name = "render/draft.comp"});
+    return draft;
+}
+
+void drawDraft(Commands& commands, Draft& draft, DepthTarget& target, VkExtent3D extent,
+               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters) {
+    resizeNormals(commands, draft, extent);
+    prepareDepth(commands, target, extent);
+    beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR, &draft.normals);
+    if (clusters) drawClusters(commands, draft.draw, clip, mesh, *clusters);
+    vkCmdEndRendering(commands.handle);
+    copyDepth(commands, target);
+}
+
+void fillFromDraft(Commands& commands, const Draft& draft, GBuffer& gbuffer, const Image& depth,
+                   const Buffer& frame, const gpu::DraftMaterial& material) {
+    beginStage(commands, "tiles");
+    listTiles(commands, gbuffer, depth, frame);
+    beginStage(commands, "surface");
+    const Descriptor bound[] = {{0, frame},
+                                storage(1, depth),
+                                storage(2, gbuffer.now()),
+                                {3, gbuffer.tileLists},
+                                storage(4, draft.normals)};
+    dispatchIndirect(commands, draft.surface, gbuffer.arguments, argumentsOf(RENDER_NEAR), material, bound);
+    barrier(commands);
+}
+
+}  // namespace fw

@@ -1,0 +1,297 @@
+// The preview: the last graph's picture whatever came before, findings beside the last good picture, live
+// inputs under the hand, pinned nodes.
+#include "editor/preview/preview.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include "editor/preview/pinned.h"
+#include "graph/json.h"
+#include "runtime/player.h"
+#include "tests/support/gpu.h"
+
+namespace fw::editor {
+namespace {
+
+std::shared_ptr<const Graph> graphOf(const std::string& text) {
+    const Result<Graph> graph = parseGraph(text, "a.field.json", nullptr);
+    EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
+    return std::make_shared<const Graph>(*graph);
+}
+
+/// A box and a ball, joined; `radius` is the ball's. The structure has another constant for another `width`.
+std::shared_ptr<const Graph> joined(double radius, double width = 0.6, const std::string& last = "both") {
+    return graphOf(R"({"fieldwright": 1, "nodes": [
+      {"id": "box", "type": "box", "inputs": {"half_extents": [)" +
+                   std::to_string(width) + R"(, 0.5, 0.5]}},
+      {"id": "ball", "type": "sphere", "inputs": {"radius": )" +
+                   std::to_string(radius) + R"(}},
+      {"id": "both", "type": "union", "inputs": {"a": {"from": "box"}, "b": {"from": "ball"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": ")" +
+                   last + R"("}, "resolution": 40}}]})");
+}
+
+/// A preview and a thread that waits for what it makes.
+class Previewed {
+  public:
+    explicit Previewed(std::string device = {})
+        : preview({.pick = std::move(device), .validation = true}, [this] {
+              std::lock_guard lock(mutex);
+              woken = true;
+              wake.notify_all();
+          }) {}
+
+    void ask(PreviewWish wish) {
+        wish.revision = wish.revision ? wish.revision : revision + 1;
+        revision = wish.revision;
+        wish.width = 160, wish.height = 120;
+        preview.ask(std::move(wish));
+    }
+    /// Takes results until nothing is under way; the last one.
+    PreviewResult settled() {
+        return until([&](const PreviewResult&) { return !preview.busy(); });
+    }
+    /// Takes results until the picture of the newest wish is no draft; it may become finer still.
+    PreviewResult full() {
+        return until([&](const PreviewResult& result) {
+            return result.revision == revision && result.current && !result.draft;
+        });
+    }
+    /// Takes results until one is as wanted, or none has come for long.
+    PreviewResult until(const std::function<bool(const PreviewResult&)>& wanted) {
+        for (int i = 0; i < 12000; ++i) {
+            if (std::optional<PreviewResult> result = preview.take()) latest = std::move(*result);
+            if (wanted(latest) || !latest.failure.empty()) {
+                if (std::optional<PreviewResult> result = preview.take()) latest = std::move(*result);
+                return latest;
+            }
+            std::unique_lock lock(mutex);
+            wake.wait_for(lock, std::chrono::milliseconds(10), [&] { return woken; });
+            woken = false;
+        }
+        ADD_FAILURE() << "the preview made nothing of the kind that was waited for";
+        return latest;
+    }
+
+    std::mutex mutex;
+    std::condition_variable wake;
+    bool woken = false;
+    uint64_t revision = 0;
+    PreviewResult latest;
+    Preview preview;
+};
+
+/// The mean difference of two pictures' bytes.
+double difference(const Picture& a, const Picture& b) {
+    if (a.pixels.size() != b.pixels.size() || a.pixels.empty()) return 255.0;
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+    return sum / double(a.pixels.size());
+}
+
+/// The picture that a player makes of the graph at once.
+Picture pictureOf(const Graph& graph) {
+    Result<Device> device = createDevice({.validation = true});
+    EXPECT_TRUE(device);
+    Result<Player> player = Player::create(graph, std::move(*device));
+    EXPECT_TRUE(player) << (player ? "" : format(player.error()));
+    const Result<Picture> picture = player->frame({.width = 160, .height = 120, .samples = 32});
+    EXPECT_TRUE(picture) << (picture ? "" : format(picture.error()));
+    return *picture;
+}
+
+TEST(Preview, ThePictureIsThatOfThePlayer) {
+    Previewed previewed;
+    const auto graph = joined(0.7);
+    previewed.ask({.graph = graph});
+    const PreviewResult result = previewed.settled();
+    EXPECT_TRUE(result.current);
+    EXPECT_TRUE(result.failure.empty()) << result.failure;
+    EXPECT_TRUE(result.findings.empty());
+    EXPECT_EQ(result.picture.width, 160);
+    EXPECT_EQ(result.statistics.resolution, 40);
+    EXPECT_GT(result.statistics.triangles, 1000u);
+    EXPECT_LT(difference(result.picture, pictureOf(*graph)), 2.0);
+    // Nothing is asked: nothing is made.
+    previewed.ask({.graph = graph, .revision = result.revision});
+    EXPECT_FALSE(previewed.preview.busy());
+}
+
+TEST(Preview, TheFirstPictureOfAStructureIsADraftOfTheSameView) {
+    test::TemporaryCache cache;
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7, 0.61)});
+    const PreviewResult draft =
+        previewed.until([](const PreviewResult& result) { return !result.picture.pixels.empty(); });
+    EXPECT_TRUE(draft.current);
+    const Picture early = draft.picture;
+    const PreviewResult full = previewed.full();
+    EXPECT_EQ(draft.seen, full.seen);
+    const double off = difference(early, full.picture);
+    EXPECT_LT(off, 12.0) << "the draft shows something else";
+}
+
+TEST(Preview, AHundredEditsEndOnTheLast) {
+    Previewed previewed;
+    std::mt19937 random(7);
+    const auto number = [&](double low, double high) {
+        return low + (high - low) * double(random() >> 8) / double(1 << 24);
+    };
+    std::shared_ptr<const Graph> last;
+    for (int i = 0; i < 100; ++i) {
+        const uint32_t kind = random() % 4;
+        last = joined(number(0.3, 0.9), number(0.3, 0.9), kind == 0 ? "box" : kind == 1 ? "nothing" : "both");
+        PreviewWish wish{.graph = last};
+        if (random() % 3 == 0) wish.held = {"ball.radius"};
+        previewed.ask(std::move(wish));
+        if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
+    }
+    last = joined(0.8, 0.3);
+    previewed.ask({.graph = last});
+    const PreviewResult result = previewed.full();
+    EXPECT_TRUE(result.current);
+    EXPECT_EQ(result.revision, 101u);
+    EXPECT_LT(difference(result.picture, pictureOf(*last)), 2.0);
+}
+
+TEST(Preview, ABrokenGraphKeepsThePictureAndListsItsFindings) {
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7)});
+    const PreviewResult good = previewed.settled();
+    previewed.ask({.graph = joined(0.7, 0.6, "nothing")});
+    const PreviewResult broken = previewed.settled();
+    EXPECT_FALSE(broken.current);
+    EXPECT_EQ(broken.revision, 2u);
+    ASSERT_FALSE(broken.findings.empty());
+    EXPECT_EQ(broken.findings[0].node, "out");
+    EXPECT_EQ(broken.picture.pixels, good.picture.pixels);
+    // It can be looked at from elsewhere, and mended.
+    previewed.ask({.graph = joined(0.7, 0.6, "nothing"), .camera = Camera{}});
+    const PreviewResult turned = previewed.settled();
+    EXPECT_FALSE(turned.current);
+    EXPECT_GT(difference(turned.picture, good.picture), 2.0);
+    previewed.ask({.graph = joined(0.7)});
+    const PreviewResult mended = previewed.full();
+    EXPECT_TRUE(mended.current);
+    EXPECT_TRUE(mended.findings.empty());
+}
+
+TEST(Preview, AGraphThatIsBrokenFromTheStartHasNoPicture) {
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7, 0.6, "nothing")});
+    const PreviewResult broken = previewed.settled();
+    EXPECT_FALSE(broken.current);
+    EXPECT_FALSE(broken.findings.empty());
+    EXPECT_TRUE(broken.picture.pixels.empty());
+    previewed.ask({.graph = joined(0.7)});
+    EXPECT_TRUE(previewed.full().current);
+}
+
+TEST(Preview, ASolidWithoutBoundsIsAFinding) {
+    Previewed previewed;
+    previewed.ask({.graph = graphOf(R"({"fieldwright": 1, "nodes": [
+      {"id": "floor", "type": "plane"},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "floor"}}}]})")});
+    const PreviewResult result = previewed.settled();
+    EXPECT_FALSE(result.current);
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_NE(result.findings[0].message.find("bounds"), std::string::npos) << result.findings[0].message;
+}
+
+TEST(Preview, WhatIsHeldMovesAndBuildsNoPipeline) {
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7), .held = {"ball.radius"}});
+    const PreviewResult first = previewed.full();
+    // A second round has all that is built at a first use.
+    previewed.ask({.graph = joined(0.71), .held = {"ball.radius"}});
+    const PreviewResult second = previewed.full();
+    const uint64_t built = second.statistics.pipelines;
+    Picture before = second.picture;
+    for (const double radius : {0.75, 0.8, 0.85, 0.9}) {
+        previewed.ask({.graph = joined(radius), .held = {"ball.radius"}});
+        const PreviewResult moved = previewed.full();
+        EXPECT_TRUE(moved.current);
+        EXPECT_EQ(moved.statistics.pipelines, built) << "at " << radius;
+        EXPECT_EQ(moved.seen, first.seen) << "the eye rests";
+        EXPECT_GT(difference(moved.picture, before), 0.1) << "at " << radius;
+        before = moved.picture;
+    }
+    // Letting go compiles nothing either.
+    previewed.ask({.graph = joined(0.9)});
+    const PreviewResult rest = previewed.full();
+    EXPECT_EQ(rest.statistics.resolution, 40);
+    previewed.ask({.graph = joined(0.6)});
+    EXPECT_EQ(previewed.full().statistics.pipelines, rest.statistics.pipelines);
+}
+
+TEST(Preview, AnEditWithoutEffectIsToldOf) {
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7)});
+    const PreviewResult before = previewed.settled();
+    Graph moved = *joined(0.7);
+    moved.nodes[0].at = {100, 200};
+    previewed.ask({.graph = std::make_shared<const Graph>(moved)});
+    const PreviewResult after = previewed.settled();
+    EXPECT_EQ(after.revision, 2u);
+    EXPECT_TRUE(after.current);
+    EXPECT_EQ(after.picture.pixels, before.picture.pixels);
+}
+
+TEST(Preview, APinnedNodeIsShown) {
+    Previewed previewed;
+    const auto graph = joined(0.8);
+    previewed.ask({.graph = graph, .revision = 1, .pinned = "box"});
+    const PreviewResult box = previewed.full();
+    EXPECT_TRUE(box.current);
+    EXPECT_LT(difference(box.picture, pictureOf(*joined(0.8, 0.6, "box"))), 2.0);
+    previewed.ask({.graph = graph});
+    EXPECT_LT(difference(previewed.full().picture, pictureOf(*graph)), 2.0);
+}
+
+TEST(Preview, APinnedNodeWithoutBoundsIsShownNearTheSolid) {
+    Previewed previewed;
+    previewed.ask({.graph = graphOf(R"({"fieldwright": 1, "nodes": [
+      {"id": "ball", "type": "sphere"}, {"id": "floor", "type": "plane"},
+      {"id": "cut", "type": "intersect", "inputs": {"a": {"from": "ball"}, "b": {"from": "floor"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "cut"}, "resolution": 24}}]})"),
+                   .pinned = "floor"});
+    const PreviewResult result = previewed.full();
+    EXPECT_TRUE(result.current);
+    EXPECT_GT(result.statistics.triangles, 0u);
+}
+
+TEST(Preview, WhatTheOutputDoesNotNeedMayBeBroken) {
+    Previewed previewed;
+    previewed.ask({.graph = graphOf(R"({"fieldwright": 1, "nodes": [
+      {"id": "ball", "type": "sphere"}, {"id": "stray", "type": "expression", "code": "return length("},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}, "resolution": 24}}]})")});
+    const PreviewResult result = previewed.full();
+    EXPECT_TRUE(result.current);
+    ASSERT_EQ(result.findings.size(), 1u);
+    EXPECT_EQ(result.findings[0].node, "stray");
+}
+
+TEST(Preview, AMissingDeviceIsAFailure) {
+    Previewed previewed("no device is called this");
+    previewed.ask({.graph = joined(0.7)});
+    const PreviewResult result =
+        previewed.until([](const PreviewResult& made) { return !made.failure.empty(); });
+    EXPECT_NE(result.failure.find("no device is called this"), std::string::npos) << result.failure;
+}
+
+TEST(Preview, ItCanEndAtAnyTime) {
+    for (int i = 0; i < 4; ++i) {
+        Previewed previewed;
+        for (int j = 0; j < i; ++j) previewed.ask({.graph = joined(0.5 + 0.01 * j, 0.4 + 0.001 * i)});
+        std::this_thread::sleep_for(std::chrono::milliseconds(60 * i));
+    }
+}
+
+}  // namespace
+}  // namespace fw::editor
