@@ -81,7 +81,7 @@ class Maker {
     /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
     bool work();
     /// Whether more will have to be done when kernels are compiled.
-    bool waits() { return player && player->compiling(); }
+    bool waits() { return player && (!compiled || player->compiling()); }
 
   private:
     void load();

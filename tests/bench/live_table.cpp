@@ -16,9 +16,26 @@ constexpr int kCells = 128;
 constexpr double kMostLiveMs = 8, kMostStructureMs = 150;
 constexpr int kStructureNodes = 200;
 
-/// A graph of about `nodes` nodes: boxes, each moved to its place, joined and cut from one another in turn.
-/// `difference` enters a size, so that no cache knows the code.
-Graph chainOf(int nodes, double difference) {
+/// Meshes and checks; ms of the run.
+double meshOnce(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers, const MesherConfig& config,
+                MesherResult& result) {
+    const auto start = Clock::now();
+    Result<MesherResult> made = runMesher(bench.device(), pipelines, buffers, config);
+    const double elapsed = millisecondsSince(start);
+    if (!made) throw SystemError(made.error().message);
+    result = std::move(*made);
+    return elapsed;
+}
+
+void checkMesh(Bench& bench, const char* what, const MesherBuffers& buffers, const MesherResult& result) {
+    const Mesh mesh = downloadMesh(bench.device(), buffers, result);
+    if (const std::string fault = faultOf(mesh.indices, mesh.positions.size()); !fault.empty())
+        bench.fail(std::string(what) + ": " + fault);
+}
+
+}  // namespace
+
+Graph chainOfBoxes(int nodes, double difference) {
     Graph graph;
     std::mt19937 random(1);
     const auto anywhere = [&](double low, double high) {
@@ -57,25 +74,6 @@ Graph chainOf(int nodes, double difference) {
     add("out", "output").set("surface", link(last));
     return graph;
 }
-
-/// Meshes and checks; ms of the run.
-double meshOnce(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers, const MesherConfig& config,
-                MesherResult& result) {
-    const auto start = Clock::now();
-    Result<MesherResult> made = runMesher(bench.device(), pipelines, buffers, config);
-    const double elapsed = millisecondsSince(start);
-    if (!made) throw SystemError(made.error().message);
-    result = std::move(*made);
-    return elapsed;
-}
-
-void checkMesh(Bench& bench, const char* what, const MesherBuffers& buffers, const MesherResult& result) {
-    const Mesh mesh = downloadMesh(bench.device(), buffers, result);
-    if (const std::string fault = faultOf(mesh.indices, mesh.positions.size()); !fault.empty())
-        bench.fail(std::string(what) + ": " + fault);
-}
-
-}  // namespace
 
 void liveTable(Bench& bench) {
     const Device& device = bench.device();
@@ -142,7 +140,7 @@ void compileTable(Bench& bench) {
         MesherPipelines pipelines;  // of the structure before, as a session has them
         Figure compiling, hosting, emitting, building, meshing;
         const auto measured = measure(bench.options.repeats, [&] {
-            const Graph graph = chainOf(nodes, double(seed()) * 1e-11);
+            const Graph graph = chainOfBoxes(nodes, double(seed()) * 1e-11);
             const auto start = Clock::now();
             const Result<Program> program = compile(graph);
             if (!program) throw SystemError(format(program.error()));

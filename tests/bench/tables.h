@@ -31,8 +31,13 @@ void talkTable(Bench& bench);     ///< the slide's table
 void processTable(Bench& bench);  ///< the command itself, from graph file to mesh file
 void liveTable(Bench& bench);     ///< a live parameter changes
 void compileTable(Bench& bench);  ///< a graph's structure changes
+void editorTable(Bench& bench);   ///< the editor's preview: a hand moves, a structure changes
 void lightTable(Bench& bench);    ///< ambient occlusion, beside the slide
 void peaksTable(Bench& bench);    ///< what the device can do at most
+
+/// A graph of about `nodes` nodes: boxes, each moved to its place, joined and cut from one another in turn.
+/// `difference` enters a size, so that no cache knows the code.
+Graph chainOfBoxes(int nodes, double difference);
 
 /// The graph of a benchmark field, read and compiled; reports a failure and returns nothing if that does not
 /// work.
