@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <thread>
 
@@ -192,6 +193,31 @@ TEST_F(ShellTest, RestsUntilSomethingHappens) {
     EXPECT_FALSE(shell->closed());
 }
 
+TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
+    if (test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    std::string pressed;
+    std::vector<glm::ivec2> clicks;
+    const auto show = [&] {
+        for (const int key : {GLFW_KEY_A, GLFW_KEY_B, GLFW_KEY_D})
+            if (ImGui::IsKeyPressed(key, false))
+                pressed += std::string(ImGui::GetIO().KeyCtrl ? "^" : "") + char(key);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (ImGui::IsMouseClicked(0)) clicks.push_back({int(mouse.x), int(mouse.y)});
+    };
+    settle(show);
+    // All between two frames.
+    const test::ProgramResult sent = test::runProgram(
+        "xdotool mousemove 100 90 key --delay 0 a b ctrl+d click --repeat 2 --delay 0 1 "
+        "mousemove 300 200 click 1 mousemove 400 50");
+    ASSERT_EQ(sent.status, 0) << sent.output;
+    rest(0.2);
+    settle(show);
+    EXPECT_EQ(pressed, "AB^D");
+    EXPECT_EQ(clicks, (std::vector<glm::ivec2>{{100, 90}, {100, 90}, {300, 200}}));
+    EXPECT_EQ(ImGui::GetIO().MousePos.x, 400);
+    EXPECT_FALSE(shell->waitEvents(0.0));
+}
+
 TEST_F(ShellTest, FontsAreBakedAtManySizes) {
     EXPECT_EQ(shell->fonts().missing, "");
     EXPECT_EQ(shell->fonts().of(14)->FontSize, 14);
@@ -220,7 +246,10 @@ TEST_F(ShellTest, TimeOfAFrame) {
     for (int i = 0; i < kFrames; ++i) shell->frame(show);
     std::printf("frame of the demo window at 1280x800 on %s: %.2f ms\n", shell->device().name().c_str(),
                 millisecondsSince(start) / kFrames);
-    EXPECT_EQ(shell->capture().width, 1280);
+    const Picture seen = shell->capture();
+    EXPECT_EQ(seen.width, 1280);
+    if (const char* path = std::getenv("FIELDWRIGHT_SHOTS"))
+        (void)savePicture(seen, std::string(path) + "/demo.png");
 }
 
 }  // namespace
