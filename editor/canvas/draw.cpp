@@ -20,12 +20,6 @@ ImU32 faded(ImU32 color, float alpha) {
     return ImGui::ColorConvertFloat4ToU32(c);
 }
 
-ImU32 mixed(ImU32 a, ImU32 b, float t) {
-    const ImVec4 x = ImGui::ColorConvertU32ToFloat4(a), y = ImGui::ColorConvertU32ToFloat4(b);
-    return ImGui::ColorConvertFloat4ToU32(
-        {x.x + (y.x - x.x) * t, x.y + (y.y - x.y) * t, x.z + (y.z - x.z) * t, x.w + (y.w - x.w) * t});
-}
-
 struct Pen {
     ImDrawList* list;
     const CanvasView& view;
