@@ -19,7 +19,7 @@ constexpr ImU32 kColors[] = {
     rgb(0xf4f5f7),  // onTitle
     rgb(0x56b4e9),  // selected: sky blue
     rgb(0xf0e442),  // active: yellow
-    rgb(0xff7b4a),  // error: vermillion, lighter, for it is text too
+    rgb(0xff8a5c),  // error: vermillion, lighter, for it is text too
     rgb(0xf5b335),  // warning: orange, lighter
 };
 static_assert(std::size(kColors) == std::size_t(ThemeColor::warning) + 1);
