@@ -115,6 +115,10 @@ void frame(Editor& editor, bool all) {
 }
 
 constexpr Command kCommands[] = {
+    {"file.new", "File", "New", "Ctrl+N", always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
+    {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
+    {"file.save", "File", "Save", "Ctrl+S", always, [](Editor& e) { save(e); }},
+    {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", always, saveAs},
     {"edit.undo", "Edit", "Undo", "Ctrl+Z", [](const Editor& e) { return e.document.canUndo(); },
      [](Editor& e) { e.document.undo(); }},
     {"edit.redo", "Edit", "Redo", "Ctrl+Shift+Z Ctrl+Y", [](const Editor& e) { return e.document.canRedo(); },
@@ -173,7 +177,7 @@ constexpr Command kCommands[] = {
      [](Editor& e) { e.panels.timeline = !e.panels.timeline; }, true},
     {"view.statistics", "View", "Statistics", "", always,
      [](Editor& e) { e.panels.statistics = !e.panels.statistics; }},
-    {"file.quit", "File", "Quit", "Ctrl+Q", always, [](Editor& e) { e.quit = true; }, true},
+    {"file.quit", "File", "Quit", "Ctrl+Q", always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
 };
 
 /// The command's label with what it would do: "Undo Add Box".

@@ -141,6 +141,9 @@ bool exchange(Editor& editor) {
     wish.view = view.view;
     wish.resolution = view.resolution;
     if (wish.width > 0 && wish.height > 0) editor.preview.ask(std::move(wish));
+    if (const Done kept = editor.files.recovery.keep(editor.graph, editor.drawn, editor.document.unsaved());
+        !kept)
+        say(editor, format(kept.error()));
     std::optional<PreviewResult> result = editor.preview.take();
     if (!result) return false;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
@@ -192,6 +195,7 @@ void showEditor(Editor& editor) {
         ImGui::EndChild();
     }
     showStatus(editor);
+    showFiles(editor);
     ImGui::End();
 }
 

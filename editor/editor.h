@@ -14,6 +14,7 @@
 
 #include "editor/canvas/canvas.h"
 #include "editor/document/document.h"
+#include "editor/files/files.h"
 #include "editor/panels/panel_state.h"
 #include "editor/preview/preview.h"
 #include "runtime/window/viewer.h"
@@ -60,6 +61,7 @@ struct Editor {
     std::string notice;        ///< the last thing that could not be done, in the status line
     double noticeUntil = 0.0;  ///< seconds of ImGui's clock
     bool quit = false;
+    Files files;
 
     /// The document as it is drawn: of revision `drawn`.
     std::shared_ptr<const Graph> graph;

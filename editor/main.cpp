@@ -44,11 +44,24 @@ int run(const Options& options) {
     if (!shell.fonts().missing.empty())
         std::fprintf(stderr, "fieldwright-editor: %s\n", shell.fonts().missing.c_str());
     Editor editor(shell, std::move(graph), {.pick = options.shell.device});
-    while (!editor.quit && !shell.closed()) {
-        const bool asked = shell.waitEvents(moves(editor) ? 0.0 : kLongestRest);
-        const bool fresh = exchange(editor);
-        if (asked || fresh || moves(editor)) shell.frame([&] { showEditor(editor); });
+    startFiles(editor);
+    try {
+        while (!editor.quit) {
+            if (shell.closed()) {
+                shell.keepOpen();
+                proceed(editor, Files::Next::quit);
+            }
+            const bool asked = shell.waitEvents(moves(editor) ? 0.0 : kLongestRest);
+            const bool fresh = exchange(editor);
+            if (asked || fresh || moves(editor)) shell.frame([&] { showEditor(editor); });
+        }
+    } catch (const SystemError&) {
+        if (editor.document.unsaved() && editor.files.recovery.keepNow(editor.document.graph()))
+            std::fprintf(stderr,
+                         "fieldwright-editor: the unsaved changes are kept, and offered at the next start\n");
+        throw;
     }
+    editor.files.recovery.discard();
     return kDone;
 }
 

@@ -143,7 +143,7 @@ struct Hand {
     Position moved() const {
         ImVec2 by(mouse.x - canvas.begin.x, mouse.y - canvas.begin.y);
         if (io.KeyCtrl) by = {std::round(by.x / 24.0f) * 24.0f, std::round(by.y / 24.0f) * 24.0f};
-        return position({std::round(by.x), std::round(by.y)});
+        return position(by);
     }
 
     void move() { document.update(moveNodes(canvas.base, canvas.scope, chosen(), moved())); }

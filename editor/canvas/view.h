@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/document/edits.h"
 
@@ -66,6 +67,7 @@ struct CanvasView {
 };
 
 inline ImVec2 vec(const Position& p) { return {float(p[0]), float(p[1])}; }
-inline Position position(ImVec2 p) { return {double(p.x), double(p.y)}; }
+/// In whole units: places in files stay short.
+inline Position position(ImVec2 p) { return {std::round(double(p.x)), std::round(double(p.y))}; }
 
 }  // namespace fw::editor
