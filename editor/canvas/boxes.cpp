@@ -187,7 +187,7 @@ bool Curve::crosses(ImVec2 from, ImVec2 to) const {
     ImVec2 a = points[0];
     for (int i = 1; i <= kPieces; ++i) {
         const ImVec2 b = at(float(i) / kPieces), along = b - a;
-        const bool across = cross(cut, a - from) * cross(cut, b - from) < 0.0f;
+        const bool across = (cross(cut, a - from) < 0.0f) != (cross(cut, b - from) < 0.0f);
         if (across && cross(along, from - a) * cross(along, to - a) <= 0.0f) return true;
         a = b;
     }
