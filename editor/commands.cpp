@@ -1,6 +1,7 @@
 #include "editor/commands.h"
 
 #include <sstream>
+#include <vector>
 
 #include "editor/document/clipboard.h"
 #include "editor/document/layout.h"
@@ -67,10 +68,7 @@ void ungroupActive(Editor& editor) {
 
 void enterOrLeave(Editor& editor) {
     const NodeBox* box = editor.boxes->find(editor.canvas.active);
-    editor.canvas.scope = box ? box->node->group : std::string();
-    editor.canvas.select({});
-    editor.canvas.frameNext = true;
-    editor.boxes.reset();
+    enter(editor, box ? box->node->group : std::string());
 }
 
 void layOutNodes(Editor& editor) {
@@ -180,6 +178,20 @@ constexpr Command kCommands[] = {
     {"file.quit", "File", "Quit", "Ctrl+Q", always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
 };
 
+/// What each key of the table runs, read from its texts once.
+const std::vector<std::pair<Shortcut, const Command*>>& shortcuts() {
+    static const std::vector<std::pair<Shortcut, const Command*>> all = [] {
+        std::vector<std::pair<Shortcut, const Command*>> read;
+        for (const Command& command : kCommands) {
+            std::istringstream keys(command.keys);
+            for (std::string text; keys >> text;)
+                if (const auto shortcut = shortcutOf(text)) read.emplace_back(*shortcut, &command);
+        }
+        return read;
+    }();
+    return all;
+}
+
 /// The command's label with what it would do: "Undo Add Box".
 std::string labelOf(const Command& command, const Editor& editor) {
     const std::string_view id = command.id;
@@ -205,12 +217,8 @@ void runShortcuts(Editor& editor) {
         if (!editor.canvas.spacePans && !io.KeyCtrl && !io.KeyAlt) addHere(editor);
         editor.canvas.spacePans = false;
     }
-    for (const Command& command : kCommands) {
-        std::istringstream keys(command.keys);
-        for (std::string text; keys >> text;)
-            if (const auto shortcut = shortcutOf(text); shortcut && pressed(*shortcut) && command.can(editor))
-                return command.run(editor);
-    }
+    for (const auto& [shortcut, command] : shortcuts())
+        if (pressed(shortcut) && command->can(editor)) return command->run(editor);
 }
 
 void showMenus(Editor& editor) {

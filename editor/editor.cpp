@@ -40,13 +40,6 @@ std::pair<std::string, std::string> placeOf(const Graph& graph, std::string_view
     return {std::move(scope), std::string(path)};
 }
 
-void enter(Editor& editor, std::string scope) {
-    editor.canvas.scope = std::move(scope);
-    editor.canvas.select({});
-    editor.canvas.frameNext = true;
-    editor.boxes.reset();
-}
-
 /// "Document > group", each part a button back to it.
 void showBreadcrumb(Editor& editor) {
     if (editor.canvas.scope.empty()) return;
@@ -212,6 +205,13 @@ void apply(Editor& editor, std::string name, Edited edited) {
 void say(Editor& editor, std::string words) {
     editor.notice = std::move(words);
     editor.noticeUntil = ImGui::GetTime() + kNoticeSeconds;
+}
+
+void enter(Editor& editor, std::string scope) {
+    editor.canvas.scope = std::move(scope);
+    editor.canvas.select({});
+    editor.canvas.frameNext = true;
+    editor.boxes.reset();
 }
 
 CanvasMarks marksOf(const Editor& editor) {

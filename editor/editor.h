@@ -83,6 +83,8 @@ void apply(Editor& editor, std::string name, Edited edited);
 void say(Editor& editor, std::string words);
 /// The findings about nodes of the scope shown.
 CanvasMarks marksOf(const Editor& editor);
+/// Shows the nodes of a group, or those of the document for an empty id.
+void enter(Editor& editor, std::string scope);
 /// Shows the node: enters its scope, selects and frames it. `path` as in Error::node: "group/node".
 void reveal(Editor& editor, std::string_view path);
 

@@ -129,8 +129,7 @@ void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool
     }
 }
 
-void drawRows(const Pen& pen, const Boxes& boxes, const NodeBox& box) {
-    (void)boxes;
+void drawRows(const Pen& pen, const NodeBox& box) {
     const ImU32 ink = themeColor(ThemeColor::text), quiet = themeColor(ThemeColor::quiet);
     const bool words = pen.view.unit() >= kTextZoom;
     for (const Row& row : box.rows) {
@@ -164,8 +163,7 @@ void drawRows(const Pen& pen, const Boxes& boxes, const NodeBox& box) {
     }
 }
 
-void drawNode(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const NodeBox& box,
-              const CanvasMarks& marks) {
+void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const CanvasMarks& marks) {
     const Area area = pen.view.toScreen(box.area);
     const bool chosen = canvas.selection.contains(box.node->id);
     const float alpha = box.node->muted ? 0.45f : 1.0f, round = kRounding * pen.view.unit();
@@ -201,7 +199,7 @@ void drawNode(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const No
             pen.list->AddCircleFilled({area.hi.x - 30.0f * pen.view.unit(), middle}, 4.0f * pen.view.unit(),
                                       themeColor(ThemeColor::active));
     }
-    drawRows(pen, boxes, box);
+    drawRows(pen, box);
     if (box.node->muted)
         pen.list->AddLine({area.lo.x, area.lo.y + 0.5f * strip}, {area.hi.x, area.lo.y + 0.5f * strip},
                           themeColor(ThemeColor::quiet), 1.5f * pen.view.scale);
@@ -301,7 +299,7 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const std::vector<Fram
     drawWires(pen, canvas, boxes, marks);
     const Area seen = canvas.view.seen().grown(2 * kSocketRadius);
     for (const NodeBox& box : boxes.nodes)
-        if (box.area.overlaps(seen)) drawNode(pen, canvas, boxes, box, marks);
+        if (box.area.overlaps(seen)) drawNode(pen, canvas, box, marks);
     drawGesture(pen, canvas, boxes);
     if (canvas.minimap && !boxes.nodes.empty()) drawMinimap(pen, canvas, boxes);
     pen.list->PopClipRect();
