@@ -112,6 +112,13 @@ void frame(Editor& editor, bool all) {
     editor.canvas.view.frame(editor.boxes->around(some ? &editor.canvas.selection : nullptr));
 }
 
+bool pictured(const Editor& editor) { return editor.viewport.texture != nullptr; }
+
+template <Side side>
+void look(Editor& editor) {
+    lookFrom(editor.viewport, side);
+}
+
 constexpr Command kCommands[] = {
     {"file.new", "File", "New", "Ctrl+N", always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
     {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
@@ -163,6 +170,17 @@ constexpr Command kCommands[] = {
      [](Editor& e) {
          e.document.apply("Distribute Nodes", distribute(graphOf(e), scopeOf(e), selected(e), false));
      }},
+    {"picture.frame", "Picture", "Frame the solid", "F", pictured, [](Editor& e) { frameSolid(e.viewport); },
+     false, true},
+    {"picture.reset", "Picture", "Back to the scene's camera", "Home 0 Pad0", pictured,
+     [](Editor& e) { e.viewport.ownCamera = false; }, false, true},
+    {"picture.front", "Picture", "From the front", "1 Pad1", pictured, look<Side::front>, true, true},
+    {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", pictured, look<Side::back>, false, true},
+    {"picture.right", "Picture", "From the right", "3 Pad3", pictured, look<Side::right>, false, true},
+    {"picture.left", "Picture", "From the left", "Ctrl+3 Ctrl+Pad3", pictured, look<Side::left>, false, true},
+    {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>, false, true},
+    {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>, false,
+     true},
     {"view.frame", "View", "Frame selection", "F", always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", always, [](Editor& e) { frame(e, true); }},
     {"view.minimap", "View", "Minimap", "", always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
@@ -208,7 +226,7 @@ std::span<const Command> commands() { return kCommands; }
 void runShortcuts(Editor& editor) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || editor.document.inGesture() ||
-        editor.canvas.field.state != FieldEdit::State::none)
+        editor.canvas.field.state != FieldEdit::State::none || editor.viewport.drag.busy())
         return;
     if (deletesKey(editor) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)))
         return removeSelectedKey(editor);
@@ -218,11 +236,12 @@ void runShortcuts(Editor& editor) {
         editor.canvas.spacePans = false;
     }
     for (const auto& [shortcut, command] : shortcuts())
-        if (pressed(shortcut) && command->can(editor)) return command->run(editor);
+        if (pressed(shortcut) && (!command->overPicture || editor.viewport.hovered) && command->can(editor))
+            return command->run(editor);
 }
 
 void showMenus(Editor& editor) {
-    for (const char* menu : {"File", "Edit", "Node", "View"}) {
+    for (const char* menu : {"File", "Edit", "Node", "View", "Picture"}) {
         if (!ImGui::BeginMenu(menu)) continue;
         for (const Command& command : kCommands) {
             if (std::string_view(command.menu) != menu) continue;

@@ -11,12 +11,13 @@ namespace fw::editor {
 
 struct Command {
     const char* id;    ///< as in the preferences: "edit.undo"
-    const char* menu;  ///< "File", "Edit", "Node", "View"; empty: in no menu
+    const char* menu;  ///< "File", "Edit", "Node", "View", "Picture"; empty: in no menu
     const char* label;
     const char* keys;  ///< its shortcut by default; further ones after a blank
     bool (*can)(const Editor& editor);
     void (*run)(Editor& editor);
-    bool separated = false;  ///< a line stands before it in the menu
+    bool separated = false;    ///< a line stands before it in the menu
+    bool overPicture = false;  ///< its keys count only while the mouse is over the viewport's picture
 };
 
 std::span<const Command> commands();

@@ -116,7 +116,6 @@ void showCanvasPart(Editor& editor) {
 
 Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device)
     : shell(shell_), document(placeAll(opened)), preview(std::move(device), [] { Shell::wake(); }) {
-    viewport.camera.moves = false;
     // Places that nodes lacked are no edit of the user's.
     document.markSaved();
     drawAnew(*this);
@@ -129,8 +128,8 @@ bool exchange(Editor& editor) {
     wish.held = editor.canvas.field.held();
     wish.held.merge(editor.panelState.heldInputs());
     wish.seconds = view.seconds;
-    if (view.camera.ownCamera) wish.camera = view.camera.orbit.camera();
-    wish.width = view.camera.width, wish.height = view.camera.height;
+    if (view.ownCamera) wish.camera = view.orbit.camera();
+    wish.width = view.width(), wish.height = view.height();
     wish.view = view.view;
     wish.resolution = view.resolution;
     if (wish.width > 0 && wish.height > 0) editor.preview.ask(std::move(wish));
@@ -194,7 +193,7 @@ void showEditor(Editor& editor) {
 
 bool moves(const Editor& editor) {
     return editor.viewport.playing || editor.canvas.gesture != Canvas::Gesture::none ||
-           editor.canvas.field.state != FieldEdit::State::none;
+           editor.canvas.field.state != FieldEdit::State::none || flies(editor.viewport);
 }
 
 void apply(Editor& editor, std::string name, Edited edited) {

@@ -17,21 +17,9 @@
 #include "editor/files/files.h"
 #include "editor/panels/panel_state.h"
 #include "editor/preview/preview.h"
-#include "runtime/window/viewer.h"
+#include "editor/viewport/viewport.h"
 
 namespace fw::editor {
-
-/// What the viewport shows and how.
-struct Viewport {
-    Viewer camera;  ///< orbits; until it does, the scene's camera or the solid framed
-    uint32_t view = RENDER_PICTURE;
-    std::string pinned;    ///< the node shown; empty: the output
-    int resolution = 0;    ///< cells; 0: the graph's
-    double seconds = 0.0;  ///< on the timeline
-    bool playing = false;
-    ImTextureID texture = nullptr;
-    PreviewResult shown = {};  ///< the last result; its picture is in the texture
-};
 
 /// The menu to add nodes from, where it is open.
 struct AddMenu {
@@ -88,7 +76,7 @@ void enter(Editor& editor, std::string scope);
 /// Shows the node: enters its scope, selects and frames it. `path` as in Error::node: "group/node".
 void reveal(Editor& editor, std::string_view path);
 
-// panels/, each in the rest of ImGui's current window
+// panels/ and viewport/, each in the rest of ImGui's current window
 void showAddMenu(Editor& editor);
 void showInspector(Editor& editor);
 void showOutliner(Editor& editor);

@@ -33,7 +33,7 @@ void take(Editor& editor, Graph graph) {
     editor.drawn = 0;
     editor.canvas = Canvas();
     editor.viewport.pinned.clear();
-    editor.viewport.camera.ownCamera = false;
+    editor.viewport.ownCamera = false;
 }
 
 void openPath(Editor& editor, const std::string& path) {

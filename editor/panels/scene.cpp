@@ -99,17 +99,17 @@ bool part(Editor& editor, const char* path, const char* label, std::optional<boo
 
 void showCamera(Editor& editor, const Scene& scene) {
     if (!part(editor, "camera", "Camera", std::nullopt)) return;
-    Viewer& viewer = editor.viewport.camera;
+    Viewport& viewport = editor.viewport;
     Document& document = editor.document;
     if (ImGui::Button("From the viewport")) {
-        const Camera camera = viewer.ownCamera ? viewer.orbit.camera() : editor.viewport.shown.seen;
+        const Camera camera = viewport.ownCamera ? viewport.orbit.camera() : viewport.shown.seen;
         set(editor, "Camera", setSceneCamera(document.graph(), camera));
-        viewer.ownCamera = false;
+        viewport.ownCamera = false;
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Make what the viewport shows the scene's camera");
     ImGui::SameLine();
-    ImGui::BeginDisabled(!viewer.ownCamera);
-    if (ImGui::Button("Look through it")) viewer.ownCamera = false;
+    ImGui::BeginDisabled(!viewport.ownCamera);
+    if (ImGui::Button("Look through it")) viewport.ownCamera = false;
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::BeginDisabled(!scene.camera);

@@ -61,6 +61,7 @@ struct Preview::Shared {
             told = {.revision = ready->revision,
                     .findings = ready->findings,
                     .seen = ready->seen,
+                    .region = ready->region,
                     .spoiledBy = ready->spoiledBy,
                     .statistics = ready->statistics};
         }
@@ -168,6 +169,7 @@ void Maker::load() {
         result.current = false;
     } else {
         result.spoiledBy = player->program().spoiledBy;
+        result.region = player->region();
     }
     loading = millisecondsSince(start);
 }

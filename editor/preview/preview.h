@@ -48,6 +48,7 @@ struct PreviewResult {
     Picture picture = {};        ///< empty: none yet
     bool draft = false;          ///< of the mesh alone: better ones come when kernels are compiled
     Camera seen = {};            ///< what it was seen by
+    Box region = {};             ///< that the solid lies in, metres
     std::string spoiledBy = {};  ///< the node since which the field is no exact distance
     PreviewStatistics statistics = {};
     std::string failure = {};  ///< the device or the system failed; the preview has stopped

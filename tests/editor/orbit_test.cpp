@@ -1,10 +1,13 @@
 // Moving about in the viewport: what must stay under the mouse stays there.
-#include "editor/preview/orbit.h"
+#include "editor/viewport/orbit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
+
+#include "runtime/render/view.h"
 
 namespace fw::editor {
 namespace {
@@ -72,8 +75,8 @@ TEST(Orbit, TurningKeepsTheTargetAndStopsOverhead) {
     Orbit orbit = somewhere();
     turn(orbit, 0.0, -100.0);
     EXPECT_EQ(orbit.target, somewhere().target);
-    EXPECT_DOUBLE_EQ(orbit.elevation, 0.5 * std::numbers::pi);
-    EXPECT_NEAR(orbit.camera().position[1], orbit.target[1] + orbit.distance, 1e-12);
+    EXPECT_LT(orbit.elevation, 0.5 * std::numbers::pi);
+    EXPECT_NEAR(orbit.camera().position[1], orbit.target[1] + orbit.distance, 0.01);
 }
 
 TEST(Orbit, FlyingGoesAlongTheView) {
@@ -99,8 +102,20 @@ TEST(Orbit, SidesAreWhereTheyAreCalled) {
         lookFrom(orbit, side);
         EXPECT_EQ(orbit.target, somewhere().target);
         for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(axesOf(orbit).back[i], back[i], 1e-12);
-        lookFromOpposite(orbit);
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(axesOf(orbit).back[i], -back[i], 1e-12);
+    }
+}
+
+TEST(Orbit, ThePictureIsTurnedAsTheAxesAre) {
+    for (const Side side : {Side::front, Side::back, Side::right, Side::left, Side::top, Side::bottom}) {
+        Orbit orbit = somewhere();
+        lookFrom(orbit, side);
+        const gpu::View view = cameraView(orbit.camera(), {}, 1.0f);
+        const Axes axes = axesOf(orbit);
+        const glm::vec3 right = glm::normalize(view.right), up = glm::normalize(view.up);
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_NEAR(double(right[i]), axes.right[std::size_t(i)], 1e-5) << int(side);
+            EXPECT_NEAR(double(up[i]), axes.up[std::size_t(i)], 1e-5) << int(side);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-#include "editor/preview/orbit.h"
+#include "editor/viewport/orbit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,9 @@ namespace fw::editor {
 namespace {
 
 constexpr double kTurnPerHeight = 3.0;  // radians
-constexpr double kSteepest = 0.5 * std::numbers::pi;
+constexpr double kOverhead = 0.5 * std::numbers::pi;
+/// While turning: straight up or down, the azimuth would be lost in the camera.
+constexpr double kSteepest = 1.55;
 constexpr double kZoomPerNotch = 0.88;
 constexpr double kNearest = 1e-4, kFarthest = 1e5;  // metres from the target
 constexpr double kFast = 5.0;
@@ -68,17 +70,11 @@ void fly(Orbit& orbit, double forward, double right, double up, double seconds, 
 }
 
 void lookFrom(Orbit& orbit, Side side) {
-    constexpr double kQuarter = 0.5 * std::numbers::pi;
-    orbit.azimuth = side == Side::right  ? kQuarter
-                    : side == Side::left ? -kQuarter
-                    : side == Side::back ? 2.0 * kQuarter
-                                         : 0.0;
-    orbit.elevation = side == Side::top ? kSteepest : side == Side::bottom ? -kSteepest : 0.0;
-}
-
-void lookFromOpposite(Orbit& orbit) {
-    orbit.azimuth = std::remainder(orbit.azimuth + std::numbers::pi, 2.0 * std::numbers::pi);
-    orbit.elevation = -orbit.elevation;
+    orbit.azimuth = side == Side::right                          ? kOverhead
+                    : side == Side::left                         ? -kOverhead
+                    : side == Side::back || side == Side::bottom ? std::numbers::pi
+                                                                 : 0.0;
+    orbit.elevation = side == Side::top ? kOverhead : side == Side::bottom ? -kOverhead : 0.0;
 }
 
 void frame(Orbit& orbit, const Vector& centre, double radius, double aspect) {

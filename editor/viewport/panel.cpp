@@ -36,26 +36,13 @@ void showChoices(Editor& editor) {
             if (ImGui::Selectable(cells(count).c_str(), count == view.resolution)) view.resolution = count;
         ImGui::EndCombo();
     }
-    if (view.camera.ownCamera) {
+    if (view.ownCamera) {
         ImGui::SameLine();
-        if (ImGui::Button("Reset view")) view.camera.ownCamera = false;
+        if (ImGui::Button("Reset view")) view.ownCamera = false;
     }
     if (view.pinned.empty()) return;
     ImGui::SameLine();
     if (ImGui::Button(("Showing " + view.pinned + " ×").c_str())) view.pinned.clear();
-}
-
-void moveCamera(Viewer& camera, const Area& place, bool hovered) {
-    const ImGuiIO& io = ImGui::GetIO();
-    camera.move(io.MousePos.x - place.lo.x, io.MousePos.y - place.lo.y);
-    if (hovered) {
-        if (ImGui::IsMouseClicked(0)) camera.press(io.KeyShift ? MouseButton::middle : MouseButton::left);
-        if (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))
-            camera.press(io.KeyShift || ImGui::IsMouseClicked(1) ? MouseButton::middle : MouseButton::left);
-        if (io.MouseWheel != 0.0f) camera.scroll(double(io.MouseWheel));
-    }
-    if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
-        camera.release(MouseButton::left);
 }
 
 /// Words over the picture, top left.
@@ -74,15 +61,15 @@ void showViewport(Editor& editor) {
     Viewport& view = editor.viewport;
     showChoices(editor);
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    view.hovered = false;
     if (room.x < 1.0f || room.y < 1.0f) return;
-    const Area place{at, {at.x + room.x, at.y + room.y}};
-    view.camera.resize(std::clamp(int(room.x), kLeastPictureSide, kMostPictureSide),
-                       std::clamp(int(room.y), kLeastPictureSide, kMostPictureSide));
-    view.camera.seen = view.shown.seen;
+    view.place = {at, {at.x + room.x, at.y + room.y}};
+    const Area& place = view.place;
     ImGui::InvisibleButton("##picture", room,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
-    moveCamera(view.camera, place, ImGui::IsItemHovered());
+    view.hovered = ImGui::IsItemHovered();
+    navigate(view);
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     if (view.texture) list->AddImage(view.texture, place.lo, place.hi);

@@ -31,10 +31,9 @@ void look(Orbit& orbit, double dx, double dy);
 void fly(Orbit& orbit, double forward, double right, double up, double seconds, bool fast);
 
 enum class Side : unsigned char { front, back, right, left, top, bottom };
-/// Looks at the target from a side, from the same distance. The front is +z's.
+/// Looks at the target from a side, from the same distance. The front is +z's; seen from the top and from the
+/// bottom, -z is up.
 void lookFrom(Orbit& orbit, Side side);
-/// From where the target's other side is seen.
-void lookFromOpposite(Orbit& orbit);
 /// Looks at a ball from where it fills the picture, along the same direction. `radius` is in metres.
 void frame(Orbit& orbit, const Vector& centre, double radius, double aspect);
 

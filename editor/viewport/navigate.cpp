@@ -1,0 +1,109 @@
+// The camera under mouse and keys.
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "editor/viewport/viewport.h"
+
+namespace fw::editor {
+
+namespace {
+
+using Does = CameraDrag::Does;
+
+constexpr float kStill = 3.0f;         // pixels that a click may move
+constexpr double kLongestStep = 0.05;  // seconds of flying between two frames
+
+/// 1, 0 or -1 for two keys against each other. Letters are named as shortcuts name them.
+double either(char forward, char back) {
+    return double(ImGui::IsKeyDown(forward)) - double(ImGui::IsKeyDown(back));
+}
+bool anyFlyKey() {
+    return std::ranges::any_of(std::string_view("WASDQE"), [](char key) { return ImGui::IsKeyDown(key); });
+}
+
+void begin(Viewport& viewport) {
+    const ImGuiIO& io = ImGui::GetIO();
+    for (int button = 0; button < 3; ++button) {
+        if (!ImGui::IsMouseClicked(button)) continue;
+        const Does turns = io.KeyShift ? Does::pan : Does::orbit;
+        const Does does = button == 0 ? Does::click : button == 1 ? Does::pan : turns;
+        viewport.drag = {does, button};
+    }
+}
+
+void drag(Viewport& viewport) {
+    const ImGuiIO& io = ImGui::GetIO();
+    CameraDrag& hand = viewport.drag;
+    if (hand.does == Does::click && ImGui::IsMouseDragging(hand.button, kStill))
+        hand.does = io.KeyShift ? Does::pan : Does::orbit;
+    if (hand.button == 1 && anyFlyKey()) hand.does = Does::look;
+    if (hand.does == Does::click) return;
+    const double side = std::max(double(viewport.place.height()), 1.0), dx = double(io.MouseDelta.x) / side,
+                 dy = double(-io.MouseDelta.y) / side;
+    if (dx == 0.0 && dy == 0.0 && !flies(viewport)) return;
+    viewport.takeCamera();
+    if (hand.does == Does::orbit) turn(viewport.orbit, dx, dy);
+    if (hand.does == Does::pan) pan(viewport.orbit, dx, dy);
+    if (hand.does == Does::look) look(viewport.orbit, dx, dy);
+    if (flies(viewport))
+        fly(viewport.orbit, either('W', 'S'), either('D', 'A'), either('E', 'Q'),
+            std::min(double(io.DeltaTime), kLongestStep), io.KeyShift);
+}
+
+}  // namespace
+
+int Viewport::width() const {
+    return place.width() < 1.0f ? 0 : std::clamp(int(place.width()), kLeastPictureSide, kMostPictureSide);
+}
+int Viewport::height() const {
+    return place.height() < 1.0f ? 0 : std::clamp(int(place.height()), kLeastPictureSide, kMostPictureSide);
+}
+
+void Viewport::takeCamera() {
+    if (!ownCamera) orbit = Orbit::from(shown.seen);
+    ownCamera = true;
+}
+
+bool flies(const Viewport& viewport) {
+    return viewport.drag.busy() && viewport.drag.button == 1 && anyFlyKey();
+}
+
+bool navigate(Viewport& viewport) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (viewport.shown.picture.width == 0) return false;  // there is nothing to start from
+    if (viewport.hovered && !viewport.drag.busy()) begin(viewport);
+    if (viewport.hovered && io.MouseWheel != 0.0f) {
+        viewport.takeCamera();
+        const ImVec2 middle = viewport.place.centre();
+        zoom(viewport.orbit, double(io.MouseWheel),
+             double((io.MousePos.x - middle.x) / (0.5f * viewport.place.width())),
+             double((middle.y - io.MousePos.y) / (0.5f * viewport.place.height())),
+             double(viewport.aspect()));
+    }
+    if (!viewport.drag.busy()) return false;
+    drag(viewport);
+    if (ImGui::IsMouseDown(viewport.drag.button)) return false;
+    const bool clicked = viewport.drag.does == Does::click;
+    viewport.drag = {};
+    return clicked;
+}
+
+void lookFrom(Viewport& viewport, Side side) {
+    viewport.takeCamera();
+    lookFrom(viewport.orbit, side);
+}
+
+void frameSolid(Viewport& viewport) {
+    viewport.takeCamera();
+    const Box& solid = viewport.shown.region;
+    Vector middle{};
+    double radius = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        middle[i] = 0.5 * (solid.lo[i] + solid.hi[i]);
+        radius = std::hypot(radius, 0.5 * (solid.hi[i] - solid.lo[i]));
+    }
+    frame(viewport.orbit, middle, std::max(radius, 1e-3), double(viewport.aspect()));
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,66 @@
+// The viewport: what is shown of the graph, how it is looked at, and what the mouse does in it.
+//
+//     mouse                          does
+//     left or middle drag            orbits; with Shift pans
+//     right drag                     pans; with W A S D Q E flies, the mouse turning the head (Shift: faster)
+//     wheel                          zooms to the cursor
+//     click                          selects the node that made what is hit (Ctrl or Shift: also)
+//
+// Keys are rows of editor/commands.cpp that count over the picture. Lifetime: one in an Editor.
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+
+#include "editor/canvas/view.h"
+#include "editor/preview/preview.h"
+#include "editor/viewport/orbit.h"
+
+namespace fw::editor {
+
+struct Editor;
+
+/// What the button that went down over the picture does until it goes up.
+struct CameraDrag {
+    enum class Does : unsigned char { nothing, click, orbit, pan, look } does = Does::nothing;
+    int button = 0;  ///< ImGui's
+
+    bool busy() const { return does != Does::nothing; }
+};
+
+/// What the viewport shows and how.
+struct Viewport {
+    bool ownCamera = false;  ///< rather than the scene's, or the solid framed
+    Orbit orbit;             ///< of the own camera
+    uint32_t view = RENDER_PICTURE;
+    std::string pinned;    ///< the node shown; empty: the output
+    int resolution = 0;    ///< cells; 0: the graph's
+    double seconds = 0.0;  ///< on the timeline
+    bool playing = false;
+    ImTextureID texture = nullptr;
+    PreviewResult shown = {};  ///< the last result; its picture is in the texture
+
+    Area place;  ///< of the picture, pixels of the window
+    bool hovered = false;
+    CameraDrag drag;
+
+    /// Pixels that the picture should have; 0 before the first frame.
+    int width() const;
+    int height() const;
+    float aspect() const { return place.width() / std::max(place.height(), 1.0f); }
+    /// Moves on from what is seen.
+    void takeCamera();
+};
+
+/// The camera follows the mouse, and the keys of flying; whether that was a click.
+bool navigate(Viewport& viewport);
+/// Whether the camera moves without further input.
+bool flies(const Viewport& viewport);
+
+/// Looks from a side at what it looks at.
+void lookFrom(Viewport& viewport, Side side);
+/// As far away as all of the solid is seen.
+void frameSolid(Viewport& viewport);
+
+}  // namespace fw::editor
