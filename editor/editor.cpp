@@ -4,6 +4,7 @@
 
 #include "editor/commands.h"
 #include "editor/document/layout.h"
+#include "editor/document/paths.h"
 #include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
@@ -24,20 +25,15 @@ void drawAnew(Editor& editor) {
     editor.drawn = editor.document.revision();
 }
 
-/// The scope and the node that a path names: "group/node" as the structure's findings have it, or the group
-/// nodes that lead there as the compiler's have.
-std::pair<std::string, std::string> placeOf(const Graph& graph, std::string_view path) {
-    std::string scope;
-    for (std::size_t slash = path.find('/'); slash != std::string_view::npos; slash = path.find('/')) {
-        const std::string_view part = path.substr(0, slash);
-        const Node* instance = findNode(nodesOf(graph, scope), part);
-        if (instance && graph.group(instance->group))
-            scope = instance->group;
-        else if (graph.group(part))
-            scope = part;
-        path.remove_prefix(slash + 1);
+/// The inputs under the hand, as the compiler names them: in a group, those of every instance.
+std::set<std::string> heldInputs(const Editor& editor) {
+    std::set<std::string> held = editor.canvas.field.held(), named;
+    held.merge(editor.panelState.heldInputs());
+    for (const std::string& path : held) {
+        const auto [scope, input] = placeOf(*editor.graph, path);
+        for (std::string& name : instancesOf(*editor.graph, scope, input)) named.insert(std::move(name));
     }
-    return {std::move(scope), std::string(path)};
+    return named;
 }
 
 /// "Document > group", each part a button back to it.
@@ -109,7 +105,9 @@ void showCanvasPart(Editor& editor) {
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty())
         editor.viewport.pinned = editor.viewport.pinned == wishes.activate ? std::string() : wishes.activate;
+    if (wishes.frame) editor.frameMenu = {*wishes.frame, true};
     showAddMenu(editor);
+    showFrameMenu(editor);
 }
 
 }  // namespace
@@ -125,8 +123,7 @@ bool exchange(Editor& editor) {
     drawAnew(editor);
     Viewport& view = editor.viewport;
     PreviewWish wish{.graph = editor.graph, .revision = editor.drawn, .pinned = view.pinned};
-    wish.held = editor.canvas.field.held();
-    wish.held.merge(editor.panelState.heldInputs());
+    wish.held = heldInputs(editor);
     wish.seconds = view.seconds;
     if (view.ownCamera) wish.camera = view.orbit.camera();
     wish.width = view.width(), wish.height = view.height();
@@ -219,6 +216,9 @@ CanvasMarks marksOf(const Editor& editor) {
     const PreviewResult& shown = editor.viewport.shown;
     if (const auto [scope, id] = placeOf(*editor.graph, shown.spoiledBy); scope == editor.canvas.scope)
         marks.spoiledBy = id;
+    for (const auto& [path, exactness] : shown.exactness)
+        if (auto [scope, id] = placeOf(*editor.graph, path); scope == editor.canvas.scope)
+            marks.exactness.emplace(std::move(id), exactness);
     for (const Error& finding : shown.findings) {
         const auto [scope, id] = placeOf(*editor.graph, finding.node);
         if (id.empty() || scope != editor.canvas.scope) continue;

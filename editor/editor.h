@@ -29,6 +29,12 @@ struct AddMenu {
     bool opened = false;  ///< to be opened in this frame
 };
 
+/// The menu of a comment frame, where it is open.
+struct FrameMenu {
+    std::size_t index = 0;  ///< in framesOf()
+    bool opened = false;    ///< to be opened in this frame
+};
+
 struct Panels {
     bool inspector = true, outliner = true, problems = true, parameters = true, scene = true,
          timeline = false, statistics = false;
@@ -44,6 +50,7 @@ struct Editor {
     Canvas canvas;
     Viewport viewport;
     AddMenu add;
+    FrameMenu frameMenu;
     Panels panels;
     PanelState panelState;
     std::string notice;        ///< the last thing that could not be done, in the status line
@@ -78,6 +85,7 @@ void reveal(Editor& editor, std::string_view path);
 
 // panels/ and viewport/, each in the rest of ImGui's current window
 void showAddMenu(Editor& editor);
+void showFrameMenu(Editor& editor);
 void showInspector(Editor& editor);
 void showOutliner(Editor& editor);
 void showProblems(Editor& editor);

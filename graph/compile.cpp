@@ -70,8 +70,8 @@ class Compiler {
             pending.pop_back();
             if (!done.contains(node->id)) {
                 Lowered lowered = lower(*node, prefix, groupInput, done);
-                if (prefix.empty() && std::any_of(lowered.outputs.begin(), lowered.outputs.end(), isSurface))
-                    exactness[node->id] = lowered.exactness;
+                if (std::any_of(lowered.outputs.begin(), lowered.outputs.end(), isSurface))
+                    exactness[prefix + node->id] = {lowered.exactness, lowered.spoiler};
                 done.emplace(node->id, std::move(lowered));
             }
         }
@@ -93,7 +93,7 @@ class Compiler {
     const Ir& ir() const { return state.ir; }
     std::vector<Error> errors;
     std::vector<LiveParameter> live;
-    std::map<std::string, Exactness, std::less<>> exactness;
+    std::map<std::string, NodeExactness, std::less<>> exactness;
     std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
 
   private:

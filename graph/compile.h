@@ -44,6 +44,12 @@ struct CompileOptions {
     double time = 0.0;  ///< seconds, folded unless live
 };
 
+/// Of the surface that a node gives.
+struct NodeExactness {
+    Exactness exactness;
+    std::string spoiledBy;  ///< as Program::spoiledBy
+};
+
 struct Program {
     Ir ir;
     std::array<IrId, 9> surface{};  ///< roots, in the order of SurfaceComponent
@@ -52,7 +58,7 @@ struct Program {
 
     Exactness exactness;
     std::string spoiledBy;  ///< node by which the field lost its exactness; empty if exact
-    std::map<std::string, Exactness, std::less<>> nodeExactness;
+    std::map<std::string, NodeExactness, std::less<>> nodeExactness;  ///< in groups by "instance/node"
 
     int resolution = 128;  ///< cells along the longest side
     MeshMethod method = MeshMethod::marchingCubes;

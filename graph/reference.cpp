@@ -105,7 +105,10 @@ std::string exactnessText(const NodeType& type) {
         return value && i < value->numbers.size() ? std::optional(value->numbers[i]) : std::nullopt;
     };
     arguments.option = [&](std::string_view name) { return input(name) ? input(name)->text : std::string(); };
-    const Exactness e = type.exactness(arguments);
+    return exactnessText(type.exactness(arguments));
+}
+
+std::string exactnessText(const Exactness& e) {
     if (e.exact()) return "exact";
     if (!std::isfinite(e.lipschitz)) return "distorted";
     if (!e.bound()) return "distorted by up to " + numberText(std::round(e.lipschitz * 100) / 100);

@@ -17,8 +17,10 @@ std::string nodesMarkdown();
 /// other programs. Absent keys mean: no range on that side, no unit, nothing by default.
 std::string nodesJson();
 
-/// Class of the node's surface with its default settings, fed with exact surfaces: "exact", "exact outside",
-/// "exact inside", "a bound", "distorted by up to 1.41" or "distorted"; empty for nodes that make no surface.
+/// "exact", "exact outside", "exact inside", "a bound", "distorted by up to 1.41" or "distorted".
+std::string exactnessText(const Exactness& exactness);
+/// Class of the node's surface with its default settings, fed with exact surfaces; empty for nodes that make
+/// no surface.
 std::string exactnessText(const NodeType& type);
 
 }  // namespace fw

@@ -97,16 +97,16 @@ Area NodeBox::field(const Row& row, int component) const {
     return {{x, top + kRowHeight}, {x + wide, top + kRowHeight + high}};
 }
 
-Boxes::Boxes(const Graph& graph, std::string_view scopeId) {
+Boxes::Boxes(const Graph& graph, std::string_view scopeId) : frames(framesOf(graph)), scope(scopeId) {
     const Groups groups(graph);
     const auto group = groups.byId.find(scopeId);
     const GroupSockets* inside =
         scopeId.empty() || group == groups.byId.end() ? nullptr : &groups.list[group->second];
-    const Scope scope(groups, nodesOf(graph, scopeId), inside);
-    nodes.reserve(scope.nodes.size());
-    for (uint32_t i = 0; i < scope.nodes.size(); ++i) {
-        nodes.push_back(boxOf(scope, i));
-        byId.emplace(scope.nodes[i].id, i);
+    const Scope shown(groups, nodesOf(graph, scopeId), inside);
+    nodes.reserve(shown.nodes.size());
+    for (uint32_t i = 0; i < shown.nodes.size(); ++i) {
+        nodes.push_back(boxOf(shown, i));
+        byId.emplace(shown.nodes[i].id, i);
     }
     for (uint32_t to = 0; to < nodes.size(); ++to)
         for (uint32_t toRow = 0; toRow < nodes[to].rows.size(); ++toRow) {
@@ -194,8 +194,7 @@ bool Curve::crosses(ImVec2 from, ImVec2 to) const {
     return false;
 }
 
-Hit hitTest(const Boxes& boxes, const std::vector<Frame>& frames, std::string_view scope, ImVec2 p,
-            float reach) {
+Hit hitTest(const Boxes& boxes, ImVec2 p, float reach) {
     using What = Hit::What;
     for (uint32_t i = uint32_t(boxes.nodes.size()); i-- > 0;) {
         const NodeBox& box = boxes.nodes[i];
@@ -229,9 +228,10 @@ Hit hitTest(const Boxes& boxes, const std::vector<Frame>& frames, std::string_vi
         if (const float d = wire.distance(p); d < least) least = d, nearest = {What::wire, i};
     }
     if (nearest.what == What::wire) return nearest;
-    for (uint32_t i = uint32_t(frames.size()); i-- > 0;) {
-        if (frames[i].scope != scope) continue;
-        const ImVec2 lo = vec(frames[i].at), hi = lo + vec(frames[i].size);
+    for (uint32_t i = uint32_t(boxes.frames.size()); i-- > 0;) {
+        const Frame& frame = boxes.frames[i];
+        if (frame.scope != boxes.scope) continue;
+        const ImVec2 lo = vec(frame.at), hi = lo + vec(frame.size);
         if (!Area{lo, hi}.contains(p)) continue;
         if (p.x > hi.x - kFrameCorner && p.y > hi.y - kFrameCorner) return {What::frameCorner, i};
         return {p.y < lo.y + kFrameTitle ? What::frameTitle : What::frame, i};

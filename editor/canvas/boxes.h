@@ -53,6 +53,8 @@ struct Boxes {
     std::vector<NodeBox> nodes;
     std::unordered_map<std::string_view, uint32_t> byId;
     std::vector<Wire> wires;
+    std::vector<Frame> frames;  ///< of the whole document, as framesOf() has them
+    std::string scope;
 
     const NodeBox* find(std::string_view id) const;
     const Row* row(const Plug& plug, bool output) const;
@@ -97,8 +99,7 @@ struct Hit {
     int component = 0;  ///< of a field
 };
 /// `p` in canvas units; `reach` is how far off a socket or wire still counts. Later nodes lie above earlier.
-Hit hitTest(const Boxes& boxes, const std::vector<Frame>& frames, std::string_view scope, ImVec2 p,
-            float reach);
+Hit hitTest(const Boxes& boxes, ImVec2 p, float reach);
 
 /// "half_extents" as people read it: "Half extents".
 std::string readable(std::string_view name);

@@ -10,7 +10,7 @@
 //     middle, Space + left drag    pan; the wheel zooms to the cursor
 //     right click                  asks for the add menu
 //     Ctrl + right drag            cuts wires; with Shift a reroute in each; with Alt connects two nodes
-//     double click                 enters a group
+//     double click                 enters a group; on a frame's title: its words and colour
 #pragma once
 
 #include <map>
@@ -18,6 +18,7 @@
 
 #include "editor/canvas/fields.h"
 #include "editor/shell/shell.h"
+#include "graph/compile.h"
 
 namespace fw::editor {
 
@@ -29,17 +30,18 @@ struct CanvasWishes {
         bool plugIsOutput = false;
     };
     std::optional<Add> add;
-    std::string enter;     ///< the id of a group
-    std::string activate;  ///< the id of a node to be shown in the preview
+    std::string enter;                 ///< the id of a group
+    std::string activate;              ///< the id of a node to be shown in the preview
+    std::optional<std::size_t> frame;  ///< the index of a comment frame whose words are to be changed
 };
 
 /// What the canvas shows besides the document.
 struct CanvasMarks {
     std::map<std::string, const Error*, std::less<>>
         findings;  ///< by node id within the scope, the worst of each
-    std::map<std::string, std::string, std::less<>> exactness;  ///< by node id: what is said of its wires
-    std::string spoiledBy;                                      ///< the node that spoiled the field
-    std::string pinned;                                         ///< the node that the preview shows
+    std::map<std::string, NodeExactness, std::less<>> exactness;  ///< by node id
+    std::string spoiledBy;                                        ///< the node that spoiled the field
+    std::string pinned;                                           ///< the node that the preview shows
 };
 
 struct Canvas {
@@ -90,8 +92,7 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
                         const Shell& shell);
 
 /// Draws boxes, wires, frames and minimap (used by showCanvas).
-void drawCanvas(const Canvas& canvas, const Boxes& boxes, const std::vector<Frame>& frames,
-                const CanvasMarks& marks, const Shell& shell);
+void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell);
 /// Where the minimap is, pixels, and the part of the canvas that it shows.
 Area minimapArea(const CanvasView& view);
 Area minimapShows(const Canvas& canvas, const Boxes& boxes);

@@ -55,9 +55,9 @@ void drawGrid(const Pen& pen) {
     }
 }
 
-void drawFrames(const Pen& pen, const std::vector<Frame>& frames, std::string_view scope) {
-    for (const Frame& frame : frames) {
-        if (frame.scope != scope) continue;
+void drawFrames(const Pen& pen, const Boxes& boxes) {
+    for (const Frame& frame : boxes.frames) {
+        if (frame.scope != boxes.scope) continue;
         const ImVec2 at = vec(frame.at), size = vec(frame.size);
         const Area area = pen.view.toScreen(Area{at, {at.x + size.x, at.y + size.y}});
         if (!area.overlaps(pen.view.panel)) continue;
@@ -288,14 +288,13 @@ Area minimapShows(const Canvas& canvas, const Boxes& boxes) {
     return {{middle.x - half, middle.y - half / aspect}, {middle.x + half, middle.y + half / aspect}};
 }
 
-void drawCanvas(const Canvas& canvas, const Boxes& boxes, const std::vector<Frame>& frames,
-                const CanvasMarks& marks, const Shell& shell) {
+void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell) {
     const float size = kTextSize * canvas.view.unit();
     const Pen pen{ImGui::GetWindowDrawList(), canvas.view, shell.fonts().of(size), size};
     pen.list->PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
     pen.list->AddRectFilled(canvas.view.panel.lo, canvas.view.panel.hi, themeColor(ThemeColor::canvas));
     drawGrid(pen);
-    drawFrames(pen, frames, canvas.scope);
+    drawFrames(pen, boxes);
     drawWires(pen, canvas, boxes, marks);
     const Area seen = canvas.view.seen().grown(2 * kSocketRadius);
     for (const NodeBox& box : boxes.nodes)

@@ -173,7 +173,7 @@ void showSwitch(Document& document, std::string_view scope, const NodeBox& box, 
 
 std::set<std::string> FieldEdit::held() const {
     if (state != State::dragging) return {};
-    return {input.node + "." + input.name};
+    return {(scope.empty() ? "" : scope + "/") + input.node + "." + input.name};
 }
 
 Result<double> numberOf(std::string_view text) {

@@ -31,7 +31,7 @@ struct FieldEdit {
     bool is(std::string_view of, const Plug& plug, int part) const {
         return state != State::none && scope == of && input == plug && component == part;
     }
-    /// "node.input" of what the hand holds, with the ids of groups before it; nothing otherwise.
+    /// "node.input" of what the hand holds, in a group "group/node.input"; nothing otherwise.
     std::set<std::string> held() const;
 };
 

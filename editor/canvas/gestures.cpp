@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "editor/canvas/canvas.h"
+#include "graph/reference.h"
 
 namespace fw::editor {
 
@@ -36,12 +37,11 @@ struct Hand {
     Canvas& canvas;
     Document& document;
     const Boxes& boxes;
-    const std::vector<Frame>& frames;
     CanvasWishes wishes = {};
 
     const ImGuiIO& io = ImGui::GetIO();
     ImVec2 mouse = canvas.view.toCanvas(io.MousePos);
-    Hit hit = hitTest(boxes, frames, canvas.scope, mouse, kReach / canvas.view.unit());
+    Hit hit = hitTest(boxes, mouse, kReach / canvas.view.unit());
 
     NodeIds chosen() const { return {canvas.selection.begin(), canvas.selection.end()}; }
 
@@ -119,7 +119,7 @@ struct Hand {
                                 ? connect(document.graph(), canvas.scope, canvas.plug, *plug)
                                 : connect(document.graph(), canvas.scope, *plug, canvas.plug));
         } else if (canvas.refused.empty() && hit.what != What::node && hit.what != What::title &&
-                   !(document.graph() == canvas.base && hit.what == What::field)) {
+                   hit.what != What::field) {
             // Over the canvas: a wire that was taken off stays off, a new one asks what is to be added.
             const bool tookOff = canvas.plugIsOutput && canvas.pressed.what == What::input;
             if (!tookOff) wishes.add = {mouse, canvas.plug, canvas.plugIsOutput};
@@ -235,7 +235,7 @@ struct Hand {
 
     /// From the node where the drag began to the one where it ends, by the first sockets that fit.
     void connectLazily() {
-        const Hit start = hitTest(boxes, frames, canvas.scope, canvas.begin, kReach / canvas.view.unit());
+        const Hit start = hitTest(boxes, canvas.begin, kReach / canvas.view.unit());
         const auto nodeOf = [&](const Hit& at) -> const NodeBox* {
             const bool none = at.what == What::nothing || at.what == What::wire || at.what == What::frame ||
                               at.what == What::frameTitle || at.what == What::frameCorner;
@@ -390,16 +390,28 @@ struct Hand {
                          speed * std::clamp(push(io.MousePos.y, panel.lo.y, panel.hi.y), -60.0f, 60.0f)});
     }
 
+    /// Type of what the wire carries; of a surface how far its distance can be trusted, and whose fault it
+    /// is.
+    void describeWire(const Wire& wire, const CanvasMarks& marks) const {
+        const NodeBox& from = boxes.nodes[wire.from];
+        const Row& row = from.rows[wire.fromRow];
+        std::string text = titleOf(from) + " › " + titleOf(boxes.nodes[wire.to]);
+        if (row.type) text += "\n" + std::string(typeName(*row.type));
+        const auto exactness = marks.exactness.find(from.node->id);
+        if (row.type == Type::surface && exactness != marks.exactness.end()) {
+            const auto& [trust, spoiledBy] = exactness->second;
+            text += ", distance: " + exactnessText(trust);
+            if (!trust.exact()) text += "\nnot exact since " + spoiledBy;
+        }
+        ImGui::SetTooltip("%s", text.c_str());
+    }
+
     void hover(const CanvasMarks& marks) const {
         if (!canvas.refused.empty()) return ImGui::SetTooltip("%s", canvas.refused.c_str());
         if (canvas.gesture != Gesture::none || hit.what == What::nothing ||
             ImGui::GetTime() - canvas.restedSince < kTooltipWait)
             return;
-        if (hit.what == What::wire) {
-            const auto said = marks.exactness.find(boxes.nodes[boxes.wires[hit.index].from].node->id);
-            if (said != marks.exactness.end()) ImGui::SetTooltip("%s", said->second.c_str());
-            return;
-        }
+        if (hit.what == What::wire) { return describeWire(boxes.wires[hit.index], marks); }
         if (hit.what == What::frame || hit.what == What::frameTitle || hit.what == What::frameCorner) return;
         const NodeBox& box = boxes.nodes[hit.index];
         if (hit.what == What::input || hit.what == What::output || hit.what == What::field)
@@ -434,9 +446,8 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     canvas.view.panel = {at, {at.x + std::max(room.x, 1.0f), at.y + std::max(room.y, 1.0f)}};
     canvas.view.scale = shell.scale();
     if (canvas.frameNext) canvas.view.frame(boxes.around()), canvas.frameNext = false;
-    const std::vector<Frame> frames = framesOf(document.graph());
     const uint64_t revision = document.revision();
-    drawCanvas(canvas, boxes, frames, marks, shell);
+    drawCanvas(canvas, boxes, marks, shell);
 
     const ImGuiIO& io = ImGui::GetIO();
     const bool hovered = ImGui::IsWindowHovered() && canvas.view.panel.contains(io.MousePos);
@@ -459,7 +470,7 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     if (document.revision() != revision) return {};
 
     if (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f) canvas.restedSince = ImGui::GetTime();
-    Hand hand{canvas, document, boxes, frames};
+    Hand hand{canvas, document, boxes};
     if (hovered && io.MouseWheel != 0.0f && canvas.field.state == FieldEdit::State::none)
         canvas.view.zoomTo(canvas.view.zoom * std::pow(kWheel, io.MouseWheel), io.MousePos);
     if (canvas.gesture != Gesture::none) {
@@ -467,7 +478,10 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
         hand.during();
     } else if (hovered && canvas.field.state == FieldEdit::State::none) {
         hand.hover(marks);
-        if (ImGui::IsMouseDoubleClicked(0) && (hand.hit.what == What::title || hand.hit.what == What::node)) {
+        if (ImGui::IsMouseDoubleClicked(0) && hand.hit.what == What::frameTitle) {
+            hand.wishes.frame = hand.hit.index;
+        } else if (ImGui::IsMouseDoubleClicked(0) &&
+                   (hand.hit.what == What::title || hand.hit.what == What::node)) {
             hand.wishes.enter = boxes.nodes[hand.hit.index].node->group;
             if (hand.wishes.enter.empty()) hand.press();
         } else if (ImGui::IsMouseClicked(0)) {

@@ -5,6 +5,7 @@
 
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "graph/reference.h"
 
 namespace fw::editor {
 
@@ -76,7 +77,7 @@ void showFindings(const Editor& editor, const std::string& path) {
 void showExactness(const Editor& editor, const std::string& id) {
     const CanvasMarks marks = marksOf(editor);
     if (const auto said = marks.exactness.find(id); said != marks.exactness.end())
-        wrapped(themeColor(ThemeColor::quiet), "Distance: " + said->second);
+        wrapped(themeColor(ThemeColor::quiet), "Distance: " + exactnessText(said->second.exactness));
     if (marks.spoiledBy == id)
         wrapped(themeColor(ThemeColor::warning), "From this node on the field is no exact distance.");
 }

@@ -29,10 +29,8 @@ struct Input {
         std::string name = value ? setName() : "Reset " + readable(row.name) + " of " + titleOf(box);
         editor.document.apply(std::move(name), setInput(graph(), scope(), plug, std::move(value)));
     }
-    /// The input as PreviewWish::held has it; empty in groups, where it is one of every instance.
-    std::string held() const {
-        return editor.canvas.scope.empty() ? plug.node + "." + plug.name : std::string();
-    }
+    /// The input as HeldValue has it.
+    std::string held() const { return pathOf(editor, plug.node) + "." + plug.name; }
 };
 
 bool isColor(const Row& row) { return row.spec && row.spec->unit == "color" && row.type == Type::vec3; }

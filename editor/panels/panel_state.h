@@ -30,7 +30,7 @@ struct TextEdit {
 struct HeldValue {
     ImGuiID field = 0;  ///< 0: none
     int frame = 0;
-    std::set<std::string> inputs;  ///< "node.input" of what it moves, as in PreviewWish::held
+    std::set<std::string> inputs;  ///< "node.input" of what it moves, as in FieldEdit::held()
 };
 
 struct PanelState {

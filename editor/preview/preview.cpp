@@ -63,6 +63,7 @@ struct Preview::Shared {
                     .seen = ready->seen,
                     .region = ready->region,
                     .spoiledBy = ready->spoiledBy,
+                    .exactness = ready->exactness,
                     .statistics = ready->statistics};
         }
         if (changed) changed();
@@ -170,6 +171,7 @@ void Maker::load() {
     } else {
         result.spoiledBy = player->program().spoiledBy;
         result.region = player->region();
+        result.exactness = player->program().nodeExactness;
     }
     loading = millisecondsSince(start);
 }

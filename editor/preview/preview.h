@@ -8,14 +8,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "graph/graph.h"
-#include "graph/result.h"
+#include "graph/compile.h"
 #include "runtime/session.h"
 
 namespace fw::editor {
@@ -50,6 +50,7 @@ struct PreviewResult {
     Camera seen = {};            ///< what it was seen by
     Box region = {};             ///< that the solid lies in, metres
     std::string spoiledBy = {};  ///< the node since which the field is no exact distance
+    std::map<std::string, NodeExactness, std::less<>> exactness = {};  ///< as Program::nodeExactness
     PreviewStatistics statistics = {};
     std::string failure = {};  ///< the device or the system failed; the preview has stopped
 };

@@ -104,7 +104,7 @@ TEST(Boxes, BrokenDocumentsAreDrawnTheSame) {
 TEST(HitTest, FindsWhatIsThere) {
     const Graph graph = parsed(kSmall);
     const Boxes boxes(graph, "");
-    const auto at = [&](ImVec2 p) { return hitTest(boxes, {}, "", p, 8.0f); };
+    const auto at = [&](ImVec2 p) { return hitTest(boxes, p, 8.0f); };
     const NodeBox& ball = boxes.nodes[0];
     EXPECT_EQ(at({90, 10}).what, Hit::What::title);
     EXPECT_EQ(at({-500, -500}).what, Hit::What::nothing);
@@ -131,17 +131,19 @@ TEST(HitTest, WhatIsDrawnLastIsHitFirst) {
     Graph graph = parsed(kSmall);
     graph.nodes[1].at = graph.nodes[0].at;
     const Boxes boxes(graph, "");
-    EXPECT_EQ(hitTest(boxes, {}, "", {90, 10}, 8.0f).index, 1u);
+    EXPECT_EQ(hitTest(boxes, {90, 10}, 8.0f).index, 1u);
 }
 
 TEST(HitTest, FramesLieBelowEverything) {
-    const Graph graph = parsed(kSmall);
-    const Boxes boxes(graph, "");
     Frame frame;
     frame.at = {-50, -50};
     frame.size = {400, 400};
-    const std::vector<Frame> frames = {frame};
-    const auto at = [&](ImVec2 p) { return hitTest(boxes, frames, "", p, 8.0f).what; };
+    Frame elsewhere = frame;
+    elsewhere.scope = "group";
+    const Graph graph = setFrame(setFrame(parsed(kSmall), 0, frame), 1, elsewhere);
+    const Boxes boxes(graph, "");
+    EXPECT_EQ(hitTest(boxes, {-40, -40}, 8.0f).index, 0u);
+    const auto at = [&](ImVec2 p) { return hitTest(boxes, p, 8.0f).what; };
     EXPECT_EQ(at({-40, -40}), Hit::What::frameTitle);
     EXPECT_EQ(at({345, 345}), Hit::What::frameCorner);
     EXPECT_EQ(at({-40, 100}), Hit::What::frame);
