@@ -69,7 +69,9 @@ void showViewport(Editor& editor) {
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
     view.hovered = ImGui::IsItemHovered();
-    navigate(view);
+    const ImGuiIO& io = ImGui::GetIO();
+    if (navigate(view)) pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
+    if (const Aside::Answer answer = view.aside.take()) answer(editor);
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     if (view.texture) list->AddImage(view.texture, place.lo, place.hi);

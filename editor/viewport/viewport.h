@@ -15,6 +15,8 @@
 
 #include "editor/canvas/view.h"
 #include "editor/preview/preview.h"
+#include "editor/shell/shell.h"
+#include "editor/viewport/aside.h"
 #include "editor/viewport/orbit.h"
 
 namespace fw::editor {
@@ -44,6 +46,7 @@ struct Viewport {
     Area place;  ///< of the picture, pixels of the window
     bool hovered = false;
     CameraDrag drag;
+    Aside aside{[] { Shell::wake(); }};
 
     /// Pixels that the picture should have; 0 before the first frame.
     int width() const;
@@ -60,7 +63,10 @@ bool flies(const Viewport& viewport);
 
 /// Looks from a side at what it looks at.
 void lookFrom(Viewport& viewport, Side side);
-/// As far away as all of the solid is seen.
+/// As near as all of the solid is seen.
 void frameSolid(Viewport& viewport);
+/// Looks for the node whose shape is under the mouse, and selects it when it is found: in place of what is
+/// selected, or besides.
+void pickUnderMouse(Editor& editor, bool besides);
 
 }  // namespace fw::editor

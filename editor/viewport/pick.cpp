@@ -1,0 +1,262 @@
+#include "editor/viewport/pick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "editor/document/edits.h"
+#include "editor/preview/pinned.h"
+#include "graph/compile.h"
+#include "graph/region.h"
+#include "graph/sockets.h"
+#include "graph/tape.h"
+#include "graph/timeline.h"
+#include "runtime/render/view.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr int kHalvings = 13;  // of the ray's way through the region: finer than a pixel sees it
+constexpr int kRefinings = 30;
+
+/// The document as it is shown at a time.
+Graph shownAt(const Graph& graph, const std::string& pinned, double& seconds) {
+    Graph shown = showingNode(graph, pinned);
+    const Result<Timeline> timeline = readTimeline(shown);
+    if (!timeline) return shown;
+    seconds = timelineTime(*timeline, seconds);
+    return atTime(shown, *timeline, seconds);
+}
+
+/// Behind the nodes that begin a surface, offsets.
+class Probes {
+  public:
+    explicit Probes(Graph graph_) : probed(std::move(graph_)) {
+        const Graph plain = probed;
+        const Groups groups(plain);
+        probe(Scope(groups, plain.nodes, nullptr), probed.nodes, "");
+        for (std::size_t i = 0; i < plain.groups.size(); ++i)
+            probe(Scope(groups, plain.groups[i].nodes, &groups.list[i]), probed.groups[i].nodes,
+                  plain.groups[i].id);
+        name(probed.nodes, "", {});
+    }
+
+    const Graph& graph() const { return probed; }
+    std::set<std::string> live() const {
+        std::set<std::string> names;
+        for (const auto& [parameter, path] : paths) names.insert(parameter);
+        return names;
+    }
+    /// Of the node whose offset this live parameter is.
+    const std::vector<std::string>& path(const std::string& parameter) const { return paths.at(parameter); }
+
+  private:
+    static bool isSurface(const std::optional<Socket>& socket) {
+        return socket && (socket->type == Type::surface || socket->type == Type::mesh);
+    }
+
+    /// The output that feeds an input, reroutes passed over.
+    static const Link* source(const Scope& scope, const InputValue& value) {
+        const Link* link = std::get_if<Link>(&value.value);
+        while (link) {
+            const auto found = scope.byId.find(link->node);
+            if (found == scope.byId.end()) return nullptr;
+            if (!scope.is(found->second, "reroute")) return link;
+            const InputValue* fed = scope.nodes[found->second].input("value");
+            link = fed ? std::get_if<Link>(&fed->value) : nullptr;
+        }
+        return nullptr;
+    }
+
+    /// Whether a surface passes through this link into this input.
+    static bool carriesSurface(const Scope& scope, uint32_t into, const std::string& name, const Link& link) {
+        return isSurface(outputSocket(scope, scope.byId.at(link.node), link.output)) ||
+               isSurface(inputSocket(scope, into, name));
+    }
+
+    void probe(const Scope& scope, std::vector<Node>& nodes, const std::string& inScope) {
+        std::set<std::string> fed;  // with a surface
+        const auto eachSurface = [&](auto visit) {
+            for (uint32_t i = 0; i < scope.nodes.size(); ++i) {
+                if (!hasKnownSockets(scope, i) || scope.is(i, "reroute")) continue;
+                for (const auto& [name, value] : scope.nodes[i].inputs)
+                    if (const Link* link = source(scope, value);
+                        link && hasKnownSockets(scope, scope.byId.at(link->node)) &&
+                        carriesSurface(scope, i, name, *link))
+                        visit(i, name, *link);
+            }
+        };
+        eachSurface([&](uint32_t i, const std::string&, const Link&) { fed.insert(scope.nodes[i].id); });
+        FreshIds fresh(scope.nodes);
+        std::map<std::pair<std::string, std::string>, std::string> offsets;  // by output
+        eachSurface([&](uint32_t i, const std::string& name, const Link& link) {
+            const uint32_t from = scope.byId.at(link.node);
+            if (fed.contains(link.node) || scope.is(from, "group") || scope.is(from, "group_input")) return;
+            std::string& offset = offsets[{link.node, link.output}];
+            if (offset.empty()) {
+                offset = fresh.next("probe");
+                Node node;
+                node.id = offset, node.type = "offset";
+                node.set("surface", {.value = link});
+                node.set("distance", {.value = 0.0});
+                nodes.push_back(std::move(node));
+                inner[inScope].emplace_back(offset, link.node);
+            }
+            nodes[i].set(name, {.value = Link{offset, ""}});
+        });
+    }
+
+    /// Names the live parameters of all instances of the scope that `path` leads to.
+    void name(const std::vector<Node>& nodes, const std::string& scope, std::vector<std::string> path) {
+        if (paths.size() > kMaxNodes || path.size() > std::size_t(kMaxNesting)) return;
+        std::string prefix;
+        for (const std::string& id : path) prefix += id + "/";
+        path.emplace_back();
+        for (const auto& [offset, node] : inner[scope]) {
+            path.back() = node;
+            paths[prefix + offset + ".distance"] = path;
+        }
+        for (const Node& node : nodes) {
+            const Group* group = node.type == "group" ? probed.group(node.group) : nullptr;
+            if (!group) continue;
+            path.back() = node.id;
+            name(group->nodes, group->id, path);
+        }
+    }
+
+    Graph probed;
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>> inner;  // by scope: offset, node
+    std::map<std::string, std::vector<std::string>> paths;  // of nodes, by live parameter
+};
+
+struct Ray {
+    glm::dvec3 origin, direction;
+    glm::dvec3 at(double t) const { return origin + t * direction; }
+};
+
+Ray rayThrough(const Seen& seen, double x, double y) {
+    const gpu::View view = cameraView(seen.camera, {}, float(seen.aspect));
+    return {view.eye, glm::dvec3(view.forward) + x * glm::dvec3(view.right) + y * glm::dvec3(view.up)};
+}
+
+/// Where the ray goes through the box; none if it misses it.
+std::optional<std::pair<double, double>> within(const Box& box, const Ray& ray) {
+    double from = 0.0, to = INFINITY;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t i = std::size_t(axis);
+        const double a = (box.lo[i] - ray.origin[axis]) / ray.direction[axis],
+                     b = (box.hi[i] - ray.origin[axis]) / ray.direction[axis];
+        if (std::isnan(a) || std::isnan(b)) return std::nullopt;
+        from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
+    }
+    if (from >= to) return std::nullopt;
+    return std::pair(from, to);
+}
+
+/// The field along a ray.
+class Along {
+  public:
+    Along(TapeMachine& machine_, const Ray& ray_) : machine(machine_), ray(ray_) {}
+
+    /// Where between the two the field is negative first.
+    std::optional<double> hit(const Tape& tape, double from, double to, int halvings = kHalvings) {
+        const glm::dvec3 a = ray.at(from), b = ray.at(to), lo = glm::min(a, b), hi = glm::max(a, b);
+        const Interval range = machine.interval(tape, {{lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}});
+        if (range.lo >= 0.0) return std::nullopt;
+        const Tape inside = machine.shortened(tape);
+        if (halvings == 0) {
+            if (value(inside, to) >= 0.0) return std::nullopt;
+            for (int i = 0; i < kRefinings; ++i) {
+                const double middle = 0.5 * (from + to);
+                (value(inside, middle) < 0.0 ? to : from) = middle;
+            }
+            return to;
+        }
+        const double middle = 0.5 * (from + to);
+        const std::optional<double> first = hit(inside, from, middle, halvings - 1);
+        return first ? first : hit(inside, middle, to, halvings - 1);
+    }
+
+  private:
+    double value(const Tape& tape, double t) {
+        const glm::dvec3 p = ray.at(t);
+        for (int axis = 0; axis < 3; ++axis) *machine.position(axis) = p[axis];
+        return *machine.value(tape, 1);
+    }
+
+    TapeMachine& machine;
+    const Ray& ray;
+};
+
+/// The derivatives of the root at a point by each parameter, backwards from the root.
+std::vector<double> slopesByParameter(const Ir& ir, IrId root, std::span<const double> parameters,
+                                      const glm::dvec3& point) {
+    std::vector<double> values(root + 1), slopes(root + 1), byParameter(parameters.size());
+    for (IrId id = 0; id <= root; ++id) {
+        const IrNode& node = ir[id];
+        const OpInfo& info = opInfo(node.op);
+        double operands[kMaxArity];
+        for (int i = 0; i < info.arity; ++i) operands[i] = values[node.operands[std::size_t(i)]];
+        values[id] = id < 3                     ? point[int(id)]
+                     : node.op == Op::parameter ? parameters[std::size_t(node.number)]
+                     : info.arity == 0          ? node.number
+                                                : info.value(operands, ir.layer(node));
+    }
+    slopes[root] = 1.0;
+    for (IrId id = root + 1; id-- > 0;) {
+        const IrNode& node = ir[id];
+        const OpInfo& info = opInfo(node.op);
+        if (node.op == Op::parameter) byParameter[std::size_t(node.number)] += slopes[id];
+        if (slopes[id] == 0.0 || info.arity == 0) continue;
+        // A batch of directions, each along one operand, gives the partial derivatives.
+        double operands[kMaxArity][kMaxArity] = {}, directions[kMaxArity][kMaxArity] = {}, results[kMaxArity],
+               partial[kMaxArity];
+        const double *values_[kMaxArity], *directions_[kMaxArity];
+        for (int i = 0; i < kMaxArity; ++i) {
+            const std::size_t operand = std::size_t(i < info.arity ? i : 0);
+            std::fill_n(operands[i], kMaxArity, values[node.operands[operand]]);
+            directions[i][i] = i < info.arity ? 1.0 : 0.0;
+            values_[i] = operands[i], directions_[i] = directions[i], results[i] = values[id];
+        }
+        info.gradients(values_, results, directions_, partial, std::size_t(info.arity), ir.layer(node));
+        for (int i = 0; i < info.arity; ++i)
+            if (partial[i] != 0.0 && std::isfinite(partial[i]))
+                slopes[node.operands[std::size_t(i)]] += slopes[id] * partial[i];
+    }
+    return byParameter;
+}
+
+}  // namespace
+
+std::vector<std::string> pick(const Seen& seen, double x, double y) {
+    double seconds = seen.seconds;
+    const Probes probes(shownAt(*seen.graph, seen.pinned, seconds));
+    CompileOptions options;
+    options.live = probes.live();
+    options.time = seconds;
+    const Result<Program> program = compile(probes.graph(), options);
+    if (!program) return {};
+    const Ray ray = rayThrough(seen, x, y);
+    const auto part = within(seen.region, ray);
+    if (!part) return {};
+    const std::vector<double> parameters = program->parameters();
+    TapeMachine machine(program->ir, parameters);
+    const auto t =
+        Along(machine, ray).hit(makeTape(program->ir, program->distance()), part->first, part->second);
+    if (!t) return {};
+    const std::vector<double> slopes =
+        slopesByParameter(program->ir, program->distance(), parameters, ray.at(*t));
+    const auto most = std::ranges::max_element(slopes, {}, [](double slope) { return std::abs(slope); });
+    if (most == slopes.end() || *most == 0.0) return {};
+    return probes.path(program->live[std::size_t(most - slopes.begin())].name);
+}
+
+std::optional<Box> solidOf(const Graph& graph, const std::string& node, double seconds) {
+    const Result<Program> program = compile(shownAt(graph, node, seconds), {.live = {}, .time = seconds});
+    if (!program) return std::nullopt;
+    const Region region = findRegion(program->ir, program->distance(), program->parameters());
+    return region.extent == Extent::bounded ? std::optional(region.box) : std::nullopt;
+}
+
+}  // namespace fw::editor
