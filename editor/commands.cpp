@@ -124,6 +124,7 @@ constexpr Command kCommands[] = {
     {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
     {"file.save", "File", "Save", "Ctrl+S", always, [](Editor& e) { save(e); }},
     {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", always, saveAs},
+    {"file.export", "File", "Export …", "Ctrl+E", always, openExport},
     {"edit.undo", "Edit", "Undo", "Ctrl+Z", [](const Editor& e) { return e.document.canUndo(); },
      [](Editor& e) { e.document.undo(); }},
     {"edit.redo", "Edit", "Redo", "Ctrl+Shift+Z Ctrl+Y", [](const Editor& e) { return e.document.canRedo(); },

@@ -112,8 +112,11 @@ void showCanvasPart(Editor& editor) {
 
 }  // namespace
 
-Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device)
-    : shell(shell_), document(placeAll(opened)), preview(std::move(device), [] { Shell::wake(); }) {
+Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device_)
+    : shell(shell_),
+      device(std::move(device_)),
+      document(placeAll(opened)),
+      preview(device, [] { Shell::wake(); }) {
     // Places that nodes lacked are no edit of the user's.
     document.markSaved();
     drawAnew(*this);
@@ -185,6 +188,7 @@ void showEditor(Editor& editor) {
     }
     showStatus(editor);
     showFiles(editor);
+    showExport(editor);
     ImGui::End();
 }
 

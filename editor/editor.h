@@ -15,6 +15,7 @@
 #include "editor/canvas/canvas.h"
 #include "editor/document/document.h"
 #include "editor/files/files.h"
+#include "editor/panels/export_dialog.h"
 #include "editor/panels/panel_state.h"
 #include "editor/preview/preview.h"
 #include "editor/viewport/viewport.h"
@@ -46,6 +47,7 @@ struct Editor {
     Editor(Shell& shell, Graph graph, DeviceOptions device);
 
     Shell& shell;
+    DeviceOptions device;  ///< that makes meshes
     Document document;
     Canvas canvas;
     Viewport viewport;
@@ -57,6 +59,7 @@ struct Editor {
     double noticeUntil = 0.0;  ///< seconds of ImGui's clock
     bool quit = false;
     Files files;
+    ExportDialog exporting;
 
     /// The document as it is drawn: of revision `drawn`.
     std::shared_ptr<const Graph> graph;

@@ -1,7 +1,5 @@
 // `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request.
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -15,28 +13,6 @@ namespace fw::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// |f| / |gradient f| by the CPU reference; none on the faces of `region`, where a solid that leaves it was
-/// closed.
-FieldError fieldError(const Program& program, const Box& region) {
-    return [&program, region](std::span<const glm::dvec3> points, std::span<double> errors) {
-        std::vector<Point> positions(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i)
-            positions[i] = {points[i].x, points[i].y, points[i].z};
-        std::vector<ValueGradient> results(points.size());
-        evaluateGradient(program.ir, program.distance(), program.parameters(), positions, results);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Point& g = results[i].gradient;
-            const double slope = std::hypot(g[0], g[1], g[2]);
-            errors[i] = std::abs(results[i].value) / (slope > 1e-12 ? slope : 1.0);
-            double beyond = -INFINITY;
-            for (int axis = 0; axis < 3; ++axis)
-                beyond = std::max(
-                    {beyond, region.lo[axis] - positions[i][axis], positions[i][axis] - region.hi[axis]});
-            if (results[i].value < 0.0) errors[i] = std::min(errors[i], std::abs(beyond));
-        }
-    };
-}
 
 Done writeText(const std::string& path, const std::string& text) {
     Result<OutputFile> file = OutputFile::open(path, nullptr);
@@ -56,7 +32,7 @@ int runExport(const ExportOptions& options) {
         return print(distinct.error()), kBadUsage;
     Progress progress;
     int status = kDone;
-    std::optional<MeshedGraph> opened = meshGraph(options.mesh, progress, !options.report.empty(), status);
+    std::optional<MeshedProgram> opened = meshGraph(options.mesh, progress, !options.report.empty(), status);
     if (!opened) return status;
     Session& session = opened->session;
     const MesherResult& meshed = opened->mesh;

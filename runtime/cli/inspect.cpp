@@ -10,6 +10,7 @@
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
 #include "runtime/gpu/shader.h"
+#include "runtime/mesh_program.h"
 
 namespace fw::cli {
 
@@ -40,18 +41,11 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
     return std::move(*graph);
 }
 
-std::optional<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions compileOptions) {
-    const Timeline timeline = *readTimeline(graph);
-    compileOptions.time = timelineTime(timeline, seconds);
-    Result<Program> program = compile(atTime(graph, timeline, compileOptions.time), compileOptions);
-    if (!program) {
-        Error error = program.error();
-        if (error.message == language::kDivisionByZero)  // not always, or check() would have found it
-            error.message += " at " + std::to_string(compileOptions.time) + " s with these parameters";
-        print(error);
-        return std::nullopt;
-    }
-    return std::move(*program);
+std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions compileOptions) {
+    Result<Program> program = compileAtTime(graph, seconds, std::move(compileOptions));
+    if (program) return std::move(*program);
+    print(program.error());
+    return std::nullopt;
 }
 
 int runCheck(const std::vector<std::string>& paths) {
@@ -90,7 +84,7 @@ int runEval(const EvalOptions& options) {
         }
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;
-    const std::optional<Program> program = compileAtTime(*graph, options.graph.time);
+    const std::optional<Program> program = openProgram(*graph, options.graph.time);
     if (!program) return kBadInput;
     if (!options.at.empty()) {
         const Point point{options.at[0], options.at[1], options.at[2]};
@@ -116,8 +110,7 @@ int runCompile(const CompileCommandOptions& options) {
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;
     if (const Done known = checkLive(*graph, compileOptions); !known) return print(known.error()), kBadInput;
-    const std::optional<Program> program =
-        compileAtTime(*graph, options.graph.time, std::move(compileOptions));
+    const std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return kBadInput;
     std::fprintf(stderr, "%zu operations, structure %016llx, %s\n", program->ir.size(),
                  static_cast<unsigned long long>(program->structureHash),

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <future>
 
 #include "graph/glsl.h"
@@ -47,42 +46,6 @@ int badInput(const MeshOptions& options, Error error) {
     return kBadInput;
 }
 
-Error nothingToSee(bool given, const Box& region, int resolution) {
-    Error error;
-    error.message =
-        "the surface does not pass through the region: move or enlarge --region, or raise --resolution";
-    if (given) return error;
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region.hi[axis] - region.lo[axis]);
-    char cell[32];
-    std::snprintf(cell, sizeof cell, "%.3g", longest / resolution);
-    error.message = "the solid is empty or thinner than a cell of " + std::string(cell) +
-                    " m: raise --resolution, or give a smaller --region";
-    return error;
-}
-
-Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs) {
-    namespace fs = std::filesystem;
-    std::error_code failure;
-    const auto place = [&](const std::string& path) {
-        return fs::weakly_canonical(fs::absolute(path, failure), failure);
-    };
-    std::vector<std::string> seen{graph};
-    for (const std::string& output : outputs) {
-        for (const std::string& other : seen) {
-            const fs::path path = place(output);  // empty if it cannot be found out
-            // equivalent() knows names that the file system takes for one.
-            if ((!path.empty() && path == place(other)) || fs::equivalent(output, other, failure))
-                return Error{.message = &other == &seen.front()
-                                            ? "this would replace the graph: write to another file"
-                                            : "two outputs would go to this file: write to another file",
-                             .file = output};
-        }
-        seen.push_back(output);
-    }
-    return done();
-}
-
 int stopped() {
     std::fprintf(stderr, "fieldwright: interrupted; nothing was written\n");
     return kInterrupted;
@@ -108,8 +71,8 @@ bool readRegion(const MeshOptions& options, std::optional<Box>& region) {
 
 }  // namespace
 
-std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
-                                     int& status) {
+std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
+                                       int& status) {
     const auto fail = [&status](int with) {
         status = with;
         return std::nullopt;
@@ -125,7 +88,7 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return fail(kBadInput);
     progress.start("compile", 5);
-    std::optional<Program> program = compileAtTime(*graph, options.graph.time);
+    std::optional<Program> program = openProgram(*graph, options.graph.time);
     if (!program) return fail(kBadInput);
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution)};
@@ -137,19 +100,16 @@ std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progr
     if (!device) return print(device.error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
 
-    MeshedGraph meshed{Session(std::move(*device)), {}, *box};
-    progress.start("pipelines", 20, kCompiling);
-    meshed.session.setProgram(std::move(*program));
+    const auto starts = [&](const char* stage) {
+        const bool meshes = std::string_view(stage) == "mesh";
+        if (!interrupted) progress.start(stage, meshes ? 50 : 20, meshes ? nullptr : kCompiling);
+        return !interrupted.load();
+    };
+    Result<MeshedProgram> meshed =
+        meshProgram(std::move(*device), std::move(*program), request, *box, starts, timed);
     if (interrupted) return fail(stopped());
-    progress.start("mesh", 50);
-    Result<MesherResult> mesh = meshed.session.polygonise({*box, request.resolution}, timed);
-    if (!mesh) return fail(badInput(options, mesh.error()));
-    if (mesh->triangles == 0)
-        return fail(badInput(
-            options, nothingToSee(region || meshed.session.program().region, *box, request.resolution)));
-    if (interrupted) return fail(stopped());
-    meshed.mesh = std::move(*mesh);
-    return meshed;
+    if (!meshed) return fail(badInput(options, meshed.error()));
+    return std::move(*meshed);
 }
 
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& wishes,

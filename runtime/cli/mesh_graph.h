@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
+#include "runtime/mesh_program.h"
 #include "runtime/player.h"
 
 namespace fw::cli {
@@ -45,15 +46,10 @@ class BeforeOutput {
     bool before;
 };
 
-struct MeshedGraph {
-    Session session;
-    MesherResult mesh;  ///< has triangles
-    Box region;         ///< what it was meshed in
-};
-
 /// Reads, compiles and meshes; the stages take the first 60 % of the progress. If that cannot be done, says
 /// why on standard error and sets `status` to the exit status.
-std::optional<MeshedGraph> meshGraph(const MeshOptions& options, Progress& progress, bool timed, int& status);
+std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
+                                       int& status);
 
 /// Reads the graph and makes a player of it, at the options' time; the same of progress and failure. `accept`
 /// looks at the timeline before anything takes long, and may give an exit status other than kDone.
@@ -62,12 +58,6 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
 
 /// "1280x720" to {1280, 720}. If it is not that, or no picture can have that size, says so for the command.
 std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text);
-
-/// What to say of a solid that has no triangle in `region`, which the user gave or which was found.
-Error nothingToSee(bool given, const Box& region, int resolution);
-
-/// Refuses outputs that would replace the graph or each other, whatever their names look like.
-Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs);
 
 /// Prints the error with the graph's file; returns the exit status of bad input.
 int badInput(const MeshOptions& options, Error error);

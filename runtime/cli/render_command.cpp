@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/export/export.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/render/renderer.h"
 

@@ -18,11 +18,14 @@ namespace {
 
 enum class Format { glb, gltf, obj, stl, ply };
 
-constexpr std::array<std::pair<const char*, Format>, 5> kFormats = {{{".glb", Format::glb},
-                                                                     {".gltf", Format::gltf},
-                                                                     {".obj", Format::obj},
-                                                                     {".stl", Format::stl},
-                                                                     {".ply", Format::ply}}};
+/// In the order of Format.
+constexpr ExportFormat kFormats[] = {
+    {".glb", "glTF in one file, with colours: Blender, game engines, the web"},
+    {".gltf", "glTF as text and a .bin file beside it"},
+    {".obj", "OBJ with colours and a .mtl file beside it"},
+    {".stl", "STL: the shape alone, for printing"},
+    {".ply", "PLY with colours: MeshLab and other tools for meshes"},
+};
 
 std::string lowerExtension(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -33,8 +36,8 @@ std::string lowerExtension(const std::string& path) {
 
 std::optional<Format> formatOf(const std::string& path) {
     const std::string extension = lowerExtension(path);
-    for (const auto& [known, format] : kFormats)
-        if (extension == known) return format;
+    for (std::size_t i = 0; i < std::size(kFormats); ++i)
+        if (extension == kFormats[i].ending) return Format(i);
     return std::nullopt;
 }
 
@@ -117,14 +120,38 @@ Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, Outpu
 
 }  // namespace
 
+std::span<const ExportFormat> exportFormats() { return kFormats; }
+
+Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs) {
+    namespace fs = std::filesystem;
+    std::error_code failure;
+    const auto place = [&](const std::string& path) {
+        return fs::weakly_canonical(fs::absolute(path, failure), failure);
+    };
+    std::vector<std::string> seen{graph};
+    for (const std::string& output : outputs) {
+        for (const std::string& other : seen) {
+            const fs::path path = place(output);  // empty if it cannot be found out
+            // equivalent() knows names that the file system takes for one.
+            if ((!path.empty() && path == place(other)) || fs::equivalent(output, other, failure))
+                return Error{.message = &other == &seen.front()
+                                            ? "this would replace the graph: write to another file"
+                                            : "two outputs would go to this file: write to another file",
+                             .file = output};
+        }
+        seen.push_back(output);
+    }
+    return done();
+}
+
 Done checkExportPath(const std::string& path) {
     if (formatOf(path)) return done();
     const std::string extension = lowerExtension(path);
     std::string message = extension.empty() ? "the file needs an extension that names its format: "
                                             : "unknown format '" + extension + "'; known are ";
-    for (std::size_t i = 0; i < kFormats.size(); ++i) {
-        if (i > 0) message += i + 1 < kFormats.size() ? ", " : " and ";
-        message += kFormats[i].first;
+    for (std::size_t i = 0; i < std::size(kFormats); ++i) {
+        if (i > 0) message += i + 1 < std::size(kFormats) ? ", " : " and ";
+        message += kFormats[i].ending;
     }
     return Error{.message = message, .file = path};
 }

@@ -14,6 +14,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,16 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
 
 /// The files that exportMesh writes for this path: it, then the one beside it if the format has one.
 std::vector<std::string> exportedPaths(const std::string& path);
+
+/// What exportMesh can write.
+struct ExportFormat {
+    const char* ending;  ///< ".glb"
+    const char* about;   ///< what it is good for, some words
+};
+std::span<const ExportFormat> exportFormats();
+
+/// Refuses outputs that would replace the graph or each other, whatever their names look like.
+Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs);
 
 /// Refuses, before any work is done, a path whose extension exportMesh does not know; the message lists those
 /// it does.

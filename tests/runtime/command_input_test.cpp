@@ -185,7 +185,7 @@ TEST(CommandInput, SolidsThatCannotBeMeshed) {
     expectBadGraph(ball("1"), {"does not pass through the region"},
                    {"--region", "2", "2", "2", "3", "3", "3"});
     expectBadGraph(document(R"({"id": "a", "type": "box", "inputs": {"half_extents": [100, 0.001, 100]}})"),
-                   {"empty or thinner than a cell of 6.9 m: raise --resolution"}, {"--resolution", "32"});
+                   {"empty or thinner than a cell of 6.9 m: raise the resolution"}, {"--resolution", "32"});
     expectBadGraph(ball("1"), {"too small"}, {"--region", "1e9", "0", "0", "1000000001", "1", "1"});
     expectBadGraph(ball("1e-30"), {"too small"});
     expectBadGraph(ball("1"), {"too large"}, {"--region", "-1e30", "-1", "-1", "1e30", "1", "1"});

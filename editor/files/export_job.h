@@ -1,0 +1,57 @@
+// One export to a mesh file, made beside the interface.
+//
+// A thread of its own with a device of its own does what `fieldwright export` does, with the same functions,
+// so that the file has the same bytes; editing and preview go on meanwhile. The mesh is measured before it is
+// written: until its last moment a cancelled export leaves no file and a file that stood there is as it was.
+//
+// Lifetime: a job is one export. Its destructor cancels it and waits for the stage under way to end.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/graph.h"
+#include "runtime/export/export.h"
+#include "runtime/mesh_report.h"
+#include "runtime/session.h"
+
+namespace fw::editor {
+
+struct ExportWish {
+    std::shared_ptr<const Graph> graph;
+    std::string path;           ///< of the mesh file; its ending says the format
+    MeshRequest mesh = {};      ///< as of `fieldwright export`: what is left out is found
+    double seconds = 0.0;       ///< on the timeline
+    DeviceOptions device = {};  ///< that meshes
+};
+
+/// How far an export is, and what came of it.
+struct ExportState {
+    enum class Phase : unsigned char { running, done, failed, cancelled } phase = Phase::running;
+    const char* stage = "waiting";     ///< words for what is being done
+    float part = 0.0f;                 ///< of the work that lies behind, 0 to 1
+    std::vector<Error> problems = {};  ///< why it failed
+    ExportedFiles files = {};          ///< that were written
+    Report report = {};                ///< measured from the mesh; with what it took and the device
+};
+
+class ExportJob {
+  public:
+    /// `changed` is called on the job's thread whenever the state is another: to wake the interface.
+    ExportJob(ExportWish wish, std::function<void()> changed);
+    ~ExportJob();
+
+    /// Ends it, at the latest when the stage under way ends.
+    void cancel();
+    bool cancelling() const;
+    ExportState state() const;
+
+  private:
+    struct Shared;
+    std::unique_ptr<Shared> shared;
+};
+
+}  // namespace fw::editor

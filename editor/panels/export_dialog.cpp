@@ -1,0 +1,259 @@
+#include "editor/panels/export_dialog.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "editor/editor.h"
+#include "editor/panels/properties.h"
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Phase = ExportState::Phase;
+
+constexpr double kMegabyte = 1e6;
+
+void coloured(ThemeColor color, const std::string& words) {
+    ImGui::PushStyleColor(ImGuiCol_Text, themeColor(color));
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(words.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+/// "1,234,567"
+std::string grouped(uint64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+    return text;
+}
+
+template <class... Values>
+std::string printed(const char* format, Values... values) {
+    char text[256];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+/// The format whose ending the path has; none if it has another.
+const ExportFormat* formatOf(const std::string& path) {
+    const auto formats = exportFormats();
+    const auto known = std::ranges::find_if(
+        formats, [&](const ExportFormat& format) { return fs::path(path).extension() == format.ending; });
+    return known == formats.end() ? nullptr : &*known;
+}
+
+/// Beside the document's file, or in the folder that was last looked into.
+std::string proposal(const Editor& editor) {
+    std::error_code error;
+    const fs::path file = editor.document.graph().path;
+    const std::string name = file.filename().string();
+    const fs::path folder = file.empty() ? fs::path(editor.files.browser.folder) : file.parent_path();
+    return fs::absolute(folder / ((name.empty() ? "untitled" : name.substr(0, name.find('.'))) + ".glb"),
+                        error)
+        .lexically_normal()
+        .string();
+}
+
+void showFormat(ExportDialog& dialog) {
+    propertyRow("Format");
+    const ExportFormat* chosen = formatOf(dialog.path);
+    if (!ImGui::BeginCombo("##format", chosen ? chosen->ending + 1 : "not known")) return;
+    for (const ExportFormat& format : exportFormats()) {
+        const std::string label = std::string(format.ending + 1) + "   " + format.about;
+        if (ImGui::Selectable(label.c_str(), &format == chosen))
+            dialog.path = fs::path(dialog.path).replace_extension(format.ending).string();
+    }
+    ImGui::EndCombo();
+}
+
+void showFile(ExportDialog& dialog, float scale) {
+    const float room = 90.0f * scale;
+    propertyRow("File", {}, room);
+    ImGui::InputText("##file", &dialog.path);
+    ImGui::SameLine(0, 4 * scale);
+    if (ImGui::Button("Browse …", {-1, 0})) {
+        const ExportFormat* format = formatOf(dialog.path);
+        dialog.browser.ending = format ? format->ending : exportFormats().front().ending;
+        open(dialog.browser, FileBrowser::Kind::save, dialog.path);
+    }
+}
+
+void showSettings(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    if (!beginProperties("export")) return;
+    showFormat(dialog);
+    showFile(dialog, editor.shell.scale());
+    propertyRow("Resolution");
+    bool own = !dialog.givesResolution;
+    if (ImGui::Checkbox("as the output node says##resolution", &own)) dialog.givesResolution = !own;
+    if (dialog.givesResolution) {
+        propertyRow("   cells",
+                    "Along the longest side of the region: twice as many take four to eight times "
+                    "the time and the memory.");
+        if (ImGui::InputInt("##cells", &dialog.resolution, 32, 128))
+            dialog.resolution = std::clamp(dialog.resolution, 1, kMostResolution);
+    }
+    propertyRow("Region");
+    own = !dialog.givesRegion;
+    if (ImGui::Checkbox("found from the solid##region", &own)) dialog.givesRegion = !own;
+    if (dialog.givesRegion) {
+        propertyRow("   least corner, m");
+        dragNumbers("least", std::span(dialog.region).first(3));
+        propertyRow("   greatest corner, m");
+        dragNumbers("greatest", std::span(dialog.region).last(3));
+    }
+    if (!editor.graph->timeline.is_null()) {
+        propertyRow("Time, s", "The moment of the timeline that is exported.");
+        dragNumbers("time", std::span(&dialog.seconds, 1), {.min = 0.0});
+    }
+    endProperties();
+}
+
+void begin(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    ExportWish wish{
+        .graph = editor.graph, .path = dialog.path, .seconds = dialog.seconds, .device = editor.device};
+    const std::array<double, 6>& r = dialog.region;
+    if (dialog.givesResolution) wish.mesh.resolution = dialog.resolution;
+    if (dialog.givesRegion) wish.mesh.region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+    dialog.job.reset();
+    dialog.job = std::make_unique<ExportJob>(std::move(wish), [] { Shell::wake(); });
+    dialog.told = false;
+}
+
+void showDone(const ExportState& state) {
+    const Report& report = state.report;
+    const std::string name = fs::path(state.files.paths.front()).filename().string();
+    coloured(ThemeColor::text, printed("%s: %.2f MB in %.2f s", name.c_str(),
+                                       double(state.files.bytes) / kMegabyte, report.totalMs / 1e3));
+    coloured(ThemeColor::text, grouped(report.triangles) + " triangles, " + grouped(report.vertices) +
+                                   " vertices, " + grouped(report.shells) +
+                                   (report.shells == 1 ? " part" : " parts"));
+    std::array<double, 3> size{};
+    for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = report.boundsMax[axis] - report.boundsMin[axis];
+    coloured(ThemeColor::text, printed("%.4g × %.4g × %.4g m, volume %.4g m³, area %.4g m²", size[0], size[1],
+                                       size[2], report.volume, report.area));
+    if (const std::string wrong = soundness(report); wrong.empty())
+        coloured(ThemeColor::text, "Watertight: every edge has two triangles.");
+    else
+        coloured(ThemeColor::warning, "Not watertight: " + wrong + ".");
+    if (report.capped)
+        coloured(ThemeColor::warning,
+                 "The surface leaves the region and was closed at its boundary: give a larger region if that "
+                 "is not wanted.");
+}
+
+void showJob(Editor& editor, const ExportState& state) {
+    const ExportDialog& dialog = editor.exporting;
+    ImGui::Separator();
+    switch (state.phase) {
+        case Phase::running:
+            ImGui::ProgressBar(state.part, {-1, 0});
+            ImGui::TextUnformatted(dialog.job->cancelling() ? "cancelling …" : state.stage);
+            break;
+        case Phase::done: showDone(state); break;
+        case Phase::cancelled: ImGui::TextUnformatted("Cancelled: no file was written."); break;
+        case Phase::failed:
+            for (const Error& problem : state.problems) coloured(ThemeColor::error, format(problem));
+            break;
+    }
+}
+
+void showButtons(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    const ImVec2 size{110 * editor.shell.scale(), 0};
+    if (exports(editor)) {
+        if (ImGui::Button("Cancel export", size)) dialog.job->cancel();
+    } else {
+        std::error_code error;
+        if (fs::exists(dialog.path, error))
+            coloured(ThemeColor::warning,
+                     fs::path(dialog.path).filename().string() + " is there and will be replaced.");
+        if (!formatOf(dialog.path))
+            coloured(ThemeColor::error, "The name has to end in one of the formats: choose one above.");
+        ImGui::BeginDisabled(!formatOf(dialog.path));
+        if (ImGui::Button("Export", size)) begin(editor);
+        ImGui::EndDisabled();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Close", size)) dialog.open = false;
+}
+
+/// What is said in the status line of an export that nobody watches.
+std::string outcome(const ExportState& state) {
+    if (state.phase == Phase::done)
+        return "exported " + state.files.paths.front() + ": " + grouped(state.report.triangles) +
+               " triangles";
+    if (state.phase == Phase::failed) return "the export failed: " + state.problems.front().message;
+    return "the export was cancelled";
+}
+
+}  // namespace
+
+std::string soundness(const Report& report) {
+    std::string wrong;
+    const auto add = [&](uint64_t count, const char* what) {
+        if (count > 0) wrong += (wrong.empty() ? "" : ", ") + grouped(count) + " " + what;
+    };
+    add(report.boundaryEdges, "open edges");
+    add(report.nonManifoldEdges, "edges of more than two triangles");
+    add(report.nonManifoldVertices, "vertices where parts touch");
+    add(report.flippedEdges, "edges between triangles that face opposite ways");
+    add(report.degenerateTriangles, "triangles without area");
+    return wrong;
+}
+
+bool exports(const Editor& editor) {
+    return editor.exporting.job && editor.exporting.job->state().phase == Phase::running;
+}
+
+void openExport(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    const std::string& file = editor.document.graph().path;
+    if (dialog.path.empty() || dialog.forFile != file) dialog.path = proposal(editor);
+    dialog.forFile = file;
+    dialog.seconds = editor.viewport.seconds;
+    dialog.open = dialog.toFront = true;
+}
+
+void showExport(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    const std::optional<ExportState> state = dialog.job ? std::optional(dialog.job->state()) : std::nullopt;
+    if (!dialog.told && state->phase != Phase::running) {
+        dialog.told = true;
+        if (!dialog.open) say(editor, outcome(*state));
+    }
+    if (!dialog.open) return;
+    const bool busy = std::exchange(dialog.busy, false);
+    const float scale = editor.shell.scale();
+    const ImVec2 whole = ImGui::GetMainViewport()->Size;
+    const float width = std::min(520.0f * scale, 0.95f * whole.x);
+    ImGui::SetNextWindowPos({0.5f * whole.x, 0.25f * whole.y}, ImGuiCond_Appearing, {0.5f, 0.0f});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, 0.95f * whole.y});
+    if (std::exchange(dialog.toFront, false)) ImGui::SetNextWindowFocus();
+    if (ImGui::Begin("Export", &dialog.open,
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                         ImGuiWindowFlags_NoSavedSettings)) {
+        showSettings(editor);
+        if (state) showJob(editor, *state);
+        ImGui::Separator();
+        showButtons(editor);
+        if (const auto path = show(dialog.browser, scale))
+            dialog.path = *path;
+        else if (!busy && ImGui::IsWindowFocused() &&
+                 ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+            dialog.open = false;
+        dialog.busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    }
+    ImGui::End();
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,44 @@
+// The dialog that makes a mesh file of the document. It stays open beside the work: an export runs on while
+// the document is edited, and while the dialog is closed.
+//
+// Lifetime: part of the Editor; the job is the last export, until the next one.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "editor/files/browser.h"
+#include "editor/files/export_job.h"
+
+namespace fw::editor {
+
+struct Editor;
+
+struct ExportDialog {
+    bool open = false;
+    bool toFront = false;  ///< it was just asked for
+    bool busy = false;     ///< a field or a menu of it had the keyboard in the last frame
+    std::string path = {};
+    std::string forFile = {};                              ///< the document's file when `path` was proposed
+    bool givesResolution = false;                          ///< else the output node's
+    int resolution = 256;                                  ///< cells along the longest side
+    bool givesRegion = false;                              ///< else found from the solid
+    std::array<double, 6> region = {-1, -1, -1, 1, 1, 1};  ///< least corner, greatest corner, metres
+    double seconds = 0.0;                                  ///< on the timeline
+    FileBrowser browser;
+    std::unique_ptr<ExportJob> job = {};
+    bool told = true;  ///< what came of the job was said
+};
+
+/// Opens it, or brings it to the front. A file beside the document's is proposed.
+void openExport(Editor& editor);
+/// One frame of it, if it is open; says what came of an export that ended while it was not.
+void showExport(Editor& editor);
+/// Whether an export is under way.
+bool exports(const Editor& editor);
+
+/// Whether nothing is wrong with the mesh, or else what: "12 open edges".
+std::string soundness(const Report& report);
+
+}  // namespace fw::editor

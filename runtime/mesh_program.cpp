@@ -1,0 +1,72 @@
+#include "runtime/mesh_program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "graph/language/lower.h"
+#include "graph/timeline.h"
+
+namespace fw {
+
+Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline) return timeline.error();
+    options.time = timelineTime(*timeline, seconds);
+    Result<Program> program = compile(atTime(graph, *timeline, options.time), options);
+    if (program || program.error().message != language::kDivisionByZero) return program;
+    Error error = program.error();  // not always, or check() would have found it
+    error.message += " at " + std::to_string(options.time) + " s with these parameters";
+    return error;
+}
+
+Result<MeshedProgram> meshProgram(Device device, Program program, const MeshRequest& request,
+                                  const Box& region, const StageStarts& starts, bool timed) {
+    const auto stopped = [] { return Error{.message = "cancelled; nothing was written"}; };
+    const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
+    const bool given = request.region || program.region;
+    MeshedProgram meshed{Session(std::move(device)), {}, region};
+    if (!starts("pipelines")) return stopped();
+    meshed.session.setProgram(std::move(program));
+    if (!starts("mesh")) return stopped();
+    Result<MesherResult> mesh = meshed.session.polygonise({region, resolution}, timed);
+    if (!mesh) return mesh.error();
+    if (mesh->triangles == 0) return nothingToSee(given, region, resolution);
+    meshed.mesh = std::move(*mesh);
+    return meshed;
+}
+
+Error nothingToSee(bool given, const Box& region, int resolution) {
+    if (given)
+        return {.message =
+                    "the surface does not pass through the region: move or enlarge the region, or "
+                    "raise the resolution"};
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region.hi[axis] - region.lo[axis]);
+    char cell[32];
+    std::snprintf(cell, sizeof cell, "%.3g", longest / resolution);
+    return {.message = "the solid is empty or thinner than a cell of " + std::string(cell) +
+                       " m: raise the resolution, or give a smaller region"};
+}
+
+FieldError fieldError(const Program& program, const Box& region) {
+    return [&program, region](std::span<const glm::dvec3> points, std::span<double> errors) {
+        std::vector<Point> positions(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i)
+            positions[i] = {points[i].x, points[i].y, points[i].z};
+        std::vector<ValueGradient> results(points.size());
+        evaluateGradient(program.ir, program.distance(), program.parameters(), positions, results);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Point& g = results[i].gradient;
+            const double slope = std::hypot(g[0], g[1], g[2]);
+            errors[i] = std::abs(results[i].value) / (slope > 1e-12 ? slope : 1.0);
+            double beyond = -INFINITY;
+            for (int axis = 0; axis < 3; ++axis)
+                beyond = std::max(
+                    {beyond, region.lo[axis] - positions[i][axis], positions[i][axis] - region.hi[axis]});
+            if (results[i].value < 0.0) errors[i] = std::min(errors[i], std::abs(beyond));
+        }
+    };
+}
+
+}  // namespace fw

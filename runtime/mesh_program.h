@@ -1,0 +1,41 @@
+// From a document to a mesh in device memory: what whoever exports does, the `fieldwright` command and the
+// editor alike, so that both make the same bytes.
+//
+// Lifetime: a MeshedProgram holds the device and the mesh on it.
+#pragma once
+
+#include <functional>
+
+#include "graph/compile.h"
+#include "runtime/mesh_report.h"
+#include "runtime/session.h"
+
+namespace fw {
+
+/// Compiles what the graph, in which check() found no error, is that many seconds after its start. Errors as
+/// compile().
+Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options = {});
+
+/// Called as a stage of the work starts, with its name; false ends the work there.
+using StageStarts = std::function<bool(const char* stage)>;
+
+struct MeshedProgram {
+    Session session;
+    MesherResult mesh;  ///< has triangles
+    Box region;         ///< what it was meshed in
+};
+
+/// Compiles the program for the device (stage "pipelines") and meshes it (stage "mesh"). `region` is
+/// meshRegion() of the request. Errors: as Session::polygonise, nothingToSee(), and a message of its own
+/// where `starts` ended it.
+Result<MeshedProgram> meshProgram(Device device, Program program, const MeshRequest& request,
+                                  const Box& region, const StageStarts& starts, bool timed = false);
+
+/// What to say of a solid that has no triangle in `region`, which the user gave or which was found.
+Error nothingToSee(bool given, const Box& region, int resolution);
+
+/// |f| / |gradient f| by the CPU reference, for reports; none on the faces of `region`, where a solid that
+/// leaves it was closed. Holds on to `program`.
+FieldError fieldError(const Program& program, const Box& region);
+
+}  // namespace fw

@@ -1,0 +1,163 @@
+// Exports of the editor: the same bytes as the command's, what is refused, and that a cancelled one leaves
+// no file.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "editor/files/export_job.h"
+#include "editor/panels/export_dialog.h"
+#include "graph/json.h"
+#include "tests/support/command.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw::editor {
+namespace {
+
+using Phase = ExportState::Phase;
+using test::readText;
+using test::TempDir;
+using test::writeText;
+
+std::shared_ptr<const Graph> read(const std::string& path) {
+    const Result<Graph> graph = readGraph(path, nullptr);
+    EXPECT_TRUE(graph) << path;
+    return std::make_shared<const Graph>(*graph);
+}
+std::string sample(const std::string& name) {
+    return std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json";
+}
+std::shared_ptr<const Graph> parse(const std::string& nodes) {
+    const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [)" + nodes + "]}", "", nullptr);
+    EXPECT_TRUE(graph);
+    return std::make_shared<const Graph>(*graph);
+}
+
+ExportState finish(const ExportJob& job) {
+    while (job.state().phase == Phase::running) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return job.state();
+}
+
+TEST(Export, GivesTheBytesOfTheCommand) {
+    const TempDir folder;
+    struct Case {
+        const char *sample, *ending;
+        std::vector<std::string> options;
+        MeshRequest mesh = {};
+        double seconds = 0.0;
+    };
+    const Case cases[] = {
+        {"tower", ".glb", {}},
+        {"goblet", ".obj", {"--resolution", "70"}, {{}, 70}},
+        {"cube_morph", ".gltf", {"--resolution", "48", "--time", "1.25"}, {{}, 48}, 1.25},
+        {"island", ".ply", {"--resolution", "64"}, {{}, 64}},
+        {"csg_part",
+         ".stl",
+         {"--resolution", "60", "--region", "-0.5", "-0.6", "-0.7", "0.8", "0.9", "1"},
+         {Box{{-0.5, -0.6, -0.7}, {0.8, 0.9, 1}}, 60}},
+    };
+    for (const Case& each : cases) {
+        SCOPED_TRACE(each.sample);
+        const std::string name = std::string(each.sample) + each.ending;
+        std::filesystem::create_directory(folder.path(each.sample));
+        // Files beside each other name each other, so both exports have the same name in folders of their own.
+        const std::string mine = folder.path(std::string(each.sample) + "/" + name),
+                          theirs = folder.path(name);
+        std::vector<std::string> arguments{"export", sample(each.sample), "-o", theirs};
+        arguments.insert(arguments.end(), each.options.begin(), each.options.end());
+        const test::CommandResult command = test::runCommand(arguments);
+        ASSERT_EQ(command.status, 0) << command.errors;
+        ExportJob job({.graph = read(sample(each.sample)),
+                       .path = mine,
+                       .mesh = each.mesh,
+                       .seconds = each.seconds},
+                      {});
+        const ExportState state = finish(job);
+        ASSERT_EQ(state.phase, Phase::done) << (state.problems.empty() ? "" : format(state.problems[0]));
+        ASSERT_EQ(state.files.paths, exportedPaths(mine));
+        uint64_t bytes = 0;
+        for (const std::string& path : state.files.paths) {
+            const std::string other = folder.path(std::filesystem::path(path).filename().string());
+            EXPECT_TRUE(readText(path) == readText(other)) << path;
+            bytes += std::filesystem::file_size(path);
+        }
+        EXPECT_EQ(state.files.bytes, bytes);
+        EXPECT_EQ(soundness(state.report), "");
+        EXPECT_EQ(state.part, 1.0f);
+        const Result<Report> measured = reportOnFile(mine);
+        ASSERT_TRUE(measured);
+        EXPECT_EQ(state.report.triangles, measured->triangles);
+        EXPECT_NEAR(state.report.volume, measured->volume, 1e-5 * std::abs(measured->volume));
+    }
+}
+
+TEST(Export, SaysWhyItCannotBeDone) {
+    const TempDir folder;
+    const std::string out = R"(, {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}})";
+    const auto ball = parse(R"({"id": "a", "type": "sphere"})" + out);
+    const auto refused = [&](std::shared_ptr<const Graph> graph, const std::string& path, const char* why,
+                             DeviceOptions device = {}) {
+        ExportJob job({.graph = std::move(graph), .path = path, .device = std::move(device)}, {});
+        const ExportState state = finish(job);
+        EXPECT_EQ(state.phase, Phase::failed) << why;
+        ASSERT_FALSE(state.problems.empty()) << why;
+        EXPECT_NE(format(state.problems[0]).find(why), std::string::npos) << format(state.problems[0]);
+    };
+    const std::string file = folder.path("a.stl");
+    refused(ball, folder.path("a.xyz"), "unknown format");
+    refused(ball, folder.path("none/a.stl"), "cannot create a file");
+    refused(ball, file, "nosuchdevice", {.pick = "nosuchdevice"});
+    refused(parse(R"({"id": "a", "type": "plane"})" + out), file, "no bounds");
+    refused(parse(R"({"id": "a", "type": "sphere", "inputs": {"radius": "x"}})" + out), file, "radius");
+    Graph itself = *ball;
+    itself.path = file;
+    writeText(file, "the graph");
+    refused(std::make_shared<const Graph>(itself), file, "would replace the graph");
+    EXPECT_EQ(readText(file), "the graph");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.stl"});
+}
+
+TEST(Export, LeavesNoFileWhenCancelled) {
+    const TempDir folder;
+    const std::string file = folder.path("tower.glb");
+    writeText(file, "before");
+    const std::shared_ptr<const Graph> tower = read(sample("tower"));
+    // At each stage in turn: cancelled by the one who hears of it.
+    std::vector<std::string> stages;
+    for (std::size_t at = 0; at < 20; ++at) {
+        std::unique_ptr<ExportJob> job;
+        std::mutex making;
+        std::vector<std::string> seen;
+        std::unique_lock lock(making);
+        job = std::make_unique<ExportJob>(ExportWish{.graph = tower, .path = file, .mesh = {{}, 64}}, [&] {
+            std::lock_guard made(making);
+            seen.push_back(job->state().stage);
+            if (seen.size() == at + 1) job->cancel();
+        });
+        lock.unlock();
+        const ExportState state = finish(*job);
+        job.reset();
+        if (state.phase == Phase::done) {  // heard of the end when it was too late
+            EXPECT_GE(at, 8u);
+            EXPECT_NE(readText(file), "before");
+            break;
+        }
+        EXPECT_EQ(state.phase, Phase::cancelled);
+        EXPECT_EQ(readText(file), "before") << seen.back();
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"tower.glb"});
+        stages = seen;
+    }
+    EXPECT_GE(stages.size(), 9u);
+}
+
+TEST(Export, SaysWhatIsWrongWithAMesh) {
+    Report report;
+    EXPECT_EQ(soundness(report), "");
+    report.boundaryEdges = 1234;
+    report.flippedEdges = 1;
+    EXPECT_EQ(soundness(report), "1,234 open edges, 1 edges between triangles that face opposite ways");
+}
+
+}  // namespace
+}  // namespace fw::editor
