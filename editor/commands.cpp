@@ -119,6 +119,11 @@ void look(Editor& editor) {
     lookFrom(editor.viewport, side);
 }
 
+template <Tool tool>
+void use(Editor& editor) {
+    editor.viewport.gizmo.tool = tool;
+}
+
 constexpr Command kCommands[] = {
     {"file.new", "File", "New", "Ctrl+N", always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
     {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
@@ -171,8 +176,7 @@ constexpr Command kCommands[] = {
      [](Editor& e) {
          e.document.apply("Distribute Nodes", distribute(graphOf(e), scopeOf(e), selected(e), false));
      }},
-    {"picture.frame", "Picture", "Frame the solid", "F", pictured, [](Editor& e) { frameSolid(e.viewport); },
-     false, true},
+    {"picture.frame", "Picture", "Frame the solid", "F", pictured, frameSolid, false, true},
     {"picture.reset", "Picture", "Back to the scene's camera", "Home 0 Pad0", pictured,
      [](Editor& e) { e.viewport.ownCamera = false; }, false, true},
     {"picture.front", "Picture", "From the front", "1 Pad1", pictured, look<Side::front>, true, true},
@@ -182,6 +186,9 @@ constexpr Command kCommands[] = {
     {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>, false, true},
     {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>, false,
      true},
+    {"picture.move", "Picture", "Move", "W", pictured, use<Tool::move>, true, true},
+    {"picture.rotate", "Picture", "Rotate", "E", pictured, use<Tool::turn>, false, true},
+    {"picture.scale", "Picture", "Scale", "R", pictured, use<Tool::scale>, false, true},
     {"view.frame", "View", "Frame selection", "F", always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", always, [](Editor& e) { frame(e, true); }},
     {"view.minimap", "View", "Minimap", "", always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},

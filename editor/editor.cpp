@@ -29,6 +29,7 @@ void drawAnew(Editor& editor) {
 std::set<std::string> heldInputs(const Editor& editor) {
     std::set<std::string> held = editor.canvas.field.held(), named;
     held.merge(editor.panelState.heldInputs());
+    held.merge(editor.viewport.gizmo.held(editor.canvas.scope));
     for (const std::string& path : held) {
         const auto [scope, input] = placeOf(*editor.graph, path);
         for (std::string& name : instancesOf(*editor.graph, scope, input)) named.insert(std::move(name));
@@ -131,6 +132,7 @@ bool exchange(Editor& editor) {
     if (view.ownCamera) wish.camera = view.orbit.camera();
     wish.width = view.width(), wish.height = view.height();
     wish.view = view.view;
+    wish.slice = view.slice;
     wish.resolution = view.resolution;
     if (wish.width > 0 && wish.height > 0) editor.preview.ask(std::move(wish));
     if (const Done kept = editor.files.recovery.keep(editor.graph, editor.drawn, editor.document.unsaved());

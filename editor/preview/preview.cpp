@@ -35,7 +35,7 @@ double millisecondsSince(Clock::time_point start) {
 bool sameWish(const PreviewWish& a, const PreviewWish& b) {
     return a.graph == b.graph && a.revision == b.revision && a.pinned == b.pinned && a.held == b.held &&
            a.seconds == b.seconds && a.camera == b.camera && a.width == b.width && a.height == b.height &&
-           a.view == b.view && a.resolution == b.resolution;
+           a.view == b.view && a.slice == b.slice && a.resolution == b.resolution;
 }
 
 bool isPowerOfTwo(int number) { return number > 0 && (number & (number - 1)) == 0; }
@@ -185,7 +185,7 @@ void Maker::take(PreviewWish newer) {
     const bool sameHeld = newer.held == wish.held, sameMesh = newer.resolution == wish.resolution;
     const bool samePicture = newer.seconds == wish.seconds && newer.camera == wish.camera &&
                              newer.width == wish.width && newer.height == wish.height &&
-                             newer.view == wish.view;
+                             newer.view == wish.view && newer.slice == wish.slice;
     if (newer.held.empty()) heldResolution = 0;
     const bool coarse = !wish.held.empty() && newer.held.empty();
     wish = std::move(newer);
@@ -230,7 +230,8 @@ bool Maker::draw() {
     RenderOptions options{.width = std::clamp(wish.width, kLeastPictureSide, kMostPictureSide),
                           .height = std::clamp(wish.height, kLeastPictureSide, kMostPictureSide),
                           .primary = Primary::measured,
-                          .show = wish.view};
+                          .show = wish.view,
+                          .slice = wish.slice};
     const auto start = Clock::now();
     const Result<MesherResult> mesh = player->meshOnDevice();
     const double meshing = millisecondsSince(start);

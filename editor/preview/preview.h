@@ -29,6 +29,7 @@ struct PreviewWish {
     std::optional<Camera> camera = {};  ///< none: the scene's, or the whole solid framed
     int width = 800, height = 600;      ///< pixels
     uint32_t view = RENDER_PICTURE;     ///< or another of shaders/render/render.h
+    Slice slice = {};                   ///< of the views on a plane
     int resolution = 0;                 ///< cells along the longest side; 0: the graph's
 };
 

@@ -94,16 +94,4 @@ void lookFrom(Viewport& viewport, Side side) {
     lookFrom(viewport.orbit, side);
 }
 
-void frameSolid(Viewport& viewport) {
-    viewport.takeCamera();
-    const Box& solid = viewport.shown.region;
-    Vector middle{};
-    double radius = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        middle[i] = 0.5 * (solid.lo[i] + solid.hi[i]);
-        radius = std::hypot(radius, 0.5 * (solid.hi[i] - solid.lo[i]));
-    }
-    frame(viewport.orbit, middle, std::max(radius, 1e-3), double(viewport.aspect()));
-}
-
 }  // namespace fw::editor

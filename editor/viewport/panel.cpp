@@ -16,6 +16,21 @@ constexpr std::pair<uint32_t, const char*> kViews[] = {
     {RENDER_CELLS, "Cells"},     {RENDER_WIREFRAME, "Wireframe"}};
 constexpr int kResolutions[] = {0, 32, 64, 128, 192, 256, 384, 512};
 
+/// Where the plane is that the field is shown on.
+void showSlice(Viewport& view, float unit) {
+    constexpr const char* kPlanes[] = {"Across the view", "Across x", "Across y", "Across z"};
+    ImGui::SetNextItemWidth(140 * unit);
+    int chosen = view.slice.axis + 1;
+    if (ImGui::Combo("##plane", &chosen, kPlanes, int(std::size(kPlanes)))) view.slice.axis = chosen - 1;
+    float reach = 0.0f;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (view.slice.axis < 0 || view.slice.axis == int(i))
+            reach = std::max(reach, 0.5f * float(view.shown.region.hi[i] - view.shown.region.lo[i]));
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::SliderFloat("##place", &view.slice.at, -reach, reach, "%.3f m from the middle");
+}
+
 void showChoices(Editor& editor) {
     Viewport& view = editor.viewport;
     const float unit = editor.shell.scale();
@@ -40,9 +55,11 @@ void showChoices(Editor& editor) {
         ImGui::SameLine();
         if (ImGui::Button("Reset view")) view.ownCamera = false;
     }
-    if (view.pinned.empty()) return;
-    ImGui::SameLine();
-    if (ImGui::Button(("Showing " + view.pinned + " ×").c_str())) view.pinned.clear();
+    if (!view.pinned.empty()) {
+        ImGui::SameLine();
+        if (ImGui::Button(("Showing " + view.pinned + " ×").c_str())) view.pinned.clear();
+    }
+    if (view.view == RENDER_SLICE || view.view == RENDER_EXACTNESS) showSlice(view, unit);
 }
 
 /// Words over the picture, top left.
@@ -69,12 +86,15 @@ void showViewport(Editor& editor) {
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
     view.hovered = ImGui::IsItemHovered();
+    ImGui::SetItemAllowOverlap();  // by the buttons of the gizmo
     const ImGuiIO& io = ImGui::GetIO();
-    if (navigate(view)) pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
+    if (view.texture && !followGizmo(editor) && navigate(view))
+        pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
     if (const Aside::Answer answer = view.aside.take()) answer(editor);
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     if (view.texture) list->AddImage(view.texture, place.lo, place.hi);
+    showGizmo(editor);
     const float scale = editor.shell.scale();
     if (view.texture && !view.shown.current)
         caption(place, "showing the last valid version", themeColor(ThemeColor::warning), scale);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "editor/document/edits.h"
+#include "editor/document/paths.h"
 #include "editor/preview/pinned.h"
 #include "graph/compile.h"
 #include "graph/region.h"
@@ -39,7 +40,12 @@ class Probes {
         for (std::size_t i = 0; i < plain.groups.size(); ++i)
             probe(Scope(groups, plain.groups[i].nodes, &groups.list[i]), probed.groups[i].nodes,
                   plain.groups[i].id);
-        name(probed.nodes, "", {});
+        for (const auto& [scope, offsets] : inner)
+            for (const auto& [offset, node] : offsets) {
+                const std::vector<std::string> live = instancesOf(probed, scope, offset + ".distance"),
+                                               nodes = instancesOf(probed, scope, node);
+                for (std::size_t i = 0; i < live.size(); ++i) paths[live[i]] = nodes[i];
+            }
     }
 
     const Graph& graph() const { return probed; }
@@ -49,7 +55,7 @@ class Probes {
         return names;
     }
     /// Of the node whose offset this live parameter is.
-    const std::vector<std::string>& path(const std::string& parameter) const { return paths.at(parameter); }
+    const std::string& path(const std::string& parameter) const { return paths.at(parameter); }
 
   private:
     static bool isSurface(const std::optional<Socket>& socket) {
@@ -107,27 +113,9 @@ class Probes {
         });
     }
 
-    /// Names the live parameters of all instances of the scope that `path` leads to.
-    void name(const std::vector<Node>& nodes, const std::string& scope, std::vector<std::string> path) {
-        if (paths.size() > kMaxNodes || path.size() > std::size_t(kMaxNesting)) return;
-        std::string prefix;
-        for (const std::string& id : path) prefix += id + "/";
-        path.emplace_back();
-        for (const auto& [offset, node] : inner[scope]) {
-            path.back() = node;
-            paths[prefix + offset + ".distance"] = path;
-        }
-        for (const Node& node : nodes) {
-            const Group* group = node.type == "group" ? probed.group(node.group) : nullptr;
-            if (!group) continue;
-            path.back() = node.id;
-            name(group->nodes, group->id, path);
-        }
-    }
-
     Graph probed;
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> inner;  // by scope: offset, node
-    std::map<std::string, std::vector<std::string>> paths;  // of nodes, by live parameter
+    std::map<std::string, std::string> paths;  // of nodes, by live parameter
 };
 
 struct Ray {
@@ -229,7 +217,7 @@ std::vector<double> slopesByParameter(const Ir& ir, IrId root, std::span<const d
 
 }  // namespace
 
-std::vector<std::string> pick(const Seen& seen, double x, double y) {
+std::string pick(const Seen& seen, double x, double y) {
     double seconds = seen.seconds;
     const Probes probes(shownAt(*seen.graph, seen.pinned, seconds));
     CompileOptions options;

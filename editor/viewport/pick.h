@@ -13,7 +13,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "graph/evaluate.h"
 #include "graph/graph.h"
@@ -31,9 +30,9 @@ struct Seen {
     double aspect = 1.0;  ///< width by height
 };
 
-/// The node's id, with the ids of the group nodes that lead to it before it; empty where nothing is hit, or
-/// the graph has errors. x and y are from -1 to 1, y upwards.
-std::vector<std::string> pick(const Seen& seen, double x, double y);
+/// The node's path, as the compiler names it (document/paths.h); empty where nothing is hit, or the graph has
+/// errors. x and y are from -1 to 1, y upwards.
+std::string pick(const Seen& seen, double x, double y);
 
 /// The box around the solid that this node of the document makes, in its own space; none if it makes none, or
 /// has no end.

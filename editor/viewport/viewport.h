@@ -4,6 +4,7 @@
 //     left or middle drag            orbits; with Shift pans
 //     right drag                     pans; with W A S D Q E flies, the mouse turning the head (Shift: faster)
 //     wheel                          zooms to the cursor
+//     left drag on a handle          moves, turns or scales (Shift: fine, Ctrl: in steps, Escape: back)
 //     click                          selects the node that made what is hit (Ctrl or Shift: also)
 //
 // Keys are rows of editor/commands.cpp that count over the picture. Lifetime: one in an Editor.
@@ -11,12 +12,14 @@
 
 #include <imgui.h>
 
+#include <set>
 #include <string>
 
 #include "editor/canvas/view.h"
 #include "editor/preview/preview.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/aside.h"
+#include "editor/viewport/gizmo.h"
 #include "editor/viewport/orbit.h"
 
 namespace fw::editor {
@@ -31,12 +34,40 @@ struct CameraDrag {
     bool busy() const { return does != Does::nothing; }
 };
 
+/// What dragging a node in the picture does to it; `scale` is for lengths too.
+enum class Tool : unsigned char { move, turn, scale };
+
+struct Gizmo {
+    Tool tool = Tool::move;
+    std::set<Tool> tools;         ///< that the selected node has something for
+    std::vector<Handle> handles;  ///< of the tool
+    std::string why;              ///< they are not where they should be: why
+    std::optional<HandleHit> hovered;
+    std::optional<HandleDrag> drag;  ///< a gesture of the document
+    std::vector<double> numbers;     ///< that the drag gave last
+    /// Where a node is put that the handles are of, if they are of none: in the wire to this input.
+    std::optional<Plug> ahead;
+
+    /// What the handles were made for.
+    struct Made {
+        uint64_t revision = 0;
+        std::string scope, node, pinned;
+        double seconds = 0.0;
+        Tool tool = Tool::move;
+        bool operator==(const Made&) const = default;
+    } made;
+
+    /// What the hand holds, as in FieldEdit::held().
+    std::set<std::string> held(const std::string& scope) const;
+};
+
 /// What the viewport shows and how.
 struct Viewport {
     bool ownCamera = false;  ///< rather than the scene's, or the solid framed
     Orbit orbit;             ///< of the own camera
     uint32_t view = RENDER_PICTURE;
     std::string pinned;    ///< the node shown; empty: the output
+    Slice slice;           ///< of the views on a plane
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline
     bool playing = false;
@@ -46,6 +77,7 @@ struct Viewport {
     Area place;  ///< of the picture, pixels of the window
     bool hovered = false;
     CameraDrag drag;
+    Gizmo gizmo;
     Aside aside{[] { Shell::wake(); }};
 
     /// Pixels that the picture should have; 0 before the first frame.
@@ -63,8 +95,11 @@ bool flies(const Viewport& viewport);
 
 /// Looks from a side at what it looks at.
 void lookFrom(Viewport& viewport, Side side);
-/// As near as all of the solid is seen.
-void frameSolid(Viewport& viewport);
+/// As near as all of the solid is seen, or what the selected node alone makes.
+void frameSolid(Editor& editor);
+/// The mouse on the selected node's handles: whether it has one. Before showGizmo(), which draws them.
+bool followGizmo(Editor& editor);
+void showGizmo(Editor& editor);
 /// Looks for the node whose shape is under the mouse, and selects it when it is found: in place of what is
 /// selected, or besides.
 void pickUnderMouse(Editor& editor, bool besides);

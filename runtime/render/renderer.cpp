@@ -132,6 +132,8 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
     frame.exposure = kExposure * std::exp2(float(look.exposure));
     frame.mean = uint32_t(mean);
     frame.show = options.show;
+    frame.sliceAxis = options.slice.axis < 0 ? 3 : uint32_t(options.slice.axis);
+    frame.sliceAt = options.slice.at;
     if (look.fog) {
         frame.fogColor = vector(look.fog->color);
         frame.fogDensity = float(look.fog->density);
@@ -576,12 +578,15 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     const Shown shows = {viewOf(scene, options),
                          options.scene,
                          scene.content,
-                         {uint32_t(options.width), uint32_t(options.height), 1}};
+                         {uint32_t(options.width), uint32_t(options.height), 1},
+                         options.show,
+                         options.slice};
     const std::optional<Shown>& shown = renderer.shown;
     const bool sameField = shown && shown->content == shows.content;
     const bool rests = sameField && shown->scene == shows.scene && sameView(shown->view, shows.view) &&
                        shown->extent.width == shows.extent.width &&
-                       shown->extent.height == shows.extent.height;
+                       shown->extent.height == shows.extent.height && shown->show == shows.show &&
+                       shown->slice == shows.slice;
     if (rests && renderer.rested >= kRestFrames) return false;
     renderer.rested = rests ? renderer.rested + 1 : 0;
     if (!shown || shown->scene.ao != shows.scene.ao || shown->scene.ground != shows.scene.ground)

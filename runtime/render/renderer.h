@@ -53,6 +53,13 @@ struct RenderScene {
 /// what drawing shows.
 enum class Primary { drawn, traced, measured };
 
+/// The plane of the views that show the field on one.
+struct Slice {
+    int axis = -1;    ///< that it stands across, 0 to 2; -1: x or z, whichever the view is along
+    float at = 0.0f;  ///< along the axis from the solid's middle, metres
+    bool operator==(const Slice&) const = default;
+};
+
 struct RenderOptions {
     int width = 1280, height = 720;  ///< pixels
     Scene scene = {};                ///< as it is at the time of the picture
@@ -63,6 +70,7 @@ struct RenderOptions {
     Primary primary = Primary::traced;
     bool reference = false;  ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
     uint32_t show = RENDER_PICTURE;  ///< or one of the views that shaders/render/render.h lists
+    Slice slice = {};
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };
@@ -75,6 +83,8 @@ struct Shown {
     Scene scene;
     uint64_t content = 0;
     VkExtent3D extent = {};
+    uint32_t show = RENDER_PICTURE;
+    Slice slice = {};
 };
 
 /// The kernels that evaluate the field.

@@ -93,6 +93,8 @@ struct RenderFrame {
     uint studio;     // 1: behind the solid is a wall; 0: the sky
     float exposure;  // factor
     uint show;
+    uint sliceAxis;  // that the plane of the slice stands across; 3: x or z, whichever the view is along
+    float sliceAt;   // from the centre, metres
     uint mean;  // frames that the picture is the mean of, before this one
 
     vec3 fogColor;

@@ -39,9 +39,10 @@ void main() {
     float depth = imageLoad(seen, at).x;
     vec3 color = unpackUnorm4x8(imageLoad(pixels, at).x).rgb;
 
-    // The slice stands upright through the solid's middle, across the view.
-    bool alongX = abs(frame.now.forward.x) > abs(frame.now.forward.z);
-    float across = alongX ? (frame.centre.x - frame.now.eye.x) / ray.x : (frame.centre.z - frame.now.eye.z) / ray.z;
+    // Where the ray meets the plane of the slice.
+    uint upright = abs(frame.now.forward.x) > abs(frame.now.forward.z) ? 0 : 2;
+    uint axis = frame.sliceAxis < 3 ? frame.sliceAxis : upright;
+    float across = (frame.centre[axis] + frame.sliceAt - frame.now.eye[axis]) / ray[axis];
     vec3 onSlice = frame.now.eye + ray * across;
     bool inSlice = across > 0.0 && all(greaterThan(onSlice, frame.lo)) && all(lessThan(onSlice, frame.hi));
     vec4 g = fieldGradient(onSlice);

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "editor/document/edits.h"
+#include "editor/document/paths.h"
 #include "editor/viewport/aside.h"
 #include "graph/compile.h"
 #include "graph/json.h"
@@ -13,8 +15,6 @@
 
 namespace fw::editor {
 namespace {
-
-using Path = std::vector<std::string>;
 
 /// Seen from (7, 5, 9) towards the origin.
 Seen seenOf(Graph graph) {
@@ -36,7 +36,7 @@ Graph nodes(const std::string& list, const std::string& rest = "") {
 }
 
 /// What is picked where this point is seen.
-Path at(const Seen& seen, glm::vec3 point) {
+std::string at(const Seen& seen, glm::vec3 point) {
     const glm::vec4 clip = toClip(cameraView(seen.camera, {}, float(seen.aspect))) * glm::vec4(point, 1.0f);
     return pick(seen, double(clip.x / clip.w), double(clip.y / clip.w));
 }
@@ -59,26 +59,26 @@ const char* const kTwo = R"(
 
 TEST(Pick, TheShapeUnderTheCursorThroughTransforms) {
     const Seen seen = seenOf(nodes(kTwo));
-    EXPECT_EQ(at(seen, {-2, 0, 0}), Path{"box"});
-    EXPECT_EQ(at(seen, {2, 0, 0}), Path{"ball"});
-    EXPECT_EQ(at(seen, {0, 0, 0}), Path{}) << "between the two there is nothing";
-    EXPECT_EQ(at(seen, {2, 0.9f, 0}), Path{"ball"}) << "it is twice as large as its node says";
-    EXPECT_EQ(at(seen, {-2, 0.9f, 0}), Path{});
+    EXPECT_EQ(at(seen, {-2, 0, 0}), "box");
+    EXPECT_EQ(at(seen, {2, 0, 0}), "ball");
+    EXPECT_EQ(at(seen, {0, 0, 0}), "") << "between the two there is nothing";
+    EXPECT_EQ(at(seen, {2, 0.9f, 0}), "ball") << "it is twice as large as its node says";
+    EXPECT_EQ(at(seen, {-2, 0.9f, 0}), "");
 }
 
 TEST(Pick, NothingOutsideOfTheRegionOrTheSolid) {
     Seen seen = seenOf(nodes(kTwo));
-    EXPECT_EQ(pick(seen, 0.99, 0.99), Path{});
+    EXPECT_EQ(pick(seen, 0.99, 0.99), "");
     seen.region = {{-20, -20, -20}, {0, 20, 20}};
-    EXPECT_EQ(at(seen, {2, 0, 0}), Path{});
-    EXPECT_EQ(at(seen, {-2, 0, 0}), Path{"box"});
+    EXPECT_EQ(at(seen, {2, 0, 0}), "");
+    EXPECT_EQ(at(seen, {-2, 0, 0}), "box");
 }
 
 TEST(Pick, WhatIsPinnedIsWhatIsHit) {
     Seen seen = seenOf(nodes(kTwo));
     seen.pinned = "ball";
-    EXPECT_EQ(at(seen, {0, 0, 0}), Path{"ball"});
-    EXPECT_EQ(at(seen, {2, 0, 0}), Path{});
+    EXPECT_EQ(at(seen, {0, 0, 0}), "ball");
+    EXPECT_EQ(at(seen, {2, 0, 0}), "");
 }
 
 TEST(Pick, WallsOfAHoleBelongToTheDrill) {
@@ -88,9 +88,9 @@ TEST(Pick, WallsOfAHoleBelongToTheDrill) {
       {"id": "bend", "type": "reroute", "inputs": {"value": {"from": "drill"}}},
       {"id": "part", "type": "subtract", "inputs": {"a": {"from": "block"}, "b": {"from": "bend"}}},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "part"}}})"));
-    EXPECT_EQ(at(seen, {0, 0, 2}), Path{"block"});
-    EXPECT_EQ(at(seen, {0, 2, 1.6f}), Path{"block"});
-    EXPECT_EQ(at(seen, {-0.6f, 1.8f, -0.8f}), Path{"drill"}) << "seen through the opening at the top";
+    EXPECT_EQ(at(seen, {0, 0, 2}), "block");
+    EXPECT_EQ(at(seen, {0, 2, 1.6f}), "block");
+    EXPECT_EQ(at(seen, {-0.6f, 1.8f, -0.8f}), "drill") << "seen through the opening at the top";
 }
 
 TEST(Pick, RepeatsAndDeformationsLeadToTheirShape) {
@@ -104,8 +104,8 @@ TEST(Pick, RepeatsAndDeformationsLeadToTheirShape) {
       {"id": "all", "type": "union", "inputs": {"a": {"from": "row"}, "b": {"from": "twisted"},
         "radius": 0.05}},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}})"));
-    for (const float x : {-1.5f, 0.0f, 1.5f}) EXPECT_EQ(at(seen, {x, 0, 0}), Path{"ball"}) << x;
-    EXPECT_EQ(at(seen, {0, -0.9f, 2}), Path{"floor"});
+    for (const float x : {-1.5f, 0.0f, 1.5f}) EXPECT_EQ(at(seen, {x, 0, 0}), "ball") << x;
+    EXPECT_EQ(at(seen, {0, -0.9f, 2}), "floor");
 }
 
 TEST(Pick, NodesInGroupsAreNamedByTheWayToThem) {
@@ -121,10 +121,10 @@ TEST(Pick, NodesInGroupsAreNamedByTheWayToThem) {
       {"id": "bar", "type": "capsule", "inputs": {"a": [1, 0, 0], "b": [2, 0, 0], "radius": 0.2}},
       {"id": "sum", "type": "union", "inputs": {"a": {"from": "ball"}, "b": {"from": "bar"}}},
       {"id": "end", "type": "group_output", "inputs": {"surface": {"from": "sum"}}}]}])"));
-    EXPECT_EQ(at(seen, {0, 0, 0}), (Path{"one", "ball"}));
-    EXPECT_EQ(at(seen, {1.5f, 0, 0}), (Path{"one", "bar"}));
-    EXPECT_EQ(at(seen, {0, 2.5f, 0}), (Path{"two", "ball"}));
-    EXPECT_EQ(at(seen, {1.5f, 2.5f, 0}), (Path{"two", "bar"}));
+    EXPECT_EQ(at(seen, {0, 0, 0}), "one/ball");
+    EXPECT_EQ(at(seen, {1.5f, 0, 0}), "one/bar");
+    EXPECT_EQ(at(seen, {0, 2.5f, 0}), "two/ball");
+    EXPECT_EQ(at(seen, {1.5f, 2.5f, 0}), "two/bar");
 }
 
 TEST(Pick, TheTimelineMovesWhatIsHit) {
@@ -134,24 +134,24 @@ TEST(Pick, TheTimelineMovesWhatIsHit) {
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "moved"}}})",
                              R"(, "timeline": {"length": 2, "tracks": [{"node": "moved", "input": "offset",
       "keys": [{"time": 0, "value": [0, 0, 0]}, {"time": 1, "value": [2, 0, 0]}]}]})"));
-    EXPECT_EQ(at(seen, {0, 0, 0}), Path{"ball"});
+    EXPECT_EQ(at(seen, {0, 0, 0}), "ball");
     seen.seconds = 1.0;
-    EXPECT_EQ(at(seen, {0, 0, 0}), Path{});
-    EXPECT_EQ(at(seen, {2, 0, 0}), Path{"ball"});
+    EXPECT_EQ(at(seen, {0, 0, 0}), "");
+    EXPECT_EQ(at(seen, {2, 0, 0}), "ball");
 }
 
 TEST(Pick, Samples) {
     const Seen figure = seenOf(sample("figure"));
-    EXPECT_EQ(at(figure, {0, 1.4f, 0.2f}), Path{"head_ball"});
-    EXPECT_EQ(at(figure, {0, 0.2f, 0}), Path{"torso"});
-    EXPECT_EQ(at(figure, {0.9f, 0.45f, 0.12f}), Path{"arm"});
-    EXPECT_EQ(at(figure, {0.37f, -1.2f, 0}), Path{"leg"});
-    EXPECT_EQ(at(figure, {-0.37f, -1.2f, 0}), Path{"leg"}) << "its mirror image";
+    EXPECT_EQ(at(figure, {0, 1.4f, 0.2f}), "head_ball");
+    EXPECT_EQ(at(figure, {0, 0.2f, 0}), "torso");
+    EXPECT_EQ(at(figure, {0.9f, 0.45f, 0.12f}), "arm");
+    EXPECT_EQ(at(figure, {0.37f, -1.2f, 0}), "leg");
+    EXPECT_EQ(at(figure, {-0.37f, -1.2f, 0}), "leg") << "its mirror image";
     const Seen part = seenOf(sample("csg_part"));
-    EXPECT_EQ(at(part, {0.56f, 0.56f, 0.56f}), Path{"ball"}) << "a corner of the block, rounded";
+    EXPECT_EQ(at(part, {0.56f, 0.56f, 0.56f}), "ball") << "a corner of the block, rounded";
     const Seen tower = seenOf(sample("tower"));
-    EXPECT_EQ(at(tower, {0.98f, 1.98f, 0.98f}), Path{"tower"}) << "a corner";
-    EXPECT_EQ(at(tower, {0.0f, 1.98f, 0.0f}), Path{"tower"});
+    EXPECT_EQ(at(tower, {0.98f, 1.98f, 0.98f}), "tower") << "a corner";
+    EXPECT_EQ(at(tower, {0.0f, 1.98f, 0.0f}), "tower");
 }
 
 TEST(Pick, EverySampleIsHitInItsMiddleOrBesideIt) {
@@ -170,11 +170,12 @@ TEST(Pick, EverySampleIsHitInItsMiddleOrBesideIt) {
                 const auto along = [](double lo, double hi, int k) {
                     return float(lo + (hi - lo) * (k + 0.5) / 5.0);
                 };
-                const Path path = at(seen, {along(seen.region.lo[0], seen.region.hi[0], i),
-                                            along(seen.region.lo[1], seen.region.hi[1], j), 0});
+                const std::string path = at(seen, {along(seen.region.lo[0], seen.region.hi[0], i),
+                                                   along(seen.region.lo[1], seen.region.hi[1], j), 0});
                 if (path.empty()) continue;
                 ++hits;
-                EXPECT_NE(graph.node(path.front()), nullptr) << name << " has no " << path.front();
+                const auto [scope, id] = placeOf(graph, path);
+                EXPECT_NE(findNode(nodesOf(graph, scope), id), nullptr) << name << " has no " << path;
             }
         EXPECT_GT(hits, 4) << name;
     }

@@ -106,6 +106,23 @@ Picture pictureOf(const Graph& graph) {
     return *picture;
 }
 
+TEST(Preview, AnotherViewOrSliceIsDrawnThoughThePictureRests) {
+    Previewed previewed;
+    PreviewWish wish{.graph = joined(0.8)};
+    previewed.ask(wish);
+    const Picture lit = previewed.settled().picture;
+    const auto with = [&](uint32_t view, Slice slice) {
+        wish.view = view, wish.slice = slice, wish.revision = 1;
+        previewed.ask(wish);
+        return previewed.settled().picture;
+    };
+    const Picture middle = with(RENDER_SLICE, {}), level = with(RENDER_SLICE, {.axis = 1}),
+                  higher = with(RENDER_SLICE, {.axis = 1, .at = 0.4f});
+    EXPECT_GT(difference(lit, middle), 2.0);
+    EXPECT_GT(difference(middle, level), 2.0);
+    EXPECT_GT(difference(level, higher), 1.0);
+}
+
 TEST(Preview, ThePictureIsThatOfThePlayer) {
     Previewed previewed;
     const auto graph = joined(0.7);
