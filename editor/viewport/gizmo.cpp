@@ -179,6 +179,7 @@ std::vector<Handle> handlesOf(const Node& node, const Placement& placement,
         const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
         if (link)
             handle.numbers = input.value.numbers, handle.refusal = "It is wired: " + link->node + " sets it.";
+        if (node.muted) handle.refusal = "The node is muted.";
         if (animated.contains(node.id + "." + input.name))
             handle.refusal = "The timeline moves it: change its keys.";
         if (input.type == Type::vec3 && handle.numbers.size() == 1)

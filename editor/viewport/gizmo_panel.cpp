@@ -3,7 +3,6 @@
 
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
-#include "graph/timeline.h"
 
 namespace fw::editor {
 
@@ -15,78 +14,8 @@ constexpr ImU32 kAxes[] = {IM_COL32(0xe8, 0x5d, 0x5d, 255), IM_COL32(0x7c, 0xc0,
                            IM_COL32(0x4f, 0x8f, 0xf0, 255)};
 constexpr ImU32 kAtOnce = IM_COL32(0xf0, 0xf0, 0xf0, 255), kRefused = IM_COL32(0x90, 0x90, 0x90, 200),
                 kShadow = IM_COL32(0, 0, 0, 110);
+constexpr float kAbove = 140.0f;  // canvas units
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
-
-/// The node type that does what the tool does and nothing else; scaling is the same along all axes.
-const NodeType& typeFor(Tool tool) {
-    return *std::ranges::find_if(nodeTypes(), [&](const NodeType& type) {
-        if (type.inputs.size() != 2 || type.inputs[0].type != Type::surface) return false;
-        const InputSpec& input = type.inputs[1];
-        return tool == Tool::move ? isPlace(input) : tool == Tool::turn ? isAngles(input) : isFactor(input);
-    });
-}
-
-/// The input that the wire from `node` leads to in `next`, if it carries a surface.
-std::optional<Plug> wireAhead(const std::vector<Node>& nodes, const std::string& node,
-                              const std::string& next) {
-    const NodeType* from = findNodeType(findNode(nodes, node)->type);
-    const NodeType* to = findNodeType(findNode(nodes, next)->type);
-    const bool makes = from && !from->outputs.empty() && from->outputs.front().type == Type::surface;
-    for (const auto& [name, value] : findNode(nodes, next)->inputs) {
-        const Link* link = std::get_if<Link>(&value.value);
-        const int index = to ? inputIndex(*to, name) : -1;
-        if (link && link->node == node &&
-            (makes || (index >= 0 && to->inputs[std::size_t(index)].type == Type::surface)))
-            return Plug{next, name};
-    }
-    return std::nullopt;
-}
-
-/// What can be dragged of the active node, or, where it has no such value, of the next node behind it that
-/// moves it alone: clicking a shape takes hold of where it stands. If there is none, of one to be added.
-void makeHandles(Editor& editor, Gizmo& gizmo) {
-    gizmo.handles.clear(), gizmo.tools.clear(), gizmo.why.clear(), gizmo.ahead.reset();
-    const Canvas& canvas = editor.canvas;
-    if (canvas.active.empty()) return;
-    const Graph* graph = editor.graph.get();
-    std::optional<Graph> now;
-    std::set<std::string> animated;
-    if (const Result<Timeline> timeline = readTimeline(*graph); timeline && !timeline->tracks.empty()) {
-        if (canvas.scope.empty()) animated = animatedInputs(*graph, *timeline);
-        now = atTime(*graph, *timeline, timelineTime(*timeline, editor.viewport.seconds));
-        graph = &*now;
-    }
-    const std::vector<Node>& nodes = nodesOf(*graph, canvas.scope);
-    const auto way = wayToShown(*graph, canvas.scope, canvas.active, editor.viewport.pinned);
-    if (!way || !findNode(nodes, canvas.active)) return;
-    NodeIds all{canvas.active};
-    all.insert(all.end(), way->begin(), way->end());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Node& node = *findNode(nodes, all[i]);
-        const NodeType* type = findNodeType(node.type);
-        const bool alone = type && std::ranges::count(type->inputs, Type::surface, &InputSpec::type) == 1;
-        if (i > 0 && type && type->id != "reroute" && (!alone || !placementBy(node))) break;
-        const Placement placement = placementAlong(*graph, canvas.scope, std::span(all).subspan(i + 1));
-        for (Handle& handle : handlesOf(node, placement, animated)) {
-            const Tool tool = handle.kind == Kind::move   ? Tool::move
-                              : handle.kind == Kind::turn ? Tool::turn
-                                                          : Tool::scale;
-            gizmo.tools.insert(tool);
-            // The first node that has some for the tool has them all.
-            if (tool == gizmo.tool && (gizmo.handles.empty() || gizmo.handles.front().node == node.id))
-                gizmo.handles.push_back(std::move(handle)), gizmo.why = placement.why;
-        }
-    }
-    if (!way->empty()) gizmo.ahead = wireAhead(nodes, canvas.active, way->front());
-    if (!gizmo.ahead) return;
-    gizmo.tools = {Tool::move, Tool::turn, Tool::scale};
-    if (!gizmo.handles.empty()) return;
-    Node added;
-    added.type = typeFor(gizmo.tool).id;
-    const Placement placement = placementAlong(*graph, canvas.scope, *way);
-    gizmo.handles = handlesOf(added, placement, {});
-    gizmo.why = placement.why;
-}
 
 void followDocument(Editor& editor, Gizmo& gizmo) {
     const Viewport& view = editor.viewport;
@@ -94,7 +23,7 @@ void followDocument(Editor& editor, Gizmo& gizmo) {
                            view.pinned,  view.seconds,        gizmo.tool};
     if (made == gizmo.made) return;
     gizmo.made = made;
-    makeHandles(editor, gizmo);
+    gizmo.grips = gripsOf(*editor.graph, made.scope, made.node, made.pinned, made.seconds, made.tool);
 }
 
 std::string nameOf(const Editor& editor, const std::string& id) {
@@ -102,20 +31,23 @@ std::string nameOf(const Editor& editor, const std::string& id) {
     return box ? titleOf(*box) : id;
 }
 
-/// "Move Head".
+/// "Move Head", of the node that is selected.
 std::string doing(const Editor& editor, const Handle& handle) {
     const char* verb = handle.kind == Kind::move ? "Move " : handle.kind == Kind::turn ? "Rotate " : "Scale ";
-    return verb + nameOf(editor, handle.node.empty() ? editor.canvas.active : handle.node);
+    return verb + nameOf(editor, editor.canvas.active);
 }
 
 void tell(const Editor& editor, const Gizmo& gizmo, const HandleHit& hit) {
-    const Handle& handle = gizmo.handles[hit.handle];
+    const Handle& handle = gizmo.grips.handles[hit.handle];
     std::string words = doing(editor, handle);
     if (hit.axis != kAcrossView) words += std::string(" · ") + kAxisNames[hit.axis];
-    words +=
-        "\n" + (handle.node.empty() ? "Adds a node: " + typeFor(gizmo.tool).label : readable(handle.input));
+    if (handle.node.empty())
+        words += "\nAdds a node: " + typeFor(gizmo.tool).label;
+    else
+        words += "\n" + readable(handle.input) +
+                 (handle.node == editor.canvas.active ? "" : " of " + nameOf(editor, handle.node));
     if (!handle.refusal.empty()) words += "\n" + handle.refusal;
-    if (!gizmo.why.empty()) words += "\nIt is drawn " + gizmo.why + ".";
+    if (!gizmo.grips.why.empty()) words += "\nIt is drawn " + gizmo.grips.why + ".";
     ImGui::SetTooltip("%s", words.c_str());
 }
 
@@ -150,11 +82,12 @@ void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
     editor.document.begin(doing(editor, drag.handle));
     if (drag.handle.node.empty()) {
         const NodeBox *from = editor.boxes->find(editor.canvas.active),
-                      *to = editor.boxes->find(gizmo.ahead->node);
+                      *to = editor.boxes->find(gizmo.grips.ahead->node);
+        // Above the wire: there it hides neither of the two.
         const ImVec2 a = from->area.lo, b = to->area.lo;
         Edited added =
-            insertOnWire(editor.document.graph(), editor.canvas.scope, *gizmo.ahead, typeFor(gizmo.tool).id,
-                         position({0.5f * (a.x + b.x), 0.5f * (a.y + b.y)}));
+            insertOnWire(editor.document.graph(), editor.canvas.scope, *gizmo.grips.ahead,
+                         typeFor(gizmo.tool).id, position({0.5f * (a.x + b.x), std::min(a.y, b.y) - kAbove}));
         if (added.nodes.empty()) return editor.document.cancel();  // the document is full
         drag.handle.node = added.nodes.front();
         editor.document.update(std::move(added.graph));
@@ -211,8 +144,8 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->PushClipRect(view.place.lo, view.place.hi, true);
     const Brush brush{list, lens, editor.shell.scale()};
-    for (std::size_t i = 0; i < gizmo.handles.size(); ++i) {
-        const Handle& handle = gizmo.handles[i];
+    for (std::size_t i = 0; i < gizmo.grips.handles.size(); ++i) {
+        const Handle& handle = gizmo.grips.handles[i];
         const bool dragged = gizmo.drag && gizmo.drag->handle.input == handle.input;
         const auto lit = [&](int axis) {
             return gizmo.drag ? dragged && gizmo.drag->axis == axis : gizmo.hovered == HandleHit{i, axis};
@@ -240,7 +173,7 @@ void showTools(Editor& editor, Gizmo& gizmo) {
     for (const auto& [tool, name] : kTools) {
         ImGui::SetCursorScreenPos(at);
         const bool chosen = tool == gizmo.tool;
-        ImGui::BeginDisabled(!gizmo.tools.contains(tool));
+        ImGui::BeginDisabled(!gizmo.grips.tools.contains(tool));
         ImGui::PushStyleColor(ImGuiCol_Button,
                               ImGui::GetStyleColorVec4(chosen ? ImGuiCol_ButtonActive : ImGuiCol_Button));
         if (ImGui::Button(name, {60 * scale, high - 2 * scale})) gizmo.tool = tool;
@@ -270,11 +203,11 @@ bool followGizmo(Editor& editor) {
     }
     if (!view.hovered || view.drag.busy()) return false;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    gizmo.hovered = handleAt(gizmo.handles, lens, mouse, scale);
+    gizmo.hovered = handleAt(gizmo.grips.handles, lens, mouse, scale);
     if (!gizmo.hovered) return false;
     tell(editor, gizmo, *gizmo.hovered);
     if (!ImGui::IsMouseClicked(0)) return false;
-    const Handle& handle = gizmo.handles[gizmo.hovered->handle];
+    const Handle& handle = gizmo.grips.handles[gizmo.hovered->handle];
     if (handle.refusal.empty() && !editor.document.inGesture())
         take(editor, gizmo, takeHandle(handle, gizmo.hovered->axis, lens, mouse, scale));
     return true;
@@ -282,7 +215,7 @@ bool followGizmo(Editor& editor) {
 
 void showGizmo(Editor& editor) {
     Viewport& view = editor.viewport;
-    if (!view.texture || view.gizmo.tools.empty()) return;
+    if (!view.texture || view.gizmo.grips.tools.empty()) return;
     draw(editor, view.gizmo, Lens(view.shown.seen, view.place));
     showTools(editor, view.gizmo);
 }

@@ -7,7 +7,7 @@
 // whose offset moves the field most is the one that the point belongs to. That sees through booleans,
 // repeats, groups and whatever else stands between, and knows no type of node.
 //
-// Plain functions of values, safe on any thread. A graph of hundreds of nodes takes some 10 ms.
+// Plain functions of values, safe on any thread. A thousand nodes take some 20 ms.
 #pragma once
 
 #include <memory>

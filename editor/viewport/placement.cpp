@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <unordered_map>
 
+#include "editor/document/paths.h"
 #include "graph/compile.h"
 
 namespace fw::editor {
@@ -115,10 +116,25 @@ Placement placementAlong(const Graph& graph, std::string_view scope, std::span<c
                 "before what " + (node.label.empty() && type ? type->label : node.label) + " does to it";
             return all;
         }
-        all.linear = by->linear * all.linear;
-        all.shift = by->of(all.shift);
+        all = all.then(*by);
     }
-    if (!scope.empty()) all.why = "where it stands in its group";
+    return all;
+}
+
+Placement placementOf(const Graph& graph, std::string_view scope, const std::string& pinned) {
+    Placement all;
+    std::string at(scope);
+    while (!at.empty() && all.why.empty()) {
+        std::vector<std::string> instances = instancesOf(graph, at, "");
+        all.why = "where it stands in its group";
+        if (instances.size() != 1) return all;
+        instances[0].pop_back();  // the slash behind the instance
+        const auto [outer, instance] = placeOf(graph, instances[0]);
+        const auto way = wayToShown(graph, outer, instance, outer.empty() ? pinned : "");
+        if (!way) return all;
+        all = all.then(placementAlong(graph, outer, *way));
+        at = outer;
+    }
     return all;
 }
 

@@ -33,6 +33,8 @@ struct Placement {
     std::string why = {};  ///< it is not all that happens on the way: why, for a person
 
     glm::dvec3 of(const glm::dvec3& point) const { return linear * point + shift; }
+    /// This one, and then another.
+    Placement then(const Placement& next) const { return {next.linear * linear, next.of(shift), next.why}; }
 };
 
 /// What one node does to its surface; nothing if that cannot be told.
@@ -45,5 +47,8 @@ std::optional<NodeIds> wayToShown(const Graph& graph, std::string_view scope, co
 
 /// What the nodes of a part of that way do together.
 Placement placementAlong(const Graph& graph, std::string_view scope, std::span<const std::string> way);
+
+/// Of a scope in the picture: that of a group is known if it has one instance.
+Placement placementOf(const Graph& graph, std::string_view scope, const std::string& pinned);
 
 }  // namespace fw::editor

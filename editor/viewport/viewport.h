@@ -12,14 +12,13 @@
 
 #include <imgui.h>
 
-#include <set>
 #include <string>
 
 #include "editor/canvas/view.h"
 #include "editor/preview/preview.h"
 #include "editor/shell/shell.h"
 #include "editor/viewport/aside.h"
-#include "editor/viewport/gizmo.h"
+#include "editor/viewport/grips.h"
 #include "editor/viewport/orbit.h"
 
 namespace fw::editor {
@@ -34,21 +33,14 @@ struct CameraDrag {
     bool busy() const { return does != Does::nothing; }
 };
 
-/// What dragging a node in the picture does to it; `scale` is for lengths too.
-enum class Tool : unsigned char { move, turn, scale };
-
 struct Gizmo {
     Tool tool = Tool::move;
-    std::set<Tool> tools;         ///< that the selected node has something for
-    std::vector<Handle> handles;  ///< of the tool
-    std::string why;              ///< they are not where they should be: why
+    Grips grips;
     std::optional<HandleHit> hovered;
     std::optional<HandleDrag> drag;  ///< a gesture of the document
     std::vector<double> numbers;     ///< that the drag gave last
-    /// Where a node is put that the handles are of, if they are of none: in the wire to this input.
-    std::optional<Plug> ahead;
 
-    /// What the handles were made for.
+    /// What the grips were made for.
     struct Made {
         uint64_t revision = 0;
         std::string scope, node, pinned;

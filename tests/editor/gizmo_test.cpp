@@ -1,6 +1,6 @@
 // Gizmos: what can be dragged is read off descriptors, stands where the field says, and a drag over known
 // points gives known numbers.
-#include "editor/viewport/gizmo.h"
+#include "editor/viewport/grips.h"
 
 #include <gtest/gtest.h>
 
@@ -294,6 +294,92 @@ TEST(Gizmo, WhatIsWiredOrAnimatedIsRefusedWithAReason) {
     EXPECT_NE(moved[0].refusal, "");
     EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "sphere"})"), {}, {}).empty());
     EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "output"})"), {}, {}).empty());
+}
+
+const char* const kChain = R"(
+  {"id": "ball", "type": "sphere"},
+  {"id": "soft", "type": "offset", "inputs": {"surface": {"from": "ball"}}},
+  {"id": "there", "type": "translate", "inputs": {"surface": {"from": "soft"}, "offset": [0, 1, 0]}},
+  {"id": "block", "type": "box"},
+  {"id": "both", "type": "union", "inputs": {"a": {"from": "there"}, "b": {"from": "block"}}},
+  {"id": "all", "type": "transform", "inputs": {"surface": {"from": "both"}, "translation": [2, 0, 0]}},
+  {"id": "lone", "type": "box"},
+  {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}})";
+
+TEST(Grips, AShapeIsHeldWhereItStands) {
+    const Graph graph = nodes(kChain);
+    const Grips ball = gripsOf(graph, "", "ball", "", 0.0, Tool::move);
+    ASSERT_EQ(ball.handles.size(), 1u);
+    EXPECT_EQ(ball.handles[0].node, "there");
+    EXPECT_EQ(ball.handles[0].origin, glm::dvec3(2, 1, 0)) << "moved by both";
+    const Grips pinned = gripsOf(graph, "", "ball", "there", 0.0, Tool::move);
+    ASSERT_EQ(pinned.handles.size(), 1u);
+    EXPECT_EQ(pinned.handles[0].origin, glm::dvec3(0, 1, 0));
+    EXPECT_TRUE(gripsOf(graph, "", "lone", "", 0.0, Tool::move).handles.empty()) << "it is not seen";
+}
+
+TEST(Grips, ANodesOwnValuesComeFirst) {
+    const Graph graph = nodes(kChain);
+    const Grips extents = gripsOf(graph, "", "block", "", 0.0, Tool::scale);
+    ASSERT_EQ(extents.handles.size(), 1u);
+    EXPECT_EQ(extents.handles[0].node, "block");
+    EXPECT_EQ(extents.handles[0].origin, glm::dvec3(2, 0, 0));
+    const Grips all = gripsOf(graph, "", "all", "", 0.0, Tool::turn);
+    ASSERT_EQ(all.handles.size(), 1u);
+    EXPECT_EQ(all.handles[0].node, "all");
+}
+
+TEST(Grips, InAGroupTheyStandWhereItsOneInstanceStands) {
+    const auto graph = [](const std::string& more) {
+        const Result<Graph> read = parseGraph(R"({"fieldwright": 1, "nodes": [
+          {"id": "one", "type": "group", "group": "lamp"},)" +
+                                                  more +
+                                                  R"(
+          {"id": "up", "type": "scale", "inputs": {"surface": {"from": "one"}, "factor": 3}},
+          {"id": "out", "type": "output", "inputs": {"surface": {"from": "up"}}}],
+          "groups": [{"id": "lamp", "outputs": [{"name": "surface", "type": "surface"}], "nodes": [
+          {"id": "ball", "type": "sphere"},
+          {"id": "there", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [1, 0, 0]}},
+          {"id": "end", "type": "group_output", "inputs": {"surface": {"from": "there"}}}]}]})",
+                                              "", nullptr);
+        EXPECT_TRUE(read) << format(read.error());
+        return read ? *read : Graph{};
+    };
+    const Grips once = gripsOf(graph(""), "lamp", "ball", "", 0.0, Tool::move);
+    ASSERT_EQ(once.handles.size(), 1u);
+    EXPECT_EQ(once.handles[0].origin, glm::dvec3(3, 0, 0));
+    EXPECT_EQ(once.why, "");
+    const Grips twice = gripsOf(graph(R"({"id": "two", "type": "group", "group": "lamp"},)"), "lamp", "ball",
+                                "", 0.0, Tool::move);
+    ASSERT_EQ(twice.handles.size(), 1u);
+    EXPECT_EQ(twice.handles[0].origin, glm::dvec3(1, 0, 0));
+    EXPECT_NE(twice.why, "");
+}
+
+TEST(Grips, WhatHasNoneGetsANodeInTheWireAhead) {
+    const Graph graph = nodes(kChain);
+    for (const Tool tool : {Tool::move, Tool::turn, Tool::scale}) {
+        const Grips grips = gripsOf(graph, "", "ball", "", 0.0, tool);
+        EXPECT_EQ(grips.tools.size(), 3u);
+        if (tool == Tool::move) continue;
+        ASSERT_EQ(grips.handles.size(), 1u);
+        EXPECT_EQ(grips.handles[0].node, "");
+        EXPECT_EQ(grips.ahead, (Plug{"soft", "surface"}));
+        const Edited added = insertOnWire(graph, "", *grips.ahead, typeFor(tool).id, {0, 0});
+        ASSERT_EQ(added.nodes.size(), 1u);
+        const Grips after = gripsOf(added.graph, "", "ball", "", 0.0, tool);
+        ASSERT_EQ(after.handles.size(), 1u);
+        EXPECT_EQ(after.handles[0].node, added.nodes[0]);
+        EXPECT_EQ(after.handles[0].input, grips.handles[0].input);
+        EXPECT_EQ(after.handles[0].origin, grips.handles[0].origin);
+    }
+    EXPECT_EQ(typeFor(Tool::move).id, "translate");
+    EXPECT_EQ(typeFor(Tool::turn).id, "rotate");
+    EXPECT_EQ(typeFor(Tool::scale).id, "scale");
+    const Grips block = gripsOf(graph, "", "block", "", 0.0, Tool::move);
+    ASSERT_EQ(block.handles.size(), 1u);
+    EXPECT_EQ(block.handles[0].node, "") << "what moves both does not move it alone";
+    EXPECT_EQ(block.ahead, (Plug{"both", "b"}));
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// What can be dragged in the picture when a node is selected.
+//
+// The node's own values, or, where it has none for the tool, those of the next node behind it that moves it
+// alone: who clicks a shape takes hold of where it stands. If there is none either, those of a node that is
+// added when they are dragged. No type of node has code here.
+#pragma once
+
+#include <set>
+
+#include "editor/viewport/gizmo.h"
+
+namespace fw::editor {
+
+/// What dragging does; `scale` is for lengths too.
+enum class Tool : unsigned char { move, turn, scale };
+
+struct Grips {
+    std::set<Tool> tools;         ///< that there is something for
+    std::vector<Handle> handles;  ///< of the tool; those of a node that is to be added name none
+    std::string why;              ///< they are not where they should be: how they are, for a person
+    std::optional<Plug> ahead;    ///< the input whose wire the added node is put in
+};
+
+/// For a node of the scope, as it is when `seconds` have passed; nothing if it is not in the picture of
+/// `pinned` (empty: of the output).
+Grips gripsOf(const Graph& graph, const std::string& scope, const std::string& node,
+              const std::string& pinned, double seconds, Tool tool);
+
+/// The node type that does what the tool does and nothing else; scaling is the same along all axes.
+const NodeType& typeFor(Tool tool);
+
+}  // namespace fw::editor
