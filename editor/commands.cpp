@@ -127,7 +127,9 @@ void use(Editor& editor) {
 constexpr Command kCommands[] = {
     {"file.new", "File", "New", "Ctrl+N", always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
     {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
-    {"file.save", "File", "Save", "Ctrl+S", always, [](Editor& e) { save(e); }},
+    {"file.samples", "File", "Samples …", "", always, [](Editor& e) { proceed(e, Files::Next::samples); }},
+    {"file.save", "File", "Save", "Ctrl+S", always,
+     [](Editor& e) { e.files.next = Files::Next::none, save(e); }},
     {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", always, saveAs},
     {"file.export", "File", "Export …", "Ctrl+E", always, openExport},
     {"edit.undo", "Edit", "Undo", "Ctrl+Z", [](const Editor& e) { return e.document.canUndo(); },
@@ -259,6 +261,7 @@ void showMenus(Editor& editor) {
                 std::string_view(command.keys).substr(0, std::string_view(command.keys).find(' ')).size());
             if (ImGui::MenuItem(labelOf(command, editor).c_str(), keys.c_str(), false, command.can(editor)))
                 command.run(editor);
+            if (std::string_view(command.id) == "file.open") showRecent(editor);
         }
         ImGui::EndMenu();
     }

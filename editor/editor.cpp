@@ -75,7 +75,7 @@ void showSide(Editor& editor, float height) {
     if (!ImGui::BeginTabBar("##side")) return;
     tab("Inspector", editor.panels.inspector, showInspector, editor);
     tab("Outliner", editor.panels.outliner, showOutliner, editor);
-    const std::size_t found = editor.viewport.shown.findings.size();
+    const std::size_t found = editor.viewport.shown.findings.size() + editor.files.found.size();
     tab(found == 0 ? "Problems###problems" : ("Problems (" + std::to_string(found) + ")###problems").c_str(),
         editor.panels.problems, showProblems, editor);
     tab("Parameters", editor.panels.parameters, showParameters, editor);
@@ -138,8 +138,9 @@ bool exchange(Editor& editor) {
     if (const Done kept = editor.files.recovery.keep(editor.graph, editor.drawn, editor.document.unsaved());
         !kept)
         say(editor, format(kept.error()));
+    const bool noticed = watchFile(editor);
     std::optional<PreviewResult> result = editor.preview.take();
-    if (!result) return false;
+    if (!result) return noticed;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
     view.shown = std::move(*result);
     return true;

@@ -1,10 +1,13 @@
 // `fieldwright-editor`: reads the command line and runs the editor.
+#include <atomic>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 
 #include "editor/editor.h"
-#include "graph/json.h"
+#include "editor/shell/loss.h"
+#include "runtime/export/output_file.h"
 
 namespace fw::editor {
 
@@ -28,25 +31,32 @@ std::string readSize(const std::string& text, ShellOptions& shell) {
     return {};
 }
 
+void complain(const std::string& words) { std::fprintf(stderr, "fieldwright-editor: %s\n", words.c_str()); }
+
+/// The way out when nothing can be shown any more: keeps what is unsaved, says so and leaves the process as
+/// it is, since neither a lost device nor a lost display can be taken down in order.
+[[noreturn]] void endAtOnce(Editor& editor, const std::string& why) {
+    onDisplayLost({});
+    const std::string kept = keepForNextTime(editor);
+    complain(why + (kept.empty() ? "" : ". " + kept));
+    OutputFile::removeUnfinished();
+    std::_Exit(kSystemFailure);
+}
+
 int run(const Options& options) {
-    Graph graph;
-    if (!options.graph.empty()) {
-        std::vector<Error> warnings;
-        Result<Graph> read = readGraph(options.graph, &warnings);
-        for (const Error& warning : warnings) std::fprintf(stderr, "%s\n", format(warning).c_str());
-        if (!read) {
-            std::fprintf(stderr, "%s\n", format(read.error()).c_str());
-            return kBadInput;
-        }
-        graph = std::move(*read);
-    }
+    // Before any other thread, which would take the signals.
+    std::atomic<int> signal = 0;
+    const SignalWatch signals([&](int heard) {
+        signal = heard;
+        Shell::wake();
+    });
     Shell shell(options.shell);
-    if (!shell.fonts().missing.empty())
-        std::fprintf(stderr, "fieldwright-editor: %s\n", shell.fonts().missing.c_str());
-    Editor editor(shell, std::move(graph), {.pick = options.shell.device});
-    startFiles(editor);
+    if (!shell.fonts().missing.empty()) complain(shell.fonts().missing);
+    Editor editor(shell, Graph(), {.pick = options.shell.device});
+    startFiles(editor, options.graph);
+    onDisplayLost([&] { endAtOnce(editor, "the display is gone"); });
     try {
-        while (!editor.quit) {
+        while (!editor.quit && signal == 0) {
             if (shell.closed()) {
                 shell.keepOpen();
                 proceed(editor, Files::Next::quit);
@@ -55,14 +65,15 @@ int run(const Options& options) {
             const bool fresh = exchange(editor);
             if (asked || fresh || moves(editor)) shell.frame([&] { showEditor(editor); });
         }
-    } catch (const SystemError&) {
-        if (editor.document.unsaved() && editor.files.recovery.keepNow(editor.document.graph()))
-            std::fprintf(stderr,
-                         "fieldwright-editor: the unsaved changes are kept, and offered at the next start\n");
-        throw;
-    }
-    editor.files.recovery.discard();
-    return kDone;
+    } catch (const SystemError& error) { endAtOnce(editor, error.what()); }
+    onDisplayLost({});
+    if (signal == 0) return editor.files.recovery.discard(), kDone;
+    const std::string kept = keepForNextTime(editor);
+    if (kept.empty())
+        editor.files.recovery.discard();
+    else
+        complain("ended by a signal. " + kept);
+    return 128 + signal;
 }
 
 int main(int count, char** arguments) {

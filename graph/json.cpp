@@ -28,11 +28,13 @@ std::string_view kindName(Kind kind) {
     }
 }
 
-/// Turns tokens into a Graph. Every function returns false after it has stored the one error.
+/// Turns tokens into a Graph. Every function returns false after it has stored the one error; a lenient
+/// reader keeps those of entries and members among the findings, and goes on without the entry or member.
 class Reader {
   public:
-    Reader(const JsonTokens& fileTokens, std::string path, std::vector<Error>* findings)
-        : tokens(fileTokens), list(fileTokens.list), warnings(findings) {
+    Reader(const JsonTokens& fileTokens, std::string path, std::vector<Error>* findings,
+           bool isLenient = false)
+        : tokens(fileTokens), list(fileTokens.list), warnings(findings), lenient(isLenient) {
         graph.path = std::move(path);
     }
 
@@ -54,7 +56,8 @@ class Reader {
             return unknown(keyAt, graph.extra,
                            {"nodes", "groups", "parameters", "scene", "timeline", "frames"});
         });
-        if (sound && !hasNodes) return fail(0, "the key \"nodes\" is missing: add \"nodes\": [...]");
+        if (sound && !hasNodes)
+            return fail(0, "the key \"nodes\" is missing: add \"nodes\": [...]") || leaveOut();
         if (sound && unknownKeys > kMaxWarnings)
             warn(0, std::to_string(unknownKeys - kMaxWarnings) + " more unknown keys are kept");
         return sound;
@@ -62,6 +65,7 @@ class Reader {
 
     Graph graph;
     Error error;
+    std::size_t leftOut = 0;
 
   private:
     Error finding(uint32_t index, std::string message, Error::Severity severity) const {
@@ -89,11 +93,19 @@ class Reader {
                                std::string(kindName(list[value].kind)));
     }
 
+    /// Whether to go on without what the error is about.
+    bool leaveOut() {
+        if (!lenient) return false;
+        if (++leftOut <= kMaxWarnings) warnings->push_back(std::move(error));
+        return true;
+    }
+
     /// Calls use(key, index of the key, index of its value) for each member until one returns false.
+    /// `needed`: the object makes no sense without any of them.
     template <class Use>
-    bool forMembers(uint32_t object, Use use) {
+    bool forMembers(uint32_t object, Use use, bool needed = false) {
         for (uint32_t i = object + 1; i < list[object].next; i = list[i].next)
-            if (!use(list[i].text, i, i + 1)) return false;
+            if (!use(list[i].text, i, i + 1) && (needed || !leaveOut())) return false;
         return true;
     }
 
@@ -185,8 +197,12 @@ class Reader {
         if (count(value) > limit)
             return fail(value, "\"" + std::string(key) + "\" has more than " + std::to_string(limit) +
                                    " entries: split it");
-        for (uint32_t i = value + 1; i < list[value].next; i = list[i].next)
-            if (!(this->*readEntry)(i, to.emplace_back())) return false;
+        for (uint32_t i = value + 1; i < list[value].next; i = list[i].next) {
+            if ((this->*readEntry)(i, to.emplace_back())) continue;
+            if (!leaveOut()) return false;
+            to.pop_back();
+            node.clear();
+        }
         return true;
     }
 
@@ -243,9 +259,10 @@ class Reader {
         to.inputs.reserve(count(value));
         return forMembers(value, [&](std::string_view key, uint32_t, uint32_t i) {
             input = key;
-            if (!readInput(i, to.inputs.emplace_back(std::string(key), InputValue{}).second)) return false;
+            const bool sound = readInput(i, to.inputs.emplace_back(std::string(key), InputValue{}).second);
+            if (!sound) to.inputs.pop_back();
             input.clear();
-            return true;
+            return sound;
         });
     }
 
@@ -294,11 +311,12 @@ class Reader {
     bool readLink(uint32_t value, InputValue& to) {
         Link link;
         if (member(value, "from") == 0) return failInput(value, "an object without \"from\"");
-        const bool sound = forMembers(value, [&](std::string_view key, uint32_t keyAt, uint32_t i) {
+        const auto use = [&](std::string_view key, uint32_t keyAt, uint32_t i) {
             if (key == "from") return read(i, key, link.node);
             if (key == "output") return read(i, key, link.output);
             return unknown(keyAt, to.extra, {"from", "output"});
-        });
+        };
+        const bool sound = forMembers(value, use, true);
         to.value = std::move(link);
         return sound;
     }
@@ -307,14 +325,15 @@ class Reader {
         if (list[value].kind != Kind::object)
             return fail(value, "a parameter is an object with \"name\", \"node\" and \"input\"");
         to.place = list[value].at;
-        const bool sound = forMembers(value, [&](std::string_view key, uint32_t keyAt, uint32_t i) {
+        const auto use = [&](std::string_view key, uint32_t keyAt, uint32_t i) {
             if (key == "name") return read(i, key, to.name);
             if (key == "node") return read(i, key, to.node);
             if (key == "input") return read(i, key, to.input);
             if (key == "min") return read(i, key, to.min);
             if (key == "max") return read(i, key, to.max);
             return unknown(keyAt, to.extra, {"name", "node", "input", "min", "max"});
-        });
+        };
+        const bool sound = forMembers(value, use, true);
         for (const char* key : {"name", "node", "input"})
             if (sound && member(value, key) == 0)
                 return fail(value, "the parameter has no \"" + std::string(key) + "\"");
@@ -350,17 +369,19 @@ class Reader {
                         "an " + what +
                             " of a group is an object such as {\"name\": \"radius\", \"type\": \"float\"}");
         to.place = list[value].at;
-        return forMembers(value, [&](std::string_view key, uint32_t keyAt, uint32_t i) {
+        const auto use = [&](std::string_view key, uint32_t keyAt, uint32_t i) {
             if (key == "name") return read(i, key, to.name);
             if (key == "type") return read(i, key, to.type);
             if (key == "value" && initial) return readInput(i, initial->emplace());
             return unknown(keyAt, to.extra, {"name", "type", "value"});
-        });
+        };
+        return forMembers(value, use, true);
     }
 
     const JsonTokens& tokens;
     const std::vector<JsonToken>& list;
     std::vector<Error>* warnings;
+    bool lenient;
     std::string group, node, input;  ///< being read: for the place of a finding
     std::size_t nodeCount = 0, unknownKeys = 0;
 };
@@ -379,7 +400,30 @@ Result<Graph> parseGraph(std::string_view text, std::string path, std::vector<Er
     return std::move(reader.graph);
 }
 
-Result<Graph> readGraph(const std::string& path, std::vector<Error>* warnings) {
+PartialGraph parseWhatCanBeRead(std::string_view text, std::string path) {
+    PartialGraph partial;
+    partial.graph.path = path;
+    const Result<JsonTokens> tokens = tokenize(text, path);
+    if (!tokens) {
+        partial.findings.push_back(tokens.error());
+        return partial;
+    }
+    Reader reader(*tokens, std::move(path), &partial.findings, true);
+    if (!reader.readRoot()) {
+        partial.findings.push_back(std::move(reader.error));
+        return partial;
+    }
+    partial.graph = std::move(reader.graph);
+    if (reader.leftOut > kMaxWarnings)
+        partial.findings.push_back({.message = std::to_string(reader.leftOut - kMaxWarnings) +
+                                               " more things cannot be read and are left out",
+                                    .file = partial.graph.path});
+    partial.whole = reader.leftOut == 0;
+    partial.any = true;
+    return partial;
+}
+
+Result<std::string> readGraphText(const std::string& path) {
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
         return fileError(path, errno == ENOENT ? "there is no such file: check the path"
@@ -400,7 +444,13 @@ Result<Graph> readGraph(const std::string& path, std::vector<Error>* warnings) {
     close(file);
     if (problem == EISDIR) return fileError(path, "this is a folder: name a graph file in it");
     if (problem != 0) return fileError(path, "cannot read the file: " + std::string(std::strerror(problem)));
-    return parseGraph(text, path, warnings);
+    return text;
+}
+
+Result<Graph> readGraph(const std::string& path, std::vector<Error>* warnings) {
+    const Result<std::string> text = readGraphText(path);
+    if (!text) return text.error();
+    return parseGraph(*text, path, warnings);
 }
 
 }  // namespace fw

@@ -66,7 +66,12 @@ struct CanvasView {
     }
 };
 
-inline ImVec2 vec(const Position& p) { return {float(p[0]), float(p[1])}; }
+/// A file may hold any number; beyond these nothing can be told apart, or drawn.
+inline constexpr double kFarthestPlace = 1e6;
+inline ImVec2 vec(const Position& p) {
+    return {float(std::clamp(p[0], -kFarthestPlace, kFarthestPlace)),
+            float(std::clamp(p[1], -kFarthestPlace, kFarthestPlace))};
+}
 /// In whole units: places in files stay short.
 inline Position position(ImVec2 p) { return {std::round(double(p.x)), std::round(double(p.y))}; }
 

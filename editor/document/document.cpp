@@ -285,11 +285,17 @@ bool Document::redo() {
 }
 
 bool Document::unsaved() const {
+    if (!saved) return true;
     if (!inGesture()) return !same(*steps[at].after, *saved);
     return !same(*snapshotOf(current, *saved), *saved);
 }
 
 void Document::markSaved() { saved = inGesture() ? snapshotOf(current, *gesture) : steps[at].after; }
+
+void Document::markUnsaved() {
+    saved.reset();
+    ++changes;  // for whoever keeps what is unsaved
+}
 
 void Document::setPath(std::string path) {
     if (path == current.path) return;

@@ -53,6 +53,8 @@ class Document {
     /// Whether the graph is another than the one last saved or opened.
     bool unsaved() const;
     void markSaved();
+    /// The file holds something else now, or is gone: unsaved until it is saved again.
+    void markUnsaved();
     /// The file that the graph is of. Not part of the history.
     void setPath(std::string path);
 
@@ -64,9 +66,9 @@ class Document {
 
     Graph current;
     uint64_t changes = 1;
-    std::deque<Step> steps;  ///< the first is what was opened
-    std::size_t at = 0;      ///< the step that `current` is, unless a gesture is under way
-    std::shared_ptr<const Snapshot> saved;
+    std::deque<Step> steps;                   ///< the first is what was opened
+    std::size_t at = 0;                       ///< the step that `current` is, unless a gesture is under way
+    std::shared_ptr<const Snapshot> saved;    ///< null: none is
     std::shared_ptr<const Snapshot> gesture;  ///< what the gesture began with
     std::string gestureName;
 };

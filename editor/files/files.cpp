@@ -5,19 +5,28 @@
 #include "editor/document/layout.h"
 #include "editor/editor.h"
 #include "graph/json.h"
+#include "graph/node_type.h"
 
 namespace fw::editor {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Next = Files::Next;
+using Origin = Files::Origin;
 
-constexpr const char* kQuestion = "Unsaved changes";
-constexpr const char* kOffer = "Recovered work";
+constexpr std::string_view kEnding = ".field.json";
 
-std::string nameOf(const Editor& editor) {
-    const std::string& path = editor.document.graph().path;
-    return path.empty() ? "untitled" : std::filesystem::path(path).filename().string();
+std::string fileName(const std::string& path) { return fs::path(path).filename().string(); }
+
+std::string absolute(const std::string& path) {
+    std::error_code error;
+    return fs::absolute(path, error).lexically_normal().string();
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
+    std::error_code error;
+    return absolute(a) == absolute(b) || fs::equivalent(a, b, error);
 }
 
 /// A document that makes something at once: a box to cut.
@@ -27,6 +36,106 @@ Graph freshGraph() {
     return connect(out.graph, "", {box.nodes.at(0), ""}, {out.nodes.at(0), "surface"});
 }
 
+void tell(Editor& editor, std::string title, std::string text, std::vector<Error> problems = {}) {
+    for (Error& problem : problems) problem.file = fileName(problem.file);
+    editor.files.message = {std::move(title), std::move(text), std::move(problems)};
+}
+
+void remember(Editor& editor, const std::string& path) {
+    addRecent(editor.files.preferences, path);
+    if (const Done kept = savePreferences(editor.files.preferences, preferencesPath()); !kept)
+        say(editor, format(kept.error()));
+}
+
+/// Shows what was read of the file.
+void adopt(Editor& editor, PartialGraph read, const std::string& text, const std::string& path) {
+    Files& files = editor.files;
+    take(editor, std::move(read.graph));
+    files.origin = isSample(path) ? Origin::sample : read.whole ? Origin::own : Origin::partly;
+    files.found = std::move(read.findings);
+    files.watch.follow(path, text);
+    if (files.origin != Origin::sample) remember(editor, path);
+    if (!read.whole)
+        tell(editor, "Not all could be read",
+             "Parts of " + fileName(path) +
+                 " could not be read and are left out here. The file keeps them: saving asks before it is "
+                 "replaced. They stay listed under Problems.",
+             files.found);
+}
+
+/// A copy of the file beside it, under a name that is free.
+Done keepBeside(const std::string& path) {
+    std::error_code error;
+    std::string copy = path + ".old";
+    for (int i = 2; fs::exists(copy, error); ++i) copy = path + ".old" + std::to_string(i);
+    if (fs::copy_file(path, copy, error); !error) return done();
+    return Error{.message = "what it holds cannot be kept in " + copy + " (" + error.message() +
+                            "): save under another name",
+                 .file = path};
+}
+
+/// The pictures that the graph reads, to the folder of its new file, unless files of these names are there.
+void bringPictures(const Graph& graph, const std::string& path) {
+    const fs::path from = fs::absolute(graph.path).parent_path(), to = fs::absolute(path).parent_path();
+    if (graph.path.empty() || sameFile(from, to)) return;
+    const auto bring = [&](const std::vector<Node>& nodes) {
+        for (const Node& node : nodes) {
+            const NodeType* type = findNodeType(node.type);
+            for (const auto& [name, input] : node.inputs) {
+                const int index = type ? inputIndex(*type, name) : -1;
+                const auto* file = std::get_if<std::string>(&input.value);
+                if (index < 0 || type->inputs[std::size_t(index)].type != Type::image || !file ||
+                    fs::path(*file).is_absolute())
+                    continue;
+                std::error_code error;  // what cannot be brought is found missing by check()
+                const fs::path target = (to / *file).lexically_normal();
+                if (!target.string().starts_with(to.string()) || fs::exists(target, error)) continue;
+                fs::create_directories(target.parent_path(), error);
+                fs::copy_file(from / *file, target, error);
+            }
+        }
+    };
+    bring(graph.nodes);
+    for (const Group& group : graph.groups) bring(group.nodes);
+}
+
+/// Where a file goes that has no name of its own yet.
+std::string proposal(const Editor& editor) {
+    const Files& files = editor.files;
+    const std::string& path = editor.document.graph().path;
+    if (path.empty() || files.origin == Origin::own) return path;
+    const std::string stem = fileName(path).substr(0, fileName(path).size() - kEnding.size());
+    if (files.origin == Origin::partly)
+        return (fs::path(path).parent_path() / (stem + "_repaired" + std::string(kEnding))).string();
+    std::string folder = files.browser.folder;
+    if (folder.empty() && !files.preferences.recent.empty())
+        folder = fs::path(files.preferences.recent.front()).parent_path().string();
+    return absolute((fs::path(folder) / fileName(path)).string());
+}
+
+void askForName(Editor& editor) { open(editor.files.browser, FileBrowser::Kind::save, proposal(editor)); }
+
+/// The editor's first document where it was started for a file.
+void openFirst(Editor& editor, const std::string& path) {
+    std::error_code error;
+    if (!fs::exists(path, error)) {
+        editor.document.setPath(path);
+        editor.files.watch.follow({}, {});
+        return say(editor, path + " does not exist yet: saving makes it");
+    }
+    openFile(editor, path);
+    // Where it cannot be shown at all, what is made instead goes elsewhere, but not far.
+    if (editor.document.graph().path.empty())
+        editor.files.browser.folder = absolute(fs::path(absolute(path)).parent_path().string());
+}
+
+}  // namespace
+
+std::string nameOf(const Editor& editor) {
+    const std::string& path = editor.document.graph().path;
+    return path.empty() || editor.files.origin == Origin::sample ? "untitled" : fileName(path);
+}
+
 void take(Editor& editor, Graph graph) {
     editor.document = Document(placeAll(graph));
     editor.boxes.reset();
@@ -34,126 +143,166 @@ void take(Editor& editor, Graph graph) {
     editor.canvas = Canvas();
     editor.viewport.pinned.clear();
     editor.viewport.ownCamera = false;
+    editor.files.origin = Origin::own;
+    editor.files.found.clear();
+    editor.files.outside.reset();
+    editor.files.watch.follow({}, {});
 }
 
-void openPath(Editor& editor, const std::string& path) {
-    Result<Graph> graph = readGraph(path, nullptr);
-    if (!graph) return say(editor, format(graph.error()));
-    take(editor, std::move(*graph));
-    Files& files = editor.files;
-    addRecent(files.preferences, std::filesystem::absolute(path).string());
-    if (const Done kept = savePreferences(files.preferences, preferencesPath()); !kept)
-        say(editor, format(kept.error()));
+void openFile(Editor& editor, const std::string& path) {
+    const Result<std::string> text = readGraphText(path);
+    PartialGraph read;
+    if (text)
+        read = parseWhatCanBeRead(*text, path);
+    else
+        read.findings = {text.error()};
+    if (!read.any)
+        return tell(editor, "This file cannot be opened",
+                    fileName(path) + " is left as it is. What can be done about it:", read.findings);
+    adopt(editor, std::move(read), *text, path);
 }
 
-/// Nothing is lost any more.
 void doNext(Editor& editor) {
     Files& files = editor.files;
-    const Next next = std::exchange(files.next, Next::none);
-    if (next == Next::fresh) take(editor, freshGraph());
-    if (next == Next::browse) open(files.browser, FileBrowser::Kind::open, editor.document.graph().path);
-    if (next == Next::open) openPath(editor, files.nextPath);
-    if (next == Next::quit) editor.quit = true;
+    switch (std::exchange(files.next, Next::none)) {
+        case Next::none: break;
+        case Next::fresh: take(editor, freshGraph()); break;
+        case Next::browse: {
+            const bool sample = files.origin == Origin::sample;
+            open(files.browser, FileBrowser::Kind::open, sample ? "" : editor.document.graph().path);
+            break;
+        }
+        case Next::open: openFile(editor, files.nextPath); break;
+        case Next::samples: files.samples.opening = true; break;
+        case Next::quit: editor.quit = true; break;
+    }
 }
 
-bool write(Editor& editor, const std::string& path) {
-    Graph graph = editor.document.graph();
-    if (const Done saved = saveGraph(graph, path); !saved) return say(editor, format(saved.error())), false;
+bool writeFile(Editor& editor, const std::string& path) {
+    Files& files = editor.files;
+    const Graph graph = editor.document.graph();
+    const auto fail = [&](const Error& error) { return say(editor, format(error)), false; };
+    if (files.origin == Origin::partly && sameFile(path, graph.path))
+        if (const Done kept = keepBeside(path); !kept) return fail(kept.error());
+    if (const Done saved = saveGraph(graph, path); !saved) return fail(saved.error());
+    bringPictures(graph, path);
     editor.document.setPath(path);
     editor.document.markSaved();
-    editor.files.recovery.discard();
-    addRecent(editor.files.preferences, std::filesystem::absolute(path).string());
-    if (const Done kept = savePreferences(editor.files.preferences, preferencesPath()); !kept)
-        say(editor, format(kept.error()));
-    else
-        say(editor, "saved " + path);
+    files.origin = Origin::own;
+    files.found.clear();
+    files.outside.reset();
+    files.watch.follow(path, writeGraph(graph));
+    files.recovery.discard();
+    say(editor, "saved " + path);
+    remember(editor, path);
     return true;
 }
 
-void showQuestion(Editor& editor) {
+void reload(Editor& editor, const std::string& text) {
     Files& files = editor.files;
-    if (std::exchange(files.asks, false)) ImGui::OpenPopup(kQuestion);
-    if (!ImGui::BeginPopupModal(kQuestion, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-    ImGui::TextUnformatted(("Save the changes of " + nameOf(editor) + " first?").c_str());
-    if (ImGui::Button("Save")) {
-        ImGui::CloseCurrentPopup();
-        if (save(editor)) doNext(editor);  // else the file is asked for, and what is next waits
+    const std::string path = editor.document.graph().path;
+    PartialGraph read = parseWhatCanBeRead(text, path);
+    if (!read.whole) files.origin = Origin::partly;
+    if (!read.any) {
+        editor.document.markUnsaved();
+        return tell(
+            editor, "The file was changed",
+            "Another program changed " + fileName(path) +
+                ", and it cannot be read now. The document stays as it is here; saving asks before the "
+                "file is replaced.",
+            read.findings);
     }
-    ImGui::SameLine();
-    if (ImGui::Button("Discard")) {
-        ImGui::CloseCurrentPopup();
-        doNext(editor);
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-        ImGui::CloseCurrentPopup();
-        files.next = Next::none;
-    }
-    ImGui::EndPopup();
+    files.found = std::move(read.findings);
+    const uint64_t before = editor.document.revision();
+    editor.document.apply("Reload", placeAll(read.graph));
+    editor.document.markSaved();
+    if (editor.document.revision() != before)
+        say(editor,
+            "another program changed " + fileName(path) + ": it was loaded anew, undo takes that back");
 }
 
-void showOffer(Editor& editor) {
-    Files& files = editor.files;
-    if (files.left.empty()) return;
-    if (!ImGui::IsPopupOpen(kOffer)) ImGui::OpenPopup(kOffer);
-    if (!ImGui::BeginPopupModal(kOffer, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-    ImGui::TextUnformatted("The editor ended before these changes were saved:");
-    for (std::size_t i = 0; i < files.left.size(); ++i) {
-        const LeftCopy copy = files.left[i];
-        ImGui::PushID(int(i));
-        ImGui::Text("%s, %s", copy.original.empty() ? "untitled" : copy.original.c_str(), copy.when.c_str());
-        ImGui::SameLine();
-        const bool restore = ImGui::Button("Restore");
-        ImGui::SameLine();
-        const bool remove = ImGui::Button("Delete");
-        ImGui::PopID();
-        if (restore) {
-            Result<Graph> graph = readCopy(copy);
-            if (!graph) {
-                say(editor, format(graph.error()));
-            } else {
-                // As a change of what the file holds, so that it is not lost again.
-                const Graph found = *graph;
-                Result<Graph> before =
-                    copy.original.empty() ? Result<Graph>(Graph()) : readGraph(copy.original, nullptr);
-                take(editor, before ? std::move(*before) : Graph());
-                editor.document.setPath(copy.original);
-                editor.document.apply("Recover", found);
-                removeCopy(copy);
-            }
-        }
-        if (remove) removeCopy(copy);
-        if (!restore && !remove) continue;
-        files.left.erase(files.left.begin() + std::ptrdiff_t(i));
-        break;
+void restore(Editor& editor, const LeftCopy& copy) {
+    const Result<Graph> graph = readCopy(copy);
+    if (!graph) return tell(editor, "This copy cannot be read", "It stays where it is:", {graph.error()});
+    const Graph found = *graph;
+    const Result<std::string> text =
+        copy.original.empty() ? Result<std::string>(Error{}) : readGraphText(copy.original);
+    // As a change of what the file holds, so that it is not lost again.
+    PartialGraph before;
+    if (text) before = parseWhatCanBeRead(*text, copy.original);
+    take(editor, std::move(before.graph));
+    editor.document.setPath(copy.original);
+    editor.document.apply("Recover", found);
+    if (text) {
+        editor.files.watch.follow(copy.original, *text);
+        editor.files.origin = isSample(copy.original) ? Origin::sample
+                              : before.whole          ? Origin::own
+                                                      : Origin::partly;
     }
-    if (files.left.empty()) ImGui::CloseCurrentPopup();
-    if (ImGui::Button("Later")) files.left.clear(), ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
+    if (editor.files.recovery.keepNow(found)) removeCopy(copy);
 }
 
-}  // namespace
-
-void startFiles(Editor& editor) {
+void startFiles(Editor& editor, const std::string& path) {
     std::string problem;
     editor.files.preferences = readPreferences(preferencesPath(), problem);
     editor.files.left = leftCopies();
     if (!problem.empty()) editor.notice = problem, editor.noticeUntil = 1e9;
+    if (!path.empty()) openFirst(editor, path);
 }
 
 void showFiles(Editor& editor) {
     Files& files = editor.files;
     if (const auto path = show(files.browser, editor.shell.scale())) {
         if (files.browser.kind == FileBrowser::Kind::open)
-            openPath(editor, *path);
-        else if (write(editor, *path))
+            openFile(editor, *path);
+        else if (writeFile(editor, *path))
             doNext(editor);
     }
-    showQuestion(editor);
-    showOffer(editor);
-    const bool unsaved = editor.document.unsaved();
-    const std::string title = nameOf(editor) + (unsaved ? " * - Fieldwright" : " - Fieldwright");
+    if (const auto path = show(files.samples, editor.shell)) openFile(editor, *path);
+    const std::vector<std::string> dropped = editor.shell.takeDropped();
+    if (!dropped.empty() && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
+        proceed(editor, Next::open, dropped.front());
+    const std::string& failure = editor.viewport.shown.failure;
+    if (!failure.empty() && !std::exchange(files.failureTold, true)) {
+        const std::string kept = keepForNextTime(editor);
+        tell(editor, "The preview has stopped",
+             "Editing and saving go on; pictures come back when the editor is started again." +
+                 (kept.empty() ? "" : "\n\n" + kept),
+             {{.message = failure}});
+    }
+    showFileDialogs(editor);
+    const std::string title =
+        nameOf(editor) + (editor.document.unsaved() ? " * - Fieldwright" : " - Fieldwright");
     if (title != files.title) editor.shell.setTitle(files.title = title);
+}
+
+bool watchFile(Editor& editor) {
+    Files& files = editor.files;
+    if (editor.document.inGesture() || files.outside) return false;
+    std::optional<FileWatch::Change> change = files.watch.look();
+    if (!change) return false;
+    const std::string name = fileName(editor.document.graph().path);
+    if (change->gone) {
+        editor.document.markUnsaved();
+        say(editor, name + " is gone: another program removed or renamed it; saving makes it anew");
+    } else if (editor.document.unsaved()) {
+        files.outside = std::move(change->text);
+    } else {
+        reload(editor, change->text);
+    }
+    return true;
+}
+
+void showRecent(Editor& editor) {
+    const std::vector<std::string> recent = editor.files.preferences.recent;
+    if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
+    for (const std::string& path : recent) {
+        std::error_code error;
+        const bool gone = !fs::exists(path, error);
+        if (ImGui::MenuItem(path.c_str(), gone ? "gone" : nullptr, false, !gone))
+            proceed(editor, Next::open, path);
+    }
+    ImGui::EndMenu();
 }
 
 void proceed(Editor& editor, Next next, std::string path) {
@@ -166,14 +315,25 @@ void proceed(Editor& editor, Next next, std::string path) {
 }
 
 bool save(Editor& editor) {
+    const Files& files = editor.files;
     const std::string path = editor.document.graph().path;
-    if (!path.empty()) return write(editor, path);
-    saveAs(editor);
+    if (files.origin == Origin::partly) return editor.files.asksPartly = true, false;
+    if (!path.empty() && files.origin == Origin::own) return writeFile(editor, path);
+    askForName(editor);
     return false;
 }
 
 void saveAs(Editor& editor) {
-    open(editor.files.browser, FileBrowser::Kind::save, editor.document.graph().path);
+    editor.files.next = Next::none;
+    askForName(editor);
+}
+
+std::string keepForNextTime(Editor& editor) {
+    if (!editor.document.unsaved()) return {};
+    const Done kept = editor.files.recovery.keepNow(editor.document.graph());
+    if (!kept) return "The unsaved changes could not be kept: " + format(kept.error());
+    return "The unsaved changes are kept in " + editor.files.recovery.path() +
+           " and offered at the next start.";
 }
 
 }  // namespace fw::editor

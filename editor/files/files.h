@@ -1,38 +1,90 @@
-// The document's file: new, open, save, and the question what becomes of changes that were not saved.
+// The document's file: new, open, save, and the questions that come with them.
 //
-// What would lose changes waits for an answer. A copy of the changes is kept meanwhile (recovery.h); copies
-// that a crash left are offered at the start. Lifetime: part of the Editor.
+// What would lose changes waits for an answer. A file of which a part cannot be read opens with the rest, and
+// is not replaced without being asked for, nor without what it held being kept beside it. What another
+// program does to the file is noticed. A copy of unsaved changes is kept meanwhile (recovery.h); copies that
+// a crash left are offered at the start. Lifetime: part of the Editor.
 #pragma once
+
+#include <optional>
 
 #include "editor/files/browser.h"
 #include "editor/files/preferences.h"
 #include "editor/files/recovery.h"
+#include "editor/files/samples.h"
+#include "editor/files/watch.h"
 
 namespace fw::editor {
 
 struct Editor;
 
+/// Words in a window of their own, until they are read.
+struct Message {
+    std::string title;  ///< empty: none
+    std::string text;
+    std::vector<Error> problems = {};
+    bool opening = true;
+};
+
 struct Files {
     /// What is to happen once the changes are saved or given up.
-    enum class Next : unsigned char { none, fresh, browse, open, quit } next = Next::none;
+    enum class Next : unsigned char { none, fresh, browse, open, samples, quit } next = Next::none;
     std::string nextPath;  ///< of Next::open
     bool asks = false;     ///< the question about changes is to be opened
+    /// What saving does to the file that the document was read from.
+    enum class Origin : unsigned char {
+        own,     ///< replaces it
+        sample,  ///< nothing: the document is a copy, whose pictures lie beside the original
+        partly,  ///< asks: it holds what could not be read
+    } origin = Origin::own;
+    bool asksPartly = false;   ///< that question is to be opened
+    std::vector<Error> found;  ///< when the file was read
+    FileWatch watch;
+    std::optional<std::string>
+        outside;  ///< what another program wrote, while it is asked what to do about it
+    Message message;
     FileBrowser browser;
+    Samples samples;
     Recovery recovery;
     Preferences preferences;
     std::vector<LeftCopy> left;  ///< of crashes, not yet decided on
     std::string title;           ///< that the window has
+    bool failureTold = false;    ///< of the preview
 };
 
-/// Reads preferences and looks for copies that were left.
-void startFiles(Editor& editor);
-/// One frame: browser, question, offer; the window's title.
+/// Reads preferences, looks for copies that were left, and opens the file, if there is a path. One that does
+/// not exist yet is made by saving.
+void startFiles(Editor& editor, const std::string& path = {});
+/// One frame: browser, gallery, questions, offer; the window's title.
 void showFiles(Editor& editor);
+/// Looks for what happened to the file outside. Whether there is something to show.
+bool watchFile(Editor& editor);
+/// The recent files as entries of ImGui's current menu.
+void showRecent(Editor& editor);
 
 /// Does it, after a question if changes would be lost.
 void proceed(Editor& editor, Files::Next next, std::string path = {});
+/// Shows the file in place of the document; a message where that cannot be, which leaves the document.
+void openFile(Editor& editor, const std::string& path);
 /// To the document's file; asks for one if it has none. Whether the file was written.
 bool save(Editor& editor);
 void saveAs(Editor& editor);
+
+/// Keeps what is unsaved for the next start, as nothing may be done any more. What to tell the user of that;
+/// empty if nothing was unsaved.
+std::string keepForNextTime(Editor& editor);
+
+// For files.cpp and file_dialogs.cpp alone:
+/// The document in place of what there was, with nothing selected.
+void take(Editor& editor, Graph graph);
+/// What the document is called: its file's name, or "untitled".
+std::string nameOf(const Editor& editor);
+bool writeFile(Editor& editor, const std::string& path);
+/// The step that waited; nothing is lost any more.
+void doNext(Editor& editor);
+/// The text in place of the document, as one step of undo.
+void reload(Editor& editor, const std::string& text);
+void restore(Editor& editor, const LeftCopy& copy);
+void showFileDialogs(Editor& editor);
 
 }  // namespace fw::editor

@@ -20,9 +20,18 @@ namespace fw::editor {
 namespace {
 
 constexpr std::string_view kEnding = ".field.json";
+constexpr std::string_view kLock = ".lock";
 constexpr const char* kKey = "recovery";
+constexpr std::time_t kStaleSeconds = 60;
 
-std::string lockOf(const std::string& copy) { return copy.substr(0, copy.size() - kEnding.size()) + ".lock"; }
+std::string lockOf(const std::string& copy) {
+    return copy.substr(0, copy.size() - kEnding.size()) + std::string(kLock);
+}
+
+std::time_t changedAt(const std::string& path) {
+    struct stat status {};
+    return stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
+}
 
 std::string absolute(const std::string& path) {
     std::error_code error;
@@ -128,6 +137,11 @@ std::vector<LeftCopy> leftCopies(const std::string& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         const std::string path = entry.path().string();
         struct stat status {};
+        if (path.ends_with(kLock) && std::time(nullptr) - changedAt(path) > kStaleSeconds) {
+            // Of a process that died without a copy. A young one may be of an editor that is just starting.
+            const std::string copy = path.substr(0, path.size() - kLock.size()) + std::string(kEnding);
+            if (access(copy.c_str(), F_OK) != 0 && isLeft(copy)) unlink(path.c_str());
+        }
         if (!path.ends_with(kEnding) || stat(path.c_str(), &status) != 0 || !isLeft(path)) continue;
         LeftCopy copy{path, {}, localTime(status.st_mtime)};
         if (const Result<Graph> graph = readCopy(copy)) copy.original = graph->path;

@@ -48,7 +48,10 @@ bool showFinding(const Error& finding) {
 }  // namespace
 
 void showProblems(Editor& editor) {
-    const std::vector<Error>& findings = editor.viewport.shown.findings;
+    // What was wrong with the file first: it is not in the graph any more, and the check cannot find it.
+    std::vector<Error> findings = editor.files.found;
+    findings.insert(findings.end(), editor.viewport.shown.findings.begin(),
+                    editor.viewport.shown.findings.end());
     if (findings.empty()) {
         ImGui::TextDisabled("No problems: the graph makes what it shows.");
         return;

@@ -66,6 +66,10 @@ Input::Input(GLFWwindow* window_) : window(window_) {
     });
     glfwSetWindowFocusCallback(
         window, [](GLFWwindow* w, int focused) { of(w).add({.kind = Kind::focus, .code = focused}); });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        of(w).anything = true;
+        of(w).dropped.assign(paths, paths + count);
+    });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).anything = true; });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).anything = true; });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).anything = true; });

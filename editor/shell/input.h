@@ -10,7 +10,9 @@
 
 #include <array>
 #include <deque>
+#include <string>
 #include <utility>
+#include <vector>
 
 struct GLFWwindow;
 
@@ -29,6 +31,8 @@ class Input {
     /// Whether anything happened since the last call: input, another size, a part of the window uncovered.
     bool happened() { return std::exchange(anything, false); }
     bool mouseHeld() const;
+    /// Paths of files that were dropped on the window since the last call.
+    std::vector<std::string> takeDropped() { return std::exchange(dropped, {}); }
 
   private:
     struct Event {
@@ -43,6 +47,7 @@ class Input {
 
     GLFWwindow* window;
     std::deque<Event> events;
+    std::vector<std::string> dropped;
     std::array<bool, 5> buttons = {};
     double x = 0, y = 0;  ///< of the mouse, in pixels
     bool inside = false, anything = true;

@@ -186,6 +186,7 @@ void Shell::forget(ImTextureID id) {
     state->textures.erase(found);
 }
 
+std::vector<std::string> Shell::takeDropped() { return state->input.takeDropped(); }
 const Fonts& Shell::fonts() const { return state->fonts; }
 float Shell::scale() const { return state->scale; }
 const Device& Shell::device() const { return state->device; }

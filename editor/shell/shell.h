@@ -49,6 +49,9 @@ class Shell {
     /// Its last frame may still show it. Null: nothing.
     void forget(ImTextureID id);
 
+    /// Paths of files that were dropped on the window since the last call.
+    std::vector<std::string> takeDropped();
+
     const Fonts& fonts() const;
     float scale() const;
     const Device& device() const;
