@@ -14,6 +14,7 @@ constexpr const char* kQuestion = "Unsaved changes";
 constexpr const char* kOffer = "Recovered work";
 constexpr const char* kPartly = "Parts of the file were not read";
 constexpr const char* kOutside = "Changed outside";
+constexpr const char* kExporting = "An export is under way";
 constexpr std::size_t kMostShown = 12;  // problems in a message; the list in the panel has all
 
 /// Enter stands for the first button.
@@ -85,6 +86,18 @@ void showPartly(Editor& editor) {
         ImGui::CloseCurrentPopup();
         files.next = Next::none;
     }
+    ImGui::EndPopup();
+}
+
+void showExporting(Editor& editor) {
+    if (std::exchange(editor.files.asksExport, false)) ImGui::OpenPopup(kExporting);
+    if (!beginQuestion(editor, kExporting)) return;
+    ImGui::TextWrapped("Ending the editor now ends the export too, which then leaves no file.");
+    const bool waits = button(editor, "Wait for it") || confirmed() || escaped();
+    ImGui::SameLine();
+    if (button(editor, "Quit") || !exports(editor)) editor.quit = true;
+    if (waits) editor.quit = false;
+    if (waits || editor.quit) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
@@ -173,6 +186,7 @@ void showOffer(Editor& editor) {
 void showFileDialogs(Editor& editor) {
     showQuestion(editor);
     showPartly(editor);
+    showExporting(editor);
     showOutside(editor);
     showMessage(editor);
     showOffer(editor);

@@ -76,7 +76,8 @@ Done keepBeside(const std::string& path) {
 
 /// The pictures that the graph reads, to the folder of its new file, unless files of these names are there.
 void bringPictures(const Graph& graph, const std::string& path) {
-    const fs::path from = fs::absolute(graph.path).parent_path(), to = fs::absolute(path).parent_path();
+    const fs::path from = fs::path(absolute(graph.path)).parent_path(),
+                   to = fs::path(absolute(path)).parent_path();
     if (graph.path.empty() || sameFile(from, to)) return;
     const auto bring = [&](const std::vector<Node>& nodes) {
         for (const Node& node : nodes) {
@@ -107,10 +108,7 @@ std::string proposal(const Editor& editor) {
     const std::string stem = fileName(path).substr(0, fileName(path).size() - kEnding.size());
     if (files.origin == Origin::partly)
         return (fs::path(path).parent_path() / (stem + "_repaired" + std::string(kEnding))).string();
-    std::string folder = files.browser.folder;
-    if (folder.empty() && !files.preferences.recent.empty())
-        folder = fs::path(files.preferences.recent.front()).parent_path().string();
-    return absolute((fs::path(folder) / fileName(path)).string());
+    return (fs::path(workFolder(editor)) / fileName(path)).string();
 }
 
 void askForName(Editor& editor) { open(editor.files.browser, FileBrowser::Kind::save, proposal(editor)); }
@@ -134,6 +132,16 @@ void openFirst(Editor& editor, const std::string& path) {
 std::string nameOf(const Editor& editor) {
     const std::string& path = editor.document.graph().path;
     return path.empty() || editor.files.origin == Origin::sample ? "untitled" : fileName(path);
+}
+
+std::string workFolder(const Editor& editor) {
+    const Files& files = editor.files;
+    const std::string& path = editor.document.graph().path;
+    if (!path.empty() && files.origin != Origin::sample)
+        return absolute(fs::path(absolute(path)).parent_path().string());
+    if (!files.browser.folder.empty()) return files.browser.folder;
+    if (files.preferences.recent.empty()) return absolute(".");
+    return fs::path(files.preferences.recent.front()).parent_path().string();
 }
 
 void take(Editor& editor, Graph graph) {
@@ -174,7 +182,7 @@ void doNext(Editor& editor) {
         }
         case Next::open: openFile(editor, files.nextPath); break;
         case Next::samples: files.samples.opening = true; break;
-        case Next::quit: editor.quit = true; break;
+        case Next::quit: (exports(editor) ? files.asksExport : editor.quit) = true; break;
     }
 }
 

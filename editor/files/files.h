@@ -37,6 +37,7 @@ struct Files {
         sample,  ///< nothing: the document is a copy, whose pictures lie beside the original
         partly,  ///< asks: it holds what could not be read
     } origin = Origin::own;
+    bool asksExport = false;   ///< the question about an export that goes on is to be opened
     bool asksPartly = false;   ///< that question is to be opened
     std::vector<Error> found;  ///< when the file was read
     FileWatch watch;
@@ -79,6 +80,8 @@ std::string keepForNextTime(Editor& editor);
 void take(Editor& editor, Graph graph);
 /// What the document is called: its file's name, or "untitled".
 std::string nameOf(const Editor& editor);
+/// Where new files go: the folder of the document's own file, else the one last looked into, or worked in.
+std::string workFolder(const Editor& editor);
 bool writeFile(Editor& editor, const std::string& path);
 /// The step that waited; nothing is lost any more.
 void doNext(Editor& editor);

@@ -50,16 +50,11 @@ const ExportFormat* formatOf(const std::string& path) {
     return known == formats.end() ? nullptr : &*known;
 }
 
-/// Beside the document's file, or in the folder that was last looked into.
+/// A file in the folder that one works in, named as the document's.
 std::string proposal(const Editor& editor) {
-    std::error_code error;
-    const fs::path file = editor.document.graph().path;
-    const std::string name = file.filename().string();
-    const fs::path folder = file.empty() ? fs::path(editor.files.browser.folder) : file.parent_path();
-    return fs::absolute(folder / ((name.empty() ? "untitled" : name.substr(0, name.find('.'))) + ".glb"),
-                        error)
-        .lexically_normal()
-        .string();
+    const std::string name = fs::path(editor.document.graph().path).filename().string();
+    const std::string stem = name.empty() ? "untitled" : name.substr(0, name.find('.'));
+    return (fs::path(workFolder(editor)) / (stem + ".glb")).string();
 }
 
 void showFormat(ExportDialog& dialog) {

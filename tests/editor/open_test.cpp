@@ -285,6 +285,33 @@ TEST_F(FilesInWindow, AFileThatIsGoneCountsAsUnsaved) {
     EXPECT_EQ(readText(file), writeGraph(graph()));
 }
 
+TEST_F(FilesInWindow, AnExportIsNotEndedUnasked) {
+    openFile(*editor, std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/tower.field.json");
+    frames();
+    openExport(*editor);
+    frames();
+    EXPECT_EQ(fs::path(editor->exporting.path).filename(), "tower.glb");
+    EXPECT_NE(fs::path(editor->exporting.path).parent_path(), samplesFolder());
+    std::mutex held;
+    std::unique_lock holds(held);
+    editor->exporting.job = std::make_unique<ExportJob>(
+        ExportWish{.graph = editor->graph, .path = path("tower.glb"), .mesh = {{}, 32}},
+        [&] { std::lock_guard waits(held); });
+    EXPECT_TRUE(exports(*editor));
+    proceed(*editor, Files::Next::quit);
+    frames();
+    EXPECT_FALSE(editor->quit);
+    EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
+    EXPECT_FALSE(fs::exists(path("tower.glb")));
+    holds.unlock();
+    EXPECT_TRUE(framesUntil([&] { return editor->quit; }));
+    EXPECT_TRUE(fs::exists(path("tower.glb")));
+    frames();
+    if (const char* shots = std::getenv("FIELDWRIGHT_SHOTS"))
+        (void)savePicture(shell->capture(), std::string(shots) + "/export.png");
+    editor->exporting.job.reset();
+}
+
 TEST_F(FilesInWindow, WhatThePreviewsFailureCouldTakeIsKept) {
     startFiles(*editor);
     Graph changed = *parseGraph(kGood, "", nullptr);
