@@ -188,6 +188,8 @@ constexpr Command kCommands[] = {
     {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>, false, true},
     {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>, false,
      true},
+    {"picture.shading", "Picture", "Next shading", "Z", pictured, [](Editor& e) { shadeNext(e.viewport); },
+     true, true},
     {"picture.move", "Picture", "Move", "W", pictured, use<Tool::move>, true, true},
     {"picture.rotate", "Picture", "Rotate", "E", pictured, use<Tool::turn>, false, true},
     {"picture.scale", "Picture", "Scale", "R", pictured, use<Tool::scale>, false, true},

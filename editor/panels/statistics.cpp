@@ -1,5 +1,4 @@
 // What the last picture took: triangles, time by stage, memory.
-#include <algorithm>
 #include <cstdio>
 
 #include "editor/editor.h"
@@ -44,7 +43,6 @@ void showStatistics(Editor& editor) {
         std::snprintf(text, sizeof text, "%.2f ms", stage.milliseconds);
         ImGui::ProgressBar(all > 0.0 ? float(stage.milliseconds / all) : 0.0f, {-FLT_MIN, 0}, text);
     }
-    row("Frame of the interface", "%.1f ms", 1000.0 / double(std::max(ImGui::GetIO().Framerate, 1.0f)));
     ImGui::EndTable();
 }
 

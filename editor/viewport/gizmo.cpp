@@ -92,7 +92,12 @@ std::optional<glm::dvec3> meaning(const HandleDrag& drag, const Lens& lens, ImVe
     return result;
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
+/// To a multiple of a step that is whole or a whole part of 1, as the double that its decimals name.
+double rounded(double value, double step) {
+    if (step >= 1.0) return std::round(value / step) * step;
+    const double parts = std::round(1.0 / step);
+    return std::round(value * parts) / parts;
+}
 
 double distance(ImVec2 p, ImVec2 a, ImVec2 b) {
     const glm::dvec2 ab = vec(b) - vec(a), ap = vec(p) - vec(a);

@@ -74,6 +74,11 @@ void caption(const Area& place, const char* words, ImU32 color, float scale) {
 
 }  // namespace
 
+void shadeNext(Viewport& viewport) {
+    const auto at = std::ranges::find(kViews, viewport.view, &std::pair<uint32_t, const char*>::first);
+    viewport.view = kViews[std::size_t(at - std::begin(kViews) + 1) % std::size(kViews)].first;
+}
+
 void showViewport(Editor& editor) {
     Viewport& view = editor.viewport;
     showChoices(editor);

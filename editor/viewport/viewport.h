@@ -87,6 +87,8 @@ bool flies(const Viewport& viewport);
 
 /// Looks from a side at what it looks at.
 void lookFrom(Viewport& viewport, Side side);
+/// Shows the next of the views that the panel lists.
+void shadeNext(Viewport& viewport);
 /// As near as all of the solid is seen, or what the selected node alone makes.
 void frameSolid(Editor& editor);
 /// The mouse on the selected node's handles: whether it has one. Before showGizmo(), which draws them.
