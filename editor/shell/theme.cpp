@@ -24,17 +24,18 @@ constexpr ImU32 kColors[] = {
 };
 static_assert(std::size(kColors) == std::size_t(ThemeColor::warning) + 1);
 
-// By Category: deep, so that a canvas of many nodes is calm and the light title stands out.
+// By Category: deep, so that a canvas of many nodes is calm and the light title stands out; and differing in
+// lightness too, so that everyone tells them apart (theme_test.cpp measures it).
 constexpr ImU32 kCategories[] = {
-    rgb(0x1f6392),  // shape
-    rgb(0x176f78),  // shape2d
-    rgb(0x9a4a16),  // combine
-    rgb(0x6a4c93),  // domain
-    rgb(0x0b7053),  // field
-    rgb(0x4d5866),  // maths
-    rgb(0x93406f),  // material
-    rgb(0x75631a),  // mesh
-    rgb(0x5a5550),  // structure
+    rgb(0x1771a0),  // shape
+    rgb(0x597286),  // shape2d
+    rgb(0xa85824),  // combine
+    rgb(0x4a4593),  // domain
+    rgb(0x0a5c39),  // field
+    rgb(0x50525c),  // maths
+    rgb(0x772e6f),  // material
+    rgb(0x534500),  // mesh
+    rgb(0x746861),  // structure
 };
 static_assert(std::size(kCategories) == std::size_t(Category::structure) + 1);
 
@@ -132,7 +133,7 @@ void applyTheme(float scale) {
     colors[ImGuiCol_TableHeaderBg] = field;
     colors[ImGuiCol_TableBorderStrong] = colors[ImGuiCol_TableBorderLight] = faded(edge, 1);
     colors[ImGuiCol_TableRowBgAlt] = {1, 1, 1, 0.03f};
-    colors[ImGuiCol_TextSelectedBg] = faded(rgb(0x2f6f9c), 1);
+    colors[ImGuiCol_TextSelectedBg] = faded(rgb(0x2b6894), 1);
     colors[ImGuiCol_DragDropTarget] = faded(themeColor(ThemeColor::active), 1);
     colors[ImGuiCol_NavHighlight] = faded(accent, 1);
     colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.5f};

@@ -5,22 +5,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
 
 namespace fw::editor {
 namespace {
 
-/// Relative luminance as the Web Content Accessibility Guidelines define it.
-double luminance(ImU32 color) {
-    const auto linear = [&](int shift) {
-        const double value = double((color >> shift) & 255u) / 255.0;
-        return value <= 0.03928 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-    };
-    return 0.2126 * linear(0) + 0.7152 * linear(8) + 0.0722 * linear(16);
+double linear(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
+
+glm::dvec3 linearOf(ImU32 color) {
+    const auto part = [&](int shift) { return linear(double((color >> shift) & 255u) / 255.0); };
+    return {part(0), part(8), part(16)};
+}
+
+/// Relative luminance as the Web Content Accessibility Guidelines define it.
+double luminance(ImU32 color) { return glm::dot(linearOf(color), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 double contrast(ImU32 a, ImU32 b) {
     const double x = luminance(a) + 0.05, y = luminance(b) + 0.05;
     return std::max(x, y) / std::min(x, y);
+}
+
+/// How people see linear sRGB who lack one kind of cones, as glm has matrices: by columns. From G. M.
+/// Machado, M. M. Oliveira, L. A. F. Fernandes: A Physiologically-based Model for Simulation of Color Vision
+/// Deficiency, IEEE Transactions on Visualization and Computer Graphics 15 (6), 2009, severity 1.
+const std::pair<const char*, glm::dmat3> kVisions[] = {
+    {"all cones", glm::dmat3(1.0)},
+    {"protanopia",
+     {0.152286, 0.114503, -0.003882, 1.052583, 0.786281, -0.048116, -0.204868, 0.099216, 1.051998}},
+    {"deuteranopia",
+     {0.367322, 0.280085, -0.011820, 0.860646, 0.672501, 0.042940, -0.227968, 0.047413, 0.968881}},
+    {"tritanopia",
+     {1.255528, -0.078411, 0.004733, -0.076749, 0.930809, 0.691367, -0.178779, 0.147602, 0.303900}},
+};
+
+/// CIE 1976 L*a*b* of linear sRGB with the white D65.
+glm::dvec3 lab(glm::dvec3 color) {
+    const glm::dmat3 toXyz(0.4124564, 0.2126729, 0.0193339, 0.3575761, 0.7151522, 0.1191920, 0.1804375,
+                           0.0721750, 0.9503041);
+    const glm::dvec3 xyz = toXyz * glm::clamp(color, 0.0, 1.0) / glm::dvec3(0.95047, 1.0, 1.08883);
+    const auto f = [](double t) {
+        return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+    };
+    return {116.0 * f(xyz.y) - 16.0, 500.0 * (f(xyz.x) - f(xyz.y)), 200.0 * (f(xyz.y) - f(xyz.z))};
+}
+
+/// How far apart two colours are for those who see them least apart: CIE 1976 difference, of which about 2.3
+/// can just be noticed.
+double leastDifference(ImU32 a, ImU32 b) {
+    double least = INFINITY;
+    for (const auto& [name, sees] : kVisions)
+        least = std::min(least, glm::distance(lab(sees * linearOf(a)), lab(sees * linearOf(b))));
+    return least;
 }
 
 constexpr int kTypes = int(Type::mesh) + 1, kCategories = int(Category::structure) + 1;
@@ -33,6 +73,16 @@ TEST(Theme, TextStandsOut) {
     for (const ThemeColor ink : {ThemeColor::text, ThemeColor::quiet, ThemeColor::error, ThemeColor::warning})
         for (const ImU32 paper : {themeColor(ThemeColor::canvas), themeColor(ThemeColor::node), panel, field})
             EXPECT_GE(contrast(themeColor(ink), paper), 4.5) << int(ink) << ' ' << std::hex << paper;
+    // Text on what ImGui draws itself: fields, buttons, tabs, lists and menus in all their states.
+    for (const ImGuiCol paper :
+         {ImGuiCol_PopupBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive, ImGuiCol_ButtonHovered,
+          ImGuiCol_ButtonActive, ImGuiCol_MenuBarBg, ImGuiCol_TitleBg, ImGuiCol_TitleBgActive,
+          ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive, ImGuiCol_Tab, ImGuiCol_TabHovered,
+          ImGuiCol_TabActive, ImGuiCol_TableHeaderBg, ImGuiCol_TextSelectedBg})
+        EXPECT_GE(contrast(themeColor(ThemeColor::text),
+                           ImGui::ColorConvertFloat4ToU32(ImGui::GetStyle().Colors[paper])),
+                  4.5)
+            << ImGui::GetStyleColorName(paper);
     for (int i = 0; i < kCategories; ++i)
         EXPECT_GE(contrast(themeColor(ThemeColor::onTitle), categoryColor(Category(i))), 4.5) << i;
     ImGui::DestroyContext();
@@ -46,6 +96,48 @@ TEST(Theme, TypesDifferInShapeOrInLightness) {
                         contrast(typeColor(Type(a)), typeColor(Type(b))) >= 1.5)
                 << a << ' ' << b;
     }
+}
+
+TEST(Theme, TypesOfOneShapeDifferForTheColourBlind) {
+    double least = INFINITY;
+    for (int a = 0; a < kTypes; ++a)
+        for (int b = 0; b < a; ++b) {
+            if (socketShape(Type(a)) != socketShape(Type(b))) continue;
+            const double apart = leastDifference(typeColor(Type(a)), typeColor(Type(b)));
+            EXPECT_GE(apart, 30.0) << typeName(Type(a)) << ' ' << typeName(Type(b));
+            least = std::min(least, apart);
+        }
+    std::printf("types of one shape: at least %.1f apart\n", least);
+}
+
+TEST(Theme, CategoriesDifferForTheColourBlind) {
+    double least = INFINITY;
+    for (int a = 0; a < kCategories; ++a) {
+        EXPECT_GE(leastDifference(categoryColor(Category(a)), themeColor(ThemeColor::node)), 10.0)
+            << categoryName(Category(a));
+        for (int b = 0; b < a; ++b) {
+            const double apart = leastDifference(categoryColor(Category(a)), categoryColor(Category(b)));
+            EXPECT_GE(apart, 12.0) << categoryName(Category(a)) << ' ' << categoryName(Category(b));
+            least = std::min(least, apart);
+        }
+    }
+    std::printf("categories: at least %.1f apart\n", least);
+}
+
+TEST(Theme, StatesDifferForTheColourBlind) {
+    const ThemeColor states[] = {ThemeColor::selected, ThemeColor::active, ThemeColor::error,
+                                 ThemeColor::edge};
+    for (const ThemeColor a : states)
+        for (const ThemeColor b : states) {
+            if (a == b) continue;
+            EXPECT_GE(leastDifference(themeColor(a), themeColor(b)), 20.0) << int(a) << ' ' << int(b);
+        }
+}
+
+/// Machado's matrices keep white and grey as they are.
+TEST(Theme, SimulatedVisionKeepsGrey) {
+    for (const auto& [name, sees] : kVisions)
+        EXPECT_LT(glm::distance(sees * glm::dvec3(0.5), glm::dvec3(0.5)), 1e-3) << name;
 }
 
 }  // namespace
