@@ -1,11 +1,16 @@
 #include "editor/commands.h"
 
-#include <sstream>
-#include <vector>
+#include <imgui_internal.h>
 
+#include <algorithm>
+#include <cassert>
+
+#include "editor/canvas/keyboard.h"
 #include "editor/document/clipboard.h"
 #include "editor/document/layout.h"
 #include "editor/panels/playback.h"
+#include "editor/panels/side.h"
+#include "editor/panels/tour.h"
 
 namespace fw::editor {
 
@@ -21,11 +26,13 @@ NodeIds selected(const Editor& editor) {
 const Graph& graphOf(const Editor& editor) { return editor.document.graph(); }
 const std::string& scopeOf(const Editor& editor) { return editor.canvas.scope; }
 
-/// Where a node goes that was not put anywhere: under the mouse, or in the middle of what is seen.
+/// Where a node goes that was not put anywhere: under the mouse, or in the middle of what is seen; below what
+/// was put there before.
 ImVec2 hereOn(const Editor& editor) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    return editor.canvas.view.panel.contains(mouse) ? editor.canvas.view.toCanvas(mouse)
-                                                    : editor.canvas.view.middle;
+    return freePlace(*editor.boxes, editor.canvas.view.panel.contains(mouse)
+                                        ? editor.canvas.view.toCanvas(mouse)
+                                        : editor.canvas.view.middle);
 }
 
 void addHere(Editor& editor) {
@@ -124,6 +131,43 @@ void use(Editor& editor) {
     editor.viewport.gizmo.tool = tool;
 }
 
+constexpr float kZoomStep = 1.25f, kMoveStep = 24.0f;  // canvas units
+
+void zoom(Editor& editor, float by) {
+    CanvasView& view = editor.canvas.view;
+    view.zoomTo(view.zoom * by, view.panel.centre());
+}
+
+template <int x, int y, bool adds>
+void stepTo(Editor& editor) {
+    step(editor.canvas, *editor.boxes, {float(x), float(y)}, adds);
+}
+
+template <int x, int y>
+void moveBy(Editor& editor) {
+    editor.document.apply("Move Nodes", moveNodes(graphOf(editor), scopeOf(editor), selected(editor),
+                                                  {double(kMoveStep) * x, double(kMoveStep) * y}));
+}
+
+bool anyActive(const Editor& editor) { return !editor.canvas.active.empty(); }
+
+/// Its first number on the canvas; what has none there is edited in the inspector.
+void editActive(Editor& editor) {
+    if (typeFirstValue(editor.canvas, *editor.boxes)) return;
+    showPanel(editor, "inspector");
+}
+
+void rename(Editor& editor) {
+    showPanel(editor, "inspector");
+    editor.windows.renames = true;
+}
+
+/// Alt by itself goes to the menus, but not when it was held for something else.
+void keepMenusClosed() {
+    if (ImGui::GetIO().KeyAlt && (pressedNow() || ImGui::IsAnyMouseDown()))
+        ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
+}
+
 constexpr Command kCommands[] = {
     {"file.new", "File", "New", "Ctrl+N", always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
     {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
@@ -152,12 +196,17 @@ constexpr Command kCommands[] = {
      [](Editor& e) { selectIds(e, upstream(nodesOf(graphOf(e), scopeOf(e)), selected(e))); }},
     {"edit.downstream", "Edit", "Select what it feeds", "Shift+L", anySelected,
      [](Editor& e) { selectIds(e, downstream(nodesOf(graphOf(e), scopeOf(e)), selected(e))); }},
+    {"edit.preferences", "Edit", "Preferences …", "Ctrl+Comma", always,
+     [](Editor& e) { e.windows.preferences.opened = true; }, true},
     {"node.add", "Node", "Add …", "Shift+A Tab", always, addHere},
+    {"node.connect", "Node", "Connect …", "J", anyActive, offerConnections},
+    {"node.edit", "Node", "Edit value", "Enter PadEnter", anyActive, editActive},
+    {"node.rename", "Node", "Rename", "F2", anyActive, rename},
     {"node.mute", "Node", "Mute", "M", anySelected,
      [](Editor& e) { e.document.apply("Mute", toggleMuted(graphOf(e), scopeOf(e), selected(e))); }, true},
     {"node.collapse", "Node", "Collapse", "H", anySelected,
      [](Editor& e) { e.document.apply("Collapse", toggleCollapsed(graphOf(e), scopeOf(e), selected(e))); }},
-    {"node.swap", "Node", "Swap inputs", "Alt+S", [](const Editor& e) { return !e.canvas.active.empty(); },
+    {"node.swap", "Node", "Swap inputs", "Alt+S", anyActive,
      [](Editor& e) { e.document.apply("Swap Inputs", swapInputs(graphOf(e), scopeOf(e), e.canvas.active)); }},
     {"node.group", "Node", "Group", "Ctrl+G", anySelected, group, true},
     {"node.ungroup", "Node", "Ungroup", "Ctrl+Shift+G", groupActive, ungroupActive},
@@ -201,28 +250,69 @@ constexpr Command kCommands[] = {
      [](Editor& e) {
          e.viewport.pinned = e.viewport.pinned == e.canvas.active ? std::string() : e.canvas.active;
      }},
+    {"view.zoom_in", "View", "Zoom in", "Equal PadPlus", always, [](Editor& e) { zoom(e, kZoomStep); }},
+    {"view.zoom_out", "View", "Zoom out", "Minus PadMinus", always,
+     [](Editor& e) { zoom(e, 1.0f / kZoomStep); }},
+    {"view.play", "View", "Play or pause", "Alt+A Ctrl+Space", always, togglePlay, true},
     {"view.timeline", "View", "Timeline", "Ctrl+T", always,
-     [](Editor& e) { e.panels.timeline = !e.panels.timeline; }, true},
-    {"view.statistics", "View", "Statistics", "", always,
-     [](Editor& e) { e.panels.statistics = !e.panels.statistics; }},
+     [](Editor& e) {
+         e.panels.timeline = !e.panels.timeline;
+         e.panels.next = e.panels.timeline ? Part::timeline : Part::canvas;
+     },
+     true},
+    {"view.inspector", "View", "Inspector", "", always, [](Editor& e) { togglePanel(e, "inspector"); }},
+    {"view.outliner", "View", "Outliner", "", always, [](Editor& e) { togglePanel(e, "outliner"); }},
+    {"view.problems", "View", "Problems", "", always, [](Editor& e) { togglePanel(e, "problems"); }},
+    {"view.parameters", "View", "Parameters", "", always, [](Editor& e) { togglePanel(e, "parameters"); }},
+    {"view.scene", "View", "Scene", "", always, [](Editor& e) { togglePanel(e, "scene"); }},
+    {"view.statistics", "View", "Statistics", "", always, [](Editor& e) { togglePanel(e, "statistics"); }},
+    {"view.next_panel", "View", "Next panel", "Ctrl+PageDown", always, [](Editor& e) { turnPanels(e, 1); },
+     true},
+    {"view.previous_panel", "View", "Previous panel", "Ctrl+PageUp", always,
+     [](Editor& e) { turnPanels(e, -1); }},
+    {"view.next_part", "View", "Keyboard to the next part", "F6", always, [](Editor& e) { turnParts(e, 1); }},
+    {"view.previous_part", "View", "Keyboard to the part before", "Shift+F6", always,
+     [](Editor& e) { turnParts(e, -1); }},
+    {"view.to_canvas", "View", "Keyboard to the canvas", "Alt+1", always,
+     [](Editor& e) { e.panels.next = Part::canvas; }},
+    {"view.to_viewport", "View", "Keyboard to the viewport", "Alt+2", always,
+     [](Editor& e) { e.panels.next = Part::viewport; }},
+    {"view.to_side", "View", "Keyboard to the panel", "Alt+3", always,
+     [](Editor& e) { e.panels.next = Part::side; }},
+    {"help.node", "Help", "Page of the node", "F1", always, openReference},
+    {"help.find", "Help", "Find a command …", "F3", always,
+     [](Editor& e) { e.windows.palette.opened = true; }},
+    {"help.shortcuts", "Help", "Shortcuts", "Shift+F1", always,
+     [](Editor& e) { e.windows.shortcuts = true; }},
+    {"help.tutorial", "Help", "Tutorial", "", always,
+     [](Editor& e) { openDocument(e, "editor-tutorial.md"); }},
+    {"help.tour", "Help", "Tour", "", always, startTour},
+    {"help.about", "Help", "About …", "", always, [](Editor& e) { e.windows.about = true; }, true},
+    {"canvas.left", "", "Node to the left", "Left", always, stepTo<-1, 0, false>},
+    {"canvas.right", "", "Node to the right", "Right", always, stepTo<1, 0, false>},
+    {"canvas.up", "", "Node above", "Up", always, stepTo<0, -1, false>},
+    {"canvas.down", "", "Node below", "Down", always, stepTo<0, 1, false>},
+    {"canvas.add_left", "", "Select also to the left", "Shift+Left", always, stepTo<-1, 0, true>},
+    {"canvas.add_right", "", "Select also to the right", "Shift+Right", always, stepTo<1, 0, true>},
+    {"canvas.add_up", "", "Select also above", "Shift+Up", always, stepTo<0, -1, true>},
+    {"canvas.add_down", "", "Select also below", "Shift+Down", always, stepTo<0, 1, true>},
+    {"canvas.move_left", "", "Move to the left", "Ctrl+Left", anySelected, moveBy<-1, 0>},
+    {"canvas.move_right", "", "Move to the right", "Ctrl+Right", anySelected, moveBy<1, 0>},
+    {"canvas.move_up", "", "Move up", "Ctrl+Up", anySelected, moveBy<0, -1>},
+    {"canvas.move_down", "", "Move down", "Ctrl+Down", anySelected, moveBy<0, 1>},
     {"file.quit", "File", "Quit", "Ctrl+Q", always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
 };
 
-/// What each key of the table runs, read from its texts once.
-const std::vector<std::pair<Shortcut, const Command*>>& shortcuts() {
-    static const std::vector<std::pair<Shortcut, const Command*>> all = [] {
-        std::vector<std::pair<Shortcut, const Command*>> read;
-        for (const Command& command : kCommands) {
-            std::istringstream keys(command.keys);
-            for (std::string text; keys >> text;)
-                if (const auto shortcut = shortcutOf(text)) read.emplace_back(*shortcut, &command);
-        }
-        return read;
-    }();
-    return all;
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+
+const Command& command(std::string_view id) {
+    const auto found = std::ranges::find(kCommands, id, &Command::id);
+    assert(found != std::end(kCommands));
+    return *found;
 }
 
-/// The command's label with what it would do: "Undo Add Box".
 std::string labelOf(const Command& command, const Editor& editor) {
     const std::string_view id = command.id;
     std::string label = command.label;
@@ -231,37 +321,38 @@ std::string labelOf(const Command& command, const Editor& editor) {
     return label;
 }
 
-}  // namespace
-
-std::span<const Command> commands() { return kCommands; }
-
 void runShortcuts(Editor& editor) {
     const ImGuiIO& io = ImGui::GetIO();
+    keepMenusClosed();
+    if (const Command* chosen = std::exchange(editor.windows.chosen, nullptr); chosen && chosen->can(editor))
+        return chosen->run(editor);
     if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || editor.document.inGesture() ||
         editor.canvas.field.state != FieldEdit::State::none || editor.viewport.drag.busy())
         return;
     if (deletesKey(editor) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)))
         return removeSelectedKey(editor);
     // Space asks for the menu when it goes up, if nothing was panned with it.
-    if (ImGui::IsKeyReleased(ImGui::GetKeyIndex(ImGuiKey_Space))) {
-        if (!editor.canvas.spacePans && !io.KeyCtrl && !io.KeyAlt) addHere(editor);
-        editor.canvas.spacePans = false;
-    }
-    for (const auto& [shortcut, command] : shortcuts())
-        if (pressed(shortcut) && (!command->overPicture || editor.viewport.hovered) && command->can(editor))
+    const int space = ImGui::GetKeyIndex(ImGuiKey_Space);
+    if (ImGui::IsKeyPressed(space, false))
+        editor.canvas.spacePans = io.NavActive || io.KeyCtrl || io.KeyShift || io.KeyAlt;
+    if (ImGui::IsKeyReleased(space) && !std::exchange(editor.canvas.spacePans, false)) addHere(editor);
+    const bool picture = editor.viewport.hovered || editor.panels.keyboard == Part::viewport;
+    for (const auto& [shortcut, command] : editor.keymap)
+        if (pressed(shortcut) && (command->overPicture ? picture : !panelsSteer(shortcut)) &&
+            command->can(editor))
             return command->run(editor);
+    leavePanels(editor);
 }
 
 void showMenus(Editor& editor) {
-    for (const char* menu : {"File", "Edit", "Node", "View", "Picture"}) {
+    for (const char* menu : {"File", "Edit", "Node", "View", "Picture", "Help"}) {
         if (!ImGui::BeginMenu(menu)) continue;
         for (const Command& command : kCommands) {
             if (std::string_view(command.menu) != menu) continue;
             if (command.separated) ImGui::Separator();
-            const std::string keys(
-                command.keys,
-                std::string_view(command.keys).substr(0, std::string_view(command.keys).find(' ')).size());
-            if (ImGui::MenuItem(labelOf(command, editor).c_str(), keys.c_str(), false, command.can(editor)))
+            const std::string all = keysOf(command, editor.files.preferences);
+            const std::string first = all.substr(0, all.find(' '));
+            if (ImGui::MenuItem(labelOf(command, editor).c_str(), first.c_str(), false, command.can(editor)))
                 command.run(editor);
             if (std::string_view(command.id) == "file.open") showRecent(editor);
         }

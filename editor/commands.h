@@ -11,16 +11,20 @@ namespace fw::editor {
 
 struct Command {
     const char* id;    ///< as in the preferences: "edit.undo"
-    const char* menu;  ///< "File", "Edit", "Node", "View", "Picture"; empty: in no menu
+    const char* menu;  ///< "File", "Edit", "Node", "View", "Picture", "Help"; empty: in no menu
     const char* label;
-    const char* keys;  ///< its shortcut by default; further ones after a blank
+    const char* keys;  ///< its shortcut by default, as textOf() has it; further ones after a blank
     bool (*can)(const Editor& editor);
     void (*run)(Editor& editor);
     bool separated = false;    ///< a line stands before it in the menu
-    bool overPicture = false;  ///< its keys count only while the mouse is over the viewport's picture
+    bool overPicture = false;  ///< its keys count only while the mouse or the keyboard is there
 };
 
 std::span<const Command> commands();
+/// The one of this id, which is in the table.
+const Command& command(std::string_view id);
+/// The command's label with what it would do: "Undo Add Box".
+std::string labelOf(const Command& command, const Editor& editor);
 
 /// Runs what was pressed in this frame, unless something else takes the keyboard.
 void runShortcuts(Editor& editor);

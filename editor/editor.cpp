@@ -7,6 +7,7 @@
 #include "editor/document/paths.h"
 #include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
+#include "editor/panels/side.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -14,7 +15,6 @@ namespace fw::editor {
 namespace {
 
 constexpr double kNoticeSeconds = 6.0;
-constexpr float kLeastPart = 0.15f, kMostPart = 0.8f;  // of the window, for what a splitter divides
 
 void drawAnew(Editor& editor) {
     if (editor.drawn == editor.document.revision() && editor.boxes) return;
@@ -58,30 +58,14 @@ void splitter(const char* id, bool upright, float& part, float whole, float scal
     part = std::clamp(part + (upright ? -by.x : by.y) / whole, kLeastPart, kMostPart);
 }
 
-void tab(const char* label, bool& open, void (*show)(Editor&), Editor& editor) {
-    if (!open || !ImGui::BeginTabItem(label)) return;
-    ImGui::BeginChild("##content");
-    show(editor);
-    ImGui::EndChild();
-    ImGui::EndTabItem();
-}
-
 void showSide(Editor& editor, float height) {
     const float top = height * editor.panels.top;
     ImGui::BeginChild("##viewport", {0, top});
+    takeKeyboard(editor, Part::viewport);
     showViewport(editor);
     ImGui::EndChild();
     splitter("##below", false, editor.panels.top, height, editor.shell.scale());
-    if (!ImGui::BeginTabBar("##side")) return;
-    tab("Inspector", editor.panels.inspector, showInspector, editor);
-    tab("Outliner", editor.panels.outliner, showOutliner, editor);
-    const std::size_t found = editor.viewport.shown.findings.size() + editor.files.found.size();
-    tab(found == 0 ? "Problems###problems" : ("Problems (" + std::to_string(found) + ")###problems").c_str(),
-        editor.panels.problems, showProblems, editor);
-    tab("Parameters", editor.panels.parameters, showParameters, editor);
-    tab("Scene", editor.panels.scene, showScene, editor);
-    tab("Statistics", editor.panels.statistics, showStatistics, editor);
-    ImGui::EndTabBar();
+    showSidePanels(editor);
 }
 
 void showStatus(Editor& editor) {
@@ -118,6 +102,8 @@ Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device_)
       device(std::move(device_)),
       document(placeAll(opened)),
       preview(device, [] { Shell::wake(); }) {
+    panels.next = Part::canvas;
+    keymap = keymapOf(files.preferences);
     // Places that nodes lacked are no edit of the user's.
     document.markSaved();
     drawAnew(*this);
@@ -157,7 +143,7 @@ void showEditor(Editor& editor) {
     ImGui::Begin("##editor", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar |
-                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNavInputs);
+                     ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
     if (ImGui::BeginMenuBar()) {
         showMenus(editor);
@@ -172,6 +158,8 @@ void showEditor(Editor& editor) {
     ImGui::BeginChild(
         "##canvas", {room.x * (1.0f - editor.panels.side), high}, false,
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+    followMouse(editor);
+    takeKeyboard(editor, Part::canvas);
     showCanvasPart(editor);
     ImGui::EndChild();
     ImGui::SameLine(0, 0);
@@ -186,12 +174,14 @@ void showEditor(Editor& editor) {
     ImGui::EndChild();
     if (editor.panels.timeline) {
         ImGui::BeginChild("##timeline", {0, timeline - ImGui::GetStyle().ItemSpacing.y});
+        takeKeyboard(editor, Part::timeline);
         showTimeline(editor);
         ImGui::EndChild();
     }
     showStatus(editor);
     showFiles(editor);
     showExport(editor);
+    showWindows(editor);
     ImGui::End();
 }
 

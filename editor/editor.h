@@ -15,8 +15,10 @@
 #include "editor/canvas/canvas.h"
 #include "editor/document/document.h"
 #include "editor/files/files.h"
+#include "editor/keymap.h"
 #include "editor/panels/export_dialog.h"
 #include "editor/panels/panel_state.h"
+#include "editor/panels/windows.h"
 #include "editor/preview/preview.h"
 #include "editor/viewport/viewport.h"
 
@@ -36,11 +38,21 @@ struct FrameMenu {
     bool opened = false;    ///< to be opened in this frame
 };
 
+inline constexpr float kLeastPart = 0.15f, kMostPart = 0.8f;  ///< of a whole that a splitter divides
+
+/// Where the keyboard can be.
+enum class Part : unsigned char { canvas, viewport, side, timeline };
+
 struct Panels {
     bool inspector = true, outliner = true, problems = true, parameters = true, scene = true,
          timeline = false, statistics = false;
-    float side = 0.36f;  ///< of the window's width, for viewport and inspector
-    float top = 0.55f;   ///< of its height, for the viewport
+    float side = 0.36f;             ///< of the window's width, for viewport and inspector
+    float top = 0.55f;              ///< of its height, for the viewport
+    std::string front = {};         ///< id of the side panel in front
+    std::string wanted = {};        ///< id of the one to come to the front
+    Part keyboard = Part::canvas;   ///< what has the keyboard
+    std::optional<Part> next = {};  ///< what gets it in this frame
+    bool mouseOnCanvas = false;
 };
 
 struct Editor {
@@ -55,6 +67,8 @@ struct Editor {
     FrameMenu frameMenu;
     Panels panels;
     PanelState panelState;
+    Windows windows;
+    Keymap keymap;             ///< of files.preferences
     std::string notice;        ///< the last thing that could not be done, in the status line
     double noticeUntil = 0.0;  ///< seconds of ImGui's clock
     bool quit = false;

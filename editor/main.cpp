@@ -3,9 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 #include "editor/editor.h"
+#include "editor/files/arrangement.h"
+#include "editor/panels/tour.h"
 #include "editor/shell/loss.h"
 #include "runtime/export/output_file.h"
 
@@ -19,6 +22,7 @@ constexpr double kLongestRest = 1.0;  // seconds without a look at what happens 
 struct Options {
     std::string graph;
     ShellOptions shell;
+    bool sized = false;  ///< the window's size was asked for
 };
 
 /// "1280x800".
@@ -53,7 +57,14 @@ int run(const Options& options) {
     Shell shell(options.shell);
     if (!shell.fonts().missing.empty()) complain(shell.fonts().missing);
     Editor editor(shell, Graph(), {.pick = options.shell.device});
+    std::error_code none;
+    const bool first = !std::filesystem::exists(preferencesPath(), none);
     startFiles(editor, options.graph);
+    const Preferences& preferences = editor.files.preferences;
+    if (options.shell.scale == 0.0f) shell.setScale(preferences.scale);
+    if (const auto size = windowSizeOf(preferences.panels); size && !options.sized)
+        shell.resize(size->first, size->second);
+    if (first && options.graph.empty() && editor.files.left.empty()) startTour(editor);
     onDisplayLost([&] { endAtOnce(editor, "the display is gone"); });
     try {
         while (!editor.quit && signal == 0) {
@@ -67,6 +78,7 @@ int run(const Options& options) {
         }
     } catch (const SystemError& error) { endAtOnce(editor, error.what()); }
     onDisplayLost({});
+    keepArrangement(editor, preferencesPath());
     if (signal == 0) return editor.files.recovery.discard(), kDone;
     const std::string kept = keepForNextTime(editor);
     if (kept.empty())
@@ -82,14 +94,16 @@ int main(int count, char** arguments) {
     Options options;
     app.add_option("GRAPH", options.graph, "the file to open: *.field.json");
     app.add_option("--device", options.shell.device, "index or part of the name of the Vulkan device");
-    app.add_option("--size", "of the window in pixels")
-        ->type_name("WxH")
-        ->check([&](const std::string& text) { return readSize(text, options.shell); });
+    const CLI::Option* size =
+        app.add_option("--size", "of the window in pixels")
+            ->type_name("WxH")
+            ->check([&](const std::string& text) { return readSize(text, options.shell); });
     app.add_option("--scale", options.shell.scale, "of the interface; without it, the display's")
         ->check(CLI::Range(0.5f, 4.0f));
     try {
         app.parse(count, arguments);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
+    options.sized = size->count() > 0;
     return run(options);
 }
 

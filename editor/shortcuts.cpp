@@ -36,7 +36,11 @@ constexpr KeyName kNamed[] = {{GLFW_KEY_SPACE, "Space"},
                               {GLFW_KEY_EQUAL, "Equal"},
                               {GLFW_KEY_COMMA, "Comma"},
                               {GLFW_KEY_PERIOD, "Period"},
-                              {GLFW_KEY_SLASH, "Slash"}};
+                              {GLFW_KEY_SLASH, "Slash"},
+                              {GLFW_KEY_KP_ADD, "PadPlus"},
+                              {GLFW_KEY_KP_SUBTRACT, "PadMinus"},
+                              {GLFW_KEY_KP_DECIMAL, "PadPeriod"},
+                              {GLFW_KEY_KP_ENTER, "PadEnter"}};
 constexpr int kFunctionKeys = 12;
 
 std::string nameOf(int key) {
@@ -49,6 +53,9 @@ std::string nameOf(int key) {
         if (each.key == key) return each.name;
     return {};
 }
+
+/// Undo goes on while its key is held, and so does what moves by arrows.
+bool repeats(int key) { return key == GLFW_KEY_Z || (key >= GLFW_KEY_RIGHT && key <= GLFW_KEY_UP); }
 
 bool sameLetters(std::string_view a, std::string_view b) {
     return std::ranges::equal(
@@ -96,7 +103,21 @@ std::optional<Shortcut> shortcutOf(std::string_view text) {
 bool pressed(const Shortcut& shortcut) {
     const ImGuiIO& io = ImGui::GetIO();
     return shortcut.key != 0 && shortcut.ctrl == io.KeyCtrl && shortcut.shift == io.KeyShift &&
-           shortcut.alt == io.KeyAlt && ImGui::IsKeyPressed(shortcut.key, shortcut.key == GLFW_KEY_Z);
+           shortcut.alt == io.KeyAlt && ImGui::IsKeyPressed(shortcut.key, repeats(shortcut.key));
+}
+
+std::optional<Shortcut> pressedNow() {
+    const ImGuiIO& io = ImGui::GetIO();
+    for (int key : namedKeys())
+        if (ImGui::IsKeyPressed(key, false)) return Shortcut{key, io.KeyCtrl, io.KeyShift, io.KeyAlt};
+    return std::nullopt;
+}
+
+bool steersPanels(const Shortcut& shortcut) {
+    constexpr int kSteering[] = {GLFW_KEY_LEFT,    GLFW_KEY_RIGHT,     GLFW_KEY_UP,   GLFW_KEY_DOWN,
+                                 GLFW_KEY_TAB,     GLFW_KEY_ENTER,     GLFW_KEY_HOME, GLFW_KEY_END,
+                                 GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN, GLFW_KEY_SPACE};
+    return !shortcut.ctrl && !shortcut.alt && std::ranges::count(kSteering, shortcut.key) > 0;
 }
 
 }  // namespace fw::editor

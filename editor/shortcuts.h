@@ -20,5 +20,9 @@ std::optional<Shortcut> shortcutOf(std::string_view text);
 
 /// Whether it was pressed in this frame, with just these modifiers.
 bool pressed(const Shortcut& shortcut);
+/// What was pressed in this frame, of the keys that have a name.
+std::optional<Shortcut> pressedNow();
+/// Whether the keyboard moves about in panels with it: arrows, Tab, Enter, Space and the like.
+bool steersPanels(const Shortcut& shortcut);
 
 }  // namespace fw::editor

@@ -1,5 +1,6 @@
 #include "graph/reference.h"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -17,46 +18,6 @@ std::string numberText(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
     return text;
-}
-
-std::string typeText(const InputSpec& input) {
-    if (!input.options.empty()) return "choice";
-    if (input.type == Type::string) return "text";
-    if (input.unit == "color") return "colour";
-    return std::string(typeName(input.type));
-}
-
-std::string defaultText(const InputSpec& input) {
-    const InputDefault& value = input.value;
-    switch (value.kind) {
-        case InputDefault::Kind::position: return "position";
-        case InputDefault::Kind::text: return value.text.empty() ? "" : "`" + value.text + "`";
-        case InputDefault::Kind::none: return "";
-        case InputDefault::Kind::numbers: break;
-    }
-    if (input.type == Type::boolean) return value.numbers[0] != 0 ? "true" : "false";
-    std::string text;
-    for (std::size_t i = 0; i < value.numbers.size(); i++) {
-        if (i > 0) text += input.type == Type::points && i % 2 == 0 ? "; " : ", ";
-        text += numberText(value.numbers[i]);
-    }
-    return text + (input.unit.empty() || input.unit == "color" ? "" : " " + input.unit);
-}
-
-/// What follows the doc sentence of an input: its choices or its range.
-std::string rangeText(const InputSpec& input) {
-    if (!input.options.empty()) {
-        std::string text = " Choices:";
-        for (const std::string& option : input.options)
-            text += (&option == &input.options.front() ? " `" : ", `") + option + "`";
-        return text + ".";
-    }
-    if (input.type == Type::boolean) return "";
-    const bool hasMin = std::isfinite(input.min), hasMax = std::isfinite(input.max);
-    if (hasMin && hasMax) return " From " + numberText(input.min) + " to " + numberText(input.max) + ".";
-    if (input.positive) return " Above " + numberText(hasMin ? input.min : 0) + ".";
-    if (hasMin) return " At least " + numberText(input.min) + ".";
-    return hasMax ? " At most " + numberText(input.max) + "." : "";
 }
 
 /// Text inside a table cell.
@@ -90,6 +51,55 @@ std::string nodeMarkdown(const NodeType& type) {
 }
 
 }  // namespace
+
+std::string typeText(const InputSpec& input) {
+    if (!input.options.empty()) return "choice";
+    if (input.type == Type::string) return "text";
+    if (input.unit == "color") return "colour";
+    return std::string(typeName(input.type));
+}
+
+std::string defaultText(const InputSpec& input) {
+    const InputDefault& value = input.value;
+    switch (value.kind) {
+        case InputDefault::Kind::position: return "position";
+        case InputDefault::Kind::text: return value.text.empty() ? "" : "`" + value.text + "`";
+        case InputDefault::Kind::none: return "";
+        case InputDefault::Kind::numbers: break;
+    }
+    if (input.type == Type::boolean) return value.numbers[0] != 0 ? "true" : "false";
+    std::string text;
+    for (std::size_t i = 0; i < value.numbers.size(); i++) {
+        if (i > 0) text += input.type == Type::points && i % 2 == 0 ? "; " : ", ";
+        text += numberText(value.numbers[i]);
+    }
+    return text + (input.unit.empty() || input.unit == "color" ? "" : " " + input.unit);
+}
+
+std::string rangeText(const InputSpec& input) {
+    if (!input.options.empty()) {
+        std::string text = " Choices:";
+        for (const std::string& option : input.options)
+            text += (&option == &input.options.front() ? " `" : ", `") + option + "`";
+        return text + ".";
+    }
+    if (input.type == Type::boolean) return "";
+    const bool hasMin = std::isfinite(input.min), hasMax = std::isfinite(input.max);
+    if (hasMin && hasMax) return " From " + numberText(input.min) + " to " + numberText(input.max) + ".";
+    if (input.positive) return " Above " + numberText(hasMin ? input.min : 0) + ".";
+    if (hasMin) return " At least " + numberText(input.min) + ".";
+    return hasMax ? " At most " + numberText(input.max) + "." : "";
+}
+
+std::string referenceLink(const NodeType& type) {
+    std::string anchor;
+    for (const char c : type.label)
+        if (c == ' ' || c == '-')
+            anchor += '-';
+        else if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+            anchor += char(std::tolower(static_cast<unsigned char>(c)));
+    return "nodes.md#" + anchor;
+}
 
 std::string exactnessText(const NodeType& type) {
     if (!type.exactness) return "";

@@ -19,6 +19,15 @@ std::string nodesJson();
 
 /// "exact", "exact outside", "exact inside", "a bound", "distorted by up to 1.41" or "distorted".
 std::string exactnessText(const Exactness& exactness);
+/// What the page says of an input: "float", "choice"; "0, 1, 0 m", "position"; " From 0 to 1.", " Choices:
+/// …". Names in it stand in backticks.
+std::string typeText(const InputSpec& input);
+std::string defaultText(const InputSpec& input);
+std::string rangeText(const InputSpec& input);
+
+/// Where the node stands in the page, as links have it: "nodes.md#infinite-cylinder".
+std::string referenceLink(const NodeType& type);
+
 /// Class of the node's surface with its default settings, fed with exact surfaces; empty for nodes that make
 /// no surface.
 std::string exactnessText(const NodeType& type);

@@ -91,6 +91,9 @@ struct Canvas {
 CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, const CanvasMarks& marks,
                         const Shell& shell);
 
+/// Whether nodes are seen large enough to have their numbers edited on them.
+bool showsFields(const CanvasView& view);
+
 /// Draws boxes, wires, frames and minimap (used by showCanvas).
 void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell);
 /// Where the minimap is, pixels, and the part of the canvas that it shows.

@@ -440,6 +440,8 @@ void Canvas::follow(const Graph& graph) {
     if (!there.contains(active)) active.clear();
 }
 
+bool showsFields(const CanvasView& view) { return view.unit() >= 0.6f; }
+
 CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, const CanvasMarks& marks,
                         const Shell& shell) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
@@ -454,7 +456,7 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     // Fields above the drawing; the first that changes the document ends what the others stand on.
     const bool idle = canvas.gesture == Gesture::none;
     const float size = kTextSize * canvas.view.unit();
-    if (canvas.view.unit() >= 0.6f) {
+    if (showsFields(canvas.view)) {
         ImGui::PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
         const Area seen = canvas.view.seen();
         for (const NodeBox& box : boxes.nodes) {

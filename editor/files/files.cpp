@@ -4,6 +4,7 @@
 
 #include "editor/document/layout.h"
 #include "editor/editor.h"
+#include "editor/files/arrangement.h"
 #include "graph/json.h"
 #include "graph/node_type.h"
 
@@ -148,7 +149,9 @@ void take(Editor& editor, Graph graph) {
     editor.document = Document(placeAll(graph));
     editor.boxes.reset();
     editor.drawn = 0;
+    const bool minimap = editor.canvas.minimap;
     editor.canvas = Canvas();
+    editor.canvas.minimap = minimap;
     editor.viewport.pinned.clear();
     editor.viewport.ownCamera = false;
     editor.files.origin = Origin::own;
@@ -253,6 +256,8 @@ void restore(Editor& editor, const LeftCopy& copy) {
 void startFiles(Editor& editor, const std::string& path) {
     std::string problem;
     editor.files.preferences = readPreferences(preferencesPath(), problem);
+    editor.keymap = keymapOf(editor.files.preferences);
+    arrange(editor, editor.files.preferences.panels);
     editor.files.left = leftCopies();
     if (!problem.empty()) editor.notice = problem, editor.noticeUntil = 1e9;
     if (!path.empty()) openFirst(editor, path);

@@ -62,9 +62,6 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
         },
         problem);
     take(
-        all, "layout", [](const Json& value) { return value.is_string(); },
-        [&](const Json& value) { preferences.layout = value.get<std::string>(); }, problem);
-    take(
         all, "scale", isScale, [&](const Json& value) { preferences.scale = value.get<float>(); }, problem);
     take(
         all, "shortcuts", [](const Json& value) { return value.is_object(); },
@@ -88,7 +85,6 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
     if (!preferences.panels.is_null()) all["panels"] = preferences.panels;
-    all["layout"] = preferences.layout;
     if (preferences.extra.is_object())
         for (const auto& [key, value] : preferences.extra.items()) all[key] = value;
     std::error_code error;  // shows as the Error of the file

@@ -18,10 +18,9 @@ inline constexpr std::size_t kMostRecent = 12;
 
 struct Preferences {
     std::vector<std::string> recent = {};               ///< absolute paths of files, the last opened first
-    std::string layout = {};                            ///< ImGui's windows: SaveIniSettingsToMemory()
     float scale = 0.0f;                                 ///< of the interface, 0.5 to 4; 0: the display's
     std::map<std::string, std::string> shortcuts = {};  ///< id of a command to keys, "Ctrl+Z"; where changed
-    Json panels = nullptr;  ///< an object: what the editor's panels keep of how they stand
+    Json panels = nullptr;  ///< an object: how window and panels stand (arrangement.h)
     Json extra = nullptr;   ///< unknown keys
     bool operator==(const Preferences&) const = default;
 };

@@ -52,7 +52,7 @@ void showAddMenu(Editor& editor) {
         menu.search[0] = 0;
         menu.chosen = 0;
         ImGui::OpenPopup(kPopup);
-        ImGui::SetNextWindowPos(ImGui::GetIO().MousePos);
+        ImGui::SetNextWindowPos(editor.canvas.view.toScreen(menu.wish.at));
     }
     const float unit = editor.shell.scale();
     ImGui::SetNextWindowSize({300 * unit, 380 * unit});

@@ -39,6 +39,7 @@ void showNames(Editor& editor, const NodeBox& box) {
     const std::string scope = editor.canvas.scope, id = box.node->id;
     if (!beginProperties("names")) return;
     propertyRow("Label", "What the node is called on the canvas.");
+    if (std::exchange(editor.windows.renames, false)) ImGui::SetKeyboardFocusHere();
     const std::string otherwise = box.type ? box.type->label : box.node->type;
     editText(editor, "##label", box.node->label, otherwise.c_str(),
              [scope, id](Editor& in, const std::string& text) {

@@ -71,6 +71,7 @@ Input::Input(GLFWwindow* window_) : window(window_) {
         of(w).dropped.assign(paths, paths + count);
     });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).anything = true; });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).anything = true; });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).anything = true; });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { of(w).anything = true; });
 }

@@ -81,10 +81,19 @@ struct Shell::State {
           swapchain(device, window.get()),
           interface(window.get()),
           input(window.get()),
-          scale(scaleOf(window.get(), options.scale)),
+          askedScale(options.scale),
           lists(createDrawLists(device, swapchain.format())) {
+        followScale();
+    }
+
+    /// Style and fonts for the scale asked for, or the display's, which changes as the window is moved to
+    /// another. Not within a frame.
+    void followScale() {
+        const float before = std::exchange(scale, scaleOf(window.get(), askedScale));
+        if (scale == before) return;
         applyTheme(scale);
         ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+        atlas.Clear();
         fonts = bakeFonts(atlas, scale);
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
@@ -106,7 +115,8 @@ struct Shell::State {
     Swapchain swapchain;
     Interface interface;
     Input input;
-    float scale;
+    float askedScale;
+    float scale = 0.0f;
     Fonts fonts;
     DrawLists lists;
     Texture glyphs;
@@ -144,6 +154,7 @@ void Shell::frame(const std::function<void()>& show) {
     const auto [width, height] = state->size();
     if (width == 0 || height == 0) return;
     state->forgotten.clear();
+    state->followScale();
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {float(width), float(height)};  // in pixels, wherever the system counts otherwise
@@ -189,6 +200,16 @@ void Shell::forget(ImTextureID id) {
 std::vector<std::string> Shell::takeDropped() { return state->input.takeDropped(); }
 const Fonts& Shell::fonts() const { return state->fonts; }
 float Shell::scale() const { return state->scale; }
+void Shell::setScale(float asked) {
+    state->askedScale = asked;
+    state->unsettled = kSettling;
+}
+void Shell::resize(int width, int height) { glfwSetWindowSize(state->window.get(), width, height); }
+std::pair<int, int> Shell::windowSize() const {
+    int width = 0, height = 0;
+    glfwGetWindowSize(state->window.get(), &width, &height);
+    return {width, height};
+}
 const Device& Shell::device() const { return state->device; }
 GLFWwindow* Shell::window() const { return state->window.get(); }
 void Shell::setTitle(const std::string& title) { glfwSetWindowTitle(state->window.get(), title.c_str()); }

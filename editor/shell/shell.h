@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "editor/shell/fonts.h"
 #include "runtime/gpu/resources.h"
@@ -54,6 +55,11 @@ class Shell {
 
     const Fonts& fonts() const;
     float scale() const;
+    /// Of the interface, as ShellOptions::scale: fonts are made anew before the next frame.
+    void setScale(float asked);
+    /// In the units of the window system.
+    std::pair<int, int> windowSize() const;
+    void resize(int width, int height);
     const Device& device() const;
     GLFWwindow* window() const;
     void setTitle(const std::string& title);

@@ -43,7 +43,6 @@ TEST(Preferences, ComeBackAsTheyWere) {
     for (int i = 0; i < 30; ++i) addRecent(wanted, "/" + std::to_string(i));
     EXPECT_EQ(wanted.recent.size(), kMostRecent);
     EXPECT_EQ(wanted.recent.front(), "/29");
-    wanted.layout = "[Window][a]\nPos=1,2\n";
     wanted.scale = 1.5f;
     wanted.shortcuts["edit.undo"] = "Ctrl+Shift+Y";
     wanted.panels = Json{{"side", 0.25}};
@@ -67,12 +66,12 @@ TEST(Preferences, BrokenFilesAreSurvivedAndSetAside) {
         EXPECT_EQ(folder.names(), std::vector<std::string>{"editor.json.broken"});
     }
     writeText(path,
-              R"({"scale": 100, "recent": [7, "/a"], "layout": null, "shortcuts": {"x": 3, "y": "F5"}})");
+              R"({"scale": 100, "recent": [7, "/a"], "panels": null, "shortcuts": {"x": 3, "y": "F5"}})");
     const Preferences read = readPreferences(path, problem);
     EXPECT_EQ(read.scale, 0.0f);
     EXPECT_EQ(read.recent, std::vector<std::string>{"/a"});
     EXPECT_EQ(read.shortcuts, (std::map<std::string, std::string>{{"y", "F5"}}));
-    EXPECT_NE(problem.find("'layout'"), std::string::npos) << problem;
+    EXPECT_NE(problem.find("'scale'"), std::string::npos) << problem;
 }
 
 TEST(Recovery, CopiesAfterSoManySecondsOfChange) {

@@ -33,6 +33,12 @@ TEST(Reference, PageNamesEveryNodeAndInputOnce) {
     }
 }
 
+TEST(Reference, LinksLeadToHeadings) {
+    EXPECT_EQ(referenceLink(*findNodeType("sphere")), "nodes.md#sphere");
+    EXPECT_EQ(referenceLink(*findNodeType("infinite_cylinder")), "nodes.md#infinite-cylinder");
+    EXPECT_EQ(referenceLink(*findNodeType("box_max")), "nodes.md#box-max-norm");
+}
+
 TEST(Reference, JsonHoldsTheTable) {
     const nlohmann::json all = nlohmann::json::parse(nodesJson());
     ASSERT_EQ(all.at("nodes").size(), nodeTypes().size());

@@ -1,0 +1,195 @@
+// Preferences: how large the interface is, and which keys do what.
+#include <cmath>
+
+#include "editor/commands.h"
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr const char* kTitle = "Preferences";
+constexpr float kScales[] = {0.0f, 0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f, 3.0f, 4.0f};
+
+void keep(Editor& editor) {
+    editor.keymap = keymapOf(editor.files.preferences);
+    if (const Done kept = savePreferences(editor.files.preferences, preferencesPath()); !kept)
+        say(editor, format(kept.error()));
+}
+
+std::string percent(float scale) { return std::to_string(int(std::lround(100.0f * scale))) + " %"; }
+
+void showScale(Editor& editor) {
+    float& scale = editor.files.preferences.scale;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Interface scale");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+    const std::string now = scale > 0.0f ? percent(scale) : "The display's";
+    if (!ImGui::BeginCombo("##scale", now.c_str())) return;
+    for (const float each : kScales)
+        if (ImGui::Selectable(each > 0.0f ? percent(each).c_str() : "The display's", each == scale)) {
+            editor.shell.setScale(scale = each);
+            keep(editor);
+        }
+    ImGui::EndCombo();
+}
+
+void stopWaiting(PreferencesWindow& window) {
+    window.command = nullptr;
+    window.taken.reset();
+}
+
+/// The keys of the command with one of them replaced, or one more.
+void give(Editor& editor, const Command& command, const Shortcut& key) {
+    PreferencesWindow& window = editor.windows.preferences;
+    std::vector<Shortcut> keys = shortcutsOf(keysOf(command, editor.files.preferences));
+    std::erase(keys, key);
+    if (window.key < keys.size())
+        keys[window.key] = key;
+    else
+        keys.push_back(key);
+    setKeys(editor.files.preferences, command, keys);
+    stopWaiting(window);
+    keep(editor);
+}
+
+/// What is pressed while a key is waited for.
+void hearKey(Editor& editor) {
+    PreferencesWindow& window = editor.windows.preferences;
+    if (!window.command || window.taken) return;
+    const std::optional<Shortcut> key = pressedNow();
+    if (!key) return;
+    if (*key == shortcutOf("Escape")) return stopWaiting(window);
+    if (userOf(*key, *window.command, editor.files.preferences))
+        window.taken = key;
+    else
+        give(editor, *window.command, *key);
+}
+
+/// A key that another command has: whose is it to be?
+void showConflict(Editor& editor) {
+    PreferencesWindow& window = editor.windows.preferences;
+    if (!window.taken) return;
+    const Command* user = userOf(*window.taken, *window.command, editor.files.preferences);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::warning)),
+                       "%s is the key of \"%s\".", textOf(*window.taken).c_str(), user ? user->label : "");
+    const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+    if (ImGui::Button("Take it from there (Enter)") || pressed(ImGuiKey_Enter))
+        return give(editor, *window.command, *window.taken);
+    ImGui::SameLine();
+    if (ImGui::Button("Leave it there (Escape)") || pressed(ImGuiKey_Escape)) stopWaiting(window);
+}
+
+/// The command's keys as buttons: each waits for another one in its place.
+void showKeys(Editor& editor, const Command& command) {
+    PreferencesWindow& window = editor.windows.preferences;
+    const std::vector<Shortcut> keys = shortcutsOf(keysOf(command, editor.files.preferences));
+    for (std::size_t i = 0; i <= keys.size(); ++i) {
+        ImGui::PushID(int(i));
+        const bool waits = window.command == &command && window.key == i;
+        const std::string label = waits             ? "Press a key …"
+                                  : i < keys.size() ? textOf(keys[i])
+                                                    : std::string("+");
+        if (ImGui::SmallButton((label + "###key").c_str())) {
+            window.taken.reset();
+            window.command = waits ? nullptr : &command;
+            window.key = i;
+        }
+        if (i == keys.size() && !waits && ImGui::IsItemHovered()) ImGui::SetTooltip("One more key");
+        ImGui::SameLine();
+        bool removed = false;
+        if (waits && i < keys.size()) {
+            removed = ImGui::SmallButton("No key");
+            ImGui::SameLine();
+        }
+        ImGui::PopID();
+        if (!removed) continue;
+        std::vector<Shortcut> left = keys;
+        left.erase(left.begin() + std::ptrdiff_t(i));
+        setKeys(editor.files.preferences, command, left);
+        stopWaiting(window);
+        return keep(editor);
+    }
+}
+
+void showCommands(Editor& editor) {
+    PreferencesWindow& window = editor.windows.preferences;
+    Preferences& preferences = editor.files.preferences;
+    std::vector<Choice> choices;
+    for (const Command& command : commands())
+        choices.push_back(
+            {std::string(command.menu) + "  " + command.label + "  " + keysOf(command, preferences)});
+    if (!ImGui::BeginTable("##keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY,
+                           {0, -ImGui::GetFrameHeightWithSpacing()}))
+        return;
+    const float em = ImGui::GetFontSize();
+    ImGui::TableSetupColumn("Command", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableSetupColumn("Keys", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 4.0f * em);
+    for (const std::size_t i : findChoices(window.search, choices)) {
+        const Command& command = commands()[i];
+        ImGui::PushID(command.id);
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", command.menu);
+        ImGui::SameLine(4.0f * em);
+        ImGui::TextUnformatted(command.label);
+        ImGui::TableNextColumn();
+        showKeys(editor, command);
+        ImGui::TableNextColumn();
+        if (preferences.shortcuts.contains(command.id) && ImGui::SmallButton("Reset")) {
+            resetKeys(preferences, command);
+            stopWaiting(window);
+            keep(editor);
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void showPreferences(Editor& editor) {
+    PreferencesWindow& window = editor.windows.preferences;
+    const bool opens = std::exchange(window.opened, false);
+    if (opens) {
+        window = {};
+        ImGui::OpenPopup(kTitle);
+    }
+    const ImVec2 whole = ImGui::GetMainViewport()->Size;
+    const float unit = editor.shell.scale();
+    ImGui::SetNextWindowSize(
+        {std::min(720.0f * unit, whole.x * 0.95f), std::min(560.0f * unit, whole.y * 0.9f)});
+    ImGui::SetNextWindowPos({0.5f * whole.x, 0.5f * whole.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    bool stays = true;
+    // While a key is waited for, none moves about in the window.
+    const bool waited = window.command != nullptr;
+    if (!ImGui::BeginPopupModal(kTitle, &stays,
+                                ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove |
+                                    (waited ? ImGuiWindowFlags_NoNavInputs : ImGuiWindowFlags_None)))
+        return stopWaiting(window);
+    showScale(editor);
+    ImGui::Separator();
+    if (opens) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##search", "Search commands and keys", window.search, sizeof window.search);
+    showConflict(editor);
+    hearKey(editor);
+    showCommands(editor);
+    Preferences& preferences = editor.files.preferences;
+    ImGui::BeginDisabled(preferences.shortcuts.empty());
+    if (ImGui::Button("Reset all keys")) {
+        preferences.shortcuts.clear();
+        stopWaiting(window);
+        keep(editor);
+    }
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    const bool leaves = !waited && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (ImGui::Button("Close") || leaves) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+}  // namespace fw::editor

@@ -1,0 +1,103 @@
+// The page of shortcuts: every key of the command table as the preferences have it, and what the mouse does.
+#include "editor/commands.h"
+
+namespace fw::editor {
+
+namespace {
+
+constexpr const char* kTitle = "Shortcuts";
+
+// As canvas/canvas.h has it.
+constexpr std::pair<const char*, const char*> kMouse[] = {
+    {"Left", "selects; drags nodes, wires, a box"},
+    {"Alt + left drag", "selects by lasso"},
+    {"Middle drag, Space + drag", "pans"},
+    {"Wheel", "zooms"},
+    {"Right", "adds a node"},
+    {"Ctrl + right drag", "cuts wires"},
+    {"Shift + right drag", "adds a reroute"},
+    {"Alt + right drag", "connects two nodes"},
+    {"Double click", "enters a group"},
+    {"Drag on a number", "changes it; Shift: finely"},
+    {"Click on a number", "types it: 2*pi/3 will do"},
+    {"Ctrl + click on a number", "gives back its default"},
+};
+
+void row(const std::string& keys, const std::string& what) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(keys.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(what.c_str());
+}
+
+void heading(const char* words) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", words);
+    ImGui::TableNextRow();
+}
+
+bool beginColumn(const char* id, float width) {
+    ImGui::BeginChild(id, {width, -ImGui::GetFrameHeightWithSpacing()}, false, ImGuiWindowFlags_NavFlattened);
+    if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) return true;
+    ImGui::EndChild();
+    return false;
+}
+
+void endColumn() {
+    ImGui::EndTable();
+    ImGui::EndChild();
+}
+
+void showMenu(const Editor& editor, std::string_view menu, const char* title) {
+    heading(title);
+    for (const Command& command : commands()) {
+        const std::string keys = keysOf(command, editor.files.preferences);
+        if (command.menu == menu && !keys.empty()) row(keys, command.label);
+    }
+}
+
+}  // namespace
+
+void showShortcuts(Editor& editor) {
+    if (std::exchange(editor.windows.shortcuts, false)) ImGui::OpenPopup(kTitle);
+    const float unit = editor.shell.scale();
+    const ImVec2 whole = ImGui::GetMainViewport()->Size;
+    ImGui::SetNextWindowSize(
+        {std::min(1150.0f * unit, 0.95f * whole.x), std::min(720.0f * unit, 0.9f * whole.y)});
+    ImGui::SetNextWindowPos({0.5f * whole.x, 0.5f * whole.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    bool stays = true;
+    if (!ImGui::BeginPopupModal(
+            kTitle, &stays,
+            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+        return;
+    const float third = ImGui::GetContentRegionAvail().x / 3.0f;
+    if (beginColumn("##left", third)) {
+        showMenu(editor, "File", "File");
+        showMenu(editor, "Edit", "Edit");
+        showMenu(editor, "Help", "Help");
+        showMenu(editor, "", "On the canvas");
+        endColumn();
+    }
+    ImGui::SameLine();
+    if (beginColumn("##middle", third)) {
+        showMenu(editor, "Node", "Node");
+        heading("Mouse on the canvas");
+        for (const auto& [mouse, what] : kMouse) row(mouse, what);
+        endColumn();
+    }
+    ImGui::SameLine();
+    if (beginColumn("##right", 0)) {
+        showMenu(editor, "View", "View");
+        showMenu(editor, "Picture", "Over the picture");
+        endColumn();
+    }
+    const bool change = ImGui::Button("Change keys …");
+    ImGui::SameLine();
+    if (change || ImGui::Button("Close") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    editor.windows.preferences.opened |= change;
+}
+
+}  // namespace fw::editor
