@@ -13,7 +13,6 @@ using What = Hit::What;
 
 constexpr float kStill = 4.0f;        // pixels that a click may move
 constexpr float kReach = 9.0f;        // pixels about a socket or wire that still count
-constexpr float kWheel = 1.15f;       // zoom of a notch
 constexpr float kEdge = 28.0f;        // pixels from the panel's edge, within which dragging moves the canvas
 constexpr double kTooltipWait = 0.5;  // seconds that the mouse rests
 

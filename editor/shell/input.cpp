@@ -4,6 +4,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <GLFW/glfw3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -12,6 +13,9 @@
 namespace fw::editor {
 
 namespace {
+
+constexpr int kClickTaken = 2;  // frames until a field that was clicked has asked for the keyboard
+constexpr int kMostWait = 10;   // frames that keys wait for the keyboard to rest
 
 bool isModifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
 
@@ -87,19 +91,34 @@ void Input::add(const Event& event) {
 
 bool Input::mouseHeld() const { return std::ranges::count(buttons, true) > 0; }
 
+/// Whether keys go where they went in the last frame.
+bool Input::keyboardRests() {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    const Keyboard before = std::exchange(keyboard, {context.ActiveId, context.OpenPopupStack.Size,
+                                                     context.NavMoveSubmitted || context.NavInitRequest});
+    const bool rests = keyboard == before && !keyboard.asked && sinceButton >= kClickTaken;
+    ++sinceButton;
+    keysWaited = rests ? 0 : keysWaited + 1;
+    return rests || keysWaited > kMostWait;
+}
+
 void Input::feed() {
     // What this frame already reacts to: it does so once, with the state of mouse and modifiers at that time.
     enum class Act { none, wheel, key, button } act = Act::none;
     std::vector<int> released;
+    bool moved = false;
+    const bool rests = keyboardRests();
     const auto fits = [&](const Event& event) {
         switch (event.kind) {
             case Event::Kind::move:
             case Event::Kind::leave: return act == Act::none;
-            case Event::Kind::button: return act == Act::none;
+            // What is pressed has to know first that the mouse is over it.
+            case Event::Kind::button: return act == Act::none && !moved;
             case Event::Kind::wheel: return act == Act::none || act == Act::wheel;
-            case Event::Kind::character: return act == Act::none || act == Act::key;
+            case Event::Kind::character: return (act == Act::none && rests) || act == Act::key;
             case Event::Kind::key:
-                return act == Act::none && (!event.down || !std::ranges::count(released, event.code));
+                return act == Act::none && rests &&
+                       (!event.down || !std::ranges::count(released, event.code));
             case Event::Kind::focus: return act == Act::none;
         }
         return true;
@@ -108,7 +127,7 @@ void Input::feed() {
         const Event event = events.front();
         events.pop_front();
         switch (event.kind) {
-            case Event::Kind::move: inside = true, x = event.x, y = event.y; break;
+            case Event::Kind::move: inside = moved = true, x = event.x, y = event.y; break;
             case Event::Kind::leave: inside = false; break;
             case Event::Kind::button:
                 buttons[std::size_t(event.code)] = event.down;
@@ -137,6 +156,7 @@ void Input::feed() {
         }
     }
     ImGuiIO& io = ImGui::GetIO();
+    if (act == Act::button) sinceButton = 0;
     io.MousePos = inside || mouseHeld() ? ImVec2(float(x), float(y)) : ImVec2(-FLT_MAX, -FLT_MAX);
     std::ranges::copy(buttons, io.MouseDown);
 }

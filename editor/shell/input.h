@@ -2,8 +2,10 @@
 //
 // ImGui 1.86 looks once a frame at what is pressed. What happens between two frames would be lost (a key that
 // went down and up) or happen at the wrong place (a press, then a move). So the events wait in a queue, and
-// each frame takes of them as many as it can tell apart. Letters are named by what stands on the key, as
-// shortcuts mean them, not by where the key is.
+// each frame takes of them as many as it can tell apart. A press may send the keyboard elsewhere (a menu
+// opens, a field ends), which takes some frames; keys wait for that, so that who types ahead is understood
+// however slow the frames. Letters are named by what stands on the key, as shortcuts mean them, not by where
+// the key is.
 //
 // Lifetime: as the window; one a window. ImGui's GLFW backend is installed without callbacks of its own.
 #pragma once
@@ -42,14 +44,24 @@ class Input {
         double x = 0, y = 0;  ///< of move and wheel
         int scancode = 0, modifiers = 0;
     };
+    /// Where keys go.
+    struct Keyboard {
+        unsigned field = 0;  ///< ImGui's id of the one that is active
+        int popups = 0;
+        bool asked = false;  ///< something is to get it in the next frame
+        bool operator==(const Keyboard&) const = default;
+    };
     static Input& of(GLFWwindow* window);
     void add(const Event& event);
+    bool keyboardRests();
 
     GLFWwindow* window;
     std::deque<Event> events;
     std::vector<std::string> dropped;
     std::array<bool, 5> buttons = {};
     double x = 0, y = 0;  ///< of the mouse, in pixels
+    Keyboard keyboard;
+    int sinceButton = 0, keysWaited = 0;  ///< frames
     bool inside = false, anything = true;
 };
 

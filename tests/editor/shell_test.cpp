@@ -218,6 +218,68 @@ TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
     EXPECT_FALSE(shell->waitEvents(0.0));
 }
 
+TEST_F(ShellTest, TakesAClickWhereTheMouseHasJustCome) {
+    if (test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    std::string open;
+    ImVec2 tab{0, 0}, button{0, 0};
+    const auto show = [&] {
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({400, 300});
+        ImGui::Begin("tabs");
+        ImGui::Button("Over this first");
+        button = ImGui::GetItemRectMin();
+        ImGui::BeginTabBar("bar");
+        for (const char* name : {"First", "Second"}) {
+            if (ImGui::BeginTabItem(name)) {
+                open = name;
+                ImGui::EndTabItem();
+            }
+            tab = ImGui::GetItemRectMin();
+        }
+        ImGui::EndTabBar();
+        ImGui::End();
+    };
+    settle(show);
+    const auto at = [](ImVec2 p) {
+        return "mousemove " + std::to_string(int(p.x) + 5) + " " + std::to_string(int(p.y) + 5) + " ";
+    };
+    ASSERT_EQ(test::runProgram("xdotool " + at(button)).status, 0);
+    rest(0.2);
+    settle(show);
+    ASSERT_EQ(open, "First");
+    ASSERT_EQ(test::runProgram("xdotool " + at(tab) + "click 1").status, 0);
+    rest(0.2);
+    settle(show);
+    EXPECT_EQ(open, "Second");
+}
+
+TEST_F(ShellTest, KeysWaitForAMenuThatOpens) {
+    if (test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    char typed[32] = {}, after[32] = {};
+    int saved = 0;
+    const auto show = [&] {
+        if (ImGui::GetIO().KeyCtrl && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_S, false))
+            ++saved;
+        const bool opens = ImGui::GetIO().KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_A, false);
+        if (opens) ImGui::OpenPopup("menu");
+        if (!ImGui::BeginPopup("menu")) return;
+        if (opens) ImGui::SetKeyboardFocusHere();
+        if (ImGui::InputText("##text", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
+            std::snprintf(after, sizeof after, "%s", typed);
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndPopup();
+    };
+    settle(show);
+    const test::ProgramResult sent =
+        test::runProgram("xdotool mousemove 100 90 key ctrl+a type --args 1 'box max' key Return ctrl+s");
+    ASSERT_EQ(sent.status, 0) << sent.output;
+    rest(0.2);
+    for (int i = 0; i < 200 && (shell->waitEvents(0.0) || i < 3); ++i) shell->frame(show);
+    EXPECT_STREQ(after, "box max");
+    EXPECT_EQ(saved, 1);
+}
+
 TEST_F(ShellTest, FontsAreBakedAtManySizes) {
     EXPECT_EQ(shell->fonts().missing, "");
     EXPECT_EQ(shell->fonts().of(14)->FontSize, 14);

@@ -1,18 +1,14 @@
 // Every sample's picture against the one that was looked at and kept (tests/data/golden), and its ambient
 // occlusion, as the fast way finds it, against the reference.
-//
-// A picture that differs is written beside the test program, with the difference. After a change that is
-// meant, FIELDWRIGHT_UPDATE_GOLDEN=1 keeps the new ones: look at each of them first.
 #include <gtest/gtest.h>
-#include <stb/stb_image.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "graph/image.h"
 #include "runtime/player.h"
+#include "tests/support/golden.h"
 #include "tests/support/gpu.h"
 
 namespace fw {
@@ -22,7 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr int kSide = 256;
 constexpr int kAmbientWidth = 120, kAmbientHeight = 90;
-constexpr double kMeanDifference = 1.5, kStrong = 32, kMostStrong = 0.01;  // of 255; share of the pixels
 
 std::vector<fs::path> samples() {
     std::vector<fs::path> found;
@@ -77,38 +72,7 @@ TEST_P(Gallery, LooksAsItDid) {
     ASSERT_NO_FATAL_FAILURE(open());
     const Result<Picture> picture = player->frame({.width = kSide, .height = kSide, .samples = 8});
     ASSERT_TRUE(picture) << format(picture.error());
-    const std::string name = nameOf(GetParam());
-    const std::string golden = FIELDWRIGHT_SOURCE_DIR "/tests/data/golden/" + name + ".png";
-    if (std::getenv("FIELDWRIGHT_UPDATE_GOLDEN")) {
-        fs::create_directories(fs::path(golden).parent_path());
-        ASSERT_TRUE(savePicture(*picture, golden));
-    }
-    int width = 0, height = 0, channels = 0;
-    uint8_t* kept = stbi_load(golden.c_str(), &width, &height, &channels, 3);
-    ASSERT_NE(kept, nullptr) << golden << " is missing: look at the picture, then keep it with "
-                             << "FIELDWRIGHT_UPDATE_GOLDEN=1";
-    ASSERT_TRUE(width == kSide && height == kSide);
-    Picture difference{kSide, kSide, std::vector<uint8_t>(picture->pixels.size(), 255)};
-    double sum = 0;
-    int strong = 0;
-    for (std::size_t i = 0; i < std::size_t(kSide) * kSide; ++i) {
-        int most = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const int off = picture->pixels[4 * i + c] - kept[3 * i + c];
-            difference.pixels[4 * i + c] = uint8_t(std::clamp(128 + 4 * off, 0, 255));
-            sum += std::abs(off);
-            most = std::max(most, std::abs(off));
-        }
-        strong += most > kStrong;
-    }
-    stbi_image_free(kept);
-    const double mean = sum / (3.0 * kSide * kSide), share = double(strong) / (kSide * kSide);
-    if (mean <= kMeanDifference && share <= kMostStrong) return;
-    const std::string beside = FIELDWRIGHT_BINARY_DIR "/" + name;
-    (void)savePicture(*picture, beside + ".now.png");
-    (void)savePicture(difference, beside + ".difference.png");
-    ADD_FAILURE() << name << " differs by " << mean << " of 255 on average and strongly in " << 100 * share
-                  << " % of the pixels: see " << beside << ".now.png and .difference.png";
+    test::expectGolden(*picture, nameOf(GetParam()));
 }
 
 TEST_P(Gallery, AmbientOcclusionIsNearTheReference) {

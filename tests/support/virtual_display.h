@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
+#include "runtime/render/picture.h"
 #include "tests/support/temp_dir.h"
 
 namespace fw::test {
@@ -22,6 +23,8 @@ class VirtualDisplay {
     ~VirtualDisplay();
     bool works() const { return number >= 0; }
 
+    /// All of the screen now.
+    Picture screen() const;
     /// The colour of a pixel of the screen now.
     glm::ivec3 pixel(int x, int y) const;
 

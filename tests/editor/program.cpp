@@ -1,0 +1,415 @@
+#include "tests/editor/program.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+
+#include "editor/canvas/canvas.h"
+#include "editor/shell/theme.h"
+#include "graph/json.h"
+
+namespace fw::editor::test {
+
+using fw::test::readText;
+using fw::test::runProgram;
+using fw::test::writeText;
+
+namespace {
+
+constexpr double kPatience = 60.0;             // seconds; only what fails takes so long
+constexpr const char* kDelay = " --delay 5 ";  // ms: GLFW takes presses of a key within one for a single one
+constexpr double kLook = 0.02;                 // seconds between two looks
+
+std::string inQuotes(const std::string& text) {
+    std::string quoted = "'";
+    for (char each : text) quoted += each == '\'' ? std::string("'\\''") : std::string(1, each);
+    return quoted + "'";
+}
+
+std::string trimmed(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+}
+
+/// "Ctrl+Shift+PageUp" as xdotool has it.
+std::string keysym(const std::string& shortcut) {
+    static const std::pair<const char*, const char*> kNames[] = {
+        {"Enter", "Return"}, {"Backspace", "BackSpace"}, {"PageUp", "Prior"}, {"PageDown", "Next"},
+        {"Minus", "minus"},  {"Equal", "equal"},         {"Comma", "comma"},  {"Period", "period"},
+        {"Slash", "slash"},  {"Space", "space"}};
+    std::string words, word;
+    std::istringstream parts(shortcut);
+    while (std::getline(parts, word, '+')) {
+        if (word == "Ctrl" || word == "Shift" || word == "Alt" || word.size() == 1)
+            std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
+        if (word.starts_with("Pad")) word = "KP_" + word.substr(3);
+        for (const auto& [ours, theirs] : kNames)
+            if (word == ours) word = theirs;
+        words += (words.empty() ? "" : "+") + word;
+    }
+    return words;
+}
+
+std::string at(ImVec2 p) {
+    return "mousemove " + std::to_string(int(std::lround(p.x))) + " " +
+           std::to_string(int(std::lround(p.y))) + " ";
+}
+
+/// Another number whenever the file is written anew.
+ino_t identity(const std::string& path) {
+    struct stat status {};
+    return stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+Picture cut(const Picture& picture, const Area& part) {
+    const int x0 = std::max(int(part.lo.x), 0), x1 = std::min(int(part.hi.x), picture.width);
+    const int y0 = std::max(int(part.lo.y), 0), y1 = std::min(int(part.hi.y), picture.height);
+    Picture result{x1 - x0, y1 - y0, {}};
+    for (int y = y0; y < y1; ++y) {
+        const auto row = picture.pixels.begin() + 4 * (std::ptrdiff_t(y) * picture.width);
+        result.pixels.insert(result.pixels.end(), row + 4 * x0, row + 4 * x1);
+    }
+    return result;
+}
+
+}  // namespace
+
+bool eventually(const std::function<bool()>& condition) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kPatience));
+    while (!condition()) {
+        if (Clock::now() > end) return false;
+        fw::test::rest(kLook);
+    }
+    return true;
+}
+
+Program::Program(const std::string& text) : document(folder.path("document.field.json")) {
+    usable = display.works() && runProgram("xdotool version").status == 0;
+    if (!usable) return;
+    writeText(document, text);
+    read();
+    start({document});
+    usable = process > 0;
+}
+
+Program::~Program() {
+    if (!usable) return;
+    if (testing::Test::HasFailure()) keepScreen();
+    kill();
+}
+
+void Program::keepScreen() {
+    if (std::exchange(kept, true)) return;
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = test ? std::string(test->test_suite_name()) + "." + test->name() : "editor";
+    std::ranges::replace(name, '/', '.');
+    const std::string path = FIELDWRIGHT_BINARY_DIR "/" + name + ".png";
+    if (savePicture(screen(), path)) std::fprintf(stderr, "the screen as it was: %s\n", path.c_str());
+}
+
+bool Program::waitUntil(const std::function<bool()>& condition) {
+    if (eventually(condition)) return true;
+    keepScreen();
+    return false;
+}
+
+void Program::start(const std::vector<std::string>& arguments) {
+    static const fw::test::TempDir caches;  // what one start has compiled the next one need not
+    process = fork();
+    if (process == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        setenv("XDG_CONFIG_HOME", folder.path("config").c_str(), 1);
+        setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
+        setenv("XDG_CACHE_HOME", caches.folder.c_str(), 1);
+        if (chdir(folder.folder.c_str()) != 0) _exit(125);
+        std::vector<std::string> words = {FIELDWRIGHT_BINARY_DIR "/fieldwright-editor", "--scale", "1"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        execv(argv[0], argv.data());
+        _exit(126);
+    }
+    ASSERT_GT(process, 0);
+    // The title is set by the first frame.
+    ASSERT_TRUE(waitUntil([&] {
+        window = trimmed(runProgram("xdotool search --onlyvisible --name ' - Fieldwright$'").output);
+        return !window.empty() && window.find_first_not_of("0123456789") == std::string::npos;
+    })) << "no window: "
+        << window;
+    // Without a window manager nobody else gives it the keyboard.
+    send("windowfocus --sync " + window + " mousemove 640 790");
+}
+
+void Program::kill() {
+    if (process <= 0) return;
+    ::kill(process, SIGKILL);
+    waitpid(std::exchange(process, -1), nullptr, 0);
+}
+
+int Program::waitForEnd() {
+    int status = 0;
+    if (!waitUntil([&] { return waitpid(process, &status, WNOHANG) != 0; })) return -1;
+    process = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void Program::send(const std::string& words) {
+    const auto sent = runProgram("xdotool " + words);
+    ASSERT_EQ(sent.status, 0) << "xdotool " << words << "\n" << sent.output;
+}
+
+void Program::keys(const std::string& shortcut, int times) {
+    std::string words = "key" + std::string(kDelay);
+    for (int i = 0; i < times; ++i) words += " " + keysym(shortcut);
+    send(words);
+}
+
+void Program::type(const std::string& text) {
+    std::string words, line;
+    for (char each : text + '\0') {
+        if (each != '\n' && each != '\0') {
+            line += each;
+            continue;
+        }
+        if (!line.empty()) words += "type" + std::string(kDelay) + "--args 1 " + inQuotes(line) + " ";
+        if (each == '\n') words += "key Return ";
+        line.clear();
+    }
+    send(words);
+}
+
+void Program::moveTo(ImVec2 to) { send(at(to)); }
+
+void Program::click(ImVec2 p, int button, const std::string& held) {
+    send(at(p) + (held.empty() ? "" : "keydown " + held + " ") + "click " + std::to_string(button) +
+         (held.empty() ? "" : " keyup " + held));
+}
+
+void Program::doubleClick(ImVec2 p) { send(at(p) + "click --repeat 2 --delay 0 1"); }
+
+void Program::press(ImVec2 p, int button) { send(at(p) + "mousedown " + std::to_string(button)); }
+
+void Program::release(int button) { send("mouseup " + std::to_string(button)); }
+
+void Program::drag(const std::vector<ImVec2>& through, int button, const std::string& held, bool seen) {
+    const std::string number = std::to_string(button);
+    std::string words =
+        at(through.front()) + (held.empty() ? "" : "keydown " + held + " ") + "mousedown " + number;
+    for (std::size_t i = 1; i < through.size(); ++i) {
+        words += " " + at(through[i]);
+        if (!seen) continue;
+        const Picture before = screen();
+        send(words);
+        words.clear();
+        waitForChange(before, view.panel);
+    }
+    send(words + " mouseup " + number + (held.empty() ? "" : " keyup " + held));
+}
+
+void Program::wheel(ImVec2 p, int notches) {
+    send(at(p) + "click --delay 0 --repeat " + std::to_string(std::abs(notches)) +
+         (notches > 0 ? " 4" : " 5"));
+}
+
+Picture Program::screen(const Area& part) const { return cut(screen(), part); }
+
+bool Program::sees(const std::string& words, const std::optional<Area>& within) {
+    return reader.find(screen(), words, kFontSize, within).has_value();
+}
+
+Area Program::waitFor(const std::string& words, const std::optional<Area>& within) {
+    std::optional<Area> found;
+    EXPECT_TRUE(waitUntil([&] {
+        found = reader.find(screen(), words, kFontSize, within);
+        return found.has_value();
+    })) << "\""
+        << words << "\" is not on the screen";
+    return found.value_or(Area{});
+}
+
+void Program::waitUntilGone(const std::string& words) {
+    EXPECT_TRUE(waitUntil([&] { return !sees(words); })) << "\"" << words << "\" stays on the screen";
+}
+
+void Program::clickOn(const std::string& words, const std::optional<Area>& within) {
+    const Area found = waitFor(words, within);
+    if (found.width() > 0) click(found.centre());
+}
+
+std::string Program::title() const { return trimmed(runProgram("xdotool getwindowname " + window).output); }
+
+void Program::waitForTitle(const std::string& wanted) {
+    EXPECT_TRUE(waitUntil([&] { return title() == wanted; })) << "it is " << title() << ", not " << wanted;
+}
+
+void Program::expectGolden(const std::string& name, const Area& part) {
+    constexpr fw::test::Tolerance kInterface{.mean = 0.1, .mostStrong = 0.001};
+    const std::string path = "editor/" + name;
+    if (fw::test::remakesGolden())
+        fw::test::rest(3.0);  // there is nothing to wait for
+    else
+        waitUntil([&] { return fw::test::isGolden(screen(part), path, kInterface); });
+    fw::test::expectGolden(screen(part), path, kInterface);
+}
+
+void Program::waitForChange(const Picture& before, const Area& part) {
+    const Picture old = cut(before, part);
+    EXPECT_TRUE(waitUntil([&] { return screen(part).pixels != old.pixels; }))
+        << "nothing changes on the screen";
+}
+
+std::string Program::save() {
+    const ino_t before = identity(document);
+    keys("Ctrl+S");
+    EXPECT_TRUE(waitUntil([&] { return identity(document) != before; })) << "Ctrl+S does not write the file";
+    read();
+    return readText(document);
+}
+
+const Graph& Program::saved() {
+    save();
+    return known;
+}
+
+void Program::read() {
+    Result<Graph> graph = readGraph(document, nullptr);
+    ASSERT_TRUE(graph) << format(graph.error());
+    known = std::move(*graph);
+}
+
+void Program::clipboard(const std::string& text) {
+    writeText(folder.path("clipboard"), text);
+    // Its streams closed: it stays behind to answer for the text.
+    const auto put = runProgram("xclip -selection clipboard -i " + inQuotes(folder.path("clipboard")) +
+                                " >/dev/null 2>&1 </dev/null");
+    ASSERT_EQ(put.status, 0) << put.output;
+}
+
+std::string Program::clipboard() const { return runProgram("xclip -selection clipboard -o").output; }
+
+void Program::findPanel() {
+    // The canvas is where its grid is: lines from one side to the other.
+    constexpr int kLine = 20;
+    const ImU32 grid = themeColor(ThemeColor::grid);
+    const std::array<uint8_t, 3> ink = {uint8_t(grid), uint8_t(grid >> 8), uint8_t(grid >> 16)};
+    const Picture seen = screen();
+    const auto inked = [&](int x, int y) {
+        const std::size_t i = 4 * (std::size_t(y) * std::size_t(seen.width) + std::size_t(x));
+        return std::equal(ink.begin(), ink.end(), &seen.pixels[i]);
+    };
+    // First and last pixel of the lines, over all that run across `outer`.
+    const auto extent = [](int outer, int inner, const std::function<bool(int, int)>& is) {
+        float first = 1e9f, last = 0;
+        for (int i = 0; i < outer; ++i)
+            for (int k = 0, run = 0; k < inner; ++k) {
+                run = is(i, k) ? run + 1 : 0;
+                if (run < kLine) continue;
+                first = std::min(first, float(k - run + 1)), last = std::max(last, float(k + 1));
+            }
+        return std::pair(first, last);
+    };
+    const auto [left, right] = extent(seen.height, seen.width, [&](int y, int x) { return inked(x, y); });
+    const auto [top, bottom] = extent(seen.width, seen.height, [&](int x, int y) { return inked(x, y); });
+    view.panel = {{left, top}, {right, bottom}};
+}
+
+void Program::frameAll() {
+    keys("Home");
+    ASSERT_TRUE(waitUntil([&] {
+        findPanel();
+        return view.panel.width() > 200 && view.panel.height() > 200;
+    })) << "there is no canvas on the screen";
+    view.frame(Boxes(known, scope).around());
+}
+
+void Program::zoom(int notches) {
+    const ImVec2 middle(std::round(view.panel.centre().x), std::round(view.panel.centre().y));
+    wheel(middle, notches);
+    view.zoomTo(view.zoom * std::pow(kWheel, float(notches)), middle);
+}
+
+void Program::pan(ImVec2 pixels) {
+    const ImVec2 whole(std::round(pixels.x), std::round(pixels.y)), middle = view.panel.centre();
+    drag({middle, {middle.x + whole.x, middle.y + whole.y}}, 2);
+    view.pan(whole);
+}
+
+ImVec2 Program::title(const std::string& node) const {
+    const Boxes boxes(known, scope);
+    const NodeBox* box = boxes.find(node);
+    EXPECT_NE(box, nullptr) << node;
+    if (!box) return {};
+    if (box->reroute) return view.toScreen(box->area.centre());
+    return view.toScreen(
+        ImVec2(box->area.lo.x + 0.35f * box->area.width(), box->area.lo.y + 0.5f * kTitleHeight));
+}
+
+ImVec2 Program::input(const std::string& node, const std::string& name) const {
+    const Boxes boxes(known, scope);
+    const Row* row = boxes.row({node, name}, false);
+    EXPECT_NE(row, nullptr) << node << '.' << name;
+    return row ? view.toScreen(boxes.find(node)->socket(*row)) : ImVec2();
+}
+
+ImVec2 Program::output(const std::string& node) const {
+    const Boxes boxes(known, scope);
+    const Row* row = boxes.row({node, ""}, true);
+    EXPECT_NE(row, nullptr) << node;
+    return row ? view.toScreen(boxes.find(node)->socket(*row)) : ImVec2();
+}
+
+ImVec2 Program::field(const std::string& node, const std::string& name, int component) const {
+    const Boxes boxes(known, scope);
+    const Row* row = boxes.row({node, name}, false);
+    EXPECT_TRUE(row && component < row->fields) << node << '.' << name << ' ' << component;
+    return row ? view.toScreen(boxes.find(node)->field(*row, component).centre()) : ImVec2();
+}
+
+ImVec2 Program::nowhere() const {
+    constexpr float kStep = 20, kOff = 40;
+    const Boxes boxes(known, scope);
+    const std::vector<Frame> frames = framesOf(known);
+    const Area inner = view.panel.grown(-kOff), map = minimapArea(view).grown(kOff);
+    for (float y = inner.lo.y; y < inner.hi.y; y += kStep)
+        for (float x = inner.lo.x; x < inner.hi.x; x += kStep) {
+            const ImVec2 p(x, y);
+            if (map.contains(p)) continue;
+            if (hitTest(boxes, frames, scope, view.toCanvas(p), kOff / view.unit()).what ==
+                Hit::What::nothing)
+                return p;
+        }
+    ADD_FAILURE() << "the canvas is full";
+    return {};
+}
+
+std::string Program::add(const std::string& search, ImVec2 p) {
+    std::set<std::string> before;
+    for (const Node& node : nodesOf(known, scope)) before.insert(node.id);
+    moveTo(p);
+    keys("Shift+A");
+    type(search + "\n");
+    save();
+    for (const Node& node : nodesOf(known, scope))
+        if (!before.contains(node.id)) return node.id;
+    ADD_FAILURE() << "the menu adds nothing for " << search;
+    return {};
+}
+
+void Program::set(const std::string& node, const std::string& name, int component, const std::string& text) {
+    click(field(node, name, component));
+    type(text + "\n");
+}
+
+}  // namespace fw::editor::test
