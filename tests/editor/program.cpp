@@ -380,15 +380,12 @@ ImVec2 Program::field(const std::string& node, const std::string& name, int comp
 ImVec2 Program::nowhere() const {
     constexpr float kStep = 20, kOff = 40;
     const Boxes boxes(known, scope);
-    const std::vector<Frame> frames = framesOf(known);
     const Area inner = view.panel.grown(-kOff), map = minimapArea(view).grown(kOff);
     for (float y = inner.lo.y; y < inner.hi.y; y += kStep)
         for (float x = inner.lo.x; x < inner.hi.x; x += kStep) {
             const ImVec2 p(x, y);
             if (map.contains(p)) continue;
-            if (hitTest(boxes, frames, scope, view.toCanvas(p), kOff / view.unit()).what ==
-                Hit::What::nothing)
-                return p;
+            if (hitTest(boxes, view.toCanvas(p), kOff / view.unit()).what == Hit::What::nothing) return p;
         }
     ADD_FAILURE() << "the canvas is full";
     return {};
