@@ -182,16 +182,17 @@ float Curve::distance(ImVec2 p) const {
     return std::sqrt(least);
 }
 
-bool Curve::crosses(ImVec2 from, ImVec2 to) const {
+std::optional<ImVec2> Curve::crossing(ImVec2 from, ImVec2 to) const {
     const ImVec2 cut = to - from;
     ImVec2 a = points[0];
     for (int i = 1; i <= kPieces; ++i) {
         const ImVec2 b = at(float(i) / kPieces), along = b - a;
         const bool across = (cross(cut, a - from) < 0.0f) != (cross(cut, b - from) < 0.0f);
-        if (across && cross(along, from - a) * cross(along, to - a) <= 0.0f) return true;
+        if (across && cross(along, from - a) * cross(along, to - a) <= 0.0f)
+            return a + (cross(from - a, cut) / cross(along, cut)) * along;
         a = b;
     }
-    return false;
+    return std::nullopt;
 }
 
 Hit hitTest(const Boxes& boxes, ImVec2 p, float reach) {

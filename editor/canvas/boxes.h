@@ -76,7 +76,9 @@ struct Curve {
     Area area() const;
     /// Distance of the nearest point of the curve.
     float distance(ImVec2 p) const;
-    bool crosses(ImVec2 a, ImVec2 b) const;
+    /// Where the straight line between the two crosses it first.
+    std::optional<ImVec2> crossing(ImVec2 from, ImVec2 to) const;
+    bool crosses(ImVec2 from, ImVec2 to) const { return crossing(from, to).has_value(); }
 };
 Curve curve(ImVec2 from, ImVec2 to);
 

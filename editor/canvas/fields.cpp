@@ -107,8 +107,7 @@ void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, con
     const float speed = io.KeyShift ? 0.1f : io.KeyAlt ? 10.0f : 1.0f;
     edit.travelled += io.MouseDelta.x * speed;
     if (edit.state == State::pressed && std::abs(ImGui::GetMouseDragDelta(0, 0.0f).x) > kStill) {
-        edit.state = State::dragging;
-        edit.travelled = 0;
+        edit.state = State::dragging;  // with what it has travelled: a quick hand is there in one frame
         document.begin(setName(box, row));
     }
     if (!ImGui::IsMouseDown(0)) {

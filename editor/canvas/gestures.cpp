@@ -218,12 +218,11 @@ struct Hand {
         Graph next = document.graph();
         NodeIds made;
         for (const Wire& wire : crossed()) {
-            // Where the trail is nearest to the wire.
             const Curve path = curve(boxes.start(wire), boxes.end(wire));
-            ImVec2 best = canvas.trail.front();
-            for (ImVec2 p : canvas.trail)
-                if (path.distance(p) < path.distance(best)) best = p;
-            Edited edited = addReroute(next, canvas.scope, boxes.input(wire), position(best));
+            std::optional<ImVec2> place;
+            for (std::size_t i = 1; i < canvas.trail.size() && !place; ++i)
+                place = path.crossing(canvas.trail[i - 1], canvas.trail[i]);
+            Edited edited = addReroute(next, canvas.scope, boxes.input(wire), position(*place));
             next = std::move(edited.graph);
             made.insert(made.end(), edited.nodes.begin(), edited.nodes.end());
         }
@@ -477,6 +476,7 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     if (canvas.gesture != Gesture::none) {
         hand.moveAtEdge();
         hand.during();
+        if (canvas.gesture != Gesture::none) hand.hover(marks);  // why a wire cannot be dropped here
     } else if (hovered && canvas.field.state == FieldEdit::State::none) {
         hand.hover(marks);
         if (ImGui::IsMouseDoubleClicked(0) && hand.hit.what == What::frameTitle) {

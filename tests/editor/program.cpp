@@ -25,7 +25,7 @@ using fw::test::writeText;
 
 namespace {
 
-constexpr double kPatience = 60.0;             // seconds; only what fails takes so long
+constexpr double kPatience = 30.0;             // seconds; only what fails takes so long
 constexpr const char* kDelay = " --delay 5 ";  // ms: GLFW takes presses of a key within one for a single one
 constexpr double kLook = 0.02;                 // seconds between two looks
 
@@ -46,12 +46,15 @@ std::string keysym(const std::string& shortcut) {
         {"Enter", "Return"}, {"Backspace", "BackSpace"}, {"PageUp", "Prior"}, {"PageDown", "Next"},
         {"Minus", "minus"},  {"Equal", "equal"},         {"Comma", "comma"},  {"Period", "period"},
         {"Slash", "slash"},  {"Space", "space"}};
+    static const char* const kPad[] = {"KP_Insert", "KP_End",   "KP_Down", "KP_Next", "KP_Left",
+                                       "KP_Begin",  "KP_Right", "KP_Home", "KP_Up",   "KP_Prior"};
     std::string words, word;
     std::istringstream parts(shortcut);
     while (std::getline(parts, word, '+')) {
         if (word == "Ctrl" || word == "Shift" || word == "Alt" || word.size() == 1)
             std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
-        if (word.starts_with("Pad")) word = "KP_" + word.substr(3);
+        // As it is without Num Lock: xdotool would press Shift for the digit.
+        if (word.starts_with("Pad")) word = kPad[std::size_t(word.at(3) - '0')];
         for (const auto& [ours, theirs] : kNames)
             if (word == ours) word = theirs;
         words += (words.empty() ? "" : "+") + word;
@@ -199,23 +202,23 @@ void Program::click(ImVec2 p, int button, const std::string& held) {
 
 void Program::doubleClick(ImVec2 p) { send(at(p) + "click --repeat 2 --delay 0 1"); }
 
-void Program::press(ImVec2 p, int button) { send(at(p) + "mousedown " + std::to_string(button)); }
-
 void Program::release(int button) { send("mouseup " + std::to_string(button)); }
 
-void Program::drag(const std::vector<ImVec2>& through, int button, const std::string& held, bool seen) {
+void Program::drag(const std::vector<ImVec2>& through, int button, const std::string& held, bool watched,
+                   bool ends) {
     const std::string number = std::to_string(button);
     std::string words =
         at(through.front()) + (held.empty() ? "" : "keydown " + held + " ") + "mousedown " + number;
     for (std::size_t i = 1; i < through.size(); ++i) {
         words += " " + at(through[i]);
-        if (!seen) continue;
+        if (!watched) continue;
         const Picture before = screen();
         send(words);
         words.clear();
         waitForChange(before, view.panel);
     }
-    send(words + " mouseup " + number + (held.empty() ? "" : " keyup " + held));
+    if (ends) words += " mouseup " + number;
+    send(words + (held.empty() ? "" : " keyup " + held));
 }
 
 void Program::wheel(ImVec2 p, int notches) {

@@ -44,14 +44,15 @@ class Program {
 
     // Input; several at once reach the window as one stream of events.
     void keys(const std::string& shortcut, int times = 1);  ///< as in the table of commands: "Ctrl+Shift+Z"
-    void type(const std::string& text);      ///< with "\n" as Enter
+    void type(const std::string& text);                     ///< with "\n" as Enter
     void moveTo(ImVec2 to);
     void click(ImVec2 at, int button = 1, const std::string& held = {});  ///< held: "ctrl", "shift", "alt"
     void doubleClick(ImVec2 at);
-    /// Through all the places, waiting at each but the last until something of it is seen, if it is `seen`.
+    /// Through all the places; with `watched`, at each of them until something of it is seen; with `held`
+    /// keys
+    /// ("ctrl") down. It is let go of at the last place if `ends`.
     void drag(const std::vector<ImVec2>& through, int button = 1, const std::string& held = {},
-              bool seen = false);
-    void press(ImVec2 at, int button = 1);
+              bool watched = false, bool ends = true);
     void release(int button = 1);
     void wheel(ImVec2 at, int notches);  ///< up if positive
     void send(const std::string& xdotoolWords);

@@ -1,0 +1,383 @@
+// Every shortcut of the table of commands, pressed in the real window: each has a case here that sees what it
+// did, in the saved file, on the clipboard or on the screen.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "editor/commands.h"
+#include "editor/document/frames.h"
+#include "tests/editor/program.h"
+
+namespace fw::editor::test {
+namespace {
+
+using fw::test::readText;
+using fw::test::writeText;
+
+constexpr const char* kDocument = R"({"fieldwright": 1, "nodes": [
+    {"id": "box", "type": "box", "at": [0, 0]},
+    {"id": "ball", "type": "sphere", "at": [0, 200]},
+    {"id": "cut", "type": "subtract", "at": [260, 0], "inputs": {"a": {"from": "box"}, "b": {"from": "ball"}}},
+    {"id": "out", "type": "output", "at": [520, 0], "inputs": {"surface": {"from": "cut"}, "resolution": 16}}]})";
+
+void pick(Program& program, const std::vector<std::string>& nodes) {
+    for (const std::string& node : nodes)
+        program.click(program.title(node), 1, node == nodes[0] ? "" : "shift");
+}
+
+std::set<std::string> nodesAfter(Program& program) {
+    std::set<std::string> ids;
+    for (const Node& node : program.saved().nodes) ids.insert(node.id);
+    return ids;
+}
+
+const Node& nodeAfter(Program& program, const std::string& id) {
+    const Node* node = findNode(program.saved().nodes, id);
+    if (!node) throw std::runtime_error("no node " + id);
+    return *node;
+}
+
+std::string source(const Node& node, const std::string& input) {
+    const InputValue* value = node.input(input);
+    const Link* link = value ? std::get_if<Link>(&value->value) : nullptr;
+    return link ? link->node : "";
+}
+
+using Ids = std::set<std::string>;
+
+/// What is left when all that is selected is deleted.
+void expectSelected(Program& program, const Ids& selected) {
+    program.keys("Delete");
+    Ids left = {"box", "ball", "cut", "out"};
+    for (const std::string& id : selected) left.erase(id);
+    EXPECT_EQ(nodesAfter(program), left);
+}
+
+Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
+
+/// The picture of the solid, once it has come to rest.
+Picture restingPicture(Program& program) {
+    Picture seen = program.screen(picturePart(program));
+    EXPECT_TRUE(eventually([&] {
+        fw::test::rest(0.3);
+        Picture now = program.screen(picturePart(program));
+        const bool rests = now.pixels == seen.pixels && !program.sees("working");
+        seen = std::move(now);
+        return rests;
+    }));
+    return seen;
+}
+
+/// Presses `first`, then the keys, over the picture, which is another one after each.
+void lookAnew(Program& program, const std::string& first, const std::string& keys) {
+    program.moveTo(picturePart(program).centre());
+    for (const std::string& each : {first, keys}) {
+        const Picture before = restingPicture(program);
+        program.keys(each);
+        EXPECT_TRUE(eventually([&] { return program.screen(picturePart(program)).pixels != before.pixels; }))
+            << each << " does not change the picture";
+    }
+    program.keys("0");
+    program.moveTo(program.nowhere());
+}
+
+/// What to do, with these keys, in a window with the document and nothing selected, and what to see.
+using Case = std::function<void(Program&, const std::string& keys)>;
+
+const std::map<std::string, Case>& cases() {
+    static const std::map<std::string, Case> all = {
+        {"file.new",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+         }},
+        {"file.open",
+         [](Program& p, const std::string& keys) {
+             writeText(p.path("other.field.json"), R"({"fieldwright": 1, "nodes": []})");
+             p.keys(keys);
+             p.keys("Ctrl+A");
+             p.type("other.field.json\n");
+             p.waitForTitle("other.field.json - Fieldwright");
+         }},
+        {"file.save",
+         [](Program& p, const std::string& keys) {
+             const std::string before = p.save();
+             pick(p, {"box"});
+             p.keys("Delete");
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return readText(p.file()) != before; }));
+         }},
+        {"file.save_as",
+         [](Program& p, const std::string& keys) {
+             const std::string before = p.save();
+             p.keys(keys);
+             p.keys("Ctrl+A");
+             p.type("copy\n");
+             p.waitForTitle("copy.field.json - Fieldwright");
+             EXPECT_EQ(readText(p.path("copy.field.json")), before);
+         }},
+        {"file.export",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             p.waitFor("Close");
+         }},
+        {"edit.undo",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box"});
+             p.keys("Delete");
+             p.keys(keys);
+             EXPECT_EQ(nodesAfter(p), (Ids{"box", "ball", "cut", "out"}));
+         }},
+        {"edit.redo",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box"});
+             p.keys("Delete");
+             p.keys("Ctrl+Z");
+             p.keys(keys);
+             EXPECT_EQ(nodesAfter(p), (Ids{"ball", "cut", "out"}));
+         }},
+        {"edit.cut",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"ball"});
+             p.keys(keys);
+             EXPECT_EQ(nodesAfter(p), (Ids{"box", "cut", "out"}));
+             EXPECT_NE(p.clipboard().find("\"sphere\""), std::string::npos) << p.clipboard();
+         }},
+        {"edit.copy",
+         [](Program& p, const std::string& keys) {
+             p.clipboard("something else");
+             pick(p, {"ball"});
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.clipboard().find("\"sphere\"") != std::string::npos; }));
+             EXPECT_EQ(nodesAfter(p).size(), 4u);
+         }},
+        {"edit.paste",
+         [](Program& p, const std::string& keys) {
+             p.clipboard(R"({"nodes": [{"id": "ring", "type": "torus"}]})");
+             p.moveTo(p.nowhere());
+             p.keys(keys);
+             EXPECT_TRUE(nodesAfter(p).contains("ring"));
+         }},
+        {"edit.duplicate",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"cut"});
+             p.keys(keys);
+             ASSERT_TRUE(nodesAfter(p).contains("cut_2"));
+             EXPECT_EQ(source(nodeAfter(p, "cut_2"), "a"), "");
+         }},
+        {"edit.duplicate_wired",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"cut"});
+             p.keys(keys);
+             ASSERT_TRUE(nodesAfter(p).contains("cut_2"));
+             EXPECT_EQ(source(nodeAfter(p, "cut_2"), "a"), "box");
+         }},
+        {"edit.delete",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"cut"});
+             p.keys(keys);
+             EXPECT_EQ(nodesAfter(p), (Ids{"box", "ball", "out"}));
+             EXPECT_EQ(source(nodeAfter(p, "out"), "surface"), "");
+         }},
+        {"edit.delete_heal",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"cut"});
+             p.keys(keys);
+             EXPECT_EQ(nodesAfter(p), (Ids{"box", "ball", "out"}));
+             EXPECT_EQ(source(nodeAfter(p, "out"), "surface"), "box");
+         }},
+        {"edit.select_all",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             expectSelected(p, {"box", "ball", "cut", "out"});
+         }},
+        {"edit.invert",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"ball"});
+             p.keys(keys);
+             expectSelected(p, {"box", "cut", "out"});
+         }},
+        {"edit.upstream",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"cut"});
+             p.keys(keys);
+             expectSelected(p, {"box", "ball", "cut"});
+         }},
+        {"edit.downstream",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box"});
+             p.keys(keys);
+             expectSelected(p, {"box", "cut", "out"});
+         }},
+        {"node.add",
+         [](Program& p, const std::string& keys) {
+             p.moveTo(p.nowhere());
+             p.keys(keys);
+             p.type("torus\n");
+             EXPECT_TRUE(nodesAfter(p).contains("torus"));
+         }},
+        {"node.mute",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"ball"});
+             p.keys(keys);
+             EXPECT_TRUE(nodeAfter(p, "ball").muted);
+         }},
+        {"node.collapse",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"ball"});
+             p.keys(keys);
+             EXPECT_TRUE(nodeAfter(p, "ball").collapsed);
+         }},
+        {"node.swap",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"cut"});
+             p.keys(keys);
+             EXPECT_EQ(source(nodeAfter(p, "cut"), "a"), "ball");
+         }},
+        {"node.group",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box", "ball"});
+             p.keys(keys);
+             EXPECT_EQ(p.saved().groups.size(), 1u);
+             EXPECT_EQ(nodesAfter(p).size(), 3u);
+         }},
+        {"node.ungroup",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box", "ball"});
+             p.keys("Ctrl+G");
+             EXPECT_EQ(p.saved().groups.size(), 1u);
+             p.keys(keys);
+             EXPECT_EQ(p.saved().groups.size(), 0u);
+             EXPECT_EQ(nodesAfter(p), (Ids{"box", "ball", "cut", "out"}));
+         }},
+        {"node.enter",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box", "ball"});
+             p.keys("Ctrl+G");
+             p.keys(keys);
+             p.waitFor("Document");
+             p.keys(keys);
+             p.waitUntilGone("Document");
+         }},
+        {"node.frame",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box", "ball"});
+             p.keys(keys);
+             EXPECT_EQ(framesOf(p.saved()).size(), 1u);
+         }},
+        {"node.layout",
+         [](Program& p, const std::string& keys) {
+             const std::string before = p.save();
+             p.keys(keys);
+             EXPECT_NE(p.save(), before);
+             EXPECT_EQ(nodesAfter(p).size(), 4u);
+         }},
+        {"view.frame",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"ball"});
+             p.keys(keys);
+             const ImVec2 before = p.title("box");
+             p.view.frame(Boxes(p.graph(), "").find("ball")->area);
+             EXPECT_GT(std::abs(p.title("box").x - before.x), 50);
+             pick(p, {"box"});
+             expectSelected(p, {"box"});
+         }},
+        {"view.frame_all",
+         [](Program& p, const std::string& keys) {
+             p.zoom(-4);
+             p.pan({150, 80});
+             const ImVec2 before = p.title("box");
+             p.keys(keys);
+             p.view.frame(Boxes(p.graph(), "").around());
+             EXPECT_GT(std::abs(p.title("box").x - before.x), 50);
+             pick(p, {"box"});
+             expectSelected(p, {"box"});
+         }},
+        {"view.pin",
+         [](Program& p, const std::string& keys) {
+             // The node shown has a dot near the right end of its title.
+             const NodeBox box = *Boxes(p.graph(), "").find("ball");
+             const ImVec2 dot = p.view.toScreen({box.area.hi.x - 30, box.area.lo.y + 0.5f * kTitleHeight});
+             const Area place = Area{dot, dot}.grown(3);
+             pick(p, {"ball"});
+             p.save();
+             const Picture before = p.screen();
+             p.keys(keys);
+             p.waitForChange(before, place);
+             p.keys(keys);
+         }},
+        {"view.timeline",
+         [](Program& p, const std::string& keys) {
+             const Picture before = p.screen();
+             p.keys(keys);
+             p.waitForChange(before,
+                             {{p.view.panel.lo.x, p.view.panel.hi.y - 100}, {600, p.view.panel.hi.y}});
+             p.keys(keys);
+         }},
+        {"file.quit",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             EXPECT_EQ(p.waitForEnd(), 0);
+         }},
+        {"picture.frame",
+         [](Program& p, const std::string& keys) {
+             p.moveTo(picturePart(p).centre());
+             const Picture first = restingPicture(p);
+             p.wheel(picturePart(p).centre(), -5);
+             EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != first.pixels; }));
+             const Picture small = restingPicture(p);
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != small.pixels; }));
+             p.keys("0");
+         }},
+        {"picture.reset", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
+        {"picture.front", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
+        {"picture.back", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
+        {"picture.right", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
+        {"picture.left", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
+        {"picture.top", [](Program& p, const std::string& keys) { lookAnew(p, "1", keys); }},
+        {"picture.bottom", [](Program& p, const std::string& keys) { lookAnew(p, "1", keys); }},
+    };
+    return all;
+}
+
+/// After these another window is needed.
+const std::set<std::string> kLast = {"file.new", "file.open", "file.save_as", "file.export", "file.quit"};
+
+TEST(EndToEnd, EveryShortcutDoesWhatTheTableSays) {
+    std::optional<Program> program;
+    std::string original;
+    for (const Command& command : commands()) {
+        std::istringstream words(command.keys);
+        for (std::string keys; words >> keys;) {
+            SCOPED_TRACE(std::string(command.id) + ": " + keys);
+            const auto found = cases().find(command.id);
+            if (found == cases().end()) {
+                ADD_FAILURE() << "no case presses it: write one";
+                continue;
+            }
+            if (!program) {
+                program.emplace(kDocument);
+                if (!program->works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+                original = program->save();
+            }
+            program->moveTo({200, 60});
+            program->frameAll();
+            found->second(*program, keys);
+            if (kLast.contains(command.id) || HasFailure()) {
+                program.reset();
+                if (HasFailure()) return;
+                continue;
+            }
+            // All as it was: the steps taken back, nothing selected.
+            program->moveTo({200, 60});
+            program->keys("Ctrl+Z", 3);
+            EXPECT_EQ(program->save(), original);
+            program->click(program->nowhere());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace fw::editor::test
