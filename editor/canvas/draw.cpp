@@ -254,7 +254,7 @@ void drawGesture(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
         pen.list->AddRectFilled(box.lo, box.hi, faded(ink, 0.1f));
         pen.list->AddRect(box.lo, box.hi, ink);
     } else if (canvas.gesture == Gesture::lasso) {
-        trail(ink, true);
+        trail(ink, canvas.trail.size() > 2);  // a line there and back would have no width
     } else if (canvas.gesture == Gesture::cut) {
         trail(themeColor(ThemeColor::error), false);
     } else if (canvas.gesture == Gesture::reroute || canvas.gesture == Gesture::lazy) {

@@ -102,6 +102,8 @@ void showAddMenu(Editor& editor) {
             takenGroup = groups[std::size_t(i) - types.size()];
     }
     ImGui::EndChild();
+    // At once, whatever has been typed.
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     if (taken) add(editor, *taken);
     if (takenGroup) add(editor, *findNodeType("group"), takenGroup->id);
     ImGui::EndPopup();

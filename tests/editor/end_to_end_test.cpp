@@ -132,7 +132,7 @@ TEST(EndToEnd, LooksAsItDid) {
     program.moveTo({panel.lo.x + 150, panel.lo.y + 60});
     program.keys("Home");
     program.keys("Shift+A");
-    program.type("smo");
+    program.type("sub");
     expect("add_menu");
     program.keys("Escape");
     program.keys("Ctrl+A");

@@ -61,18 +61,17 @@ TEST(Export, GivesTheBytesOfTheCommand) {
         SCOPED_TRACE(each.sample);
         const std::string name = std::string(each.sample) + each.ending;
         std::filesystem::create_directory(folder.path(each.sample));
-        // Files beside each other name each other, so both exports have the same name in folders of their own.
+        // Files beside each other name each other, so both exports have the same name in folders of their
+        // own.
         const std::string mine = folder.path(std::string(each.sample) + "/" + name),
                           theirs = folder.path(name);
         std::vector<std::string> arguments{"export", sample(each.sample), "-o", theirs};
         arguments.insert(arguments.end(), each.options.begin(), each.options.end());
         const test::CommandResult command = test::runCommand(arguments);
         ASSERT_EQ(command.status, 0) << command.errors;
-        ExportJob job({.graph = read(sample(each.sample)),
-                       .path = mine,
-                       .mesh = each.mesh,
-                       .seconds = each.seconds},
-                      {});
+        ExportJob job(
+            {.graph = read(sample(each.sample)), .path = mine, .mesh = each.mesh, .seconds = each.seconds},
+            {});
         const ExportState state = finish(job);
         ASSERT_EQ(state.phase, Phase::done) << (state.problems.empty() ? "" : format(state.problems[0]));
         ASSERT_EQ(state.files.paths, exportedPaths(mine));

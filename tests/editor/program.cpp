@@ -151,6 +151,8 @@ void Program::start(const std::vector<std::string>& arguments) {
         return !window.empty() && window.find_first_not_of("0123456789") == std::string::npos;
     })) << "no window: "
         << window;
+    // And is there before anything is to be seen.
+    waitFor("File");
     // Without a window manager nobody else gives it the keyboard.
     send("windowfocus --sync " + window + " mousemove 640 790");
 }
@@ -215,7 +217,7 @@ void Program::drag(const std::vector<ImVec2>& through, int button, const std::st
         const Picture before = screen();
         send(words);
         words.clear();
-        waitForChange(before, view.panel);
+        waitForChange(before, Area{through[i], through[i]}.grown(6));
     }
     if (ends) words += " mouseup " + number;
     send(words + (held.empty() ? "" : " keyup " + held));
@@ -331,8 +333,12 @@ void Program::findPanel() {
 void Program::frameAll() {
     keys("Home");
     ASSERT_TRUE(waitUntil([&] {
+        // Twice the same: it may be seen while it is drawn.
+        const Area before = view.panel;
         findPanel();
-        return view.panel.width() > 200 && view.panel.height() > 200;
+        const ImVec2 lo = view.panel.lo, hi = view.panel.hi;
+        return lo.x == before.lo.x && lo.y == before.lo.y && hi.x == before.hi.x && hi.y == before.hi.y &&
+               hi.x > lo.x + 200 && hi.y > lo.y + 200;
     })) << "there is no canvas on the screen";
     view.frame(Boxes(known, scope).around());
 }

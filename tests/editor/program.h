@@ -48,7 +48,7 @@ class Program {
     void moveTo(ImVec2 to);
     void click(ImVec2 at, int button = 1, const std::string& held = {});  ///< held: "ctrl", "shift", "alt"
     void doubleClick(ImVec2 at);
-    /// Through all the places; with `watched`, at each of them until something of it is seen; with `held`
+    /// Through all the places; with `watched`, at each of them until something is seen there; with `held`
     /// keys
     /// ("ctrl") down. It is let go of at the last place if `ends`.
     void drag(const std::vector<ImVec2>& through, int button = 1, const std::string& held = {},

@@ -68,7 +68,9 @@ void expectGolden(const Picture& picture, const std::string& name, const Toleran
     }
     const Comparison found = compare(picture, name);
     if (within(found, tolerance)) return;
-    const std::string beside = FIELDWRIGHT_BINARY_DIR "/" + name;
+    std::string beside = name;
+    std::ranges::replace(beside, '/', '.');
+    beside = FIELDWRIGHT_BINARY_DIR "/" + beside;
     (void)savePicture(picture, beside + ".now.png");
     if (!found.sameSize) {
         ADD_FAILURE() << pathOf(name) << " is missing or of another size: look at " << beside
