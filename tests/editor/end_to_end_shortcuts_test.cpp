@@ -82,6 +82,12 @@ void lookAnew(Program& program, const std::string& first, const std::string& key
     program.moveTo(program.nowhere());
 }
 
+/// The same for the tools, whose handles are those of the node that is selected.
+void takeUp(Program& program, const std::string& first, const std::string& keys) {
+    pick(program, {"box"});
+    lookAnew(program, first, keys);
+}
+
 /// What to do, with these keys, in a window with the document and nothing selected, and what to see.
 using Case = std::function<void(Program&, const std::string& keys)>;
 
@@ -331,6 +337,9 @@ const std::map<std::string, Case>& cases() {
              EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != small.pixels; }));
              p.keys("0");
          }},
+        {"picture.move", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
+        {"picture.rotate", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
+        {"picture.scale", [](Program& p, const std::string& keys) { takeUp(p, "E", keys); }},
         {"picture.reset", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
         {"picture.front", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
         {"picture.back", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
