@@ -164,6 +164,7 @@ TEST_F(EndToEndGestures, Numbers) {
     program.type("2*what\n");
     program.waitFor(numberOf("2*what").error().message);
     program.keys("Escape");
+    program.waitUntilGone(numberOf("2*what").error().message);
     EXPECT_EQ(program.save(), original);
 
     // A drag of 60 pixels counts whole, however fast it was; a tenth of it with Shift.

@@ -67,10 +67,11 @@ std::string at(ImVec2 p) {
            std::to_string(int(std::lround(p.y))) + " ";
 }
 
-/// Another number whenever the file is written anew.
-ino_t identity(const std::string& path) {
+/// Another one whenever the file is written anew.
+std::array<long long, 3> identity(const std::string& path) {
     struct stat status {};
-    return stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+    if (stat(path.c_str(), &status) != 0) return {};
+    return {(long long)status.st_ino, (long long)status.st_mtim.tv_sec, (long long)status.st_mtim.tv_nsec};
 }
 
 Picture cut(const Picture& picture, const Area& part) {
@@ -276,7 +277,7 @@ void Program::waitForChange(const Picture& before, const Area& part) {
 }
 
 std::string Program::save() {
-    const ino_t before = identity(document);
+    const auto before = identity(document);
     keys("Ctrl+S");
     EXPECT_TRUE(waitUntil([&] { return identity(document) != before; })) << "Ctrl+S does not write the file";
     read();
