@@ -337,6 +337,13 @@ const std::map<std::string, Case>& cases() {
              EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != small.pixels; }));
              p.keys("0");
          }},
+        {"picture.shading",
+         [](Program& p, const std::string& keys) {
+             p.moveTo(picturePart(p).centre());
+             const Picture lit = restingPicture(p);
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != lit.pixels; }));
+         }},
         {"picture.move", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
         {"picture.rotate", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
         {"picture.scale", [](Program& p, const std::string& keys) { takeUp(p, "E", keys); }},
@@ -352,7 +359,8 @@ const std::map<std::string, Case>& cases() {
 }
 
 /// After these another window is needed.
-const std::set<std::string> kLast = {"file.new", "file.open", "file.save_as", "file.export", "file.quit"};
+const std::set<std::string> kLast = {"file.new",    "file.open", "file.save_as",
+                                     "file.export", "file.quit", "picture.shading"};
 
 TEST(EndToEnd, EveryShortcutDoesWhatTheTableSays) {
     std::optional<Program> program;
