@@ -9,6 +9,7 @@
 #include "editor/document/clipboard.h"
 #include "editor/document/layout.h"
 #include "editor/panels/playback.h"
+#include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/panels/tour.h"
 
@@ -206,6 +207,10 @@ constexpr Command kCommands[] = {
      [](Editor& e) { e.document.apply("Mute", toggleMuted(graphOf(e), scopeOf(e), selected(e))); }, true},
     {"node.collapse", "Node", "Collapse", "H", anySelected,
      [](Editor& e) { e.document.apply("Collapse", toggleCollapsed(graphOf(e), scopeOf(e), selected(e))); }},
+    {"node.thumbnail", "Node", "Thumbnail", "Shift+P", anySelected,
+     [](Editor& e) {
+         for (const std::string& id : e.canvas.selection) e.thumbnails.toggle(e.shell, pathOf(e, id));
+     }},
     {"node.swap", "Node", "Swap inputs", "Alt+S", anyActive,
      [](Editor& e) { e.document.apply("Swap Inputs", swapInputs(graphOf(e), scopeOf(e), e.canvas.active)); }},
     {"node.group", "Node", "Group", "Ctrl+G", anySelected, group, true},
@@ -245,11 +250,8 @@ constexpr Command kCommands[] = {
     {"view.frame", "View", "Frame selection", "F", always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", always, [](Editor& e) { frame(e, true); }},
     {"view.minimap", "View", "Minimap", "", always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
-    {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P",
-     [](const Editor& e) { return !e.canvas.active.empty() && e.canvas.scope.empty(); },
-     [](Editor& e) {
-         e.viewport.pinned = e.viewport.pinned == e.canvas.active ? std::string() : e.canvas.active;
-     }},
+    {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P", anyActive,
+     [](Editor& e) { pin(e, e.canvas.active); }},
     {"view.zoom_in", "View", "Zoom in", "Equal PadPlus", always, [](Editor& e) { zoom(e, kZoomStep); }},
     {"view.zoom_out", "View", "Zoom out", "Minus PadMinus", always,
      [](Editor& e) { zoom(e, 1.0f / kZoomStep); }},

@@ -88,8 +88,7 @@ void showCanvasPart(Editor& editor) {
         showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
     if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
-    if (!wishes.activate.empty())
-        editor.viewport.pinned = editor.viewport.pinned == wishes.activate ? std::string() : wishes.activate;
+    if (!wishes.activate.empty()) pin(editor, wishes.activate);
     if (wishes.frame) editor.frameMenu = {*wishes.frame, true};
     showAddMenu(editor);
     showFrameMenu(editor);
@@ -125,8 +124,10 @@ bool exchange(Editor& editor) {
         !kept)
         say(editor, format(kept.error()));
     const bool noticed = watchFile(editor);
+    const bool thumbnail =
+        editor.thumbnails.follow(editor.shell, editor.graph, editor.drawn, !editor.document.inGesture());
     std::optional<PreviewResult> result = editor.preview.take();
-    if (!result) return noticed;
+    if (!result) return noticed || thumbnail;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
     view.shown = std::move(*result);
     return true;
@@ -207,18 +208,27 @@ void enter(Editor& editor, std::string scope) {
     editor.boxes.reset();
 }
 
+void pin(Editor& editor, const std::string& id) {
+    std::string path = pathOf(editor, id);
+    editor.viewport.pinned = editor.viewport.pinned == path ? std::string() : std::move(path);
+}
+
 CanvasMarks marksOf(const Editor& editor) {
     CanvasMarks marks;
-    marks.pinned = editor.viewport.pinned;
     const PreviewResult& shown = editor.viewport.shown;
-    if (const auto [scope, id] = placeOf(*editor.graph, shown.spoiledBy); scope == editor.canvas.scope)
-        marks.spoiledBy = id;
+    const auto here = [&](std::string_view path) {
+        auto [scope, id] = placeOf(*editor.graph, path);
+        return scope == editor.canvas.scope ? std::move(id) : std::string();
+    };
+    marks.pinned = here(editor.viewport.pinned);
+    marks.spoiledBy = here(shown.spoiledBy);
+    for (const auto& [path, thumbnail] : editor.thumbnails.shown)
+        if (std::string id = here(path); !id.empty()) marks.thumbnails.emplace(std::move(id), &thumbnail);
     for (const auto& [path, exactness] : shown.exactness)
-        if (auto [scope, id] = placeOf(*editor.graph, path); scope == editor.canvas.scope)
-            marks.exactness.emplace(std::move(id), exactness);
+        if (std::string id = here(path); !id.empty()) marks.exactness.emplace(std::move(id), exactness);
     for (const Error& finding : shown.findings) {
-        const auto [scope, id] = placeOf(*editor.graph, finding.node);
-        if (id.empty() || scope != editor.canvas.scope) continue;
+        const std::string id = here(finding.node);
+        if (id.empty()) continue;
         const Error*& worst = marks.findings[id];
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }

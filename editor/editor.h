@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "editor/canvas/canvas.h"
+#include "editor/canvas/thumbnails.h"
 #include "editor/document/document.h"
 #include "editor/files/files.h"
 #include "editor/keymap.h"
@@ -80,6 +81,7 @@ struct Editor {
     uint64_t drawn = 0;
     std::optional<Boxes> boxes;
     Preview preview;
+    Thumbnails thumbnails;
 };
 
 /// Takes what the preview made, and hands it the newest wish. Whether there is anything new to show.
@@ -97,6 +99,8 @@ void say(Editor& editor, std::string words);
 CanvasMarks marksOf(const Editor& editor);
 /// Shows the nodes of a group, or those of the document for an empty id.
 void enter(Editor& editor, std::string scope);
+/// The viewport shows the node's own field, or the output again if it did already.
+void pin(Editor& editor, const std::string& id);
 /// Shows the node: enters its scope, selects and frames it. `path` as in Error::node: "group/node".
 void reveal(Editor& editor, std::string_view path);
 

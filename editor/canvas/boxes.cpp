@@ -97,6 +97,12 @@ Area NodeBox::field(const Row& row, int component) const {
     return {{x, top + kRowHeight}, {x + wide, top + kRowHeight + high}};
 }
 
+Area thumbnailArea(const NodeBox& box) {
+    constexpr float kGap = 4.0f;
+    const float bottom = box.area.lo.y - kGap;
+    return {{box.area.lo.x, bottom - box.area.width()}, {box.area.hi.x, bottom}};
+}
+
 Boxes::Boxes(const Graph& graph, std::string_view scopeId) : frames(framesOf(graph)), scope(scopeId) {
     const Groups groups(graph);
     const auto group = groups.byId.find(scopeId);

@@ -41,6 +41,8 @@ struct NodeBox {
     /// Where the n-th number of a row is edited.
     Area field(const Row& row, int component) const;
 };
+/// Where the picture of the node's own field is, if it is shown: a square above the node.
+Area thumbnailArea(const NodeBox& box);
 
 struct Wire {
     uint32_t from = 0, fromRow = 0, to = 0, toRow = 0;

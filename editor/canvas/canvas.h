@@ -17,6 +17,7 @@
 #include <string>
 
 #include "editor/canvas/fields.h"
+#include "editor/canvas/thumbnails.h"
 #include "editor/shell/shell.h"
 #include "graph/compile.h"
 
@@ -42,6 +43,7 @@ struct CanvasMarks {
     std::map<std::string, NodeExactness, std::less<>> exactness;  ///< by node id
     std::string spoiledBy;                                        ///< the node that spoiled the field
     std::string pinned;                                           ///< the node that the preview shows
+    std::map<std::string, const Thumbnails::Shown*, std::less<>> thumbnails;  ///< by node id
 };
 
 struct Canvas {

@@ -211,6 +211,18 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
     }
 }
 
+/// The node's own field above it, as wide as the node.
+void drawThumbnail(const Pen& pen, const NodeBox& box, const Thumbnails::Shown& shown) {
+    const Area area = pen.view.toScreen(thumbnailArea(box));
+    pen.list->AddRectFilled(area.lo, area.hi, themeColor(ThemeColor::node), kRounding * pen.view.unit());
+    if (shown.problem.empty() && shown.texture)
+        pen.list->AddImage(shown.texture, area.lo, area.hi);
+    else if (pen.view.unit() >= kTextZoom)
+        pen.list->AddText(pen.font, pen.size, {area.lo.x + 8, area.lo.y + 8}, themeColor(ThemeColor::quiet),
+                          shown.problem.empty() ? "…" : shown.problem.c_str(), nullptr, area.width() - 16);
+    pen.list->AddRect(area.lo, area.hi, themeColor(ThemeColor::edge), kRounding * pen.view.unit());
+}
+
 void drawMinimap(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
     const Area place = minimapArea(canvas.view), all = minimapShows(canvas, boxes);
     const float scale = place.width() / all.width();
@@ -297,6 +309,9 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& mar
     drawFrames(pen, boxes);
     drawWires(pen, canvas, boxes, marks);
     const Area seen = canvas.view.seen().grown(2 * kSocketRadius);
+    for (const auto& [id, thumbnail] : marks.thumbnails)
+        if (const NodeBox* box = boxes.find(id); box && thumbnailArea(*box).overlaps(seen))
+            drawThumbnail(pen, *box, *thumbnail);
     for (const NodeBox& box : boxes.nodes)
         if (box.area.overlaps(seen)) drawNode(pen, canvas, box, marks);
     drawGesture(pen, canvas, boxes);

@@ -457,14 +457,19 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     if (showsFields(canvas.view)) {
         ImGui::PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
         const Area seen = canvas.view.seen();
-        for (const NodeBox& box : boxes.nodes) {
-            if (box.node->collapsed || !box.area.overlaps(seen)) continue;
-            for (const Row& row : box.rows)
-                for (int i = 0; i < row.fields; ++i)
-                    showField(canvas.field, document, canvas.scope, box, row, i,
-                              canvas.view.toScreen(box.field(row, i)), shell.fonts().of(size), size,
-                              hovered && idle);
-        }
+        std::vector<const NodeBox*> shown;
+        for (const NodeBox& box : boxes.nodes)
+            if (box.area.overlaps(seen)) shown.push_back(&box);
+        for (std::size_t n = 0; n < shown.size(); ++n)
+            for (const Row& row : shown[n]->rows)
+                for (int i = 0; i < row.fields; ++i) {
+                    const Area field = shown[n]->field(row, i);
+                    // Nodes lie above each other in their order, and their fields with them.
+                    const auto covers = [&](const NodeBox* above) { return above->area.overlaps(field); };
+                    if (std::any_of(shown.begin() + std::ptrdiff_t(n) + 1, shown.end(), covers)) continue;
+                    showField(canvas.field, document, canvas.scope, *shown[n], row, i,
+                              canvas.view.toScreen(field), shell.fonts().of(size), size, hovered && idle);
+                }
         ImGui::PopClipRect();
     }
     if (document.revision() != revision) return {};

@@ -152,6 +152,7 @@ void take(Editor& editor, Graph graph) {
     const bool minimap = editor.canvas.minimap;
     editor.canvas = Canvas();
     editor.canvas.minimap = minimap;
+    editor.thumbnails.clear(editor.shell);
     editor.viewport.pinned.clear();
     editor.viewport.ownCamera = false;
     editor.files.origin = Origin::own;

@@ -25,8 +25,6 @@ constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
 constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
 constexpr int kLeastHeldResolution = 48;
-/// Where a node is meshed whose solid has no bounds: about the last solid, or this box.
-constexpr Box kUnbounded = {{-2, -2, -2}, {2, 2, 2}};
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -140,7 +138,7 @@ Done Maker::play(const Graph& graph) {
         return played;
     }
     // A node on the way to the solid may have no bounds.
-    if (wish.pinned.empty() || !graph.node(wish.pinned)) return played;
+    if (wish.pinned.empty()) return played;
     options.region = solid;
     return with(options) ? done() : std::move(played);
 }

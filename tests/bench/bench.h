@@ -19,7 +19,7 @@ struct BenchOptions {
 };
 
 /// The tables there are, in the order of the page: "process", "mesher", "talk", "live", "compile",
-/// "editor", "light", "peaks".
+/// "editor", "interface", "light", "peaks".
 std::span<const std::string> benchNames();
 
 /// Prints the named tables, all of them for "all" or no name. Returns an exit status: 0; 1 if a mesh was

@@ -26,14 +26,15 @@ struct Bench {
     }
 };
 
-void mesherTable(Bench& bench);   ///< ours against the baseline, four fields
-void talkTable(Bench& bench);     ///< the slide's table
-void processTable(Bench& bench);  ///< the command itself, from graph file to mesh file
-void liveTable(Bench& bench);     ///< a live parameter changes
-void compileTable(Bench& bench);  ///< a graph's structure changes
-void editorTable(Bench& bench);   ///< the editor's preview: a hand moves, a structure changes
-void lightTable(Bench& bench);    ///< ambient occlusion, beside the slide
-void peaksTable(Bench& bench);    ///< what the device can do at most
+void mesherTable(Bench& bench);     ///< ours against the baseline, four fields
+void talkTable(Bench& bench);       ///< the slide's table
+void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
+void liveTable(Bench& bench);       ///< a live parameter changes
+void compileTable(Bench& bench);    ///< a graph's structure changes
+void editorTable(Bench& bench);     ///< the editor's preview: a hand moves, a structure changes
+void interfaceTable(Bench& bench);  ///< the editor in a window: frames, opening, undo, rest
+void lightTable(Bench& bench);      ///< ambient occlusion, beside the slide
+void peaksTable(Bench& bench);      ///< what the device can do at most
 
 /// A graph of about `nodes` nodes: boxes, each moved to its place, joined and cut from one another in turn.
 /// `difference` enters a size, so that no cache knows the code.

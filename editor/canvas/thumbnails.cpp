@@ -1,0 +1,51 @@
+#include "editor/canvas/thumbnails.h"
+
+#include <chrono>
+
+namespace fw::editor {
+
+void Thumbnails::toggle(Shell& shell, const std::string& node) {
+    const auto found = shown.find(node);
+    if (found == shown.end()) {
+        shown.emplace(node, Shown{});
+        return;
+    }
+    shell.forget(found->second.texture);
+    shown.erase(found);
+}
+
+void Thumbnails::clear(Shell& shell) {
+    while (!shown.empty()) toggle(shell, std::string(shown.begin()->first));
+}
+
+bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph, uint64_t current,
+                        bool rests) {
+    bool fresh = false;
+    if (working.valid() && working.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        const Result<Thumbnail> result = working.get();
+        // It may have been taken away meanwhile.
+        if (const auto found = shown.find(path); found != shown.end()) {
+            Shown& there = found->second;
+            there.revision = revision;
+            there.problem = result ? "" : result.error().message;
+            if (result) there.made = result->made;
+            if (result && !result->picture.pixels.empty())
+                there.texture = shell.show(there.texture, result->picture);
+            fresh = true;
+        }
+    }
+    if (working.valid() || !rests) return fresh;
+    for (const auto& [node, there] : shown) {
+        if (there.revision == current) continue;
+        path = node, revision = current;
+        working = std::async(std::launch::async, [graph, node = node, made = there.made] {
+            Result<Thumbnail> result = thumbnail(*graph, node, made);
+            Shell::wake();
+            return result;
+        });
+        break;
+    }
+    return fresh;
+}
+
+}  // namespace fw::editor

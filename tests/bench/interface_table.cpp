@@ -1,0 +1,169 @@
+// The editor's interface in a real window: a frame with many nodes, opening, undo, editing for long, rest.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "editor/document/edits.h"
+#include "editor/editor.h"
+#include "editor/files/files.h"
+#include "graph/json.h"
+#include "tests/bench/tables.h"
+
+namespace fw::bench {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 800;
+constexpr int kFew = 100, kMany = 1000, kFrames = 60, kEdits = 10000;
+constexpr double kRest = 3.0;  // seconds
+constexpr double kMostFew = 14, kMostMany = 40, kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50,
+                 kMostRest = 2;
+
+double processorSeconds() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+double residentMiB() {
+    std::ifstream file("/proc/self/statm");
+    double pages = 0, resident = 0;
+    file >> pages >> resident;
+    return resident * double(sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+/// So many nodes in a grid that the canvas shows whole.
+Graph grid(int nodes) {
+    Graph graph = chainOfBoxes(nodes - 1, 0.0);
+    const int columns = nodes > kFew ? 40 : 10;
+    for (int i = 0; i < int(graph.nodes.size()); ++i)
+        graph.nodes[std::size_t(i)].at = {double(i % columns) * (nodes > kFew ? 78.0 : 250.0),
+                                          double(i / columns) * (nodes > kFew ? 110.0 : 200.0)};
+    return graph;
+}
+
+/// The editor in a window, and its loop as main() has it.
+struct Window {
+    Window(const Bench& bench, Graph graph)
+        : shell({.device = bench.options.device, .width = kWidth, .height = kHeight, .scale = 1.0f}),
+          editor(shell, std::move(graph), {.pick = bench.options.device}) {}
+
+    double frame() {
+        const auto start = Clock::now();
+        shell.frame([&] { editor::showEditor(editor); });
+        return millisecondsSince(start);
+    }
+    /// Until the picture is there and nothing is under way.
+    void settle() {
+        while (!editor.viewport.texture || editor.preview.busy()) {
+            const bool asked = shell.waitEvents(0.1);
+            if (editor::exchange(editor) || asked) frame();
+        }
+    }
+    /// Frames one after the other, as while a hand moves on the canvas.
+    Figure frames() {
+        settle();
+        Figure figure;
+        for (int i = -5; i < kFrames; ++i) {
+            shell.waitEvents(0.0);
+            const double took = frame();
+            if (i >= 0) figure.runs.push_back(took);
+        }
+        std::sort(figure.runs.begin(), figure.runs.end());
+        return figure;
+    }
+
+    editor::Shell shell;
+    editor::Editor editor;
+};
+
+}  // namespace
+
+void interfaceTable(Bench& bench) {
+    if (!std::getenv("DISPLAY")) {
+        std::printf("The editor's interface was not measured: there is no display. xvfb-run gives one.\n\n");
+        return;
+    }
+    Table table{.title = "The editor's interface, window " + std::to_string(kWidth) + " x " +
+                         std::to_string(kHeight) + " (ms)",
+                .header = {"what", "median", "95 % within", "longest", "at most wanted"}};
+    const auto late = [](const Figure& figure) { return figure.runs[figure.runs.size() * 95 / 100]; };
+    const auto row = [&](std::string what, Figure figure, double most) {
+        std::sort(figure.runs.begin(), figure.runs.end());
+        table.rows.push_back({std::move(what), number(figure.median()), number(late(figure)),
+                              number(figure.greatest()),
+                              number(most) + (figure.median() <= most ? ", met" : ", missed")});
+    };
+    const Result<Graph> tower = readGraph(benchGraph(Field::tower), nullptr);
+    if (!tower) return bench.fail(format(tower.error()));
+    double resting = 0;
+    {
+        const auto start = Clock::now();
+        Window window(bench, *tower);
+        while (!window.editor.viewport.texture) {
+            window.shell.waitEvents(0.005);
+            editor::exchange(window.editor);
+            window.frame();
+        }
+        row("from the start to the tower's first picture, caches warm", {{millisecondsSince(start)}},
+            kMostStart);
+        window.settle();
+        for (int i = 0; i < 20; ++i) window.shell.waitEvents(0.05), window.frame();
+        const double before = processorSeconds();
+        const auto rest = Clock::now();
+        while (millisecondsSince(rest) < kRest * 1e3) {
+            const bool asked = window.shell.waitEvents(kRest - millisecondsSince(rest) * 1e-3);
+            if (editor::exchange(window.editor) || asked) window.frame();
+        }
+        resting = 100.0 * (processorSeconds() - before) / kRest;
+    }
+    {
+        Window window(bench, grid(kFew));
+        row("a frame, " + std::to_string(kFew) + " nodes on the canvas", window.frames(), kMostFew);
+    }
+    double early = 0, end = 0;
+    {
+        const std::string text = writeGraph(grid(kMany));
+        const auto start = Clock::now();
+        Result<Graph> read = parseGraph(text, "many.field.json", nullptr);
+        if (!read) return bench.fail(format(read.error()));
+        Window window(bench, std::move(*read));
+        window.frame();
+        row("opening " + std::to_string(kMany) + " nodes, to their first frame", {{millisecondsSince(start)}},
+            kMostOpen);
+        row("a frame, " + std::to_string(kMany) + " nodes on the canvas", window.frames(), kMostMany);
+        editor::Document& document = window.editor.document;
+        editor::NodeIds all;
+        for (const Node& node : document.graph().nodes) all.push_back(node.id);
+        Figure undo;
+        for (int i = 0; i < 20; ++i) {
+            document.apply("Move Nodes", editor::moveNodes(document.graph(), "", all, {10, 10}));
+            window.frame();
+            const auto begin = Clock::now();
+            document.undo();
+            editor::exchange(window.editor);
+            window.frame();
+            undo.runs.push_back(millisecondsSince(begin));
+        }
+        row("undo of a move of all " + std::to_string(kMany) + ", with its frame", undo, kMostUndo);
+        // Each edit moves one node; the history holds the last thousand.
+        for (int i = 0; i < kEdits; ++i) {
+            const std::string& id = all[std::size_t(i) % all.size()];
+            document.apply("Move Node", editor::moveNodes(document.graph(), "", std::span(&id, 1), {1, 0}));
+            if (i % 100 == 0) editor::exchange(window.editor), window.frame();
+            if (i == kEdits / 5) early = residentMiB();
+        }
+        window.settle();
+        end = residentMiB();
+    }
+    table.notes = {"At rest: " + number(resting) + " % of a core, at most " + number(kMostRest) +
+                       " wanted, " + (resting <= kMostRest ? "met." : "missed."),
+                   "Memory after " + std::to_string(kEdits / 5) + " edits of " + std::to_string(kMany) +
+                       " nodes " + number(early) + " MiB, after " + std::to_string(kEdits) + " " +
+                       number(end) + " MiB."};
+    print(table, bench.options.markdown);
+}
+
+}  // namespace fw::bench
