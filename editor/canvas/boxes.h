@@ -10,12 +10,11 @@
 
 #include "editor/canvas/view.h"
 #include "editor/document/frames.h"
+#include "editor/document/layout.h"
 
 namespace fw::editor {
 
-inline constexpr float kNodeWidth = 180.0f, kWideNodeWidth = 240.0f;
-inline constexpr float kTitleHeight = 26.0f, kRowHeight = 22.0f, kFoot = 6.0f;
-inline constexpr float kSocketRadius = 5.0f, kRerouteRadius = 7.0f;
+inline constexpr float kSocketRadius = 5.0f;
 inline constexpr float kTextSize = 14.0f;
 
 struct Row {

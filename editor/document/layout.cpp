@@ -11,9 +11,6 @@ namespace fw::editor {
 
 namespace {
 
-// About what the canvas draws: a title, a row for each socket, another for the numbers of a vector.
-constexpr double kWidth = 180.0, kWideWidth = 240.0, kTitle = 26.0, kRow = 22.0, kFoot = 6.0;
-constexpr double kRerouteSize = 14.0;
 constexpr double kApart = 60.0;  ///< between parts that no wire joins
 
 struct Box {
@@ -25,14 +22,14 @@ Position placeOf(const Scope& scope, uint32_t node) { return scope.nodes[node].a
 
 /// Down from a node's top to the middle of an input's or output's row.
 double rowOf(const Scope& scope, const Box& box, std::string_view name, bool output) {
-    if (box.size[1] <= kTitle) return 0.5 * box.size[1];  // a reroute or a collapsed node
+    if (box.size[1] <= kTitleHeight) return 0.5 * box.size[1];  // a reroute or a collapsed node
     const uint32_t node = box.node;
-    if (!hasKnownSockets(scope, node)) return 0.5 * kTitle;
+    if (!hasKnownSockets(scope, node)) return 0.5 * kTitleHeight;
     const std::vector<std::string> outputs = outputNames(scope, node);
-    double y = kTitle + 0.5 * kRow;
+    double y = kTitleHeight + 0.5 * kRowHeight;
     for (const std::string& each : outputs) {
         if (output && (name.empty() || each == name)) return y;
-        y += kRow;
+        y += kRowHeight;
     }
     for (const std::string& each : inputNames(scope, node)) {
         if (!output && each == name) break;
@@ -42,7 +39,7 @@ double rowOf(const Scope& scope, const Box& box, std::string_view name, bool out
         const bool given =
             value || (socket && socket->spec && socket->spec->value.kind == InputDefault::Kind::numbers);
         const bool vector = socket && (socket->type == Type::vec2 || socket->type == Type::vec3);
-        y += vector && given && !linked ? 2.0 * kRow : kRow;
+        y += vector && given && !linked ? 2.0 * kRowHeight : kRowHeight;
     }
     return std::min(y, box.size[1]);
 }
@@ -154,7 +151,7 @@ void placeInRows(Part& part, const std::vector<Box>& boxes, double width) {
     double area = 0.0;
     for (const uint32_t box : part.boxes)
         area += (boxes[box].size[0] + kApart) * (boxes[box].size[1] + kApart);
-    width = std::max({width, 1.3 * std::sqrt(area), kWideWidth});
+    width = std::max({width, 1.3 * std::sqrt(area), double(kWideNodeWidth)});
     double x = 0.0, y = 0.0, row = 0.0;
     for (const uint32_t box : part.boxes) {
         if (x > 0.0 && x + boxes[box].size[0] > width) x = 0.0, y += row + kApart, row = 0.0;
@@ -248,11 +245,11 @@ Graph placeScope(const Graph& graph, std::string_view id) {
 }  // namespace
 
 Position aboutSize(const Scope& scope, uint32_t node) {
-    if (scope.is(node, "reroute")) return {kRerouteSize, kRerouteSize};
-    const double width = scope.is(node, "expression") ? kWideWidth : kWidth;
-    if (scope.nodes[node].collapsed) return {width, kTitle};
-    const double behindLast = rowOf(scope, {node, {width, 1e9}}, "", false) - 0.5 * kRow;
-    return {width, std::max(behindLast, kTitle) + kFoot};
+    if (scope.is(node, "reroute")) return {2 * kRerouteRadius, 2 * kRerouteRadius};
+    const double width = scope.is(node, "expression") ? kWideNodeWidth : kNodeWidth;
+    if (scope.nodes[node].collapsed) return {width, kTitleHeight};
+    const double behindLast = rowOf(scope, {node, {width, 1e9}}, "", false) - 0.5 * kRowHeight;
+    return {width, std::max(behindLast, double(kTitleHeight)) + kFoot};
 }
 
 Graph layOut(const Graph& graph, std::string_view scopeId, std::span<const std::string> nodes,

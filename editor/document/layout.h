@@ -5,6 +5,12 @@
 
 namespace fw::editor {
 
+// Sizes of what the canvas draws, in canvas units: a node has a title and a row for each socket, two for the
+// numbers of a vector.
+inline constexpr float kNodeWidth = 180.0f, kWideNodeWidth = 240.0f;
+inline constexpr float kTitleHeight = 26.0f, kRowHeight = 22.0f, kFoot = 6.0f;
+inline constexpr float kRerouteRadius = 7.0f;
+
 /// Width and height that a node is drawn with, about: for what is placed before it is drawn.
 Position aboutSize(const Scope& scope, uint32_t node);
 

@@ -27,6 +27,12 @@ std::string freshName(const Graph& graph, const Plug& input) {
     return name;
 }
 
+Graph withRange(const Graph& graph, std::size_t index, std::optional<double> min, std::optional<double> max) {
+    Graph result = graph;
+    result.parameters[index].min = min, result.parameters[index].max = max;
+    return result;
+}
+
 /// The track with "parameter" replaced by the node and the input that it drove.
 Json directTrack(const Json& track, const ExposedParameter& parameter, const std::string& component) {
     Json direct = Json::object();
@@ -41,18 +47,7 @@ Json directTrack(const Json& track, const ExposedParameter& parameter, const std
 }  // namespace
 
 std::string exposureRefusal(const Graph& graph, const Plug& input) {
-    const Groups groups(graph);
-    const Scope top(groups, graph.nodes, nullptr);
-    const auto node = top.byId.find(input.node);
-    if (node == top.byId.end()) return "only nodes outside of groups can have parameters";
-    if (!hasKnownSockets(top, node->second)) return "the node's inputs are unknown";
-    const std::optional<Socket> socket = settableSocket(top, node->second, input.name);
-    if (!socket) return "the node has no such input";
-    const InputValue* value = graph.nodes[node->second].input(input.name);
-    if (value && std::holds_alternative<Link>(value->value)) return "it is linked";
-    const Type type = socket->type.value_or(Type::string);
-    if (componentCount(type) == 0 || type == Type::surface) return "it is no number";
-    if (inputNumbers(graph.nodes[node->second], input.name).empty()) return "it has no value yet";
+    if (std::string refusal = targetRefusal(graph, input); !refusal.empty()) return refusal;
     if (parameterOf(graph, input)) return "it is a parameter already";
     return graph.parameters.size() >= kMaxEntries ? "there are too many parameters" : "";
 }
@@ -116,20 +111,14 @@ Result<Graph> renameParameter(const Graph& graph, std::size_t index, std::string
 
 Graph setParameterMin(const Graph& graph, std::size_t index, std::optional<double> min) {
     if (index >= graph.parameters.size()) return graph;
-    Graph result = graph;
-    ExposedParameter& parameter = result.parameters[index];
-    parameter.min = min;
-    if (min && parameter.max) parameter.max = std::max(*min, *parameter.max);
-    return result;
+    const std::optional<double> max = graph.parameters[index].max;
+    return withRange(graph, index, min, min && max ? std::max(*min, *max) : max);
 }
 
 Graph setParameterMax(const Graph& graph, std::size_t index, std::optional<double> max) {
     if (index >= graph.parameters.size()) return graph;
-    Graph result = graph;
-    ExposedParameter& parameter = result.parameters[index];
-    parameter.max = max;
-    if (max && parameter.min) parameter.min = std::min(*max, *parameter.min);
-    return result;
+    const std::optional<double> min = graph.parameters[index].min;
+    return withRange(graph, index, min && max ? std::min(*min, *max) : min, max);
 }
 
 Graph moveParameter(const Graph& graph, std::size_t index, std::size_t to) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "editor/document/wiring.h"
 #include "graph/compile.h"
 #include "graph/timeline.h"
 
@@ -103,6 +104,20 @@ void dropLost(Graph& graph, const Graph& before) {
     for (std::size_t i = lost.size(); i-- > 0;)
         tracks->erase(tracks->begin() + static_cast<std::ptrdiff_t>(lost[i]));
     if (!lost.empty()) graph.timelinePlaces.list.clear();  // which are counted along the values
+}
+
+std::string targetRefusal(const Graph& graph, const Plug& input) {
+    const Wiring wiring(graph, "");
+    const std::optional<uint32_t> node = wiring.find(input.node);
+    if (!node) return "it is possible only for nodes outside of groups";
+    if (!hasKnownSockets(wiring.scope(), *node)) return "the node's inputs are unknown";
+    const std::optional<Socket> socket = settableSocket(wiring.scope(), *node, input.name);
+    if (!socket) return "the node has no such input";
+    const InputValue* value = graph.nodes[*node].input(input.name);
+    if (value && std::holds_alternative<Link>(value->value)) return "it is linked";
+    const Type type = socket->type.value_or(Type::string);
+    if (componentCount(type) == 0 || type == Type::surface) return "it is no number";
+    return inputNumbers(graph.nodes[*node], input.name).empty() ? "it has no value yet" : "";
 }
 
 }  // namespace fw::editor

@@ -20,6 +20,10 @@ void renameParameterTracks(Graph& graph, const std::string& from, const std::str
 /// it is somebody's mistake and not ours.
 void dropLost(Graph& graph, const Graph& before);
 
+/// Why neither a parameter nor a track can lead to the input; empty if one can: it has a number, or numbers,
+/// and no wire.
+std::string targetRefusal(const Graph& graph, const Plug& input);
+
 /// The input's name without the component of a track that may follow it, and that component (".x" or "").
 std::pair<std::string, std::string> splitTrackInput(const std::string& name);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "editor/document/references.h"
+#include "editor/document/wiring.h"
 
 namespace fw::editor {
 
@@ -108,19 +109,13 @@ std::optional<std::size_t> keyAt(const Track& track, double time) {
 }
 
 std::string motionRefusal(const Graph& graph, const Plug& input) {
-    const Groups groups(graph);
-    const Scope top(groups, graph.nodes, nullptr);
-    const auto node = top.byId.find(input.node);
-    if (node == top.byId.end()) return "only nodes outside of groups can move over time";
-    if (!hasKnownSockets(top, node->second)) return "the node's inputs are unknown";
-    const std::optional<Socket> socket = settableSocket(top, node->second, input.name);
-    const InputValue* value = graph.nodes[node->second].input(input.name);
-    if (value && std::holds_alternative<Link>(value->value)) return "it is linked";
-    const Type type = socket && socket->type ? *socket->type : Type::string;
+    if (std::string refusal = targetRefusal(graph, input); !refusal.empty()) return refusal;
+    const Wiring wiring(graph, "");
+    const uint32_t node = *wiring.find(input.node);
+    const std::optional<Type> type = settableSocket(wiring.scope(), node, input.name)->type;
     if (type != Type::scalar && type != Type::vec2 && type != Type::vec3)
         return "only numbers and vectors move over time";
-    if (top.types[node->second]->category == Category::mesh) return "it does not shape the field";
-    return inputNumbers(graph.nodes[node->second], input.name).empty() ? "it has no value yet" : "";
+    return wiring.scope().types[node]->category == Category::mesh ? "it does not shape the field" : "";
 }
 
 Graph setTimelineLength(const Graph& graph, double seconds) {

@@ -170,11 +170,12 @@ void Shell::frame(const std::function<void()>& show) {
         return;
     }
     Commands commands(state->device);
-    transition(commands, target.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     draw(commands, state->lists, *ImGui::GetDrawData(), target.view, target.extent,
          themeColor(ThemeColor::canvas));
-    transition(commands, target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-               VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                 VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     submit(commands);
     if (!state->swapchain.present(target)) state->unsettled = std::max(state->unsettled, 1);
 }

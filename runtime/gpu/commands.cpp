@@ -97,6 +97,11 @@ void barrier(Commands& commands) {
 }
 
 void imageBarrier(Commands& commands, const Image& image, VkImageLayout from, VkImageLayout to) {
+    imageBarrier(commands, image.handle, image.aspect, from, to);
+}
+
+void imageBarrier(Commands& commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from,
+                  VkImageLayout to) {
     auto memory = zeroed<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
     memory.srcStageMask = memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -104,8 +109,8 @@ void imageBarrier(Commands& commands, const Image& image, VkImageLayout from, Vk
     memory.oldLayout = from;
     memory.newLayout = to;
     memory.srcQueueFamilyIndex = memory.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    memory.image = image.handle;
-    memory.subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    memory.image = image;
+    memory.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
     auto info = zeroed<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
     info.imageMemoryBarrierCount = 1;
     info.pImageMemoryBarriers = &memory;

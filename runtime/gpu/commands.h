@@ -63,6 +63,9 @@ void barrier(Commands& commands);
 /// The same for one image, which also changes its layout; `from` may be VK_IMAGE_LAYOUT_UNDEFINED to drop the
 /// content.
 void imageBarrier(Commands& commands, const Image& image, VkImageLayout from, VkImageLayout to);
+/// And for one that no Image owns.
+void imageBarrier(Commands& commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from,
+                  VkImageLayout to);
 
 /// Sets `size` bytes from `offset` (multiples of 4) to a repeated word.
 void fill(Commands& commands, const Buffer& buffer, uint32_t word, VkDeviceSize offset = 0,

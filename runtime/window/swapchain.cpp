@@ -13,22 +13,6 @@ std::string windowSystemComplaint() {
     return text ? text : "no reason given";
 }
 
-void transition(Commands& commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    auto barrier = zeroed<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_MEMORY_READ_BIT;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    auto info = zeroed<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    info.imageMemoryBarrierCount = 1;
-    info.pImageMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands.handle, &info);
-}
-
 Swapchain::Swapchain(const Device& device_, GLFWwindow* window_) : device(device_), window(window_) {
     if (glfwCreateWindowSurface(device.instance, window, nullptr, &surface) != VK_SUCCESS)
         throw SystemError("cannot make a Vulkan surface of the window: " + windowSystemComplaint());

@@ -57,7 +57,4 @@ class Swapchain {
 /// What GLFW last had to say.
 std::string windowSystemComplaint();
 
-/// A layout transition of an image that no Image owns.
-void transition(Commands& commands, VkImage image, VkImageLayout from, VkImageLayout to);
-
 }  // namespace fw

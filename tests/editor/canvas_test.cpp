@@ -4,16 +4,12 @@
 #include "editor/canvas/fields.h"
 #include "editor/document/library.h"
 #include "editor/shortcuts.h"
-#include "graph/json.h"
+#include "tests/editor/graphs.h"
 
 namespace fw::editor {
 namespace {
 
-Graph parsed(const char* text) {
-    Result<Graph> graph = parseGraph(text, "test", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    return graph ? std::move(*graph) : Graph();
-}
+using test::parsed;
 
 /// A document with one node of this type.
 Graph alone(const NodeType& type) {

@@ -3,18 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
 namespace fw::editor {
 namespace {
 
+using test::graphOf;
 using test::RandomEdits;
-
-Graph graphOf(const std::string& nodes) {
-    const Result<Graph> graph = parseGraph("{\"fieldwright\": 1, \"nodes\": [" + nodes + "]}", "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    return *graph;
-}
 
 Graph balls(int count) {
     Graph graph;

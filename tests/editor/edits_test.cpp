@@ -7,20 +7,14 @@
 #include <map>
 
 #include "editor/document/wiring.h"
+#include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
 namespace fw::editor {
 namespace {
 
+using test::graphOf;
 using test::structuralErrors;
-
-/// A graph from the inside of its "nodes", and what follows them.
-Graph graphOf(const std::string& nodes, const std::string& rest = "") {
-    const Result<Graph> graph =
-        parseGraph("{\"fieldwright\": 1, \"nodes\": [" + nodes + "]" + rest + "}", "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    return graph ? *graph : Graph{};
-}
 
 constexpr const char* kTower = R"(
   {"id": "tower", "type": "box", "at": [0, 0], "inputs": {"half_extents": [1, 2, 1]}},

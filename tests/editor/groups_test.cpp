@@ -10,19 +10,14 @@
 #include "graph/compile.h"
 #include "graph/evaluate.h"
 #include "graph/timeline.h"
+#include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
 namespace fw::editor {
 namespace {
 
+using test::graphOf;
 using test::structuralErrors;
-
-Graph graphOf(const std::string& nodes, const std::string& rest = "") {
-    const Result<Graph> graph =
-        parseGraph("{\"fieldwright\": 1, \"nodes\": [" + nodes + "]" + rest + "}", "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    return graph ? *graph : Graph{};
-}
 
 /// Distance and material at some points; empty if the graph does not compile.
 std::vector<double> valuesOf(const Graph& graph) {

@@ -4,34 +4,22 @@
 #include "editor/document/expression_inputs.h"
 #include "editor/document/group_sockets.h"
 #include "editor/document/parameters.h"
-#include "graph/check.h"
 #include "graph/compile.h"
-#include "graph/json.h"
 #include "graph/timeline.h"
+#include "tests/editor/graphs.h"
 
 namespace fw::editor {
 namespace {
 
-Graph read(const std::string& text) {
-    const Result<Graph> graph = parseGraph(text, "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    return graph ? *graph : Graph{};
-}
-
-/// The messages of errors, one a line.
-std::string errorsOf(const Graph& graph) {
-    std::string all;
-    for (const Error& finding : check(graph))
-        if (finding.severity == Error::Severity::error) all += format(finding) + "\n";
-    return all;
-}
+using test::errorsOf;
+using test::parsed;
 
 const char* const kBall = R"({"fieldwright": 1, "nodes": [
     {"id": "ball", "type": "sphere", "inputs": {"radius": 2}},
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}}]})";
 
 TEST(Parameters, AnInputIsExposedUnderItsNameWithItsRange) {
-    const Graph graph = exposeInput(read(kBall), {"ball", "radius"});
+    const Graph graph = exposeInput(parsed(kBall), {"ball", "radius"});
     ASSERT_EQ(graph.parameters.size(), 1u);
     EXPECT_EQ(graph.parameters[0].name, "radius");
     EXPECT_EQ(graph.parameters[0].node, "ball");
@@ -44,7 +32,7 @@ TEST(Parameters, AnInputIsExposedUnderItsNameWithItsRange) {
 }
 
 TEST(Parameters, TwoOfOneNameAreToldApart) {
-    Graph graph = read(R"({"fieldwright": 1, "nodes": [
+    Graph graph = parsed(R"({"fieldwright": 1, "nodes": [
         {"id": "a", "type": "sphere"}, {"id": "b", "type": "sphere"},
         {"id": "both", "type": "union", "inputs": {"a": {"from": "a"}, "b": {"from": "b"}}},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}}]})");
@@ -62,7 +50,7 @@ TEST(Parameters, TwoOfOneNameAreToldApart) {
 }
 
 TEST(Parameters, OnlyNumbersWithAValueOfTheirOwnAreExposed) {
-    const Graph graph = read(kBall);
+    const Graph graph = parsed(kBall);
     EXPECT_NE(exposureRefusal(graph, {"out", "surface"}), "") << "linked";
     EXPECT_NE(exposureRefusal(graph, {"out", "method"}), "") << "words";
     EXPECT_NE(exposureRefusal(graph, {"ball", "p"}), "") << "the position";
@@ -72,7 +60,7 @@ TEST(Parameters, OnlyNumbersWithAValueOfTheirOwnAreExposed) {
 }
 
 TEST(Parameters, TracksFollowANameAndOutliveTheParameter) {
-    Graph graph = exposeInput(read(kBall), {"ball", "radius"});
+    Graph graph = exposeInput(parsed(kBall), {"ball", "radius"});
     graph.timeline =
         Json::parse(R"({"tracks": [{"note": 1, "parameter": "radius", "keys": [{"time": 0, "value": 1}]}]})");
     const Result<Graph> renamed = renameParameter(graph, 0, "size");
@@ -87,7 +75,7 @@ TEST(Parameters, TracksFollowANameAndOutliveTheParameter) {
 }
 
 TEST(Parameters, ARangeNeverTurnsOver) {
-    Graph graph = exposeInput(read(kBall), {"ball", "radius"});
+    Graph graph = exposeInput(parsed(kBall), {"ball", "radius"});
     graph = setParameterMax(graph, 0, 3.0);
     graph = setParameterMin(graph, 0, 5.0);
     EXPECT_EQ(graph.parameters[0].max, std::optional(5.0));
@@ -103,7 +91,7 @@ const char* const kCode = R"({"fieldwright": 1, "nodes": [
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "code"}}}]})";
 
 TEST(ExpressionInputs, AreAddedWithATypeAndOneName) {
-    const Result<Graph> graph = addExpressionInput(read(kCode), "", "code", "r2", Type::vec3);
+    const Result<Graph> graph = addExpressionInput(parsed(kCode), "", "code", "r2", Type::vec3);
     ASSERT_TRUE(graph);
     const InputValue* value = graph->node("code")->input("r2");
     ASSERT_TRUE(value);
@@ -115,7 +103,7 @@ TEST(ExpressionInputs, AreAddedWithATypeAndOneName) {
 }
 
 TEST(ExpressionInputs, ARenamedOneIsRenamedInCodeAndParameters) {
-    const Graph graph = exposeInput(read(kCode), {"code", "r"});
+    const Graph graph = exposeInput(parsed(kCode), {"code", "r"});
     ASSERT_EQ(graph.parameters.size(), 1u);
     const Result<Graph> renamed = renameExpressionInput(graph, "", {"code", "r"}, "radius");
     ASSERT_TRUE(renamed);
@@ -126,7 +114,7 @@ TEST(ExpressionInputs, ARenamedOneIsRenamedInCodeAndParameters) {
 }
 
 TEST(ExpressionInputs, ATypeKeepsTheNumbersThatFit) {
-    Graph graph = setExpressionType(read(kCode), "", {"code", "r"}, Type::vec3);
+    Graph graph = setExpressionType(parsed(kCode), "", {"code", "r"}, Type::vec3);
     EXPECT_EQ(std::get<std::vector<double>>(graph.node("code")->input("r")->value),
               (std::vector<double>{1, 0, 0}));
     graph = setExpressionType(graph, "", {"code", "r"}, Type::scalar);
@@ -144,8 +132,8 @@ const char* const kGroup = R"({"fieldwright": 1, "nodes": [
       {"id": "end", "type": "group_output", "inputs": {"ball": {"from": "ball"}}}]}]})";
 
 TEST(GroupSockets, AFurtherOneLeavesTheWiresOfTheFirst) {
-    ASSERT_EQ(errorsOf(read(kGroup)), "");
-    const Result<Graph> added = addSocket(read(kGroup), "balls", GroupSide::inputs, "shift", Type::vec3);
+    ASSERT_EQ(errorsOf(parsed(kGroup)), "");
+    const Result<Graph> added = addSocket(parsed(kGroup), "balls", GroupSide::inputs, "shift", Type::vec3);
     ASSERT_TRUE(added);
     EXPECT_EQ(errorsOf(*added), "");
     const Graph first = moveSocket(*added, "balls", GroupSide::inputs, "shift", 0);
@@ -157,7 +145,7 @@ TEST(GroupSockets, AFurtherOneLeavesTheWiresOfTheFirst) {
 }
 
 TEST(GroupSockets, ARenamedOneIsRenamedEverywhere) {
-    Graph graph = exposeInput(read(kGroup), {"one", "size"});
+    Graph graph = exposeInput(parsed(kGroup), {"one", "size"});
     ASSERT_EQ(graph.parameters.size(), 1u);
     Result<Graph> renamed = renameSocket(graph, "balls", GroupSide::inputs, "size", "radius");
     ASSERT_TRUE(renamed);
@@ -172,7 +160,7 @@ TEST(GroupSockets, ARenamedOneIsRenamedEverywhere) {
 }
 
 TEST(GroupSockets, ARemovedOneTakesItsWiresAndParametersAlong) {
-    Graph graph = exposeInput(read(kGroup), {"one", "size"});
+    Graph graph = exposeInput(parsed(kGroup), {"one", "size"});
     graph = removeSocket(graph, "balls", GroupSide::inputs, "size");
     EXPECT_EQ(errorsOf(graph), "");
     EXPECT_TRUE(graph.groups[0].inputs.empty());
@@ -185,7 +173,7 @@ TEST(GroupSockets, ARemovedOneTakesItsWiresAndParametersAlong) {
 }
 
 TEST(GroupSockets, AnotherTypeDropsWhatIsNotOfIt) {
-    const Graph graph = setSocketType(read(kGroup), "balls", GroupSide::inputs, "size", Type::vec3);
+    const Graph graph = setSocketType(parsed(kGroup), "balls", GroupSide::inputs, "size", Type::vec3);
     EXPECT_EQ(graph.groups[0].inputs[0].type, "vec3");
     EXPECT_FALSE(graph.node("one")->input("size")) << "a number is no vector";
     EXPECT_FALSE(graph.groups[0].inputs[0].value);

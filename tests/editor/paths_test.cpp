@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "graph/compile.h"
-#include "graph/json.h"
+#include "tests/editor/graphs.h"
 
 namespace fw::editor {
 namespace {
@@ -32,11 +32,7 @@ constexpr char kNested[] = R"({"fieldwright": 1,
     {"id": "all", "type": "union", "inputs": {"a": {"from": "two"}, "b": {"from": "third"}}},
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}}]})";
 
-Graph nested() {
-    const Result<Graph> graph = parseGraph(kNested, "a.field.json", nullptr);
-    EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
-    return *graph;
-}
+Graph nested() { return test::parsed(kNested); }
 
 using Strings = std::vector<std::string>;
 using Place = std::pair<std::string, std::string>;

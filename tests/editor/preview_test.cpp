@@ -12,29 +12,27 @@
 #include <thread>
 
 #include "editor/preview/pinned.h"
-#include "graph/json.h"
 #include "runtime/player.h"
+#include "tests/editor/graphs.h"
 #include "tests/support/gpu.h"
 
 namespace fw::editor {
 namespace {
 
-std::shared_ptr<const Graph> graphOf(const std::string& text) {
-    const Result<Graph> graph = parseGraph(text, "a.field.json", nullptr);
-    EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
-    return std::make_shared<const Graph>(*graph);
+std::shared_ptr<const Graph> shared(const std::string& text) {
+    return std::make_shared<const Graph>(test::parsed(text));
 }
 
 /// A box and a ball, joined; `radius` is the ball's. The structure has another constant for another `width`.
 std::shared_ptr<const Graph> joined(double radius, double width = 0.6, const std::string& last = "both") {
-    return graphOf(R"({"fieldwright": 1, "nodes": [
+    return shared(R"({"fieldwright": 1, "nodes": [
       {"id": "box", "type": "box", "inputs": {"half_extents": [)" +
-                   std::to_string(width) + R"(, 0.5, 0.5]}},
+                  std::to_string(width) + R"(, 0.5, 0.5]}},
       {"id": "ball", "type": "sphere", "inputs": {"radius": )" +
-                   std::to_string(radius) + R"(}},
+                  std::to_string(radius) + R"(}},
       {"id": "both", "type": "union", "inputs": {"a": {"from": "box"}, "b": {"from": "ball"}}},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": ")" +
-                   last + R"("}, "resolution": 40}}]})");
+                  last + R"("}, "resolution": 40}}]})");
 }
 
 /// A preview and a thread that waits for what it makes.
@@ -141,7 +139,7 @@ TEST(Preview, ThePictureIsThatOfThePlayer) {
 }
 
 TEST(Preview, TheFirstPictureOfAStructureIsADraftOfTheSameView) {
-    test::TemporaryCache cache;
+    fw::test::TemporaryCache cache;
     Previewed previewed;
     previewed.ask({.graph = joined(0.7, 0.61)});
     const PreviewResult draft =
@@ -212,7 +210,7 @@ TEST(Preview, AGraphThatIsBrokenFromTheStartHasNoPicture) {
 
 TEST(Preview, ASolidWithoutBoundsIsAFinding) {
     Previewed previewed;
-    previewed.ask({.graph = graphOf(R"({"fieldwright": 1, "nodes": [
+    previewed.ask({.graph = shared(R"({"fieldwright": 1, "nodes": [
       {"id": "floor", "type": "plane"},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "floor"}}}]})")});
     const PreviewResult result = previewed.settled();
@@ -273,7 +271,7 @@ TEST(Preview, APinnedNodeIsShown) {
 
 TEST(Preview, APinnedNodeWithoutBoundsIsShownNearTheSolid) {
     Previewed previewed;
-    previewed.ask({.graph = graphOf(R"({"fieldwright": 1, "nodes": [
+    previewed.ask({.graph = shared(R"({"fieldwright": 1, "nodes": [
       {"id": "ball", "type": "sphere"}, {"id": "floor", "type": "plane"},
       {"id": "cut", "type": "intersect", "inputs": {"a": {"from": "ball"}, "b": {"from": "floor"}}},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "cut"}, "resolution": 24}}]})"),
@@ -285,7 +283,7 @@ TEST(Preview, APinnedNodeWithoutBoundsIsShownNearTheSolid) {
 
 TEST(Preview, WhatTheOutputDoesNotNeedMayBeBroken) {
     Previewed previewed;
-    previewed.ask({.graph = graphOf(R"({"fieldwright": 1, "nodes": [
+    previewed.ask({.graph = shared(R"({"fieldwright": 1, "nodes": [
       {"id": "ball", "type": "sphere"}, {"id": "stray", "type": "expression", "code": "return length("},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}, "resolution": 24}}]})")});
     const PreviewResult result = previewed.full();

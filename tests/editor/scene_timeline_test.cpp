@@ -5,27 +5,18 @@
 
 #include "editor/document/scene_edits.h"
 #include "editor/document/timeline_edits.h"
-#include "graph/check.h"
-#include "graph/json.h"
+#include "tests/editor/graphs.h"
 
 namespace fw::editor {
 namespace {
 
-Graph read(const std::string& rest) {
-    const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
-        {"id": "ball", "type": "sphere", "inputs": {"radius": 2}},
-        {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}}])" +
-                                               rest + "}",
-                                           "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    return graph ? *graph : Graph{};
-}
+using test::errorsOf;
 
-std::string errorsOf(const Graph& graph) {
-    std::string all;
-    for (const Error& finding : check(graph))
-        if (finding.severity == Error::Severity::error) all += format(finding) + "\n";
-    return all;
+/// A ball, and what follows the nodes.
+Graph read(const std::string& rest) {
+    return test::graphOf(R"({"id": "ball", "type": "sphere", "inputs": {"radius": 2}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}})",
+                         rest);
 }
 
 const Moved kRadius{Track::Target::input, "ball", "radius"};

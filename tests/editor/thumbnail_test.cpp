@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "editor/preview/pinned.h"
-#include "graph/check.h"
 #include "graph/compile.h"
-#include "graph/json.h"
+#include "tests/editor/graphs.h"
 
 namespace fw::editor {
 namespace {
@@ -26,11 +25,7 @@ constexpr char kGraph[] = R"({"fieldwright": 1,
     {"id": "nothing", "type": "subtract", "inputs": {"a": {"from": "box"}, "b": {"from": "box"}}},
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "box"}}}]})";
 
-Graph graph() {
-    const Result<Graph> read = parseGraph(kGraph, "a.field.json", nullptr);
-    EXPECT_TRUE(read) << (read ? "" : format(read.error()));
-    return *read;
-}
+Graph graph() { return test::parsed(kGraph); }
 
 double distanceAt(const Graph& shown, const Point& p) {
     const Result<Program> program = compile(shown);
