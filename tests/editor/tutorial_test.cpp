@@ -77,7 +77,8 @@ TEST(Tutorial, BuildsTheTowerAsThePageTells) {
     editor->panels.top = 0.4f;
 
     // A block.
-    editor.keys("minus minus");
+    editor.keys("minus");
+    editor.keys("minus");  // at once, it would be the same key held
     editor.moveTo(editor->canvas.view.toScreen(ImVec2(-420, -250)));
     editor.keys("shift+a");
     editor.type("box max");
