@@ -54,6 +54,24 @@ void expectSelected(Program& program, const Ids& selected) {
     EXPECT_EQ(nodesAfter(program), left);
 }
 
+/// From one node to another; both are selected, or the other alone.
+void step(Program& program, const std::string& from, const std::string& keys, const Ids& selected) {
+    pick(program, {from});
+    program.keys(keys);
+    expectSelected(program, selected);
+}
+
+/// The node moves this way, and no other way.
+void nudge(Program& program, const std::string& keys, int x, int y) {
+    const Position before = *nodeAfter(program, "ball").at;
+    pick(program, {"ball"});
+    program.keys(keys);
+    const Position after = *nodeAfter(program, "ball").at;
+    const auto sign = [](double by) { return (by > 0) - (by < 0); };
+    EXPECT_EQ(sign(after[0] - before[0]), x);
+    EXPECT_EQ(sign(after[1] - before[1]), y);
+}
+
 Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
 
 /// The picture of the solid, once it has come to rest.
@@ -337,6 +355,18 @@ const std::map<std::string, Case>& cases() {
              EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != small.pixels; }));
              p.keys("0");
          }},
+        {"canvas.left", [](Program& p, const std::string& keys) { step(p, "cut", keys, {"box"}); }},
+        {"canvas.add_left", [](Program& p, const std::string& keys) { step(p, "cut", keys, {"cut", "box"}); }},
+        {"canvas.right", [](Program& p, const std::string& keys) { step(p, "box", keys, {"cut"}); }},
+        {"canvas.add_right", [](Program& p, const std::string& keys) { step(p, "box", keys, {"box", "cut"}); }},
+        {"canvas.up", [](Program& p, const std::string& keys) { step(p, "ball", keys, {"box"}); }},
+        {"canvas.add_up", [](Program& p, const std::string& keys) { step(p, "ball", keys, {"ball", "box"}); }},
+        {"canvas.down", [](Program& p, const std::string& keys) { step(p, "box", keys, {"ball"}); }},
+        {"canvas.add_down", [](Program& p, const std::string& keys) { step(p, "box", keys, {"box", "ball"}); }},
+        {"canvas.move_left", [](Program& p, const std::string& keys) { nudge(p, keys, -1, 0); }},
+        {"canvas.move_right", [](Program& p, const std::string& keys) { nudge(p, keys, 1, 0); }},
+        {"canvas.move_up", [](Program& p, const std::string& keys) { nudge(p, keys, 0, -1); }},
+        {"canvas.move_down", [](Program& p, const std::string& keys) { nudge(p, keys, 0, 1); }},
         {"picture.shading",
          [](Program& p, const std::string& keys) {
              p.moveTo(picturePart(p).centre());
