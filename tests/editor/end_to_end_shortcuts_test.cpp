@@ -253,6 +253,16 @@ const std::map<std::string, Case>& cases() {
              p.keys(keys);
              EXPECT_TRUE(nodeAfter(p, "ball").collapsed);
          }},
+        {"node.thumbnail",
+         [](Program& p, const std::string& keys) {
+             const Area place = p.view.toScreen(thumbnailArea(*Boxes(p.graph(), "").find("box")));
+             pick(p, {"box"});
+             p.save();
+             const Picture before = p.screen();
+             p.keys(keys);
+             p.waitForChange(before, place);
+             p.keys(keys);
+         }},
         {"node.swap",
          [](Program& p, const std::string& keys) {
              pick(p, {"cut"});
