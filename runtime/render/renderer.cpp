@@ -575,12 +575,9 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     if (const Done fits = checkPictureSize(wishes.width, wishes.height); !fits) return fits.error();
     RenderOptions options = wishes;
     options.samples = 1;
-    const Shown shows = {viewOf(scene, options),
-                         options.scene,
-                         scene.content,
-                         {uint32_t(options.width), uint32_t(options.height), 1},
-                         options.show,
-                         options.slice};
+    const Shown shows = {viewOf(scene, options), options.scene,
+                         scene.content,          {uint32_t(options.width), uint32_t(options.height), 1},
+                         options.show,           options.slice};
     const std::optional<Shown>& shown = renderer.shown;
     const bool sameField = shown && shown->content == shows.content;
     const bool rests = sameField && shown->scene == shows.scene && sameView(shown->view, shows.view) &&
