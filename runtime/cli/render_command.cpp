@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "runtime/cli/mesh_graph.h"
-#include "runtime/export/export.h"
 #include "runtime/cli/sequence.h"
+#include "runtime/export/export.h"
 #include "runtime/render/renderer.h"
 
 namespace fw::cli {

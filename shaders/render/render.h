@@ -95,7 +95,7 @@ struct RenderFrame {
     uint show;
     uint sliceAxis;  // that the plane of the slice stands across; 3: x or z, whichever the view is along
     float sliceAt;   // from the centre, metres
-    uint mean;  // frames that the picture is the mean of, before this one
+    uint mean;       // frames that the picture is the mean of, before this one
 
     vec3 fogColor;
     float fogDensity;  // at the ground, 1 / metre
