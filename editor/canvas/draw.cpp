@@ -307,11 +307,11 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& mar
     pen.list->AddRectFilled(canvas.view.panel.lo, canvas.view.panel.hi, themeColor(ThemeColor::canvas));
     drawGrid(pen);
     drawFrames(pen, boxes);
-    drawWires(pen, canvas, boxes, marks);
     const Area seen = canvas.view.seen().grown(2 * kSocketRadius);
     for (const auto& [id, thumbnail] : marks.thumbnails)
         if (const NodeBox* box = boxes.find(id); box && thumbnailArea(*box).overlaps(seen))
             drawThumbnail(pen, *box, *thumbnail);
+    drawWires(pen, canvas, boxes, marks);
     for (const NodeBox& box : boxes.nodes)
         if (box.area.overlaps(seen)) drawNode(pen, canvas, box, marks);
     drawGesture(pen, canvas, boxes);
