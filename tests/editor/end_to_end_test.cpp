@@ -1,4 +1,5 @@
-// The real program from end to end: work that a crash would take, the clipboard, a thousand nodes.
+// The real program from end to end: work that a crash would take, the clipboard, a thousand nodes, and how it
+// looks.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -106,6 +107,37 @@ TEST(EndToEnd, AThousandNodes) {
     EXPECT_NEAR((*moved.nodes[0].at)[0], 60 / program.view.unit(), 1.5);
     program.keys("Ctrl+Z");
     EXPECT_EQ(program.save(), text);
+}
+
+TEST(EndToEnd, LooksAsItDid) {
+    Program program(readText(kTower));
+    if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+    program.frameAll();
+    const Area panel = program.view.panel;
+    const Area part{panel.lo, {panel.lo.x + 620, panel.lo.y + 560}};
+    const auto expect = [&](const std::string& name) {
+        program.moveTo({640, 795});  // where nothing is lit by the mouse
+        program.expectGolden(name, part);
+    };
+    expect("tower_framed");
+    program.click(program.title("pierced"));
+    program.keys("F");
+    program.view.frame(Boxes(program.graph(), "").find("pierced")->area);
+    expect("tower_100");
+    program.zoom(-5);
+    expect("tower_50");
+    program.zoom(12);
+    expect("tower_200");
+
+    program.moveTo({panel.lo.x + 150, panel.lo.y + 60});
+    program.keys("Home");
+    program.keys("Shift+A");
+    program.type("sub");
+    expect("add_menu");
+    program.keys("Escape");
+    program.keys("Ctrl+A");
+    program.keys("Delete");
+    expect("empty");
 }
 
 }  // namespace
