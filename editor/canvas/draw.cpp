@@ -12,6 +12,7 @@ namespace {
 constexpr float kFieldZoom = 0.6f, kTextZoom = 0.4f;  // pixels a unit
 constexpr float kGrid = 24.0f;
 constexpr float kRounding = 5.0f;
+constexpr float kLeastShape = 2.0f;  // pixels: what is smaller has neither shape nor round corners
 constexpr float kWireWidth = 2.5f;
 
 ImU32 faded(ImU32 color, float alpha) {
@@ -108,6 +109,8 @@ void drawWires(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const C
 void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool filled) {
     const ImU32 ink = typeColor(type), paper = themeColor(ThemeColor::node);
     const float r = kSocketRadius * pen.view.unit();
+    // Too small for a shape: a dot of two triangles, for there are thousands.
+    if (r < kLeastShape) return pen.list->AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, ink);
     const auto polygon = [&](std::initializer_list<ImVec2> unit) {
         ImVec2 points[8];
         int count = 0;
@@ -166,7 +169,8 @@ void drawRows(const Pen& pen, const NodeBox& box) {
 void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const CanvasMarks& marks) {
     const Area area = pen.view.toScreen(box.area);
     const bool chosen = canvas.selection.contains(box.node->id);
-    const float alpha = box.node->muted ? 0.45f : 1.0f, round = kRounding * pen.view.unit();
+    const float alpha = box.node->muted ? 0.45f : 1.0f, corner = kRounding * pen.view.unit();
+    const float round = corner < kLeastShape ? 0.0f : corner;
     const auto finding = marks.findings.find(box.node->id);
     const bool found = finding != marks.findings.end();
     const ImU32 alarm = !found ? 0
