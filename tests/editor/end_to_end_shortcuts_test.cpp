@@ -386,7 +386,7 @@ const std::map<std::string, Case>& cases() {
          }},
         {"picture.move", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
         {"picture.rotate", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
-        {"picture.scale", [](Program& p, const std::string& keys) { takeUp(p, "E", keys); }},
+        {"picture.scale", [](Program& p, const std::string& keys) { takeUp(p, "W", keys); }},
         {"picture.reset", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
         {"picture.front", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
         {"picture.back", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
