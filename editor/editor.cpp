@@ -15,6 +15,7 @@ namespace fw::editor {
 namespace {
 
 constexpr double kNoticeSeconds = 6.0;
+constexpr float kMargin = 4.0f;  // around the parts of the window, pixels
 
 void drawAnew(Editor& editor) {
     if (editor.drawn == editor.document.revision() && editor.boxes) return;
@@ -94,6 +95,20 @@ void showCanvasPart(Editor& editor) {
     showFrameMenu(editor);
 }
 
+/// The window's background from its menus down, but for the canvas, which is of the shell's own colour. A
+/// software device pays for each pixel that is covered twice.
+void fillAround(const Area& canvas) {
+    const ImVec2 lo = {ImGui::GetWindowPos().x, canvas.lo.y - kMargin},
+                 hi = {lo.x + ImGui::GetWindowWidth(), ImGui::GetWindowPos().y + ImGui::GetWindowHeight()};
+    const auto fill = [](ImVec2 from, ImVec2 to) {
+        ImGui::GetWindowDrawList()->AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_WindowBg));
+    };
+    fill(lo, {hi.x, canvas.lo.y});
+    fill({lo.x, canvas.lo.y}, {canvas.lo.x, canvas.hi.y});
+    fill({canvas.hi.x, canvas.lo.y}, {hi.x, canvas.hi.y});
+    fill({lo.x, canvas.hi.y}, hi);
+}
+
 }  // namespace
 
 Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device_)
@@ -140,11 +155,11 @@ void showEditor(Editor& editor) {
     const ImGuiViewport* whole = ImGui::GetMainViewport();
     ImGui::SetNextWindowPos(whole->WorkPos);
     ImGui::SetNextWindowSize(whole->WorkSize);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(4, 4));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(kMargin, kMargin));
     ImGui::Begin("##editor", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar |
-                     ImGuiWindowFlags_NoScrollWithMouse);
+                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
     ImGui::PopStyleVar();
     if (ImGui::BeginMenuBar()) {
         showMenus(editor);
@@ -163,6 +178,7 @@ void showEditor(Editor& editor) {
     takeKeyboard(editor, Part::canvas);
     showCanvasPart(editor);
     ImGui::EndChild();
+    fillAround({ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
     ImGui::SameLine(0, 0);
     ImGui::BeginChild("##bar", {5.0f * editor.shell.scale(), high});
     splitter("##beside", true, editor.panels.side, room.x, editor.shell.scale());
@@ -224,8 +240,7 @@ CanvasMarks marksOf(const Editor& editor) {
     marks.spoiledBy = here(shown.spoiledBy);
     for (const auto& [path, thumbnail] : editor.thumbnails.shown)
         if (std::string id = here(path); !id.empty()) marks.thumbnails.emplace(std::move(id), &thumbnail);
-    for (const auto& [path, exactness] : shown.exactness)
-        if (std::string id = here(path); !id.empty()) marks.exactness.emplace(std::move(id), exactness);
+    marks.exactness = [&editor](const std::string& id) { return exactnessOf(editor, id); };
     for (const Error& finding : shown.findings) {
         const std::string id = here(finding.node);
         if (id.empty()) continue;
@@ -233,6 +248,16 @@ CanvasMarks marksOf(const Editor& editor) {
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }
     return marks;
+}
+
+const NodeExactness* exactnessOf(const Editor& editor, const std::string& id) {
+    std::vector<std::string> paths = instancesOf(*editor.graph, editor.canvas.scope, id);
+    std::ranges::sort(paths);
+    for (const std::string& path : paths)
+        if (const auto known = editor.viewport.shown.exactness.find(path);
+            known != editor.viewport.shown.exactness.end())
+            return &known->second;
+    return nullptr;
 }
 
 void reveal(Editor& editor, std::string_view path) {

@@ -97,6 +97,9 @@ void apply(Editor& editor, std::string name, Edited edited);
 void say(Editor& editor, std::string words);
 /// The findings about nodes of the scope shown.
 CanvasMarks marksOf(const Editor& editor);
+/// How far the distance of the surface that a node of the scope gives can be trusted, in the first of its
+/// instances; nullptr if that is not known.
+const NodeExactness* exactnessOf(const Editor& editor, const std::string& id);
 /// Shows the nodes of a group, or those of the document for an empty id.
 void enter(Editor& editor, std::string scope);
 /// The viewport shows the node's own field, or the output again if it did already.

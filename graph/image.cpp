@@ -44,6 +44,10 @@ double decodeSrgb(double code) {
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
+double encodeSrgb(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
 FieldImage::FieldImage(int width_, int height_, std::vector<uint32_t> texels_, std::string file_)
     : width(width_), height(height_), texels(std::move(texels_)), file(std::move(file_)) {
     hash = (uint64_t(uint32_t(width)) << 32 | uint32_t(height)) * 0x9E3779B97F4A7C15ull;

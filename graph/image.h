@@ -35,6 +35,8 @@ struct FieldImage;
 
 /// Linear light, 0 to 1, of an sRGB code, 0 to 1 (IEC 61966-2-1).
 double decodeSrgb(double code);
+/// Its inverse: the code of linear light.
+double encodeSrgb(double linear);
 
 /// One function of (u, v), with what bounds it.
 struct ImageLayer {

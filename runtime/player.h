@@ -103,7 +103,7 @@ class Player {
     Result<Picture> frame(const RenderOptions& options = {});
 
     /// The live view's next frame, into `picture`, which goes on from the last one; false if it would be the
-    /// same (runtime/render/renderer.h). Errors as frame().
+    /// same or was cancelled (runtime/render/renderer.h). Errors as frame().
     Result<bool> show(const RenderOptions& options, Picture& picture);
 
     /// The scene now. Errors as readScene.

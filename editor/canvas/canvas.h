@@ -13,6 +13,7 @@
 //     double click                 enters a group; on a frame's title: its words and colour
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -40,9 +41,9 @@ struct CanvasWishes {
 struct CanvasMarks {
     std::map<std::string, const Error*, std::less<>>
         findings;  ///< by node id within the scope, the worst of each
-    std::map<std::string, NodeExactness, std::less<>> exactness;  ///< by node id
-    std::string spoiledBy;                                        ///< the node that spoiled the field
-    std::string pinned;                                           ///< the node that the preview shows
+    std::function<const NodeExactness*(const std::string&)> exactness;  ///< of a node's id; nullptr: unknown
+    std::string spoiledBy;                                              ///< the node that spoiled the field
+    std::string pinned;                                                 ///< the node that the preview shows
     std::map<std::string, const Thumbnails::Shown*, std::less<>> thumbnails;  ///< by node id
 };
 
@@ -96,7 +97,7 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
 /// Whether nodes are seen large enough to have their numbers edited on them.
 bool showsFields(const CanvasView& view);
 
-/// Draws boxes, wires, frames and minimap (used by showCanvas).
+/// Draws boxes, wires, frames and minimap over what is there (used by showCanvas).
 void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell);
 /// Where the minimap is, pixels, and the part of the canvas that it shows.
 Area minimapArea(const CanvasView& view);

@@ -76,7 +76,8 @@ void drawFrames(const Pen& pen, const Boxes& boxes) {
 void drawWire(const Pen& pen, const Curve& wire, ImU32 color, float width) {
     ImVec2 p[4];
     for (int i = 0; i < 4; ++i) p[i] = pen.view.toScreen(wire.points[i]);
-    pen.list->AddBezierCubic(p[0], p[1], p[2], p[3], color, width);
+    // Whole pixels: then a piece is two triangles whose soft edge is a texture, otherwise six.
+    pen.list->AddBezierCubic(p[0], p[1], p[2], p[3], color, std::max(1.0f, std::round(width)));
     // Which way it leads: an arrowhead in the middle.
     const ImVec2 middle = pen.view.toScreen(wire.at(0.5f)), on = pen.view.toScreen(wire.at(0.54f));
     const float x = on.x - middle.x, y = on.y - middle.y, length = std::sqrt(x * x + y * y);
@@ -185,16 +186,26 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
                                 2.0f * pen.view.scale);
         return;
     }
-    const ImU32 title = box.type ? categoryColor(box.type->category) : themeColor(ThemeColor::error);
-    const float strip = std::min(kTitleHeight * pen.view.unit(), area.height());
-    pen.list->AddRectFilled(area.lo, area.hi, faded(themeColor(ThemeColor::node), alpha), round);
-    pen.list->AddRectFilled(area.lo, {area.hi.x, area.lo.y + strip}, faded(title, alpha), round,
-                            box.node->collapsed ? ImDrawFlags_RoundCornersAll : ImDrawFlags_RoundCornersTop);
     const ImU32 edge =
         chosen  ? themeColor(canvas.active == box.node->id ? ThemeColor::active : ThemeColor::selected)
         : found ? alarm
                 : themeColor(ThemeColor::edge);
-    pen.list->AddRect(area.lo, area.hi, edge, round, 0, (chosen ? 2.0f : 1.0f) * pen.view.scale);
+    const float border = (chosen ? 2.0f : 1.0f) * pen.view.scale;
+    const ImU32 title = box.type ? categoryColor(box.type->category) : themeColor(ThemeColor::error);
+    const float strip = std::min(kTitleHeight * pen.view.unit(), area.height());
+    const auto fill = [&](const Area& inside) {
+        pen.list->AddRectFilled(inside.lo, inside.hi, faded(themeColor(ThemeColor::node), alpha), round);
+        pen.list->AddRectFilled(
+            inside.lo, {inside.hi.x, area.lo.y + strip}, faded(title, alpha), round,
+            box.node->collapsed ? ImDrawFlags_RoundCornersAll : ImDrawFlags_RoundCornersTop);
+    };
+    if (round > 0.0f || alpha < 1.0f) {
+        fill(area);
+        pen.list->AddRect(area.lo, area.hi, edge, round, 0, border);
+    } else {  // what shows of a rectangle below
+        pen.list->AddRectFilled(area.lo, area.hi, edge);
+        fill(area.grown(-border));
+    }
     if (pen.view.unit() >= 0.7f * kTextZoom) {
         const float middle = area.lo.y + 0.5f * strip, room = area.width() - 34.0f * pen.view.unit();
         pen.text({area.lo.x + 9.0f * pen.view.unit(), middle}, themeColor(ThemeColor::onTitle), titleOf(box),
@@ -308,7 +319,6 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& mar
     const float size = kTextSize * canvas.view.unit();
     const Pen pen{ImGui::GetWindowDrawList(), canvas.view, shell.fonts().of(size), size};
     pen.list->PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
-    pen.list->AddRectFilled(canvas.view.panel.lo, canvas.view.panel.hi, themeColor(ThemeColor::canvas));
     drawGrid(pen);
     drawFrames(pen, boxes);
     const Area seen = canvas.view.seen().grown(2 * kSocketRadius);

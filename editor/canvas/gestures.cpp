@@ -395,9 +395,9 @@ struct Hand {
         const Row& row = from.rows[wire.fromRow];
         std::string text = titleOf(from) + " › " + titleOf(boxes.nodes[wire.to]);
         if (row.type) text += "\n" + std::string(typeName(*row.type));
-        const auto exactness = marks.exactness.find(from.node->id);
-        if (row.type == Type::surface && exactness != marks.exactness.end()) {
-            const auto& [trust, spoiledBy] = exactness->second;
+        const NodeExactness* exactness = row.type == Type::surface ? marks.exactness(from.node->id) : nullptr;
+        if (exactness) {
+            const auto& [trust, spoiledBy] = *exactness;
             text += ", distance: " + exactnessText(trust);
             if (!trust.exact()) text += "\nnot exact since " + spoiledBy;
         }

@@ -1,12 +1,12 @@
 #include "editor/files/preferences.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "runtime/export/output_file.h"
+#include "runtime/user_folder.h"
 
 namespace fw::editor {
 
@@ -32,11 +32,8 @@ bool isScale(const Json& value) {
 }  // namespace
 
 std::string preferencesPath() {
-    if (const char* folder = std::getenv("XDG_CONFIG_HOME"); folder && *folder)
-        return std::string(folder) + "/fieldwright/editor.json";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return std::string(home) + "/.config/fieldwright/editor.json";
-    return {};
+    const std::string folder = userFolder("XDG_CONFIG_HOME", "/.config");
+    return folder.empty() ? folder : folder + "/editor.json";
 }
 
 Preferences readPreferences(const std::string& path, std::string& problem) {

@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <utility>
 
 #include "graph/json.h"
 #include "runtime/export/output_file.h"
+#include "runtime/user_folder.h"
 
 namespace fw::editor {
 
@@ -68,11 +68,8 @@ std::string localTime(std::time_t time) {
 }  // namespace
 
 std::string recoveryFolder() {
-    if (const char* folder = std::getenv("XDG_STATE_HOME"); folder && *folder)
-        return std::string(folder) + "/fieldwright/recovery";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return std::string(home) + "/.local/state/fieldwright/recovery";
-    return {};
+    const std::string folder = userFolder("XDG_STATE_HOME", "/.local/state");
+    return folder.empty() ? folder : folder + "/recovery";
 }
 
 Recovery::Recovery(std::string folder) {

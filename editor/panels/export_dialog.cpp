@@ -20,14 +20,6 @@ using Phase = ExportState::Phase;
 
 constexpr double kMegabyte = 1e6;
 
-void coloured(ThemeColor color, const std::string& words) {
-    ImGui::PushStyleColor(ImGuiCol_Text, themeColor(color));
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(words.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-}
-
 /// "1,234,567"
 std::string grouped(uint64_t number) {
     std::string text = std::to_string(number);
@@ -127,23 +119,24 @@ void begin(Editor& editor) {
 void showDone(const ExportState& state) {
     const Report& report = state.report;
     const std::string name = fs::path(state.files.paths.front()).filename().string();
-    coloured(ThemeColor::text, printed("%s: %.2f MB in %.2f s", name.c_str(),
-                                       double(state.files.bytes) / kMegabyte, report.totalMs / 1e3));
-    coloured(ThemeColor::text, grouped(report.triangles) + " triangles, " + grouped(report.vertices) +
-                                   " vertices, " + grouped(report.shells) +
-                                   (report.shells == 1 ? " part" : " parts"));
+    wrapped(themeColor(ThemeColor::text),
+            printed("%s: %.2f MB in %.2f s", name.c_str(), double(state.files.bytes) / kMegabyte,
+                    report.totalMs / 1e3));
+    wrapped(themeColor(ThemeColor::text),
+            grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices, " +
+                grouped(report.shells) + (report.shells == 1 ? " part" : " parts"));
     std::array<double, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = report.boundsMax[axis] - report.boundsMin[axis];
-    coloured(ThemeColor::text, printed("%.4g × %.4g × %.4g m, volume %.4g m³, area %.4g m²", size[0], size[1],
-                                       size[2], report.volume, report.area));
+    wrapped(themeColor(ThemeColor::text), printed("%.4g × %.4g × %.4g m, volume %.4g m³, area %.4g m²",
+                                                  size[0], size[1], size[2], report.volume, report.area));
     if (const std::string wrong = soundness(report); wrong.empty())
-        coloured(ThemeColor::text, "Watertight: every edge has two triangles.");
+        wrapped(themeColor(ThemeColor::text), "Watertight: every edge has two triangles.");
     else
-        coloured(ThemeColor::warning, "Not watertight: " + wrong + ".");
+        wrapped(themeColor(ThemeColor::warning), "Not watertight: " + wrong + ".");
     if (report.capped)
-        coloured(ThemeColor::warning,
-                 "The surface leaves the region and was closed at its boundary: give a larger region if that "
-                 "is not wanted.");
+        wrapped(themeColor(ThemeColor::warning),
+                "The surface leaves the region and was closed at its boundary: give a larger region if that "
+                "is not wanted.");
 }
 
 void showJob(Editor& editor, const ExportState& state) {
@@ -157,7 +150,8 @@ void showJob(Editor& editor, const ExportState& state) {
         case Phase::done: showDone(state); break;
         case Phase::cancelled: ImGui::TextUnformatted("Cancelled: no file was written."); break;
         case Phase::failed:
-            for (const Error& problem : state.problems) coloured(ThemeColor::error, format(problem));
+            for (const Error& problem : state.problems)
+                wrapped(themeColor(ThemeColor::error), format(problem));
             break;
     }
 }
@@ -170,10 +164,11 @@ void showButtons(Editor& editor) {
     } else {
         std::error_code error;
         if (fs::exists(dialog.path, error))
-            coloured(ThemeColor::warning,
-                     fs::path(dialog.path).filename().string() + " is there and will be replaced.");
+            wrapped(themeColor(ThemeColor::warning),
+                    fs::path(dialog.path).filename().string() + " is there and will be replaced.");
         if (!formatOf(dialog.path))
-            coloured(ThemeColor::error, "The name has to end in one of the formats: choose one above.");
+            wrapped(themeColor(ThemeColor::error),
+                    "The name has to end in one of the formats: choose one above.");
         ImGui::BeginDisabled(!formatOf(dialog.path));
         if (ImGui::Button("Export", size)) begin(editor);
         ImGui::EndDisabled();

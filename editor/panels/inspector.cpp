@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "editor/document/paths.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
 #include "graph/reference.h"
@@ -10,14 +11,6 @@
 namespace fw::editor {
 
 namespace {
-
-void wrapped(ImU32 color, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-}
 
 /// A bar in the colour of the node's category with its type.
 void showType(const NodeBox& box) {
@@ -76,10 +69,9 @@ void showFindings(const Editor& editor, const std::string& path) {
 }
 
 void showExactness(const Editor& editor, const std::string& id) {
-    const CanvasMarks marks = marksOf(editor);
-    if (const auto said = marks.exactness.find(id); said != marks.exactness.end())
-        wrapped(themeColor(ThemeColor::quiet), "Distance: " + exactnessText(said->second.exactness));
-    if (marks.spoiledBy == id)
+    if (const NodeExactness* said = exactnessOf(editor, id))
+        wrapped(themeColor(ThemeColor::quiet), "Distance: " + exactnessText(said->exactness));
+    if (placeOf(*editor.graph, editor.viewport.shown.spoiledBy) == std::pair(editor.canvas.scope, id))
         wrapped(themeColor(ThemeColor::warning), "From this node on the field is no exact distance.");
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "editor/shell/theme.h"
+#include "graph/image.h"
 
 namespace fw::editor {
 
@@ -14,14 +15,10 @@ namespace {
 
 constexpr float kNameShare = 0.38f;  // of a panel's width
 
-float toDisplay(double linear) {
-    const double x = std::clamp(linear, 0.0, 1.0);
-    return float(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
-}
+float toDisplay(double linear) { return float(encodeSrgb(std::clamp(linear, 0.0, 1.0))); }
 
 double toLinear(float display) {
-    const double x = double(std::clamp(display, 0.0f, 1.0f));
-    const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    const double linear = decodeSrgb(double(std::clamp(display, 0.0f, 1.0f)));
     return std::round(linear * 1e5) / 1e5;  // no more digits than the picker can tell apart
 }
 
@@ -74,6 +71,14 @@ void propertyRow(const std::string& name, const std::string& tip, float room) {
     }
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-std::max(room, FLT_MIN));
+}
+
+void wrapped(ImU32 color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
 }
 
 Touched dragNumbers(const char* id, std::span<double> numbers, const NumberRange& range) {

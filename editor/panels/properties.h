@@ -31,6 +31,9 @@ void endProperties();
 /// the column less `room` pixels.
 void propertyRow(const std::string& name, const std::string& tip = {}, float room = 0.0f);
 
+/// Text as wide as the window, in a colour.
+void wrapped(ImU32 color, const std::string& text);
+
 /// Numbers side by side that are dragged, or typed after Ctrl+click.
 Touched dragNumbers(const char* id, std::span<double> numbers, const NumberRange& range = {});
 /// A colour in linear sRGB: a button that opens ImGui's picker. What is brighter than white keeps its

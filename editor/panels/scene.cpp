@@ -250,10 +250,7 @@ void showLamps(Editor& editor, const Scene& scene) {
 void showScene(Editor& editor) {
     const Result<Scene> scene = readScene(editor.document.graph().scene);
     if (!scene) {
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::error)),
-                           "The scene cannot be read: %s.", scene.error().message.c_str());
-        ImGui::PopTextWrapPos();
+        wrapped(themeColor(ThemeColor::error), "The scene cannot be read: " + scene.error().message + ".");
         if (!ImGui::Button("Begin a new scene")) return;
         Graph fresh = editor.document.graph();
         fresh.scene = nullptr;

@@ -273,11 +273,8 @@ void showTrack(Editor& editor, const Timeline& timeline, const Ruler& ruler, std
 void showTimeline(Editor& editor) {
     const Timeline* read = timelineOf(editor);
     if (!read) {
-        ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::error)),
-                           "The timeline cannot be read: %s.", editor.panelState.timelineProblem.c_str());
-        ImGui::PopTextWrapPos();
-        return;
+        return wrapped(themeColor(ThemeColor::error),
+                       "The timeline cannot be read: " + editor.panelState.timelineProblem + ".");
     }
     if (ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows))
         editor.panelState.timelineFrame = ImGui::GetFrameCount();

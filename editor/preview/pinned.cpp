@@ -14,8 +14,7 @@ Node& nodeOfType(std::vector<Node>& nodes, const char* type) {
     const auto found = std::ranges::find(nodes, type, &Node::type);
     if (found != nodes.end()) return found->muted = false, *found;
     Node added;
-    added.id = type;
-    while (findNode(nodes, added.id)) added.id += "_";
+    added.id = freshId(nodes, type);
     added.type = type;
     return nodes.emplace_back(std::move(added));
 }
@@ -41,8 +40,7 @@ InputValue ledOut(Graph& graph, const std::string& scope, const std::string& id)
     auto instance = std::ranges::find(graph.nodes, scope, &Node::group);
     if (instance == graph.nodes.end()) {
         Node added;
-        added.id = scope;
-        while (graph.node(added.id)) added.id += "_";
+        added.id = freshId(graph.nodes, scope);
         added.type = "group", added.group = scope;
         instance = graph.nodes.insert(graph.nodes.end(), std::move(added));
     }

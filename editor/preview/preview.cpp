@@ -49,20 +49,21 @@ struct Preview::Shared {
     std::optional<PreviewWish> next, last;  ///< to be worked on; the newest that was asked for
     std::optional<PreviewResult> ready;
     PreviewResult told;  ///< the last result but for its picture
+    /// A newer wish waits; one of another graph that no hand is moving, so that a draft will come before this
+    /// picture is done.
+    std::atomic<bool> overtaken = false, replaced = false;
     bool stop = false, working = true;
     std::thread thread;
 
     void publish(PreviewResult result) {
+        Picture picture = std::exchange(result.picture, {});
+        PreviewResult bare = result;
+        bare.current = bare.draft = false;
+        result.picture = std::move(picture);
         {
             std::lock_guard lock(mutex);
             ready = std::move(result);
-            told = {.revision = ready->revision,
-                    .findings = ready->findings,
-                    .seen = ready->seen,
-                    .region = ready->region,
-                    .spoiledBy = ready->spoiledBy,
-                    .exactness = ready->exactness,
-                    .statistics = ready->statistics};
+            told = std::move(bare);
         }
         if (changed) changed();
     }
@@ -74,8 +75,12 @@ namespace {
 /// The preview's side: what is shown, and what is still to be done for it.
 class Maker {
   public:
-    Maker(Device opened, std::function<void(PreviewResult)> publish_)
-        : device(std::move(opened)), publish(std::move(publish_)) {}
+    Maker(Device opened, std::function<void(PreviewResult)> publish_, const std::atomic<bool>& overtaken_,
+          const std::atomic<bool>& replaced_)
+        : device(std::move(opened)),
+          publish(std::move(publish_)),
+          overtaken(overtaken_),
+          replaced(replaced_) {}
 
     void take(PreviewWish newer);
     /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
@@ -95,6 +100,7 @@ class Maker {
 
     std::optional<Device> device;  ///< until the player has it
     std::function<void(PreviewResult)> publish;
+    const std::atomic<bool>&overtaken, &replaced;
     std::optional<Player> player;
     PreviewWish wish;
     std::deque<std::string> live;  ///< held last first
@@ -230,6 +236,11 @@ bool Maker::draw() {
                           .primary = Primary::measured,
                           .show = wish.view,
                           .slice = wish.slice};
+    // What is asked for on and on, as while a hand moves, gets its pictures nevertheless.
+    if (!due)
+        options.cancel = &overtaken;
+    else if (!player->compiling())
+        options.cancel = &replaced;
     const auto start = Clock::now();
     const Result<MesherResult> mesh = player->meshOnDevice();
     const double meshing = millisecondsSince(start);
@@ -238,6 +249,7 @@ bool Maker::draw() {
     const auto drawing = Clock::now();
     const Result<bool> drawn = player->show(options, picture);
     if (!drawn) return refuse(drawn.error()), tell(), false;
+    if (!*drawn && options.cancel && *options.cancel) return false;
     if (!*drawn) {  // it shows that already
         result.current = good;
         result.draft = player->compiling();
@@ -292,7 +304,9 @@ void Preview::Shared::run() {
     try {
         Result<Device> device = createDevice(deviceOptions);
         if (!device) throw SystemError(device.error().message);
-        Maker maker(std::move(*device), [this](PreviewResult result) { publish(std::move(result)); });
+        Maker maker(
+            std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken,
+            replaced);
         bool more = false;
         for (;;) {
             const bool waits = maker.waits();
@@ -309,6 +323,7 @@ void Preview::Shared::run() {
                 if (stop) return;
                 working = true;
                 newer = std::exchange(next, std::nullopt);
+                overtaken = replaced = false;
             }
             if (newer) maker.take(std::move(*newer));
             more = maker.work();
@@ -343,6 +358,8 @@ Preview::~Preview() {
 void Preview::ask(PreviewWish wish) {
     std::lock_guard lock(shared->mutex);
     if (shared->last && sameWish(*shared->last, wish)) return;
+    shared->overtaken = true;
+    if (shared->last && shared->last->graph != wish.graph && wish.held.empty()) shared->replaced = true;
     shared->last = wish;
     shared->next = std::move(wish);
     shared->asked.notify_all();

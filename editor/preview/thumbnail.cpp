@@ -10,6 +10,7 @@
 #include "editor/document/paths.h"
 #include "editor/preview/pinned.h"
 #include "graph/compile.h"
+#include "graph/image.h"
 #include "graph/region.h"
 #include "graph/tape.h"
 #include "runtime/render/view.h"
@@ -114,8 +115,7 @@ std::array<glm::dvec3, kSide> shade(const Rays& rays, Field& field) {
 }
 
 uint8_t display(double linear) {
-    const double x = std::clamp(linear, 0.0, 1.0);
-    return uint8_t(std::lround(255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
+    return uint8_t(std::lround(255.0 * encodeSrgb(std::clamp(linear, 0.0, 1.0))));
 }
 
 /// Rays of the row of pixels at height y, traced to the solid.

@@ -39,8 +39,8 @@ class Shell {
     bool waitEvents(double seconds);
     /// From any thread: ends the sleep, and gives a reason to draw.
     static void wake();
-    /// One frame: show() builds the interface, which is then drawn and presented. A minimised window draws
-    /// nothing, and show() is not called.
+    /// One frame: show() builds the interface, which is then drawn over ThemeColor::canvas and presented. A
+    /// minimised window draws nothing, and show() is not called.
     void frame(const std::function<void()>& show);
     bool closed() const;
     void keepOpen();  ///< after closed(): the user was asked and stays

@@ -97,8 +97,10 @@ void showViewport(Editor& editor) {
         pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
     if (const Aside::Answer answer = view.aside.take()) answer(editor);
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
-    if (view.texture) list->AddImage(view.texture, place.lo, place.hi);
+    if (view.texture)
+        list->AddImage(view.texture, place.lo, place.hi);
+    else
+        list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     showGizmo(editor);
     const float scale = editor.shell.scale();
     if (view.texture && !view.shown.current)

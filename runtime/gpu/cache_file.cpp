@@ -4,11 +4,11 @@
 
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "runtime/gpu/device.h"
+#include "runtime/user_folder.h"
 
 namespace fw {
 namespace {
@@ -32,13 +32,7 @@ uint64_t hashBytes(const void* data, std::size_t size, uint64_t seed) {
     return seed;
 }
 
-std::string cacheFolder() {
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
-        return std::string(folder) + "/fieldwright";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return std::string(home) + "/.cache/fieldwright";
-    return {};
-}
+std::string cacheFolder() { return userFolder("XDG_CACHE_HOME", "/.cache"); }
 
 std::string cachePath(const std::string& kind, const std::string& name) {
     std::string folder = cacheFolder();

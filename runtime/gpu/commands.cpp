@@ -167,6 +167,12 @@ void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer
     vkCmdDispatchIndirect(commands.handle, arguments.handle, offset);
 }
 
+bool cancelled(Commands& commands) {
+    if (!commands.cancel) return false;
+    flush(commands);
+    return *commands.cancel;
+}
+
 void submit(Commands& commands) {
     if (commands.queries) writeTimestamp(commands);
     double elapsed = run(commands);

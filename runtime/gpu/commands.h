@@ -6,6 +6,7 @@
 // 50 microseconds a stage. An untimed recording is one submission.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <glm/vec3.hpp>
 
@@ -33,6 +34,7 @@ struct Commands {
     std::vector<StageTime> stages;         ///< complete after submit, in order of recording
     VkQueryPool queries = VK_NULL_HANDLE;  ///< GPU only
     bool stageOpen = false;
+    const std::atomic<bool>* cancel = nullptr;  ///< if given, long work looks at it between its parts
 };
 
 /// A resource for one binding of a shader.
@@ -101,6 +103,10 @@ void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer
 /// Runs what is recorded so far and waits for it; recording goes on. For a stage that the host does in
 /// between.
 void flush(Commands& commands);
+
+/// Whether the work is no longer wanted; what is recorded so far is run first. False, and nothing is run,
+/// where it cannot be cancelled.
+bool cancelled(Commands& commands);
 
 /// Ends the recording, runs it and waits for it. Fills `commands.stages` if it is timed. Throws SystemError
 /// if the device is lost.

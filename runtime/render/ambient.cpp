@@ -64,8 +64,9 @@ void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
         {8, ambient.holes}, {4, ambient.holeCount},    storage(5, gbuffer.before()),
         storage(6, before), storage(7, ambient.now())};
     addField(bound, field);
-    dispatchIndirect(commands, ambient.trace, gbuffer.arguments, argumentsOf(RENDER_NEAR), nullptr, 0, bound);
+    dispatchTiles(commands, ambient.trace, gbuffer, RENDER_NEAR, nullptr, 0, bound);
     barrier(commands);
+    if (cancelled(commands)) return;
     if (described.balance && described.raysNew > described.raysKept) {
         dispatchIndirect(commands, ambient.addRays, ambient.holeCount, offsetof(gpu::AmbientHoles, arguments),
                          nullptr, 0, bound);

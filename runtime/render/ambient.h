@@ -47,7 +47,7 @@ Ambient createAmbient(const Device& device);
 void describeAmbient(const Ambient& ambient, gpu::RenderFrame& frame);
 
 /// Records one frame. `described` is what the buffer `frame` holds. Before the first frame, and whenever
-/// `anew`, nothing is kept.
+/// `anew`, nothing is kept. If the commands are cancelled, now() is not to be used.
 void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
                  const gpu::RenderFrame& described, const Buffer& frame, const FieldBuffers& field);
 

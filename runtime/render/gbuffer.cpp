@@ -1,5 +1,6 @@
 #include "runtime/render/gbuffer.h"
 
+#include <algorithm>
 #include <array>
 
 namespace fw {
@@ -7,6 +8,9 @@ namespace fw {
 namespace {
 
 constexpr uint32_t kTraceGroup = 8;  // pixels along each side of a work group of trace.comp
+// Tiles of a slice: of 200 joined boxes some 20 ms. Where a slice starts is a multiple of 256 bytes, which is
+// the most that a device may ask for.
+constexpr uint32_t kSlice = 64;
 
 }  // namespace
 
@@ -181,9 +185,26 @@ void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const
     std::vector<Descriptor> bound = {
         {0, frame}, storage(1, depth), storage(2, gbuffer.now()), {3, gbuffer.tileLists}};
     addField(bound, field);
-    dispatchIndirect(commands, gbuffer.surface, gbuffer.arguments, argumentsOf(RENDER_NEAR), nullptr, 0,
-                     bound);
+    dispatchTiles(commands, gbuffer.surface, gbuffer, RENDER_NEAR, nullptr, 0, bound);
     barrier(commands);
+}
+
+void dispatchTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
+                   const void* push, std::size_t pushSize, std::span<const Descriptor> bound) {
+    if (!commands.cancel || !commands.device.software)
+        return dispatchIndirect(commands, pipeline, gbuffer.arguments, argumentsOf(list), push, pushSize,
+                                bound);
+    if (cancelled(commands)) return;
+    const uint32_t tiles =
+        download<gpu::DispatchArguments>(commands.device, gbuffer.arguments, RENDER_LISTS)[list].x;
+    std::vector<Descriptor> sliced(bound.begin(), bound.end());
+    const auto lists = std::find_if(sliced.begin(), sliced.end(),
+                                    [](const Descriptor& descriptor) { return descriptor.binding == 3; });
+    for (uint32_t first = 0; first < tiles; first += kSlice) {
+        *lists = Descriptor(3, gbuffer.tileLists, 4ull * first);
+        dispatch(commands, pipeline, {std::min(kSlice, tiles - first), 1, 1}, push, pushSize, sliced);
+        if (cancelled(commands)) return;
+    }
 }
 
 }  // namespace fw

@@ -92,6 +92,11 @@ void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const
 /// Lists the tiles alone, for a now() that was filled otherwise.
 void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame);
 
+/// One group for each tile of a list, whose kernel reads it at binding 3. A recording that can be cancelled
+/// is run in slices on a software device, and the rest is left out once it is.
+void dispatchTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
+                   const void* push, std::size_t pushSize, std::span<const Descriptor> bound);
+
 /// Tiles that cover a picture.
 uint32_t tilesOf(VkExtent3D extent);
 

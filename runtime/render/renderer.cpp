@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <tuple>
 
 namespace fw {
 
@@ -295,7 +296,8 @@ const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, boo
     return light;
 }
 
-void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, bool mean) {
+/// False if the commands are cancelled, before the mean is added to.
+bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, bool mean) {
     const Device& device = commands.device;
     const GBuffer& gbuffer = renderer.gbuffer;
     const gpu::RenderFrame& frame = renderer.described;
@@ -316,8 +318,10 @@ void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
                 createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
         resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
         bound.push_back(storage(11, renderer.lampLight));
-        for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND})
-            dispatchIndirect(commands, renderer.lamps, gbuffer.arguments, argumentsOf(list), list, bound);
+        for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND}) {
+            dispatchTiles(commands, renderer.lamps, gbuffer, list, &list, sizeof list, bound);
+            if (cancelled(commands)) return false;
+        }
         barrier(commands);
     }
     if (fog) {
@@ -335,6 +339,7 @@ void lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK})
         overTiles(lightPipeline(renderer, list, lamps, fog, mean), list);
     barrier(commands);
+    return true;
 }
 
 void traceReference(Commands& commands, Renderer& renderer, const RenderScene& scene) {
@@ -495,7 +500,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     forgetHistory(renderer.ambient);
 }
 
-void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                const gpu::View& view, bool resting, int mean) {
     const Device& device = commands.device;
     const VkExtent3D extent = {uint32_t(options.width), uint32_t(options.height), 1};
@@ -526,12 +531,14 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
               options.reference ? kReferenceCare
               : still           ? kStillCare
                                 : kLiveCare);
+    if (cancelled(commands)) return false;
     renderer.gbuffer.current = 1 - renderer.gbuffer.current;
     if (scene.draft)
         fillFromDraft(commands, renderer.draft, renderer.gbuffer, renderer.seen.depth, renderer.frame,
                       *scene.draft);
     else
         fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
+    if (cancelled(commands)) return false;
     beginStage(commands, "ambient");
     if (scene.draft)
         resizeHistory(commands, renderer.ambient, extent);
@@ -539,9 +546,10 @@ void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         traceReference(commands, renderer, scene);
     else
         drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.buffers);
-    lightFrame(commands, renderer, scene, still || resting);
+    if (cancelled(commands) || !lightFrame(commands, renderer, scene, still || resting)) return false;
     showView(commands, renderer, scene);
     ++renderer.number;
+    return true;
 }
 
 Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options) {
@@ -601,8 +609,23 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
         measurePrimary(renderer, scene);
     }
     Commands commands(*renderer.device);
+    commands.cancel = options.cancel;
+    const auto state = [&] {
+        return std::tie(renderer.described, renderer.gbuffer.current, renderer.ambient.current,
+                        renderer.ambient.rays, renderer.ambient.hasHistory);
+    };
+    const std::tuple<gpu::RenderFrame, uint32_t, uint32_t, int, bool> before = state();
     // The mean begins with the first frame that rests.
-    drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0));
+    if (!drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0))) {
+        // As if it had not begun: what it wrote is written anew by the next one, the mean it did not touch.
+        state() = before;
+        renderer.shadowStands = false;
+        if (rests)
+            --renderer.rested;
+        else
+            renderer.shown.reset(), forgetHistory(renderer.ambient);
+        return false;
+    }
     recordReading(commands, renderer.pixels, renderer.readback);
     submit(commands);
     renderer.shown = shows;

@@ -71,6 +71,8 @@ struct RenderOptions {
     bool reference = false;  ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
     uint32_t show = RENDER_PICTURE;  ///< or one of the views that shaders/render/render.h lists
     Slice slice = {};
+    /// Looked at between the frames of a still picture, and within a frame of the live view, which can be
+    /// drawn again as if this one had not begun.
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };
@@ -142,13 +144,14 @@ void setField(Renderer& renderer, FieldKernels kernels);
 /// A still picture. Errors: as checkPictureSize, samples out of range, cancelled.
 Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options);
 
-/// The live view's next frame, into `picture`; false if it would be the same as the last. Errors: as
-/// checkPictureSize.
+/// The live view's next frame, into `picture`; false if it would be the same as the last, or if it was
+/// cancelled. Errors: as checkPictureSize.
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                         Picture& picture);
 
-/// One frame of either, for the benchmarks: what its stages take. `view.pixel` is set here.
-void drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+/// One frame of either, for the benchmarks: what its stages take. `view.pixel` is set here. False if the
+/// commands were cancelled, before the picture was touched.
+bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                const gpu::View& view, bool resting, int mean);
 
 }  // namespace fw

@@ -76,6 +76,21 @@ std::string verdict(double value, double most) {
 
 }  // namespace
 
+Graph withBall(Graph chain) {
+    Node ball, both;
+    ball.id = "ball", ball.type = "sphere";
+    both.id = "both", both.type = "union";
+    InputValue link;
+    link.value = Link{"ball", ""};
+    both.set("a", link);
+    Node& output = chain.nodes.back();
+    both.set("b", *output.input("surface"));
+    link.value = Link{"both", ""};
+    output.set("surface", link);
+    chain.nodes.insert(chain.nodes.end() - 1, {ball, both});
+    return chain;
+}
+
 void editorTable(Bench& bench) {
     const Result<Graph> tower = readGraph(benchGraph(Field::tower), nullptr);
     if (!tower) return bench.fail(format(tower.error()));
@@ -106,22 +121,11 @@ void editorTable(Bench& bench) {
     Figure changes, complete;
     std::random_device seed;
     for (int i = 0; i < kChanges + 2; ++i) {
-        Graph chain = chainOfBoxes(kNodes - 2, double(seed()) * 1e-11);
+        const Graph chain = chainOfBoxes(kNodes - 2, double(seed()) * 1e-11);
         if (asked.ask(chain, {}, true) <= 0) return;
-        // A ball, and its union with what there was.
-        Node ball, both;
-        ball.id = "ball", ball.type = "sphere";
-        both.id = "both", both.type = "union";
-        InputValue link;
-        link.value = Link{"ball", ""};
-        both.set("a", link);
-        Node& output = chain.nodes.back();
-        both.set("b", *output.input("surface"));
-        link.value = Link{"both", ""};
-        output.set("surface", link);
-        chain.nodes.insert(chain.nodes.end() - 1, {ball, both});
+        const Graph more = withBall(chain);
         const auto start = Clock::now();
-        const double draft = asked.ask(chain, {}, false), all = asked.wait(start, true);
+        const double draft = asked.ask(more, {}, false), all = asked.wait(start, true);
         if (i >= 2) changes.runs.push_back(draft), complete.runs.push_back(all);
     }
     changes = sorted(std::move(changes));

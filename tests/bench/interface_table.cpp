@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <random>
 
 #include "editor/document/edits.h"
 #include "editor/editor.h"
@@ -15,10 +16,10 @@ namespace fw::bench {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;
-constexpr int kFew = 100, kMany = 1000, kFrames = 60, kEdits = 10000;
+constexpr int kFew = 100, kSome = 200, kMany = 1000, kChanges = 12, kFrames = 60, kEdits = 10000;
 constexpr double kRest = 3.0;  // seconds
 constexpr double kMostFew = 14, kMostMany = 40, kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50,
-                 kMostRest = 2;
+                 kMostChange = 250, kMostMeanwhile = 50, kMostRest = 2;
 
 double processorSeconds() {
     rusage used{};
@@ -35,8 +36,8 @@ double residentMiB() {
 }
 
 /// So many nodes in a grid that the canvas shows whole.
-Graph grid(int nodes) {
-    Graph graph = chainOfBoxes(nodes - 1, 0.0);
+Graph grid(int nodes, double difference = 0.0) {
+    Graph graph = chainOfBoxes(nodes - 1, difference);
     const int columns = nodes > kFew ? 40 : 10;
     for (int i = 0; i < int(graph.nodes.size()); ++i)
         graph.nodes[std::size_t(i)].at = {double(i % columns) * (nodes > kFew ? 78.0 : 250.0),
@@ -122,6 +123,35 @@ void interfaceTable(Bench& bench) {
     {
         Window window(bench, grid(kFew));
         row("a frame, " + std::to_string(kFew) + " nodes on the canvas", window.frames(), kMostFew);
+    }
+    {
+        Window window(bench, grid(kSome));
+        const editor::PreviewResult& shown = window.editor.viewport.shown;
+        // Frames one after the other until the graph is in the picture; the longest of them, and how long.
+        const auto change = [&](Graph graph, bool draft) {
+            window.editor.document.apply("Change", std::move(graph));
+            const auto start = Clock::now();
+            double longest = 0;
+            do {
+                window.shell.waitEvents(0.0);
+                const auto begin = Clock::now();
+                editor::exchange(window.editor);
+                window.frame();
+                longest = std::max(longest, millisecondsSince(begin));
+            } while (shown.revision != window.editor.drawn || !shown.current || (shown.draft && !draft));
+            return std::pair{longest, millisecondsSince(start)};
+        };
+        Figure longest, changed;
+        std::random_device seed;
+        for (int i = 0; i < kChanges + 2; ++i) {
+            const Graph chain = grid(kSome - 2, double(seed()) * 1e-11);
+            change(chain, false);
+            const auto [frame, all] = change(withBall(chain), true);
+            if (i >= 2) longest.runs.push_back(frame), changed.runs.push_back(all);
+        }
+        row("one of " + std::to_string(kSome) + " nodes added, to its picture in the window", changed,
+            kMostChange);
+        row("the longest frame meanwhile", longest, kMostMeanwhile);
     }
     double early = 0, end = 0;
     {

@@ -39,6 +39,8 @@ void peaksTable(Bench& bench);      ///< what the device can do at most
 /// A graph of about `nodes` nodes: boxes, each moved to its place, joined and cut from one another in turn.
 /// `difference` enters a size, so that no cache knows the code.
 Graph chainOfBoxes(int nodes, double difference);
+/// The chain with a ball joined to it, by two nodes.
+Graph withBall(Graph chain);
 
 /// The graph of a benchmark field, read and compiled; reports a failure and returns nothing if that does not
 /// work.

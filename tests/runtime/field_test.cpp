@@ -187,16 +187,21 @@ TEST(RandomGraphs, CompileAndEqualTheReference) {
     EXPECT_LT(tooLarge, compiled / 2);
 }
 
+/// The program of one expression node with this code.
+Result<Program> compiledExpression(const std::string& code) {
+    const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
+        {"id": "code", "type": "expression", "code": ")" +
+                                               code + R"("},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "code"}}}]})",
+                                           "code", nullptr);
+    if (!graph) return graph.error();
+    return compile(*graph);
+}
+
 TEST(Noise, EqualCoordinatesAreNoSpecialCase) {
     for (const char* kind : {"perlin", "simplex", "worley"}) {
-        const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
-            {"id": "noise", "type": "expression", "code": "return )" +
-                                                   std::string(kind) +
-                                                   R"((floor(p * 4.0) / 4.0 + p.zxy * 0.0);"},
-            {"id": "out", "type": "output", "inputs": {"surface": {"from": "noise"}}}]})",
-                                               "noise", nullptr);
-        ASSERT_TRUE(graph) << format(graph.error());
-        const Result<Program> program = compile(*graph);
+        const Result<Program> program =
+            compiledExpression("return " + std::string(kind) + "(floor(p * 4.0) / 4.0 + p.zxy * 0.0);");
         ASSERT_TRUE(program) << format(program.error());
         // Multiples of 1/4, on most of which two or three coordinates tie within their cell.
         const Agreement found = compare(*program, 4096, 1, 2.0f);
@@ -208,14 +213,8 @@ TEST(Noise, EqualCoordinatesAreNoSpecialCase) {
 TEST(Power, OfNoughtIsWithinItsInterval) {
     // All three signs of the exponent, none of which folds.
     for (const char* exponent : {"max(p.y - 100.0, 0.0)", "max(p.y - 100.0, 0.0) + 1.0", "p.y"}) {
-        const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
-            {"id": "power", "type": "expression", "code": "return pow(max(p.x - 100.0, 0.0), )" +
-                                                   std::string(exponent) +
-                                                   R"() - 0.5;"},
-            {"id": "out", "type": "output", "inputs": {"surface": {"from": "power"}}}]})",
-                                               "power", nullptr);
-        ASSERT_TRUE(graph) << format(graph.error());
-        const Result<Program> program = compile(*graph);
+        const Result<Program> program =
+            compiledExpression("return pow(max(p.x - 100.0, 0.0), " + std::string(exponent) + ") - 0.5;");
         ASSERT_TRUE(program) << format(program.error());
         EXPECT_EQ(compare(*program, 1024, 1).firstFailure, "") << exponent;
     }

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <random>
+#include <thread>
 
 #include "graph/json.h"
 #include "runtime/mesh_report.h"
@@ -254,6 +256,39 @@ TEST(Player, ASolidThatVanishesLeavesTheBackdrop) {
     EXPECT_FALSE(never.player);
     EXPECT_NE(never.error.find("a.field.json: error: the solid is empty at every time"), std::string::npos)
         << never.error;
+}
+
+TEST(Player, ALiveViewThatIsCancelledGoesOnAsIfItHadNotBegun) {
+    // All that a frame traces through the field: occlusion, a lamp's shadow.
+    const std::string lit = R"(, "scene": {"camera": {"position": [2, 1.5, 3], "target": [0, 0.3, 0]},
+        "sun": {}, "ao": {}, "ground": {}, "lights": [{"type": "point", "position": [1, 2, 2]}]})";
+    const auto rested = [&](bool cancelling) {
+        Played play(risingBall(lit));
+        Picture picture;
+        std::atomic<bool> cancel = false, done = false;
+        std::thread canceller([&] {
+            std::mt19937 random(7);
+            while (!done) {
+                std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
+                cancel = true;
+            }
+        });
+        int cancellations = 0;
+        for (int i = 0;; ++i) {
+            const bool may = cancelling && i % 2 == 0;  // so that it ends
+            cancel = i == 0;
+            const Result<bool> drawn =
+                play->show({.width = 240, .height = 180, .cancel = may ? &cancel : nullptr}, picture);
+            EXPECT_TRUE(drawn);
+            if (!*drawn && !may) break;
+            cancellations += !*drawn;
+        }
+        done = true;
+        canceller.join();
+        EXPECT_EQ(cancellations > 3, cancelling);
+        return picture;
+    };
+    EXPECT_EQ(rested(true).pixels, rested(false).pixels);
 }
 
 TEST(Player, SaysWhatCannotBePlayed) {
