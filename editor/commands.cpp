@@ -127,6 +127,26 @@ void look(Editor& editor) {
     lookFrom(editor.viewport, side);
 }
 
+constexpr double kTurnStep = 0.1, kPanStep = 0.1;  // heights of the picture
+
+template <int x, int y>
+void turnPicture(Editor& editor) {
+    editor.viewport.takeCamera();
+    turn(editor.viewport.orbit, kTurnStep * x, kTurnStep * y);
+}
+
+template <int x, int y>
+void panPicture(Editor& editor) {
+    editor.viewport.takeCamera();
+    pan(editor.viewport.orbit, kPanStep * x, kPanStep * y);
+}
+
+template <int notches>
+void zoomPicture(Editor& editor) {
+    editor.viewport.takeCamera();
+    zoom(editor.viewport.orbit, notches, 0.0, 0.0, double(editor.viewport.aspect()));
+}
+
 template <Tool tool>
 void use(Editor& editor) {
     editor.viewport.gizmo.tool = tool;
@@ -242,6 +262,19 @@ constexpr Command kCommands[] = {
     {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>, false, true},
     {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>, false,
      true},
+    {"picture.turn_left", "Picture", "Turn left", "Alt+Left Pad4", pictured, turnPicture<-1, 0>, true, true},
+    {"picture.turn_right", "Picture", "Turn right", "Alt+Right Pad6", pictured, turnPicture<1, 0>, false, true},
+    {"picture.turn_up", "Picture", "Turn up", "Alt+Up Pad8", pictured, turnPicture<0, 1>, false, true},
+    {"picture.turn_down", "Picture", "Turn down", "Alt+Down Pad2", pictured, turnPicture<0, -1>, false, true},
+    {"picture.pan_left", "Picture", "Pan left", "Alt+Shift+Left Ctrl+Pad4", pictured, panPicture<-1, 0>, false,
+     true},
+    {"picture.pan_right", "Picture", "Pan right", "Alt+Shift+Right Ctrl+Pad6", pictured, panPicture<1, 0>, false,
+     true},
+    {"picture.pan_up", "Picture", "Pan up", "Alt+Shift+Up Ctrl+Pad8", pictured, panPicture<0, 1>, false, true},
+    {"picture.pan_down", "Picture", "Pan down", "Alt+Shift+Down Ctrl+Pad2", pictured, panPicture<0, -1>, false,
+     true},
+    {"picture.nearer", "Picture", "Nearer", "Equal PadPlus", pictured, zoomPicture<1>, false, true},
+    {"picture.farther", "Picture", "Farther", "Minus PadMinus", pictured, zoomPicture<-1>, false, true},
     {"picture.shading", "Picture", "Next shading", "Z", pictured, [](Editor& e) { shadeNext(e.viewport); },
      true, true},
     {"picture.move", "Picture", "Move", "W", pictured, use<Tool::move>, true, true},

@@ -208,8 +208,8 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
     }
     if (pen.view.unit() >= 0.7f * kTextZoom) {
         const float middle = area.lo.y + 0.5f * strip, room = area.width() - 34.0f * pen.view.unit();
-        pen.text({area.lo.x + 9.0f * pen.view.unit(), middle}, themeColor(ThemeColor::onTitle), titleOf(box),
-                 room);
+        pen.text({area.lo.x + 9.0f * pen.view.unit(), middle},
+                 themeColor(box.type ? ThemeColor::onTitle : ThemeColor::canvas), titleOf(box), room);
         if (marks.pinned == box.node->id)
             pen.list->AddCircleFilled({area.hi.x - 30.0f * pen.view.unit(), middle}, 4.0f * pen.view.unit(),
                                       themeColor(ThemeColor::active));

@@ -277,10 +277,11 @@ void showFiles(Editor& editor) {
     if (!dropped.empty() && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
         proceed(editor, Next::open, dropped.front());
     const std::string& failure = editor.viewport.shown.failure;
-    if (!failure.empty() && !std::exchange(files.failureTold, true)) {
+    if (!failure.empty() && std::exchange(files.failureTold, failure) != failure) {
         const std::string kept = keepForNextTime(editor);
         tell(editor, "The preview has stopped",
-             "Editing and saving go on; pictures come back when the editor is started again." +
+             "Editing and saving go on. The next change, of the graph or of how it is looked at, begins the "
+             "preview anew: if its device ran out of memory, choose fewer cells first." +
                  (kept.empty() ? "" : "\n\n" + kept),
              {{.message = failure}});
     }

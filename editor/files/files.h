@@ -50,7 +50,7 @@ struct Files {
     Preferences preferences;
     std::vector<LeftCopy> left;  ///< of crashes, not yet decided on
     std::string title;           ///< that the window has
-    bool failureTold = false;    ///< of the preview
+    std::string failureTold;     ///< of the preview, last
 };
 
 /// Reads preferences, looks for copies that were left, and opens the file, if there is a path. One that does

@@ -67,7 +67,9 @@ struct Preview::Shared {
         }
         if (changed) changed();
     }
+    /// What the thread does: work(), and again with another device after a failure, when something is asked.
     void run();
+    void work();
 };
 
 namespace {
@@ -300,43 +302,52 @@ bool Maker::work() {
 
 }  // namespace
 
-void Preview::Shared::run() {
-    try {
-        Result<Device> device = createDevice(deviceOptions);
-        if (!device) throw SystemError(device.error().message);
-        Maker maker(
-            std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken,
-            replaced);
-        bool more = false;
-        for (;;) {
-            const bool waits = maker.waits();
-            std::optional<PreviewWish> newer;
-            {
-                std::unique_lock lock(mutex);
-                const auto woken = [&] { return stop || next; };
-                if (!more && waits) {
-                    asked.wait_for(lock, kCompilePoll, woken);
-                } else if (!more) {
-                    working = next.has_value();
-                    asked.wait(lock, woken);
-                }
-                if (stop) return;
-                working = true;
-                newer = std::exchange(next, std::nullopt);
-                overtaken = replaced = false;
-            }
-            if (newer) maker.take(std::move(*newer));
-            more = maker.work();
-        }
-    } catch (const std::exception& error) {
+void Preview::Shared::work() {
+    Result<Device> device = createDevice(deviceOptions);
+    if (!device) throw SystemError(device.error().message);
+    Maker maker(
+        std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken,
+        replaced);
+    bool more = false;
+    for (;;) {
+        const bool waits = maker.waits();
+        std::optional<PreviewWish> newer;
         {
+            std::unique_lock lock(mutex);
+            const auto woken = [&] { return stop || next; };
+            if (!more && waits) {
+                asked.wait_for(lock, kCompilePoll, woken);
+            } else if (!more) {
+                working = next.has_value();
+                asked.wait(lock, woken);
+            }
+            if (stop) return;
+            working = true;
+            newer = std::exchange(next, std::nullopt);
+            overtaken = replaced = false;
+        }
+        if (newer) maker.take(std::move(*newer));
+        more = maker.work();
+    }
+}
+
+void Preview::Shared::run() {
+    for (;;) {
+        try {
+            return work();
+        } catch (const std::exception& error) {
             std::lock_guard lock(mutex);
             if (!ready) ready = told;
             ready->failure = error.what();
             ready->current = false;
+            next.reset();  // it may be what failed
             working = false;
         }
         if (changed) changed();
+        std::unique_lock lock(mutex);
+        asked.wait(lock, [&] { return stop || next; });
+        if (stop) return;
+        working = true;
     }
 }
 

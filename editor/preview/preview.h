@@ -2,8 +2,8 @@
 //
 // A thread of its own with a device of its own checks, compiles, meshes and draws. The interface hands over
 // the newest wish at any time and takes the newest result when there is one; wishes that were overtaken are
-// never worked on. A graph with errors leaves the last good picture, marked as such. While a hand holds an
-// input, that input is a live parameter: its changes upload and never compile.
+// never drawn to their end. A graph with errors leaves the last good picture, marked as such. While a hand
+// holds an input, that input is a live parameter: its changes upload and never compile.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ struct PreviewResult {
     std::string spoiledBy = {};  ///< the node since which the field is no exact distance
     std::map<std::string, NodeExactness, std::less<>> exactness = {};  ///< as Program::nodeExactness
     PreviewStatistics statistics = {};
-    std::string failure = {};  ///< the device or the system failed; the preview has stopped
+    std::string failure = {};  ///< the device or the system failed; the next wish begins anew
 };
 
 class Preview {

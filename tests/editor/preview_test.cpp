@@ -300,6 +300,22 @@ TEST(Preview, AMissingDeviceIsAFailure) {
     EXPECT_NE(result.failure.find("no device is called this"), std::string::npos) << result.failure;
 }
 
+TEST(Preview, TheNextWishAfterAFailureBeginsAnew) {
+    ASSERT_EQ(setenv("VK_ICD_FILENAMES", "/nowhere.json", 1), 0);
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7)});
+    const PreviewResult failed =
+        previewed.until([](const PreviewResult& made) { return !made.failure.empty(); });
+    ASSERT_EQ(unsetenv("VK_ICD_FILENAMES"), 0);
+    EXPECT_FALSE(failed.failure.empty());
+    EXPECT_FALSE(previewed.preview.busy());
+    previewed.latest = {};
+    previewed.ask({.graph = joined(0.8)});
+    const PreviewResult result = previewed.full();
+    EXPECT_TRUE(result.failure.empty()) << result.failure;
+    EXPECT_TRUE(result.current);
+}
+
 TEST(Preview, ItCanEndAtAnyTime) {
     for (int i = 0; i < 4; ++i) {
         Previewed previewed;

@@ -43,9 +43,11 @@ std::string trimmed(std::string text) {
 /// "Ctrl+Shift+PageUp" as xdotool has it.
 std::string keysym(const std::string& shortcut) {
     static const std::pair<const char*, const char*> kNames[] = {
-        {"Enter", "Return"}, {"Backspace", "BackSpace"}, {"PageUp", "Prior"}, {"PageDown", "Next"},
-        {"Minus", "minus"},  {"Equal", "equal"},         {"Comma", "comma"},  {"Period", "period"},
-        {"Slash", "slash"},  {"Space", "space"}};
+        {"Enter", "Return"},        {"Backspace", "BackSpace"}, {"PageUp", "Prior"},
+        {"PageDown", "Next"},       {"Minus", "minus"},         {"Equal", "equal"},
+        {"Comma", "comma"},         {"Period", "period"},       {"Slash", "slash"},
+        {"Space", "space"},         {"PadEnter", "KP_Enter"},   {"PadPlus", "KP_Add"},
+        {"PadMinus", "KP_Subtract"}};
     static const char* const kPad[] = {"KP_Insert", "KP_End",   "KP_Down", "KP_Next", "KP_Left",
                                        "KP_Begin",  "KP_Right", "KP_Home", "KP_Up",   "KP_Prior"};
     std::string words, word;
@@ -54,7 +56,7 @@ std::string keysym(const std::string& shortcut) {
         if (word == "Ctrl" || word == "Shift" || word == "Alt" || word.size() == 1)
             std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
         // As it is without Num Lock: xdotool would press Shift for the digit.
-        if (word.starts_with("Pad")) word = kPad[std::size_t(word.at(3) - '0')];
+        if (word.starts_with("Pad") && word.size() == 4) word = kPad[std::size_t(word.at(3) - '0')];
         for (const auto& [ours, theirs] : kNames)
             if (word == ours) word = theirs;
         words += (words.empty() ? "" : "+") + word;

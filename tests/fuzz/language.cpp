@@ -7,20 +7,13 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string_view>
 
 #include "graph/evaluate.h"
 #include "graph/language/lower.h"
+#include "tests/fuzz/require.h"
 
 namespace {
-
-void require(bool condition, const char* what) {
-    if (condition) return;
-    std::fprintf(stderr, "does not hold: %s\n", what);
-    std::abort();
-}
 
 bool isRefusal(const fw::Error& error) {
     return !error.message.empty() && error.codeLine > 0 && error.codeColumn > 0;
