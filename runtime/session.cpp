@@ -46,7 +46,7 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
             return problem(
                 "the solid has no bounds within 16 km of the origin: give a region (region_min and "
                 "region_max "
-                "of the output, or --region), or intersect it with a box");
+                "of the output, or --region x0 y0 z0 x1 y1 z1), or intersect it with a box");
         case Extent::bounded: break;
     }
     return padded(found.box, resolution, 1.5);
