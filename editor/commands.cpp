@@ -76,7 +76,11 @@ void ungroupActive(Editor& editor) {
 
 void enterOrLeave(Editor& editor) {
     const NodeBox* box = editor.boxes->find(editor.canvas.active);
-    enter(editor, box ? box->node->group : std::string());
+    if (box && !box->node->group.empty()) return enter(editor, box->node->group);
+    const std::string left = scopeOf(editor);
+    enter(editor, "");
+    for (const Node& node : graphOf(editor).nodes)
+        if (node.group == left) editor.canvas.select({node.id});
 }
 
 void layOutNodes(Editor& editor) {
@@ -252,34 +256,30 @@ constexpr Command kCommands[] = {
      [](Editor& e) {
          e.document.apply("Distribute Nodes", distribute(graphOf(e), scopeOf(e), selected(e), false));
      }},
-    {"picture.frame", "Picture", "Frame the solid", "F", pictured, frameSolid, false, true},
+    {"picture.frame", "Picture", "Frame the solid", "F", pictured, frameSolid},
     {"picture.reset", "Picture", "Back to the scene's camera", "Home 0 Pad0", pictured,
-     [](Editor& e) { e.viewport.ownCamera = false; }, false, true},
-    {"picture.front", "Picture", "From the front", "1 Pad1", pictured, look<Side::front>, true, true},
-    {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", pictured, look<Side::back>, false, true},
-    {"picture.right", "Picture", "From the right", "3 Pad3", pictured, look<Side::right>, false, true},
-    {"picture.left", "Picture", "From the left", "Ctrl+3 Ctrl+Pad3", pictured, look<Side::left>, false, true},
-    {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>, false, true},
-    {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>, false,
-     true},
-    {"picture.turn_left", "Picture", "Turn left", "Alt+Left Pad4", pictured, turnPicture<-1, 0>, true, true},
-    {"picture.turn_right", "Picture", "Turn right", "Alt+Right Pad6", pictured, turnPicture<1, 0>, false, true},
-    {"picture.turn_up", "Picture", "Turn up", "Alt+Up Pad8", pictured, turnPicture<0, 1>, false, true},
-    {"picture.turn_down", "Picture", "Turn down", "Alt+Down Pad2", pictured, turnPicture<0, -1>, false, true},
-    {"picture.pan_left", "Picture", "Pan left", "Shift+Alt+Left Ctrl+Pad4", pictured, panPicture<-1, 0>, false,
-     true},
-    {"picture.pan_right", "Picture", "Pan right", "Shift+Alt+Right Ctrl+Pad6", pictured, panPicture<1, 0>, false,
-     true},
-    {"picture.pan_up", "Picture", "Pan up", "Shift+Alt+Up Ctrl+Pad8", pictured, panPicture<0, 1>, false, true},
-    {"picture.pan_down", "Picture", "Pan down", "Shift+Alt+Down Ctrl+Pad2", pictured, panPicture<0, -1>, false,
-     true},
-    {"picture.nearer", "Picture", "Nearer", "Equal PadPlus", pictured, zoomPicture<1>, false, true},
-    {"picture.farther", "Picture", "Farther", "Minus PadMinus", pictured, zoomPicture<-1>, false, true},
+     [](Editor& e) { e.viewport.ownCamera = false; }},
+    {"picture.front", "Picture", "From the front", "1 Pad1", pictured, look<Side::front>, true},
+    {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", pictured, look<Side::back>},
+    {"picture.right", "Picture", "From the right", "3 Pad3", pictured, look<Side::right>},
+    {"picture.left", "Picture", "From the left", "Ctrl+3 Ctrl+Pad3", pictured, look<Side::left>},
+    {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>},
+    {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>},
+    {"picture.turn_left", "Picture", "Turn left", "Alt+Left Pad4", pictured, turnPicture<-1, 0>, true},
+    {"picture.turn_right", "Picture", "Turn right", "Alt+Right Pad6", pictured, turnPicture<1, 0>},
+    {"picture.turn_up", "Picture", "Turn up", "Alt+Up Pad8", pictured, turnPicture<0, 1>},
+    {"picture.turn_down", "Picture", "Turn down", "Alt+Down Pad2", pictured, turnPicture<0, -1>},
+    {"picture.pan_left", "Picture", "Pan left", "Shift+Alt+Left Ctrl+Pad4", pictured, panPicture<-1, 0>},
+    {"picture.pan_right", "Picture", "Pan right", "Shift+Alt+Right Ctrl+Pad6", pictured, panPicture<1, 0>},
+    {"picture.pan_up", "Picture", "Pan up", "Shift+Alt+Up Ctrl+Pad8", pictured, panPicture<0, 1>},
+    {"picture.pan_down", "Picture", "Pan down", "Shift+Alt+Down Ctrl+Pad2", pictured, panPicture<0, -1>},
+    {"picture.nearer", "Picture", "Nearer", "Equal PadPlus", pictured, zoomPicture<1>},
+    {"picture.farther", "Picture", "Farther", "Minus PadMinus", pictured, zoomPicture<-1>},
     {"picture.shading", "Picture", "Next shading", "Z", pictured, [](Editor& e) { shadeNext(e.viewport); },
-     true, true},
-    {"picture.move", "Picture", "Move", "W", pictured, use<Tool::move>, true, true},
-    {"picture.rotate", "Picture", "Rotate", "E", pictured, use<Tool::turn>, false, true},
-    {"picture.scale", "Picture", "Scale", "R", pictured, use<Tool::scale>, false, true},
+     true},
+    {"picture.move", "Picture", "Move", "W", pictured, use<Tool::move>, true},
+    {"picture.rotate", "Picture", "Rotate", "E", pictured, use<Tool::turn>},
+    {"picture.scale", "Picture", "Scale", "R", pictured, use<Tool::scale>},
     {"view.frame", "View", "Frame selection", "F", always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", always, [](Editor& e) { frame(e, true); }},
     {"view.minimap", "View", "Minimap", "", always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
@@ -340,6 +340,16 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
+Heard Command::heard() const {
+    const std::string_view in = menu, name = id;
+    if (in == "Picture") return Heard::picture;
+    const bool document = name == "edit.undo" || name == "edit.redo" || name == "edit.preferences";
+    const bool view = name == "view.frame" || name == "view.frame_all" || name == "view.zoom_in" ||
+                      name == "view.zoom_out" || name == "view.pin";
+    return in == "Node" || in.empty() || view || (in == "Edit" && !document) ? Heard::canvas
+                                                                             : Heard::everywhere;
+}
+
 std::span<const Command> commands() { return kCommands; }
 
 const Command& command(std::string_view id) {
@@ -356,27 +366,52 @@ std::string labelOf(const Command& command, const Editor& editor) {
     return label;
 }
 
+/// Save, quit and their like end the typing, which then reaches the document before they run.
+void leaveTextFor(Editor& editor) {
+    for (const auto& [shortcut, command] : editor.keymap) {
+        if (std::string_view(command->menu) != "File" || !shortcut.ctrl || !pressed(shortcut)) continue;
+        ImGui::ClearActiveID();
+        editor.windows.chosen = command;
+        return;
+    }
+}
+
 void runShortcuts(Editor& editor) {
     const ImGuiIO& io = ImGui::GetIO();
     keepMenusClosed();
     if (const Command* chosen = std::exchange(editor.windows.chosen, nullptr); chosen && chosen->can(editor))
         return chosen->run(editor);
-    if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || editor.document.inGesture() ||
-        editor.canvas.field.state != FieldEdit::State::none || editor.viewport.drag.busy())
-        return;
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || editor.document.inGesture()) return;
+    if (io.WantTextInput) return leaveTextFor(editor);
+    if (editor.canvas.field.state != FieldEdit::State::none || editor.viewport.drag.busy()) return;
     if (deletesKey(editor) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)))
         return removeSelectedKey(editor);
     // Space asks for the menu when it goes up, if nothing was panned with it.
     const int space = ImGui::GetKeyIndex(ImGuiKey_Space);
     if (ImGui::IsKeyPressed(space, false))
         editor.canvas.spacePans = io.NavActive || io.KeyCtrl || io.KeyShift || io.KeyAlt;
-    if (ImGui::IsKeyReleased(space) && !std::exchange(editor.canvas.spacePans, false)) addHere(editor);
+    const bool panel = editor.panels.keyboard == Part::side || editor.panels.keyboard == Part::timeline;
+    if (ImGui::IsKeyReleased(space) && !std::exchange(editor.canvas.spacePans, false) && !panel)
+        addHere(editor);
     const bool picture = editor.viewport.hovered || editor.panels.keyboard == Part::viewport;
+    const auto heard = [&](const Command& command, const Shortcut& shortcut) {
+        if (command.heard() == Heard::picture) return picture;
+        return !panelsSteer(shortcut) && !(panel && command.heard() == Heard::canvas);
+    };
     for (const auto& [shortcut, command] : editor.keymap)
-        if (pressed(shortcut) && (command->overPicture ? picture : !panelsSteer(shortcut)) &&
-            command->can(editor))
+        if (pressed(shortcut) && heard(*command, shortcut) && command->can(editor))
             return command->run(editor);
     leavePanels(editor);
+}
+
+/// Whether what the command shows or hides is there.
+bool shows(const Command& command, const Editor& editor) {
+    const std::string_view id = command.id;
+    if (id == "view.minimap") return editor.canvas.minimap;
+    if (id == "view.timeline") return editor.panels.timeline;
+    for (const SidePanel& panel : sidePanels())
+        if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;
+    return false;
 }
 
 void showMenus(Editor& editor) {
@@ -387,7 +422,8 @@ void showMenus(Editor& editor) {
             if (command.separated) ImGui::Separator();
             const std::string all = keysOf(command, editor.files.preferences);
             const std::string first = all.substr(0, all.find(' '));
-            if (ImGui::MenuItem(labelOf(command, editor).c_str(), first.c_str(), false, command.can(editor)))
+            if (ImGui::MenuItem(labelOf(command, editor).c_str(), first.c_str(), shows(command, editor),
+                                command.can(editor)))
                 command.run(editor);
             if (std::string_view(command.id) == "file.open") showRecent(editor);
         }

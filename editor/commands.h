@@ -9,6 +9,13 @@
 
 namespace fw::editor {
 
+/// Where the keyboard or the mouse has to be for a command's keys to count.
+enum class Heard : unsigned char {
+    everywhere,
+    canvas,   ///< not in a panel, where they could be meant for what is edited there
+    picture,  ///< over the picture, where they come before the canvas's
+};
+
 struct Command {
     const char* id;    ///< as in the preferences: "edit.undo"
     const char* menu;  ///< "File", "Edit", "Node", "View", "Picture", "Help"; empty: in no menu
@@ -16,8 +23,9 @@ struct Command {
     const char* keys;  ///< its shortcut by default, as textOf() has it; further ones after a blank
     bool (*can)(const Editor& editor);
     void (*run)(Editor& editor);
-    bool separated = false;    ///< a line stands before it in the menu
-    bool overPicture = false;  ///< its keys count only while the mouse or the keyboard is there
+    bool separated = false;  ///< a line stands before it in the menu
+
+    Heard heard() const;  ///< by its menu and its id
 };
 
 std::span<const Command> commands();

@@ -83,10 +83,32 @@ void showStatus(Editor& editor) {
     }
 }
 
+/// As CanvasMarks::animated. In a group nothing is moved by itself.
+std::map<std::string, std::vector<double>, std::less<>> animatedNow(Editor& editor) {
+    std::map<std::string, std::vector<double>, std::less<>> now;
+    const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
+    if (!timeline) return now;
+    for (const Track& track : timeline->tracks) {
+        const std::optional<AnimatedInput> input = animatedInput(editor.document.graph(), track);
+        const Node* node = input ? editor.document.graph().node(input->node) : nullptr;
+        if (!node) continue;
+        std::vector<double>& numbers =
+            now.try_emplace(input->node + "." + input->input, inputNumbers(*node, input->input))
+                .first->second;
+        const std::vector<double> there = evaluate(track, editor.viewport.seconds);
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            if (input->component < 0 || input->component == int(i))
+                numbers[i] = std::clamp(there[std::min(i, there.size() - 1)], input->min, input->max);
+    }
+    return now;
+}
+
 void showCanvasPart(Editor& editor) {
     showBreadcrumb(editor);
+    CanvasMarks marks = marksOf(editor);
+    marks.animated = animatedNow(editor);
     const CanvasWishes wishes =
-        showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
+        showCanvas(editor.canvas, editor.document, *editor.boxes, marks, editor.shell);
     if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);
@@ -126,7 +148,8 @@ Editor::Editor(Shell& shell_, Graph opened, DeviceOptions device_)
 bool exchange(Editor& editor) {
     drawAnew(editor);
     Viewport& view = editor.viewport;
-    PreviewWish wish{.graph = editor.graph, .revision = editor.drawn, .pinned = view.pinned};
+    PreviewWish wish{
+        .graph = editor.graph, .revision = editor.drawn, .document = view.document, .pinned = view.pinned};
     wish.held = heldInputs(editor);
     wish.seconds = view.seconds;
     if (view.ownCamera) wish.camera = view.orbit.camera();
@@ -142,7 +165,7 @@ bool exchange(Editor& editor) {
     const bool thumbnail =
         editor.thumbnails.follow(editor.shell, editor.graph, editor.drawn, !editor.document.inGesture());
     std::optional<PreviewResult> result = editor.preview.take();
-    if (!result) return noticed || thumbnail;
+    if (!result || result->document != view.document) return noticed || thumbnail;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
     view.shown = std::move(*result);
     return true;

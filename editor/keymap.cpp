@@ -36,7 +36,9 @@ std::string textOf(const std::vector<Shortcut>& keys) {
 
 const Command* userOf(const Shortcut& key, const Command& besides, const Preferences& preferences) {
     for (const auto& [each, command] : keymapOf(preferences))
-        if (each == key && command != &besides && command->overPicture == besides.overPicture) return command;
+        if (each == key && command != &besides &&
+            (command->heard() == Heard::picture) == (besides.heard() == Heard::picture))
+            return command;
     return nullptr;
 }
 
@@ -49,7 +51,8 @@ void setKeys(Preferences& preferences, const Command& command, const std::vector
             preferences.shortcuts[to.id] = text;
     };
     for (const Command& other : commands()) {
-        if (&other == &command || other.overPicture != command.overPicture) continue;
+        if (&other == &command || (other.heard() == Heard::picture) != (command.heard() == Heard::picture))
+            continue;
         std::vector<Shortcut> left = shortcutsOf(keysOf(other, preferences));
         if (std::erase_if(left, [&](const Shortcut& key) { return std::ranges::count(keys, key) > 0; }) > 0)
             give(other, left);

@@ -45,6 +45,8 @@ struct CanvasMarks {
     std::string spoiledBy;                                              ///< the node that spoiled the field
     std::string pinned;                                                 ///< the node that the preview shows
     std::map<std::string, const Thumbnails::Shown*, std::less<>> thumbnails;  ///< by node id
+    /// The numbers at the time shown of each "node.input" that the timeline moves.
+    std::map<std::string, std::vector<double>, std::less<>> animated;
 };
 
 struct Canvas {
@@ -99,7 +101,9 @@ bool showsFields(const CanvasView& view);
 
 /// Draws boxes, wires, frames and minimap over what is there (used by showCanvas).
 void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell);
-/// Where the minimap is, pixels, and the part of the canvas that it shows.
+/// Whether there is a minimap: not where it would cover half of the panel.
+bool hasMinimap(const Canvas& canvas, const Boxes& boxes);
+/// Where it is, pixels, and the part of the canvas that it shows.
 Area minimapArea(const CanvasView& view);
 Area minimapShows(const Canvas& canvas, const Boxes& boxes);
 

@@ -9,7 +9,7 @@ namespace fw::editor {
 
 namespace {
 
-constexpr float kFieldZoom = 0.6f, kTextZoom = 0.4f;  // pixels a unit
+constexpr float kFieldZoom = 0.6f, kTextZoom = 0.47f;  // pixels a unit
 constexpr float kGrid = 24.0f;
 constexpr float kRounding = 5.0f;
 constexpr float kLeastShape = 2.0f;  // pixels: what is smaller has neither shape nor round corners
@@ -154,10 +154,12 @@ void drawRows(const Pen& pen, const NodeBox& box) {
                 // Too small to be edited, but not too small to be read.
                 if (row.fields > 0 && pen.view.unit() < kFieldZoom) {
                     const std::vector<double> numbers = numbersOf(row);
-                    for (int i = 0; i < row.fields && i < int(numbers.size()); ++i) {
+                    for (int i = 0; i < row.fields; ++i) {
                         const Area field = pen.view.toScreen(box.field(row, i));
-                        const std::string text =
-                            row.type == Type::string ? "" : numberText(numbers[std::size_t(i)]);
+                        const double number = i < int(numbers.size()) ? numbers[std::size_t(i)] : 0.0;
+                        const std::string text = row.type == Type::string    ? readable(valueText(row))
+                                                 : row.type == Type::boolean ? (number != 0.0 ? "on" : "off")
+                                                                             : numberText(number);
                         pen.text({field.lo.x, field.centre().y}, quiet, text, field.width());
                     }
                 }
@@ -299,6 +301,12 @@ void drawGesture(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
 
 }  // namespace
 
+bool hasMinimap(const Canvas& canvas, const Boxes& boxes) {
+    const Area place = minimapArea(canvas.view), &panel = canvas.view.panel;
+    return canvas.minimap && !boxes.nodes.empty() && 2.0f * place.width() < panel.width() &&
+           2.0f * place.height() < panel.height();
+}
+
 Area minimapArea(const CanvasView& view) {
     constexpr float kWidth = 180.0f, kHeight = 120.0f, kMargin = 10.0f;
     const ImVec2 hi(view.panel.hi.x - kMargin * view.scale, view.panel.hi.y - kMargin * view.scale);
@@ -316,7 +324,7 @@ Area minimapShows(const Canvas& canvas, const Boxes& boxes) {
 }
 
 void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell) {
-    const float size = kTextSize * canvas.view.unit();
+    const float size = shell.fonts().crisp(kTextSize * canvas.view.unit());
     const Pen pen{ImGui::GetWindowDrawList(), canvas.view, shell.fonts().of(size), size};
     pen.list->PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
     drawGrid(pen);
@@ -329,7 +337,7 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& mar
     for (const NodeBox& box : boxes.nodes)
         if (box.area.overlaps(seen)) drawNode(pen, canvas, box, marks);
     drawGesture(pen, canvas, boxes);
-    if (canvas.minimap && !boxes.nodes.empty()) drawMinimap(pen, canvas, boxes);
+    if (hasMinimap(canvas, boxes)) drawMinimap(pen, canvas, boxes);
     pen.list->PopClipRect();
 }
 

@@ -1,5 +1,7 @@
 #include "editor/canvas/fields.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -68,37 +70,37 @@ void drawText(const Area& place, ImFont* font, float size, const std::string& te
                                         fits.c_str());
 }
 
-/// The text field over a number; takes the keyboard until Enter, Escape or a click elsewhere.
-void typeNumber(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-                const Row& row, int component, const Area& place, ImFont* font) {
+/// The number field after this one on the node, or before it, is typed next; none beyond its ends.
+void typeNext(FieldEdit& edit, const NodeBox& box, const Row& row, int component, int by) {
+    const Row* at = &row;
+    component += by;
+    const auto typed = [](const Row& other) {
+        return other.fields > 0 && !other.linked && other.type != Type::string && other.type != Type::boolean;
+    };
+    while (component < 0 || component >= at->fields || !typed(*at)) {
+        at += by;
+        if (at < box.rows.data() || at >= box.rows.data() + box.rows.size()) return;
+        component = by > 0 ? 0 : at->fields - 1;
+    }
+    edit.type(edit.scope, {box.node->id, at->name}, component, numbersOf(*at).at(std::size_t(component)));
+}
+
+/// The text field over a number; takes the keyboard until Enter, Tab, Escape or a click elsewhere.
+void typeField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
+               const Row& row, int component, const Area& place, ImFont* font) {
     ImGui::SetCursorScreenPos(place.lo);
     ImGui::PushFont(font);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         ImVec2(4, std::max(0.0f, 0.5f * (place.height() - font->FontSize))));
-    ImGui::SetNextItemWidth(std::max(place.width(), 90.0f));
-    if (!edit.opened) ImGui::SetKeyboardFocusHere();
-    const bool entered =
-        ImGui::InputText("##number", edit.text, sizeof edit.text,
-                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
-    const bool left = edit.opened && ImGui::IsItemDeactivated();
-    const bool cancelled = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    edit.opened = true;
+    const Typed typed = typeNumber(edit.typed, std::max(place.width(), 90.0f));
     ImGui::PopStyleVar();
     ImGui::PopFont();
-    if (!edit.complaint.empty()) ImGui::SetTooltip("%s", edit.complaint.c_str());
-    if (cancelled) {
-        edit = {};
-    } else if (entered || left) {
-        const Result<double> number = numberOf(edit.text);
-        if (!number) {
-            edit.complaint = number.error().message;
-            edit.opened = false;  // and goes on
-            if (left && !entered) edit = {};
-            return;
-        }
-        edit = {};
-        set(document, scope, box, row, withComponent(row, component, *number));
-    }
+    if (!typed.ended) return;
+    const std::string of = edit.scope;
+    edit = {};
+    edit.scope = of;
+    if (typed.tab != 0) typeNext(edit, box, row, component, typed.tab);
+    if (typed.number) set(document, scope, box, row, withComponent(row, component, *typed.number));
 }
 
 void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
@@ -116,9 +118,7 @@ void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, con
             edit = {};
             return;
         }
-        edit.state = State::typing;
-        edit.opened = false;
-        std::snprintf(edit.text, sizeof edit.text, "%s", numberText(edit.start).c_str());
+        edit.type(edit.scope, edit.input, component, edit.start);
         return;
     }
     if (edit.state == State::dragging && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
@@ -169,6 +169,41 @@ void showSwitch(Document& document, std::string_view scope, const NodeBox& box, 
 }
 
 }  // namespace
+
+TypedNumber::TypedNumber(double number) {
+    std::snprintf(text, sizeof text, "%s", numberText(number).c_str());
+}
+
+Typed typeNumber(TypedNumber& edit, float width) {
+    ImGui::SetNextItemWidth(width);
+    if (!edit.opened) ImGui::SetKeyboardFocusHere();
+    // It takes Tab for itself, which would go to whatever comes next; and no blanks, of which Tab is one.
+    const bool entered =
+        ImGui::InputText("##typed", edit.text, sizeof edit.text,
+                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue |
+                             ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CharsNoBlank);
+    const bool left = edit.opened && ImGui::IsItemDeactivated();
+    const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+    const bool tab = edit.opened && ImGui::IsItemActive() && pressed(ImGuiKey_Tab);
+    edit.opened = true;
+    if (!edit.complaint.empty()) ImGui::SetTooltip("%s", edit.complaint.c_str());
+    if (pressed(ImGuiKey_Escape)) return {.ended = true};
+    if (!entered && !left && !tab) return {};
+    const Result<double> number = numberOf(edit.text);
+    if (!number) {
+        edit.complaint = number.error().message;
+        edit.opened = false;  // and goes on
+        return {.ended = left && !entered};
+    }
+    if (tab) ImGui::ClearActiveID();
+    return {.number = *number, .ended = true, .tab = !tab ? 0 : ImGui::GetIO().KeyShift ? -1 : 1};
+}
+
+void FieldEdit::type(std::string_view of, const Plug& plug, int part, double number) {
+    state = State::typing;
+    scope = std::string(of), input = plug, component = part, start = number;
+    typed = TypedNumber(number);
+}
 
 std::set<std::string> FieldEdit::held() const {
     if (state != State::dragging) return {};
@@ -240,7 +275,7 @@ void showField(FieldEdit& edit, Document& document, std::string_view scope, cons
     const Plug plug{box.node->id, row.name};
     const bool mine = edit.is(scope, plug, component);
     if (mine && edit.state == State::typing)
-        return typeNumber(edit, document, scope, box, row, component, place, font);
+        return typeField(edit, document, scope, box, row, component, place, font);
     const bool hovered =
         enabled && edit.state == State::none && ImGui::IsMouseHoveringRect(place.lo, place.hi);
     const double number = numbersOf(row).at(std::size_t(component));
@@ -274,6 +309,15 @@ std::string describe(const Row& row) {
         text += ", at most " + numberText(row.spec->max);
     if (!row.spec->doc.empty()) text += "\n" + row.spec->doc;
     return text;
+}
+
+void showMoved(double number, const Area& place, ImFont* font, float size, bool hovered) {
+    drawFrame(place, false, hovered);
+    ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kRounding);
+    drawText(place, font, size, numberText(std::round(number * 1e4) / 1e4), true,
+             ImGui::GetColorU32(ImGuiCol_Text));
+    if (hovered && ImGui::IsMouseHoveringRect(place.lo, place.hi))
+        ImGui::SetTooltip("The timeline moves it: the inspector sets its key at the time shown");
 }
 
 }  // namespace fw::editor

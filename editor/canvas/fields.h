@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -15,6 +16,23 @@
 #include "editor/document/document.h"
 
 namespace fw::editor {
+
+/// A text field that a number is typed into.
+struct TypedNumber {
+    char text[256] = {};
+    bool opened = false;  ///< it has had its first frame
+    std::string complaint;
+
+    TypedNumber() = default;
+    explicit TypedNumber(double number);
+};
+/// One frame of it, in place of the number, at ImGui's cursor. It goes on while it is neither.
+struct Typed {
+    std::optional<double> number = {};  ///< that was entered
+    bool ended = false;                 ///< the field is to go
+    int tab = 0;                        ///< and the number after it, or before it, to be typed next: 1 or -1
+};
+Typed typeNumber(TypedNumber& edit, float width);
 
 /// The one field that is being edited.
 struct FieldEdit {
@@ -24,13 +42,13 @@ struct FieldEdit {
     int component = 0;
     double start = 0.0;   ///< the number when the drag began
     float travelled = 0;  ///< pixels of the drag, those of Shift and Alt counted as they were
-    char text[256] = {};
-    bool opened = false;  ///< the text field has had its first frame
-    std::string complaint;
+    TypedNumber typed;
 
     bool is(std::string_view of, const Plug& plug, int part) const {
         return state != State::none && scope == of && input == plug && component == part;
     }
+    /// To be typed in the next frame, from the number that it is.
+    void type(std::string_view of, const Plug& plug, int part, double number);
     /// "node.input" of what the hand holds, in a group "group/node.input"; nothing otherwise.
     std::set<std::string> held() const;
 };
@@ -51,6 +69,9 @@ std::string valueText(const Row& row);
 /// heard of only if `enabled`. Changes go to the document.
 void showField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
                const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled);
+
+/// A number that the timeline moves, as it is at the time shown: it is not edited here.
+void showMoved(double number, const Area& place, ImFont* font, float size, bool hovered);
 
 /// The text of an input for a tooltip: name, type, range, unit, and what it means.
 std::string describe(const Row& row);

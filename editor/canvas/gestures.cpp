@@ -147,6 +147,27 @@ struct Hand {
 
     void move() { document.update(moveNodes(canvas.base, canvas.scope, chosen(), moved())); }
 
+    /// The node goes into the wire, to the right of where it comes from, and what it leads to moves on until
+    /// there is room.
+    void dropOn(const Wire& wire, const NodeBox& box) {
+        constexpr float kApart = 40.0f;
+        const NodeBox &from = boxes.nodes[wire.from], &to = boxes.nodes[wire.to];
+        const NodeIds one = {box.node->id}, next = {to.node->id};
+        Graph made = dropOnWire(document.graph(), canvas.scope, boxes.input(wire), one[0]);
+        if (made == document.graph()) return;
+        const float right = std::max(0.0f, from.area.hi.x + kApart - box.area.lo.x),
+                    on = std::max(0.0f, box.area.hi.x + right + kApart - to.area.lo.x);
+        // What is already beyond it, or leads backwards, stays.
+        const bool beside =
+            to.area.hi.x > from.area.lo.x && to.area.lo.y < box.area.hi.y && box.area.lo.y < to.area.hi.y;
+        const std::set<std::string> after = downstream(nodesOf(made, canvas.scope), next);
+        if (right > 0.0f && from.area.lo.y < box.area.hi.y && box.area.lo.y < from.area.hi.y)
+            made = moveNodes(made, canvas.scope, one, {double(right), 0});
+        if (beside && on > 0.0f)
+            made = moveNodes(made, canvas.scope, NodeIds(after.begin(), after.end()), {double(on), 0});
+        document.update(std::move(made));
+    }
+
     /// A single unwired node that was let go of on a wire goes into it.
     void endMove() {
         if (canvas.selection.size() == 1 && io.KeyCtrl == false) {
@@ -162,8 +183,7 @@ struct Hand {
                         path.crosses({area.lo.x, area.centre().y}, {area.hi.x, area.centre().y}) ||
                         path.crosses({area.centre().x, area.lo.y}, {area.centre().x, area.hi.y});
                     if (!over) continue;
-                    document.update(
-                        dropOnWire(document.graph(), canvas.scope, boxes.input(wire), box->node->id));
+                    dropOn(wire, *box);
                     break;
                 }
             }
@@ -256,7 +276,7 @@ struct Hand {
         canvas.pressed = hit;
         canvas.trail = {mouse};
         const bool space = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Space));
-        if (canvas.minimap && minimapArea(canvas.view).contains(io.MousePos)) {
+        if (hasMinimap(canvas, boxes) && minimapArea(canvas.view).contains(io.MousePos)) {
             canvas.gesture = Gesture::map;
         } else if (space) {
             canvas.gesture = Gesture::pan;
@@ -453,7 +473,7 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     const bool hovered = ImGui::IsWindowHovered() && canvas.view.panel.contains(io.MousePos);
     // Fields above the drawing; the first that changes the document ends what the others stand on.
     const bool idle = canvas.gesture == Gesture::none;
-    const float size = kTextSize * canvas.view.unit();
+    const float size = shell.fonts().crisp(kTextSize * canvas.view.unit());
     if (showsFields(canvas.view)) {
         ImGui::PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
         const Area seen = canvas.view.seen();
@@ -461,15 +481,27 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
         for (const NodeBox& box : boxes.nodes)
             if (box.area.overlaps(seen)) shown.push_back(&box);
         for (std::size_t n = 0; n < shown.size(); ++n)
-            for (const Row& row : shown[n]->rows)
+            for (const Row& row : shown[n]->rows) {
+                const auto moved = marks.animated.empty() || row.fields == 0
+                                       ? marks.animated.end()
+                                       : marks.animated.find(shown[n]->node->id + "." + row.name);
                 for (int i = 0; i < row.fields; ++i) {
                     const Area field = shown[n]->field(row, i);
                     // Nodes lie above each other in their order, and their fields with them.
                     const auto covers = [&](const NodeBox* above) { return above->area.overlaps(field); };
                     if (std::any_of(shown.begin() + std::ptrdiff_t(n) + 1, shown.end(), covers)) continue;
-                    showField(canvas.field, document, canvas.scope, *shown[n], row, i,
-                              canvas.view.toScreen(field), shell.fonts().of(size), size, hovered && idle);
+                    const Area place = canvas.view.toScreen(field);
+                    const bool moves = moved != marks.animated.end();
+                    if (moves && canvas.field.is(canvas.scope, {shown[n]->node->id, row.name}, i))
+                        canvas.field = {};
+                    if (moves)
+                        showMoved(moved->second.at(std::size_t(i)), place, shell.fonts().of(size), size,
+                                  hovered && idle);
+                    else
+                        showField(canvas.field, document, canvas.scope, *shown[n], row, i, place,
+                                  shell.fonts().of(size), size, hovered && idle);
                 }
+            }
         ImGui::PopClipRect();
     }
     if (document.revision() != revision) return {};

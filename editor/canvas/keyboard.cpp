@@ -76,11 +76,7 @@ bool typeFirstValue(Canvas& canvas, const Boxes& boxes) {
         if (row.fields == 0 || !number) continue;
         bringIntoSight(canvas.view, box->area);
         canvas.field = {};
-        canvas.field.state = FieldEdit::State::typing;
-        canvas.field.scope = canvas.scope;
-        canvas.field.input = {box->node->id, row.name};
-        std::snprintf(canvas.field.text, sizeof canvas.field.text, "%s",
-                      numberText(numbersOf(row).at(0)).c_str());
+        canvas.field.type(canvas.scope, {box->node->id, row.name}, 0, numbersOf(row).at(0));
         return true;
     }
     return false;

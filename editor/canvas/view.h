@@ -10,7 +10,7 @@
 
 namespace fw::editor {
 
-inline constexpr float kLeastZoom = 0.25f, kMostZoom = 2.0f;
+inline constexpr float kLeastZoom = 0.05f, kMostZoom = 2.0f;
 inline constexpr float kWheel = 1.15f;  ///< zoom of a notch of the wheel
 
 struct Area {

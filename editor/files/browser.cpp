@@ -180,8 +180,9 @@ std::optional<std::string> show(FileBrowser& browser, float scale) {
     if (std::exchange(browser.fresh, false)) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
     const std::string before = browser.name;
-    confirmed |= ImGui::InputTextWithHint("##name", saves ? "name of the file" : "name of a file or a folder",
-                                          &browser.name, ImGuiInputTextFlags_EnterReturnsTrue);
+    confirmed |= ImGui::InputTextWithHint(
+        "##name", saves ? "name of the file" : "name of a file or a folder", &browser.name,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (browser.name != before) browser.asking = false, browser.problem.clear();
     if (browser.asking)
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::warning)),

@@ -166,7 +166,7 @@ void showOffer(Editor& editor) {
         ImGui::PushID(int(i));
         ImGui::Text("%s, %s", copy.original.empty() ? "untitled" : copy.original.c_str(), copy.when.c_str());
         ImGui::SameLine();
-        const bool opens = ImGui::Button("Restore");
+        const bool opens = ImGui::Button("Restore") || (files.left.size() == 1 && confirmed());
         ImGui::SameLine();
         const bool remove = ImGui::Button("Delete");
         ImGui::PopID();
@@ -177,7 +177,7 @@ void showOffer(Editor& editor) {
         break;
     }
     if (files.left.empty()) ImGui::CloseCurrentPopup();
-    if (ImGui::Button("Later")) files.left.clear(), ImGui::CloseCurrentPopup();
+    if (ImGui::Button("Later") || escaped()) files.left.clear(), ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

@@ -147,14 +147,13 @@ std::string workFolder(const Editor& editor) {
 
 void take(Editor& editor, Graph graph) {
     editor.document = Document(placeAll(graph));
+    editor.viewport.forget(editor.shell);
     editor.boxes.reset();
     editor.drawn = 0;
     const bool minimap = editor.canvas.minimap;
     editor.canvas = Canvas();
     editor.canvas.minimap = minimap;
     editor.thumbnails.clear(editor.shell);
-    editor.viewport.pinned.clear();
-    editor.viewport.ownCamera = false;
     editor.files.origin = Origin::own;
     editor.files.found.clear();
     editor.files.outside.reset();

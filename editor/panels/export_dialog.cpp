@@ -93,13 +93,13 @@ void showSettings(Editor& editor) {
     if (ImGui::Checkbox("found from the solid##region", &own)) dialog.givesRegion = !own;
     if (dialog.givesRegion) {
         propertyRow("   least corner, m");
-        dragNumbers("least", std::span(dialog.region).first(3));
+        dragNumbers(editor, "least", std::span(dialog.region).first(3));
         propertyRow("   greatest corner, m");
-        dragNumbers("greatest", std::span(dialog.region).last(3));
+        dragNumbers(editor, "greatest", std::span(dialog.region).last(3));
     }
     if (!editor.graph->timeline.is_null()) {
         propertyRow("Time, s", "The moment of the timeline that is exported.");
-        dragNumbers("time", std::span(&dialog.seconds, 1), {.min = 0.0});
+        dragNumbers(editor, "time", std::span(&dialog.seconds, 1), {.min = 0.0});
     }
     endProperties();
 }

@@ -1,7 +1,6 @@
 // The inputs of the active node: a row each.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "editor/document/expression_inputs.h"
 #include "editor/document/parameters.h"
@@ -59,15 +58,8 @@ void showNumbers(const Input& input, float room) {
             if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)
                 ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), 3.0f);
             const bool byKey = pressed && !ImGui::IsMouseReleased(0);
-            if (byKey && state.field.state == FieldEdit::State::none) {
-                state.field.state = FieldEdit::State::typing;
-                state.field.scope = input.scope();
-                state.field.input = input.plug;
-                state.field.component = c;
-                state.field.start = numbersOf(input.row).at(std::size_t(c));
-                std::snprintf(state.field.text, sizeof state.field.text, "%s",
-                              numberText(state.field.start).c_str());
-            }
+            if (byKey && state.field.state == FieldEdit::State::none)
+                state.field.type(input.scope(), input.plug, c, numbersOf(input.row).at(std::size_t(c)));
         }
         showField(state.field, input.editor.document, input.scope(), input.box, input.row, c, place,
                   ImGui::GetFont(), ImGui::GetFontSize(), hovered);
@@ -114,7 +106,7 @@ void showPoints(const Input& input) {
             const std::size_t at = 2 * std::size_t(i);
             ImGui::PushID(i);
             ImGui::SetNextItemWidth(-2.6f * ImGui::GetFrameHeight());
-            const Touched touched = dragNumbers("##point", std::span(numbers).subspan(at, 2));
+            const Touched touched = dragNumbers(input.editor, "##point", std::span(numbers).subspan(at, 2));
             follow(input.editor, "##point", touched, input.setName(), [&] {
                 InputValue value{.value = numbers};
                 value.pairs = true;

@@ -44,7 +44,7 @@ void showDefault(Editor& editor, const std::string& group, const GroupInput& inp
             if (list->size() == value.size()) value = *list;
     }
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const Touched touched = dragNumbers("##default", value);
+    const Touched touched = dragNumbers(editor, "##default", value);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("What instances have that give no value of their own");
     follow(editor, "##default", touched, "Set Default of " + readable(input.name), [&] {
         InputValue given;

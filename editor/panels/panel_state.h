@@ -26,6 +26,14 @@ struct TextEdit {
     std::function<void(Editor&, const std::string&)> commit;
 };
 
+/// The one number that is being typed where panels drag numbers.
+struct NumberEdit {
+    ImGuiID field = 0;     ///< of dragNumbers(); 0: none
+    int frame = 0;         ///< ImGui's, in which it was last shown
+    std::size_t part = 0;  ///< which of its numbers
+    TypedNumber typed;
+};
+
 /// The one value that a hand drags in a panel: a gesture of the document.
 struct HeldValue {
     ImGuiID field = 0;  ///< 0: none
@@ -37,6 +45,7 @@ struct PanelState {
     FieldEdit field;     ///< of the inspector's numbers
     int fieldFrame = 0;  ///< ImGui's, in which it was last shown
     TextEdit text;
+    NumberEdit number;
     HeldValue held;
     ImGuiID refocus = 0;  ///< a text field that gets the keyboard again in the next frame
 

@@ -64,7 +64,7 @@ void showValue(Editor& editor, const ExposedParameter& parameter) {
     if (numbers.empty()) return ImGui::TextDisabled("no number");
     if (spec && std::size_t(componentCount(spec->type)) > numbers.size())
         numbers.resize(std::size_t(componentCount(spec->type)), numbers[0]);
-    const Touched touched = dragNumbers("##value", numbers, range);
+    const Touched touched = dragNumbers(editor, "##value", numbers, range);
     follow(
         editor, "##value", touched, "Set " + parameter.name,
         [&] {

@@ -45,6 +45,12 @@ std::string shownText(const Editor& editor, const char* id, const std::string& t
     return edit.field == ImGui::GetID(id) ? edit.text : text;
 }
 
+/// Whether Enter or Space was pressed on it.
+bool chosenByKey(ImGuiID item) {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    return context.NavActivateId == item || context.NavActivateInputId == item;
+}
+
 }  // namespace
 
 bool beginProperties(const char* id) {
@@ -81,17 +87,46 @@ void wrapped(ImU32 color, const std::string& text) {
     ImGui::PopStyleColor();
 }
 
-Touched dragNumbers(const char* id, std::span<double> numbers, const NumberRange& range) {
+Touched dragNumbers(Editor& editor, const char* id, std::span<double> numbers, const NumberRange& range) {
+    constexpr float kStill = 3.0f;  // pixels that a click may move
     const bool least = std::isfinite(range.min), most = std::isfinite(range.max);
-    const std::vector<double> before(numbers.begin(), numbers.end());
+    NumberEdit& edit = editor.panelState.number;
+    const ImGuiID field = ImGui::GetID(id);
     Touched touched;
-    touched.changed =
-        ImGui::DragScalarN(id, ImGuiDataType_Double, numbers.data(), int(numbers.size()), float(range.speed),
-                           least ? &range.min : nullptr, most ? &range.max : nullptr, "%.6g",
-                           least || most ? ImGuiSliderFlags_AlwaysClamp : ImGuiSliderFlags_None);
-    touched.active = ImGui::IsItemActive();
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (!std::isfinite(numbers[i])) numbers[i] = before[i];
+    ImGui::PushID(id);
+    ImGui::PushMultiItemsWidths(int(numbers.size()), ImGui::CalcItemWidth());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i > 0) ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+        ImGui::PushID(int(i));
+        const double before = numbers[i];
+        if (edit.field == field && edit.part == i) {
+            edit.frame = ImGui::GetFrameCount();
+            const Typed typed = typeNumber(edit.typed, ImGui::CalcItemWidth());
+            if (typed.number) {
+                numbers[i] = std::clamp(*typed.number, range.min, range.max);
+                touched.changed |= numbers[i] != before;
+            }
+            const std::size_t next = i + std::size_t(typed.tab);
+            if (typed.ended) edit = {};
+            if (typed.tab != 0 && next < numbers.size())
+                edit = {field, ImGui::GetFrameCount(), next, TypedNumber(numbers[next])};
+        } else {
+            const bool byKey = chosenByKey(ImGui::GetID("##number"));
+            if (!byKey)
+                touched.changed |= ImGui::DragScalar(
+                    "##number", ImGuiDataType_Double, &numbers[i], float(range.speed),
+                    least ? &range.min : nullptr, most ? &range.max : nullptr, "%.6g",
+                    ImGuiSliderFlags_NoInput | (least || most ? ImGuiSliderFlags_AlwaysClamp : 0));
+            touched.active |= !byKey && ImGui::IsItemActive();
+            const bool clicked = !byKey && ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(0) &&
+                                 ImGui::GetIO().MouseDragMaxDistanceSqr[0] < kStill * kStill;
+            if (byKey || clicked) edit = {field, ImGui::GetFrameCount(), i, TypedNumber(numbers[i])};
+            if (!std::isfinite(numbers[i])) numbers[i] = before;
+        }
+        ImGui::PopItemWidth();
+        ImGui::PopID();
+    }
+    ImGui::PopID();
     return touched;
 }
 
@@ -212,7 +247,7 @@ void editAnimated(Editor& editor, const char* id, const Track& track, const Numb
     std::vector<double> value = evaluate(track, now);
     ImGui::PushStyleColor(ImGuiCol_Border, themeColor(ThemeColor::active));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
-    const Touched touched = dragNumbers(id, value, range);
+    const Touched touched = dragNumbers(editor, id, value, range);
     ImGui::PopStyleVar();
     ImGui::PopStyleColor();
     const Moved moved = movedBy(track);
@@ -245,6 +280,7 @@ void finishLost(Editor& editor) {
         editor.document.end();
         held = {};
     }
+    if (editor.panelState.number.frame < frame - 1) editor.panelState.number = {};
     // A number that was dragged or typed in a panel that is gone: the button went up elsewhere.
     FieldEdit& field = editor.panelState.field;
     if (field.state != FieldEdit::State::none && editor.panelState.fieldFrame < frame - 1) {

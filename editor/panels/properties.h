@@ -34,8 +34,8 @@ void propertyRow(const std::string& name, const std::string& tip = {}, float roo
 /// Text as wide as the window, in a colour.
 void wrapped(ImU32 color, const std::string& text);
 
-/// Numbers side by side that are dragged, or typed after Ctrl+click.
-Touched dragNumbers(const char* id, std::span<double> numbers, const NumberRange& range = {});
+/// Numbers side by side that are dragged, or clicked and typed, as on the canvas (canvas/fields.h).
+Touched dragNumbers(Editor& editor, const char* id, std::span<double> numbers, const NumberRange& range = {});
 /// A colour in linear sRGB: a button that opens ImGui's picker. What is brighter than white keeps its
 /// strength.
 Touched pickColor(const char* id, std::span<double> linear);

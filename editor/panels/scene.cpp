@@ -56,8 +56,8 @@ void numbersRow(Editor& editor, const std::string& path, const char* label, cons
             ImGui::SameLine();
             ImGui::SetNextItemWidth(-std::max(room, FLT_MIN));
         }
-        follow(editor, "##numbers", dragNumbers("##numbers", value, range), std::string("Set ") + label,
-               next);
+        follow(editor, "##numbers", dragNumbers(editor, "##numbers", value, range),
+               std::string("Set ") + label, next);
     }
     if (timeline) {
         ImGui::SameLine();

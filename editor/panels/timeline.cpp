@@ -74,14 +74,14 @@ void showTransport(Editor& editor, const Timeline& timeline) {
     const float em = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(5.0f * em);
     double seconds = view.seconds;
-    if (dragNumbers("##time", std::span(&seconds, 1), {.min = 0.0, .max = timeline.length}).changed)
+    if (dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0, .max = timeline.length}).changed)
         showTime(editor, seconds);
     ImGui::SameLine();
     ImGui::TextUnformatted("of");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5.0f * em);
     double length = timeline.length;
-    const Touched resized = dragNumbers("##length", std::span(&length, 1),
+    const Touched resized = dragNumbers(editor, "##length", std::span(&length, 1),
                                         {.min = frame, .max = kMostTimelineLength, .speed = 0.05});
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Length, seconds");
     follow(editor, "##length", resized, "Set Length",
@@ -91,8 +91,8 @@ void showTransport(Editor& editor, const Timeline& timeline) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(4.0f * em);
     double rate = timeline.framesPerSecond;
-    const Touched paced =
-        dragNumbers("##fps", std::span(&rate, 1), {.min = 1.0, .max = kMostFramesPerSecond, .speed = 0.2});
+    const Touched paced = dragNumbers(editor, "##fps", std::span(&rate, 1),
+                                      {.min = 1.0, .max = kMostFramesPerSecond, .speed = 0.2});
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Frames per second");
     follow(editor, "##fps", paced, "Set Frames per Second",
            [&] { return setFramesPerSecond(editor.document.graph(), rate); });
@@ -152,7 +152,7 @@ void showKey(Editor& editor, const Timeline& timeline) {
     NumberRange range;
     if (const auto input = animatedInput(document.graph(), track))
         range.min = input->min, range.max = input->max;
-    const Touched touched = dragNumbers("##keyvalue", value, range);
+    const Touched touched = dragNumbers(editor, "##keyvalue", value, range);
     follow(editor, "##keyvalue", touched, "Set Key",
            [&] { return setKey(document.graph(), moved, key.time, value); });
     ImGui::SameLine();

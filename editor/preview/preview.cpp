@@ -31,9 +31,10 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 bool sameWish(const PreviewWish& a, const PreviewWish& b) {
-    return a.graph == b.graph && a.revision == b.revision && a.pinned == b.pinned && a.held == b.held &&
-           a.seconds == b.seconds && a.camera == b.camera && a.width == b.width && a.height == b.height &&
-           a.view == b.view && a.slice == b.slice && a.resolution == b.resolution;
+    return a.graph == b.graph && a.revision == b.revision && a.document == b.document &&
+           a.pinned == b.pinned && a.held == b.held && a.seconds == b.seconds && a.camera == b.camera &&
+           a.width == b.width && a.height == b.height && a.view == b.view && a.slice == b.slice &&
+           a.resolution == b.resolution;
 }
 
 bool isPowerOfTwo(int number) { return number > 0 && (number & (number - 1)) == 0; }
@@ -107,6 +108,7 @@ class Maker {
     PreviewWish wish;
     std::deque<std::string> live;  ///< held last first
     PreviewResult result;          ///< as it was told last
+    std::vector<Error> checked;    ///< the graph's findings; a time may have one more
     Picture picture;
     Box solid = kUnbounded;  ///< where the last one was
     int heldResolution = 0;  ///< cells while a hand moves; 0: as many as at rest
@@ -152,9 +154,9 @@ Done Maker::play(const Graph& graph) {
 }
 
 void Maker::refuse(Error error) {
+    result.findings = checked;
     result.findings.push_back(std::move(error));
     result.current = false;
-    good = false;
 }
 
 void Maker::load() {
@@ -166,19 +168,21 @@ void Maker::load() {
     if (live.size() > std::max(kMostLive, wish.held.size()))
         live.resize(std::max(kMostLive, wish.held.size()));
     result.revision = wish.revision;
-    result.findings = check(*wish.graph);
+    result.document = wish.document;
+    checked = check(*wish.graph);
     // What the output does not need may be broken.
     const Graph shown = showingNode(*wish.graph, wish.pinned);
     const Done played = play(shown);
     good = bool(played);
     if (!played) {
-        if (!hasErrors(result.findings)) result.findings.push_back(played.error());
+        if (!hasErrors(checked)) checked.push_back(played.error());
         result.current = false;
     } else {
         result.spoiledBy = player->program().spoiledBy;
         result.region = player->region();
         result.exactness = player->program().nodeExactness;
     }
+    result.findings = checked;
     loading = millisecondsSince(start);
 }
 
@@ -192,6 +196,7 @@ void Maker::take(PreviewWish newer) {
     const bool samePicture = newer.seconds == wish.seconds && newer.camera == wish.camera &&
                              newer.width == wish.width && newer.height == wish.height &&
                              newer.view == wish.view && newer.slice == wish.slice;
+    if (!first && newer.document != wish.document) picture = {}, result = {};
     if (newer.held.empty()) heldResolution = 0;
     const bool coarse = !wish.held.empty() && newer.held.empty();
     wish = std::move(newer);
@@ -252,6 +257,7 @@ bool Maker::draw() {
     const Result<bool> drawn = player->show(options, picture);
     if (!drawn) return refuse(drawn.error()), tell(), false;
     if (!*drawn && options.cancel && *options.cancel) return false;
+    result.findings = checked;
     if (!*drawn) {  // it shows that already
         result.current = good;
         result.draft = player->compiling();

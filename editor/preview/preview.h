@@ -23,6 +23,7 @@ namespace fw::editor {
 struct PreviewWish {
     std::shared_ptr<const Graph> graph;
     uint64_t revision = 0;              ///< of the graph
+    uint64_t document = 0;              ///< another number for another document: nothing of the last is shown
     std::string pinned = {};            ///< the node that is shown; empty: the output
     std::set<std::string> held = {};    ///< "node.input" under the user's hand
     double seconds = 0.0;               ///< on the timeline
@@ -44,6 +45,7 @@ struct PreviewStatistics {
 
 struct PreviewResult {
     uint64_t revision = 0;  ///< of the graph that findings are about
+    uint64_t document = 0;  ///< as it was asked for
     std::vector<Error> findings = {};
     bool current = false;        ///< the picture shows that graph; otherwise the last that was valid
     Picture picture = {};        ///< empty: none yet

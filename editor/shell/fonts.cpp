@@ -11,7 +11,7 @@ namespace fw::editor {
 
 namespace {
 
-constexpr float kSizes[] = {8, 10, 12, kFontSize, 17, 21, 28, 40};  // pixels at scale 1
+constexpr float kSizes[] = {7, 8, 9, 10, 11, 12, 13, kFontSize, 17, 21, 28, 40};  // pixels at scale 1
 constexpr float kLargest = 64;  // pixels; larger text is scaled up, which costs less than its atlas
 
 // What an interface writes: Latin, Greek letters for maths, and the signs of menus and of nodes.
@@ -68,6 +68,11 @@ ImFont* nearest(const std::vector<ImFont*>& fonts, float pixels) {
 }  // namespace
 
 ImFont* Fonts::of(float pixels) const { return nearest(text, pixels); }
+float Fonts::crisp(float pixels) const {
+    constexpr float kNear = 1.08f;
+    const float baked = of(pixels)->FontSize;
+    return std::max(baked, pixels) < kNear * std::min(baked, pixels) ? baked : pixels;
+}
 ImFont* Fonts::codeOf(float pixels) const { return nearest(code, pixels); }
 
 Fonts bakeFonts(ImFontAtlas& atlas, float scale) {

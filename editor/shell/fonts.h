@@ -20,6 +20,8 @@ struct Fonts {
     /// The font whose pixels are nearest to this size.
     ImFont* of(float pixels) const;
     ImFont* codeOf(float pixels) const;
+    /// The size that of(pixels) is to be drawn at: as it was baked, if that is nearly the same.
+    float crisp(float pixels) const;
 };
 
 /// Bakes them into the atlas, for an interface of this scale; text of size kFontSize becomes the default

@@ -65,6 +65,14 @@ void Viewport::takeCamera() {
     ownCamera = true;
 }
 
+void Viewport::forget(Shell& shell) {
+    if (texture) shell.forget(std::exchange(texture, nullptr));
+    shown = {};
+    pinned.clear();
+    ownCamera = false;
+    ++document;
+}
+
 bool flies(const Viewport& viewport) {
     return viewport.drag.busy() && viewport.drag.button == 1 && anyFlyKey();
 }

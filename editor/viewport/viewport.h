@@ -63,6 +63,7 @@ struct Viewport {
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline
     bool playing = false;
+    uint64_t document = 0;  ///< another number for another document
     ImTextureID texture = nullptr;
     PreviewResult shown = {};  ///< the last result; its picture is in the texture
 
@@ -78,6 +79,8 @@ struct Viewport {
     float aspect() const { return place.width() / std::max(place.height(), 1.0f); }
     /// Moves on from what is seen.
     void takeCamera();
+    /// Nothing is seen until there is a picture of another document.
+    void forget(Shell& shell);
 };
 
 /// The camera follows the mouse, and the keys of flying; whether that was a click.

@@ -9,6 +9,7 @@
 
 #include "editor/canvas/fields.h"
 #include "graph/json.h"
+#include "graph/timeline.h"
 #include "tests/editor/program.h"
 
 namespace fw::editor::test {
@@ -180,6 +181,65 @@ TEST_F(EndToEndGestures, Numbers) {
     program.set("ball", "radius", 0, "0.7");
     program.click(program.field("ball", "radius"), 1, "ctrl");
     EXPECT_TRUE(std::isnan(radius()));
+}
+
+TEST_F(EndToEndGestures, NumbersInThePanel) {
+    const Area side = {{program.view.panel.hi.x, 470}, {1276, 780}};
+    const auto numberAt = [&](const std::string& name) {
+        return ImVec2(1015, program.waitFor(name, side).centre().y);
+    };
+    const auto extents = [&] {
+        const InputValue* value = nodeOf(program.saved(), "box").input("half_extents");
+        return value ? std::get<std::vector<double>>(value->value) : std::vector<double>();
+    };
+    program.click(program.title("box"));
+    const ImVec2 first = numberAt("Half extents");
+
+    // Typed one after the other; on the node in the same way.
+    program.click(first);
+    program.type("0.5\t1/4\t2\n");
+    EXPECT_EQ(extents(), (std::vector{0.5, 0.25, 2.0}));
+    program.click(program.field("box", "half_extents", 1));
+    program.type("3\t4\n");
+    EXPECT_EQ(extents(), (std::vector{0.5, 3.0, 4.0}));
+
+    // What is typed is saved with the rest.
+    program.click(numberAt("Label"));
+    program.type("Tower");
+    EXPECT_EQ(nodeOf(program.saved(), "box").label, "Tower");
+
+    // With a key, numbers are typed all the same, and are the key's.
+    program.click({1242, first.y});
+    program.click(first);
+    program.type("3*3\n");
+    const Result<Timeline> timeline = readTimeline(program.saved());
+    ASSERT_TRUE(timeline);
+    ASSERT_EQ(timeline->tracks.size(), 1u);
+    EXPECT_EQ(timeline->tracks[0].keys.at(0).value, (std::vector{9.0, 3.0, 4.0}));
+
+    // Keys of the canvas are not heard where something else is edited.
+    const std::string before = program.save();
+    program.click({1100, 760});
+    program.keys("X");
+    program.keys("Ctrl+A");
+    program.keys("Delete");
+    EXPECT_EQ(program.save(), before);
+}
+
+TEST_F(EndToEndGestures, ANodeThatIsDroppedOnAWireGetsRoom) {
+    const auto x = [&](const std::string& node) { return nodeOf(program.graph(), node).at->at(0); };
+    const double apart = x("cut") - x("box"), on = x("out") - x("cut");
+    const std::string twist =
+        program.add("twist", {program.view.panel.lo.x + 60, program.view.panel.hi.y - 200});
+    program.frameAll();
+    program.drag({program.title(twist), onWire(program, "box", "cut", "a")}, 1, "", true);
+    program.saved();
+    EXPECT_EQ(source(program.graph(), "cut", "a"), twist);
+    EXPECT_EQ(source(program.graph(), twist, "surface"), "box");
+    EXPECT_GT(x("cut") - x("box"), apart + 100);
+    EXPECT_GT(x(twist), x("box"));
+    EXPECT_GT(x("cut"), x(twist));
+    EXPECT_EQ(x("out") - x("cut"), on) << "what comes after moves along";
 }
 
 TEST_F(EndToEndGestures, ManyInARowAreTakenBackAndDoneAgain) {

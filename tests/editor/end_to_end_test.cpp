@@ -89,7 +89,7 @@ TEST(EndToEnd, AThousandNodes) {
     if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
     EXPECT_EQ(program.save(), text);
     program.frameAll();
-    EXPECT_EQ(program.view.zoom, kLeastZoom);
+    EXPECT_LT(program.view.zoom, 0.25f);  // all of them are seen
     program.zoom(6);
     program.pan({-180, 90});
 

@@ -91,7 +91,7 @@ TEST(Step, EditsTheFirstNumberOfTheActiveNode) {
     canvas.select({"ball"});
     ASSERT_TRUE(typeFirstValue(canvas, boxes));
     EXPECT_TRUE(canvas.field.is("", {"ball", "radius"}, 0));
-    EXPECT_EQ(std::string(canvas.field.text), "1");
+    EXPECT_EQ(std::string(canvas.field.typed.text), "1");
     canvas.field = {};
     canvas.view.zoom = kLeastZoom;
     EXPECT_FALSE(typeFirstValue(canvas, boxes)) << "too small to be seen";

@@ -300,6 +300,40 @@ TEST(Preview, AMissingDeviceIsAFailure) {
     EXPECT_NE(result.failure.find("no device is called this"), std::string::npos) << result.failure;
 }
 
+TEST(Preview, AnEmptyTimeIsSaidOnceAndOverWhenItIsOver) {
+    Previewed previewed;
+    PreviewWish wish{.graph = shared(R"({"fieldwright": 1, "nodes": [
+      {"id": "now", "type": "time"}, {"id": "ball", "type": "expression", "code": "return length(p) - 1 + 2 * abs(now);",
+       "inputs": {"now": {"from": "now"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}, "resolution": 24}}],
+      "timeline": {"length": 4}})")};
+    for (const double seconds : {0.0, 1.0, 1.5, 2.0}) {
+        wish.seconds = seconds, wish.revision = 1;
+        previewed.ask(wish);
+        previewed.settled();
+    }
+    EXPECT_LE(previewed.latest.findings.size(), 1u);
+    wish.seconds = 0.1;
+    previewed.ask(wish);
+    const PreviewResult result = previewed.settled();
+    EXPECT_TRUE(result.findings.empty()) << format(result.findings[0]);
+    EXPECT_TRUE(result.current);
+}
+
+TEST(Preview, NothingOfAnotherDocumentIsShown) {
+    Previewed previewed;
+    previewed.ask({.graph = joined(0.7), .document = 1});
+    EXPECT_FALSE(previewed.settled().picture.pixels.empty());
+    const auto broken = joined(0.7, 0.6, "nowhere");
+    previewed.ask({.graph = broken, .document = 1});
+    EXPECT_FALSE(previewed.settled().picture.pixels.empty()) << "the last that was valid";
+    previewed.ask({.graph = broken, .document = 2});
+    const PreviewResult other = previewed.settled();
+    EXPECT_EQ(other.document, 2u);
+    EXPECT_TRUE(other.picture.pixels.empty());
+    EXPECT_FALSE(other.findings.empty());
+}
+
 TEST(Preview, TheNextWishAfterAFailureBeginsAnew) {
     ASSERT_EQ(setenv("VK_ICD_FILENAMES", "/nowhere.json", 1), 0);
     Previewed previewed;

@@ -283,7 +283,7 @@ TEST_F(ShellTest, KeysWaitForAMenuThatOpens) {
 TEST_F(ShellTest, FontsAreBakedAtManySizes) {
     EXPECT_EQ(shell->fonts().missing, "");
     EXPECT_EQ(shell->fonts().of(14)->FontSize, 14);
-    EXPECT_EQ(shell->fonts().of(1)->FontSize, 8);
+    EXPECT_EQ(shell->fonts().of(1)->FontSize, 7);
     EXPECT_EQ(shell->fonts().codeOf(100)->FontSize, 40);
     for (const char* sign :
          {"Å", "ß", "ž", "π", "…", "›", "×", "²", "→", "≥", "▶", "●", "☰", "⚠", "✓", "↺"}) {
