@@ -47,7 +47,8 @@ void main() {
     vec3 a = (push.lo - origin) / ray, b = (push.hi - origin) / ray;
     vec3 first = min(a, b), last = max(a, b);
     float start = imageLoad(starts, ivec2(min(pixel, push.size - 1) / RENDER_CONE)).x;
-    t = max(max(first.x, max(first.y, first.z)), max(start, t));
+    float free = max(max(first.x, max(first.y, first.z)), t);  // as far as the ray is known to be
+    t = max(free, start);
     float end = min(last.x, min(last.y, last.z));
     bool outside = !(t < end);
     float close = push.close, f = 0.0;
@@ -56,8 +57,13 @@ void main() {
     bool hit = false;
     do {
         f = fieldValue(origin + ray * t);
-        hit = hit || (f < close * (parallel ? 1.0 : t) && !outside);
-        t += hit ? 0.0 : max(f * stepScale, 0.0);
+        // Steps of a field without a known constant, of rays or of cones, may be too long and end inside: the surface is behind.
+        float least = close * (parallel ? 1.0 : t);
+        bool inside = f < -least && t - free > least;
+        hit = hit || (f < least && !inside && !outside);
+        float onward = inside ? 0.5 * (free - t) : max(f * stepScale, 0.0);
+        free = inside ? free : t;
+        t += hit ? 0.0 : onward;
         outside = outside || t > end;
     } while (!hit && !outside && ++i < steps);
     // A ray that runs out of steps beside a surface grazes it: it is there.

@@ -8,8 +8,10 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
+#include "graph/glsl.h"
 #include "graph/image.h"
 #include "graph/json.h"
+#include "runtime/render/renderer.h"
 #include "runtime/render/view.h"
 #include "runtime/session.h"
 #include "tests/support/gpu.h"
@@ -292,6 +294,53 @@ TEST(Render, LiveParametersReachTheShading) {
     const Result<Picture> green = session.render(*mesh, small);
     ASSERT_TRUE(green);
     EXPECT_GT(pixel(*green, 32, 32).g, 2 * pixel(*green, 32, 32).r);
+    EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
+}
+
+TEST(Render, StepsThatAreTooLongEndAtTheSurface) {
+    // A field twice as steep as a distance, traced in whole steps: what the live view does once it has seen
+    // that this shows from some side what the mesh does.
+    const Result<Graph> graph = parseGraph(graphText(R"(
+        {"id": "wave", "type": "expression", "code": "return length(p) - 0.5 + 0.1 * sin(10 * p.x);"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "wave"}}})"),
+                                           "", nullptr);
+    ASSERT_TRUE(graph) << format(graph.error());
+    const Result<Program> program = compile(*graph);
+    ASSERT_TRUE(program) << format(program.error());
+    EXPECT_TRUE(std::isinf(program->exactness.lipschitz));
+    Result<Device> device = createDevice({.validation = true});
+    ASSERT_TRUE(device);
+    Session session(std::move(*device));
+    session.setProgram(*program);
+    const Result<MesherResult> mesh = session.polygonise({Box{{-1, -1, -1}, {1, 1, 1}}, 128});
+    ASSERT_TRUE(mesh) << format(mesh.error());
+    const MesherBuffers& buffers = session.meshBuffers();
+    Renderer renderer = createRenderer(session.device(), emitField(*program));
+    const RenderScene scene{
+        .mesh = buffers,
+        .vertices = mesh->vertices,
+        .triangles = mesh->triangles,
+        .grid = {{-1, -1, -1}, {1, 1, 1}, 2.0f / 128},
+        .lipschitz = INFINITY,
+        .bounds = boundsOf(download<gpu::MeshVertex>(session.device(), buffers.vertices, mesh->vertices))};
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 8, .show = RENDER_SHADOW};
+    options.scene.camera = Camera{.position = {-1.7, 1.35, -1.45}};
+    options.primary = Primary::drawn;
+    const Result<Picture> still = renderPicture(renderer, scene, options);
+    ASSERT_TRUE(still) << format(still.error());
+    options.primary = Primary::measured;
+    renderer.tracing = true;
+    renderer.trust = 1.0f;
+    Picture live;
+    while (*renderLive(renderer, scene, options, live)) {}
+    double sum = 0;
+    int unlike = 0;
+    for (std::size_t i = 0; i < live.pixels.size(); i += 4) {
+        const int difference = std::abs(live.pixels[i] - still->pixels[i]);
+        sum += difference, unlike += difference > 64;
+    }
+    EXPECT_LT(sum / (kWidth * kHeight), 3.0);
+    EXPECT_LT(unlike, 0.015 * kWidth * kHeight);
     EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
 }
 
