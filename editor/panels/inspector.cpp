@@ -68,9 +68,14 @@ void showFindings(const Editor& editor, const std::string& path) {
     }
 }
 
-void showExactness(const Editor& editor, const std::string& id) {
-    if (const NodeExactness* said = exactnessOf(editor, id))
-        wrapped(themeColor(ThemeColor::quiet), "Distance: " + exactnessText(said->exactness));
+/// A line for every node that makes a surface, so that what is below it stays where it is when more is known.
+void showExactness(const Editor& editor, const NodeBox& box) {
+    const std::string& id = box.node->id;
+    const NodeExactness* said = exactnessOf(editor, id);
+    const auto makes = [](const Row& row) { return row.output && row.type == Type::surface; };
+    if (said || std::ranges::any_of(box.rows, makes))
+        wrapped(themeColor(ThemeColor::quiet),
+                "Distance: " + (said ? exactnessText(said->exactness) : "known when it is in the picture"));
     if (placeOf(*editor.graph, editor.viewport.shown.spoiledBy) == std::pair(editor.canvas.scope, id))
         wrapped(themeColor(ThemeColor::warning), "From this node on the field is no exact distance.");
 }
@@ -90,7 +95,7 @@ void showInspector(Editor& editor) {
     showType(*box);
     showNames(editor, *box);
     showFindings(editor, pathOf(editor, box->node->id));
-    showExactness(editor, box->node->id);
+    showExactness(editor, *box);
     const bool expression = box->node->type == "expression";
     if (expression) showExpression(editor, *box);
     const bool anyInput = std::ranges::any_of(box->rows, [](const Row& row) { return !row.output; });

@@ -156,7 +156,8 @@ void Input::feed() {
         }
     }
     ImGuiIO& io = ImGui::GetIO();
-    if (act == Act::button) sinceButton = 0;
+    if (act == Act::button)
+        sinceButton = keysWaited = 0;  // what was clicked has its time, however quick the hand
     io.MousePos = inside || mouseHeld() ? ImVec2(float(x), float(y)) : ImVec2(-FLT_MAX, -FLT_MAX);
     std::ranges::copy(buttons, io.MouseDown);
 }

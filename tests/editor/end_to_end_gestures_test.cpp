@@ -209,8 +209,13 @@ TEST_F(EndToEndGestures, NumbersInThePanel) {
     EXPECT_EQ(nodeOf(program.saved(), "box").label, "Tower");
 
     // With a key, numbers are typed all the same, and are the key's.
+    const Picture seen = program.screen();
     program.click({1242, first.y});
+    program.waitForChange(seen, {{1232, first.y - 10}, {1252, first.y + 10}});
+    program.moveTo(first);
+    const Picture still = program.screen();
     program.click(first);
+    program.waitForChange(still, {{first.x - 12, first.y - 8}, {first.x + 12, first.y + 8}});
     program.type("3*3\n");
     const Result<Timeline> timeline = readTimeline(program.saved());
     ASSERT_TRUE(timeline);
