@@ -71,18 +71,20 @@ void drawText(const Area& place, ImFont* font, float size, const std::string& te
 }
 
 /// The number field after this one on the node, or before it, is typed next; none beyond its ends.
-void typeNext(FieldEdit& edit, const NodeBox& box, const Row& row, int component, int by) {
-    const Row* at = &row;
+void typeNext(FieldEdit& edit, std::string_view scope, const NodeBox& box, const Row& row, int component,
+              int by) {
+    std::ptrdiff_t at = &row - box.rows.data();
     component += by;
     const auto typed = [](const Row& other) {
         return other.fields > 0 && !other.linked && other.type != Type::string && other.type != Type::boolean;
     };
-    while (component < 0 || component >= at->fields || !typed(*at)) {
+    const auto next = [&]() -> const Row& { return box.rows[std::size_t(at)]; };
+    while (component < 0 || component >= next().fields || !typed(next())) {
         at += by;
-        if (at < box.rows.data() || at >= box.rows.data() + box.rows.size()) return;
-        component = by > 0 ? 0 : at->fields - 1;
+        if (at < 0 || at >= std::ssize(box.rows)) return;
+        component = by > 0 ? 0 : next().fields - 1;
     }
-    edit.type(edit.scope, {box.node->id, at->name}, component, numbersOf(*at).at(std::size_t(component)));
+    edit.type(scope, {box.node->id, next().name}, component, numbersOf(next()).at(std::size_t(component)));
 }
 
 /// The text field over a number; takes the keyboard until Enter, Tab, Escape or a click elsewhere.
@@ -96,10 +98,8 @@ void typeField(FieldEdit& edit, Document& document, std::string_view scope, cons
     ImGui::PopStyleVar();
     ImGui::PopFont();
     if (!typed.ended) return;
-    const std::string of = edit.scope;
     edit = {};
-    edit.scope = of;
-    if (typed.tab != 0) typeNext(edit, box, row, component, typed.tab);
+    if (typed.tab != 0) typeNext(edit, scope, box, row, component, typed.tab);
     if (typed.number) set(document, scope, box, row, withComponent(row, component, *typed.number));
 }
 
