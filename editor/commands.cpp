@@ -193,162 +193,173 @@ void keepMenusClosed() {
         ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
 }
 
+using enum Heard;
 constexpr Command kCommands[] = {
-    {"file.new", "File", "New", "Ctrl+N", always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
-    {"file.open", "File", "Open …", "Ctrl+O", always, [](Editor& e) { proceed(e, Files::Next::browse); }},
-    {"file.samples", "File", "Samples …", "", always, [](Editor& e) { proceed(e, Files::Next::samples); }},
-    {"file.save", "File", "Save", "Ctrl+S", always,
+    {"file.new", "File", "New", "Ctrl+N", everywhere, always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
+    {"file.open", "File", "Open …", "Ctrl+O", everywhere, always, [](Editor& e) { proceed(e, Files::Next::browse); }},
+    {"file.samples", "File", "Samples …", "", everywhere, always, [](Editor& e) { proceed(e, Files::Next::samples); }},
+    {"file.save", "File", "Save", "Ctrl+S", everywhere, always,
      [](Editor& e) { e.files.next = Files::Next::none, save(e); }},
-    {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", always, saveAs},
-    {"file.export", "File", "Export …", "Ctrl+E", always, openExport},
-    {"edit.undo", "Edit", "Undo", "Ctrl+Z", [](const Editor& e) { return e.document.canUndo(); },
+    {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", everywhere, always, saveAs},
+    {"file.export", "File", "Export …", "Ctrl+E", everywhere, always, openExport},
+    {"edit.undo", "Edit", "Undo", "Ctrl+Z", everywhere, [](const Editor& e) { return e.document.canUndo(); },
      [](Editor& e) { e.document.undo(); }},
-    {"edit.redo", "Edit", "Redo", "Ctrl+Shift+Z Ctrl+Y", [](const Editor& e) { return e.document.canRedo(); },
+    {"edit.redo", "Edit", "Redo", "Ctrl+Shift+Z Ctrl+Y", everywhere, [](const Editor& e) { return e.document.canRedo(); },
      [](Editor& e) { e.document.redo(); }},
-    {"edit.cut", "Edit", "Cut", "Ctrl+X", anySelected, [](Editor& e) { copy(e), remove(e, false); }, true},
-    {"edit.copy", "Edit", "Copy", "Ctrl+C", anySelected, copy},
-    {"edit.paste", "Edit", "Paste", "Ctrl+V", always, paste},
-    {"edit.duplicate", "Edit", "Duplicate", "Ctrl+D", anySelected,
+    {"edit.cut", "Edit", "Cut", "Ctrl+X", canvas, anySelected, [](Editor& e) { copy(e), remove(e, false); }, true},
+    {"edit.copy", "Edit", "Copy", "Ctrl+C", canvas, anySelected, copy},
+    {"edit.paste", "Edit", "Paste", "Ctrl+V", canvas, always, paste},
+    {"edit.duplicate", "Edit", "Duplicate", "Ctrl+D", canvas, anySelected,
      [](Editor& e) { apply(e, "Duplicate", duplicate(graphOf(e), scopeOf(e), selected(e), false)); }, true},
-    {"edit.duplicate_wired", "Edit", "Duplicate with inputs", "Ctrl+Shift+D", anySelected,
+    {"edit.duplicate_wired", "Edit", "Duplicate with inputs", "Ctrl+Shift+D", canvas, anySelected,
      [](Editor& e) { apply(e, "Duplicate", duplicate(graphOf(e), scopeOf(e), selected(e), true)); }},
-    {"edit.delete", "Edit", "Delete", "Delete X", anySelected, [](Editor& e) { remove(e, false); }},
-    {"edit.delete_heal", "Edit", "Delete and heal wires", "Ctrl+Delete Ctrl+Shift+X", anySelected,
+    {"edit.delete", "Edit", "Delete", "Delete X", canvas, anySelected, [](Editor& e) { remove(e, false); }},
+    {"edit.delete_heal", "Edit", "Delete and heal wires", "Ctrl+Delete Ctrl+Shift+X", canvas, anySelected,
      [](Editor& e) { remove(e, true); }},
-    {"edit.select_all", "Edit", "Select all", "Ctrl+A", always, selectAll, true},
-    {"edit.invert", "Edit", "Invert selection", "Ctrl+I", always, invert},
-    {"edit.upstream", "Edit", "Select what feeds it", "L", anySelected,
+    {"edit.select_all", "Edit", "Select all", "Ctrl+A", canvas, always, selectAll, true},
+    {"edit.invert", "Edit", "Invert selection", "Ctrl+I", canvas, always, invert},
+    {"edit.upstream", "Edit", "Select what feeds it", "L", canvas, anySelected,
      [](Editor& e) { selectIds(e, upstream(nodesOf(graphOf(e), scopeOf(e)), selected(e))); }},
-    {"edit.downstream", "Edit", "Select what it feeds", "Shift+L", anySelected,
+    {"edit.downstream", "Edit", "Select what it feeds", "Shift+L", canvas, anySelected,
      [](Editor& e) { selectIds(e, downstream(nodesOf(graphOf(e), scopeOf(e)), selected(e))); }},
-    {"edit.preferences", "Edit", "Preferences …", "Ctrl+Comma", always,
+    {"edit.preferences", "Edit", "Preferences …", "Ctrl+Comma", everywhere, always,
      [](Editor& e) { e.windows.preferences.opened = true; }, true},
-    {"node.add", "Node", "Add …", "Shift+A Tab", always, addHere},
-    {"node.connect", "Node", "Connect …", "J", anyActive, offerConnections},
-    {"node.edit", "Node", "Edit value", "Enter PadEnter", anyActive, editActive},
-    {"node.rename", "Node", "Rename", "F2", anyActive, rename},
-    {"node.mute", "Node", "Mute", "M", anySelected,
+    {"node.add", "Node", "Add …", "Shift+A Tab", canvas, always, addHere},
+    {"node.connect", "Node", "Connect …", "J", canvas, anyActive, offerConnections},
+    {"node.edit", "Node", "Edit value", "Enter PadEnter", canvas, anyActive, editActive},
+    {"node.rename", "Node", "Rename", "F2", canvas, anyActive, rename},
+    {"node.mute", "Node", "Mute", "M", canvas, anySelected,
      [](Editor& e) { e.document.apply("Mute", toggleMuted(graphOf(e), scopeOf(e), selected(e))); }, true},
-    {"node.collapse", "Node", "Collapse", "H", anySelected,
+    {"node.collapse", "Node", "Collapse", "H", canvas, anySelected,
      [](Editor& e) { e.document.apply("Collapse", toggleCollapsed(graphOf(e), scopeOf(e), selected(e))); }},
-    {"node.thumbnail", "Node", "Thumbnail", "Shift+P", anySelected,
+    {"node.thumbnail", "Node", "Thumbnail", "Shift+P", canvas, anySelected,
      [](Editor& e) {
          for (const std::string& id : e.canvas.selection) e.thumbnails.toggle(e.shell, pathOf(e, id));
      }},
-    {"node.swap", "Node", "Swap inputs", "Alt+S", anyActive,
+    {"node.swap", "Node", "Swap inputs", "Alt+S", canvas, anyActive,
      [](Editor& e) { e.document.apply("Swap Inputs", swapInputs(graphOf(e), scopeOf(e), e.canvas.active)); }},
-    {"node.group", "Node", "Group", "Ctrl+G", anySelected, group, true},
-    {"node.ungroup", "Node", "Ungroup", "Ctrl+Shift+G", groupActive, ungroupActive},
-    {"node.enter", "Node", "Enter or leave group", "Ctrl+Tab",
+    {"node.group", "Node", "Group", "Ctrl+G", canvas, anySelected, group, true},
+    {"node.ungroup", "Node", "Ungroup", "Ctrl+Shift+G", canvas, groupActive, ungroupActive},
+    {"node.enter", "Node", "Enter or leave group", "Ctrl+Tab", canvas,
      [](const Editor& e) { return groupActive(e) || !e.canvas.scope.empty(); }, enterOrLeave},
-    {"node.frame", "Node", "Comment frame", "Ctrl+J", anySelected,
+    {"node.frame", "Node", "Comment frame", "Ctrl+J", canvas, anySelected,
      [](Editor& e) { e.document.apply("Add Frame", frameNodes(graphOf(e), scopeOf(e), selected(e))); }},
-    {"node.layout", "Node", "Lay out", "Ctrl+L", always, layOutNodes, true},
-    {"node.align_left", "Node", "Align left sides", "", severalSelected, alignNodes<Alignment::left>},
-    {"node.align_right", "Node", "Align right sides", "", severalSelected, alignNodes<Alignment::right>},
-    {"node.align_top", "Node", "Align tops", "", severalSelected, alignNodes<Alignment::top>},
-    {"node.align_bottom", "Node", "Align bottoms", "", severalSelected, alignNodes<Alignment::bottom>},
-    {"node.spread_x", "Node", "Equal gaps across", "", severalSelected,
+    {"node.layout", "Node", "Lay out", "Ctrl+L", canvas, always, layOutNodes, true},
+    {"node.align_left", "Node", "Align left sides", "", canvas, severalSelected, alignNodes<Alignment::left>},
+    {"node.align_right", "Node", "Align right sides", "", canvas, severalSelected, alignNodes<Alignment::right>},
+    {"node.align_top", "Node", "Align tops", "", canvas, severalSelected, alignNodes<Alignment::top>},
+    {"node.align_bottom", "Node", "Align bottoms", "", canvas, severalSelected, alignNodes<Alignment::bottom>},
+    {"node.spread_x", "Node", "Equal gaps across", "", canvas, severalSelected,
      [](Editor& e) {
          e.document.apply("Distribute Nodes", distribute(graphOf(e), scopeOf(e), selected(e), true));
      }},
-    {"node.spread_y", "Node", "Equal gaps down", "", severalSelected,
+    {"node.spread_y", "Node", "Equal gaps down", "", canvas, severalSelected,
      [](Editor& e) {
          e.document.apply("Distribute Nodes", distribute(graphOf(e), scopeOf(e), selected(e), false));
      }},
-    {"picture.frame", "Picture", "Frame the solid", "F", pictured, frameSolid},
-    {"picture.reset", "Picture", "Back to the scene's camera", "Home 0 Pad0", pictured,
+    {"picture.frame", "Picture", "Frame the solid", "F", picture, pictured, frameSolid},
+    {"picture.reset", "Picture", "Back to the scene's camera", "Home 0 Pad0", picture, pictured,
      [](Editor& e) { e.viewport.ownCamera = false; }},
-    {"picture.front", "Picture", "From the front", "1 Pad1", pictured, look<Side::front>, true},
-    {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", pictured, look<Side::back>},
-    {"picture.right", "Picture", "From the right", "3 Pad3", pictured, look<Side::right>},
-    {"picture.left", "Picture", "From the left", "Ctrl+3 Ctrl+Pad3", pictured, look<Side::left>},
-    {"picture.top", "Picture", "From the top", "7 Pad7", pictured, look<Side::top>},
-    {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", pictured, look<Side::bottom>},
-    {"picture.turn_left", "Picture", "Turn left", "Alt+Left Pad4", pictured, turnPicture<-1, 0>, true},
-    {"picture.turn_right", "Picture", "Turn right", "Alt+Right Pad6", pictured, turnPicture<1, 0>},
-    {"picture.turn_up", "Picture", "Turn up", "Alt+Up Pad8", pictured, turnPicture<0, 1>},
-    {"picture.turn_down", "Picture", "Turn down", "Alt+Down Pad2", pictured, turnPicture<0, -1>},
-    {"picture.pan_left", "Picture", "Pan left", "Shift+Alt+Left Ctrl+Pad4", pictured, panPicture<-1, 0>},
-    {"picture.pan_right", "Picture", "Pan right", "Shift+Alt+Right Ctrl+Pad6", pictured, panPicture<1, 0>},
-    {"picture.pan_up", "Picture", "Pan up", "Shift+Alt+Up Ctrl+Pad8", pictured, panPicture<0, 1>},
-    {"picture.pan_down", "Picture", "Pan down", "Shift+Alt+Down Ctrl+Pad2", pictured, panPicture<0, -1>},
-    {"picture.nearer", "Picture", "Nearer", "Equal PadPlus", pictured, zoomPicture<1>},
-    {"picture.farther", "Picture", "Farther", "Minus PadMinus", pictured, zoomPicture<-1>},
-    {"picture.shading", "Picture", "Next shading", "Z", pictured, [](Editor& e) { shadeNext(e.viewport); },
+    {"picture.front", "Picture", "From the front", "1 Pad1", picture, pictured, look<Side::front>, true},
+    {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", picture, pictured, look<Side::back>},
+    {"picture.right", "Picture", "From the right", "3 Pad3", picture, pictured, look<Side::right>},
+    {"picture.left", "Picture", "From the left", "Ctrl+3 Ctrl+Pad3", picture, pictured, look<Side::left>},
+    {"picture.top", "Picture", "From the top", "7 Pad7", picture, pictured, look<Side::top>},
+    {"picture.bottom", "Picture", "From the bottom", "Ctrl+7 Ctrl+Pad7", picture, pictured, look<Side::bottom>},
+    {"picture.turn_left", "Picture", "Turn left", "Alt+Left Pad4", picture, pictured, turnPicture<-1, 0>, true},
+    {"picture.turn_right", "Picture", "Turn right", "Alt+Right Pad6", picture, pictured, turnPicture<1, 0>},
+    {"picture.turn_up", "Picture", "Turn up", "Alt+Up Pad8", picture, pictured, turnPicture<0, 1>},
+    {"picture.turn_down", "Picture", "Turn down", "Alt+Down Pad2", picture, pictured, turnPicture<0, -1>},
+    {"picture.pan_left", "Picture", "Pan left", "Shift+Alt+Left Ctrl+Pad4", picture, pictured, panPicture<-1, 0>},
+    {"picture.pan_right", "Picture", "Pan right", "Shift+Alt+Right Ctrl+Pad6", picture, pictured, panPicture<1, 0>},
+    {"picture.pan_up", "Picture", "Pan up", "Shift+Alt+Up Ctrl+Pad8", picture, pictured, panPicture<0, 1>},
+    {"picture.pan_down", "Picture", "Pan down", "Shift+Alt+Down Ctrl+Pad2", picture, pictured, panPicture<0, -1>},
+    {"picture.nearer", "Picture", "Nearer", "Equal PadPlus", picture, pictured, zoomPicture<1>},
+    {"picture.farther", "Picture", "Farther", "Minus PadMinus", picture, pictured, zoomPicture<-1>},
+    {"picture.shading", "Picture", "Next shading", "Z", picture, pictured, [](Editor& e) { shadeNext(e.viewport); },
      true},
-    {"picture.move", "Picture", "Move", "W", pictured, use<Tool::move>, true},
-    {"picture.rotate", "Picture", "Rotate", "E", pictured, use<Tool::turn>},
-    {"picture.scale", "Picture", "Scale", "R", pictured, use<Tool::scale>},
-    {"view.frame", "View", "Frame selection", "F", always, [](Editor& e) { frame(e, false); }},
-    {"view.frame_all", "View", "Frame all", "Home", always, [](Editor& e) { frame(e, true); }},
-    {"view.minimap", "View", "Minimap", "", always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
-    {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P", anyActive,
+    {"picture.move", "Picture", "Move", "W", picture, pictured, use<Tool::move>, true},
+    {"picture.rotate", "Picture", "Rotate", "E", picture, pictured, use<Tool::turn>},
+    {"picture.scale", "Picture", "Scale", "R", picture, pictured, use<Tool::scale>},
+    {"view.frame", "View", "Frame selection", "F", canvas, always, [](Editor& e) { frame(e, false); }},
+    {"view.frame_all", "View", "Frame all", "Home", canvas, always, [](Editor& e) { frame(e, true); }},
+    {"view.minimap", "View", "Minimap", "", everywhere, always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
+    {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P", canvas, anyActive,
      [](Editor& e) { pin(e, e.canvas.active); }},
-    {"view.zoom_in", "View", "Zoom in", "Equal PadPlus", always, [](Editor& e) { zoom(e, kZoomStep); }},
-    {"view.zoom_out", "View", "Zoom out", "Minus PadMinus", always,
+    {"view.zoom_in", "View", "Zoom in", "Equal PadPlus", canvas, always, [](Editor& e) { zoom(e, kZoomStep); }},
+    {"view.zoom_out", "View", "Zoom out", "Minus PadMinus", canvas, always,
      [](Editor& e) { zoom(e, 1.0f / kZoomStep); }},
-    {"view.play", "View", "Play or pause", "Alt+A Ctrl+Space", always, togglePlay, true},
-    {"view.timeline", "View", "Timeline", "Ctrl+T", always,
+    {"view.play", "View", "Play or pause", "Alt+A Ctrl+Space", everywhere, always, togglePlay, true},
+    {"view.timeline", "View", "Timeline", "Ctrl+T", everywhere, always,
      [](Editor& e) {
          e.panels.timeline = !e.panels.timeline;
          e.panels.next = e.panels.timeline ? Part::timeline : Part::canvas;
      },
      true},
-    {"view.inspector", "View", "Inspector", "", always, [](Editor& e) { togglePanel(e, "inspector"); }},
-    {"view.outliner", "View", "Outliner", "", always, [](Editor& e) { togglePanel(e, "outliner"); }},
-    {"view.problems", "View", "Problems", "", always, [](Editor& e) { togglePanel(e, "problems"); }},
-    {"view.parameters", "View", "Parameters", "", always, [](Editor& e) { togglePanel(e, "parameters"); }},
-    {"view.scene", "View", "Scene", "", always, [](Editor& e) { togglePanel(e, "scene"); }},
-    {"view.statistics", "View", "Statistics", "", always, [](Editor& e) { togglePanel(e, "statistics"); }},
-    {"view.next_panel", "View", "Next panel", "Ctrl+PageDown", always, [](Editor& e) { turnPanels(e, 1); },
+    {"view.inspector", "View", "Inspector", "", everywhere, always, [](Editor& e) { togglePanel(e, "inspector"); }},
+    {"view.outliner", "View", "Outliner", "", everywhere, always, [](Editor& e) { togglePanel(e, "outliner"); }},
+    {"view.problems", "View", "Problems", "", everywhere, always, [](Editor& e) { togglePanel(e, "problems"); }},
+    {"view.parameters", "View", "Parameters", "", everywhere, always, [](Editor& e) { togglePanel(e, "parameters"); }},
+    {"view.scene", "View", "Scene", "", everywhere, always, [](Editor& e) { togglePanel(e, "scene"); }},
+    {"view.statistics", "View", "Statistics", "", everywhere, always, [](Editor& e) { togglePanel(e, "statistics"); }},
+    {"view.next_panel", "View", "Next panel", "Ctrl+PageDown", everywhere, always, [](Editor& e) { turnPanels(e, 1); },
      true},
-    {"view.previous_panel", "View", "Previous panel", "Ctrl+PageUp", always,
+    {"view.previous_panel", "View", "Previous panel", "Ctrl+PageUp", everywhere, always,
      [](Editor& e) { turnPanels(e, -1); }},
-    {"view.next_part", "View", "Keyboard to the next part", "F6", always, [](Editor& e) { turnParts(e, 1); }},
-    {"view.previous_part", "View", "Keyboard to the part before", "Shift+F6", always,
+    {"view.next_part", "View", "Keyboard to the next part", "F6", everywhere, always, [](Editor& e) { turnParts(e, 1); }},
+    {"view.previous_part", "View", "Keyboard to the part before", "Shift+F6", everywhere, always,
      [](Editor& e) { turnParts(e, -1); }},
-    {"view.to_canvas", "View", "Keyboard to the canvas", "Alt+1", always,
+    {"view.to_canvas", "View", "Keyboard to the canvas", "Alt+1", everywhere, always,
      [](Editor& e) { e.panels.next = Part::canvas; }},
-    {"view.to_viewport", "View", "Keyboard to the viewport", "Alt+2", always,
+    {"view.to_viewport", "View", "Keyboard to the viewport", "Alt+2", everywhere, always,
      [](Editor& e) { e.panels.next = Part::viewport; }},
-    {"view.to_side", "View", "Keyboard to the panel", "Alt+3", always,
+    {"view.to_side", "View", "Keyboard to the panel", "Alt+3", everywhere, always,
      [](Editor& e) { e.panels.next = Part::side; }},
-    {"help.node", "Help", "Page of the node", "F1", always, openReference},
-    {"help.find", "Help", "Find a command …", "F3", always,
+    {"help.node", "Help", "Page of the node", "F1", everywhere, always, openReference},
+    {"help.find", "Help", "Find a command …", "F3", everywhere, always,
      [](Editor& e) { e.windows.palette.opened = true; }},
-    {"help.shortcuts", "Help", "Shortcuts", "Shift+F1", always,
+    {"help.shortcuts", "Help", "Shortcuts", "Shift+F1", everywhere, always,
      [](Editor& e) { e.windows.shortcuts = true; }},
-    {"help.tutorial", "Help", "Tutorial", "", always,
+    {"help.tutorial", "Help", "Tutorial", "", everywhere, always,
      [](Editor& e) { openDocument(e, "editor-tutorial.md"); }},
-    {"help.tour", "Help", "Tour", "", always, startTour},
-    {"help.about", "Help", "About …", "", always, [](Editor& e) { e.windows.about = true; }, true},
-    {"canvas.left", "", "Node to the left", "Left", always, stepTo<-1, 0, false>},
-    {"canvas.right", "", "Node to the right", "Right", always, stepTo<1, 0, false>},
-    {"canvas.up", "", "Node above", "Up", always, stepTo<0, -1, false>},
-    {"canvas.down", "", "Node below", "Down", always, stepTo<0, 1, false>},
-    {"canvas.add_left", "", "Select also to the left", "Shift+Left", always, stepTo<-1, 0, true>},
-    {"canvas.add_right", "", "Select also to the right", "Shift+Right", always, stepTo<1, 0, true>},
-    {"canvas.add_up", "", "Select also above", "Shift+Up", always, stepTo<0, -1, true>},
-    {"canvas.add_down", "", "Select also below", "Shift+Down", always, stepTo<0, 1, true>},
-    {"canvas.move_left", "", "Move to the left", "Ctrl+Left", anySelected, moveBy<-1, 0>},
-    {"canvas.move_right", "", "Move to the right", "Ctrl+Right", anySelected, moveBy<1, 0>},
-    {"canvas.move_up", "", "Move up", "Ctrl+Up", anySelected, moveBy<0, -1>},
-    {"canvas.move_down", "", "Move down", "Ctrl+Down", anySelected, moveBy<0, 1>},
-    {"file.quit", "File", "Quit", "Ctrl+Q", always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
+    {"help.tour", "Help", "Tour", "", everywhere, always, startTour},
+    {"help.about", "Help", "About …", "", everywhere, always, [](Editor& e) { e.windows.about = true; }, true},
+    {"canvas.left", "", "Node to the left", "Left", canvas, always, stepTo<-1, 0, false>},
+    {"canvas.right", "", "Node to the right", "Right", canvas, always, stepTo<1, 0, false>},
+    {"canvas.up", "", "Node above", "Up", canvas, always, stepTo<0, -1, false>},
+    {"canvas.down", "", "Node below", "Down", canvas, always, stepTo<0, 1, false>},
+    {"canvas.add_left", "", "Select also to the left", "Shift+Left", canvas, always, stepTo<-1, 0, true>},
+    {"canvas.add_right", "", "Select also to the right", "Shift+Right", canvas, always, stepTo<1, 0, true>},
+    {"canvas.add_up", "", "Select also above", "Shift+Up", canvas, always, stepTo<0, -1, true>},
+    {"canvas.add_down", "", "Select also below", "Shift+Down", canvas, always, stepTo<0, 1, true>},
+    {"canvas.move_left", "", "Move to the left", "Ctrl+Left", canvas, anySelected, moveBy<-1, 0>},
+    {"canvas.move_right", "", "Move to the right", "Ctrl+Right", canvas, anySelected, moveBy<1, 0>},
+    {"canvas.move_up", "", "Move up", "Ctrl+Up", canvas, anySelected, moveBy<0, -1>},
+    {"canvas.move_down", "", "Move down", "Ctrl+Down", canvas, anySelected, moveBy<0, 1>},
+    {"file.quit", "File", "Quit", "Ctrl+Q", everywhere, always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
 };
 
-}  // namespace
-
-Heard Command::heard() const {
-    const std::string_view in = menu, name = id;
-    if (in == "Picture") return Heard::picture;
-    const bool document = name == "edit.undo" || name == "edit.redo" || name == "edit.preferences";
-    const bool view = name == "view.frame" || name == "view.frame_all" || name == "view.zoom_in" ||
-                      name == "view.zoom_out" || name == "view.pin";
-    return in == "Node" || in.empty() || view || (in == "Edit" && !document) ? Heard::canvas
-                                                                             : Heard::everywhere;
+/// Save, quit and their like end the typing, which then reaches the document before they run.
+void leaveTextFor(Editor& editor) {
+    for (const auto& [shortcut, command] : editor.keymap) {
+        if (std::string_view(command->menu) != "File" || !shortcut.ctrl || !pressed(shortcut)) continue;
+        ImGui::ClearActiveID();
+        editor.windows.chosen = command;
+        return;
+    }
 }
+
+/// Whether what the command shows or hides is there.
+bool shows(const Command& command, const Editor& editor) {
+    const std::string_view id = command.id;
+    if (id == "view.minimap") return editor.canvas.minimap;
+    if (id == "view.timeline") return editor.panels.timeline;
+    for (const SidePanel& panel : sidePanels())
+        if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;
+    return false;
+}
+
+}  // namespace
 
 std::span<const Command> commands() { return kCommands; }
 
@@ -364,16 +375,6 @@ std::string labelOf(const Command& command, const Editor& editor) {
     if (id == "edit.undo" && editor.document.canUndo()) label += " " + editor.document.undoName();
     if (id == "edit.redo" && editor.document.canRedo()) label += " " + editor.document.redoName();
     return label;
-}
-
-/// Save, quit and their like end the typing, which then reaches the document before they run.
-void leaveTextFor(Editor& editor) {
-    for (const auto& [shortcut, command] : editor.keymap) {
-        if (std::string_view(command->menu) != "File" || !shortcut.ctrl || !pressed(shortcut)) continue;
-        ImGui::ClearActiveID();
-        editor.windows.chosen = command;
-        return;
-    }
 }
 
 void runShortcuts(Editor& editor) {
@@ -395,23 +396,13 @@ void runShortcuts(Editor& editor) {
         addHere(editor);
     const bool picture = editor.viewport.hovered || editor.panels.keyboard == Part::viewport;
     const auto heard = [&](const Command& command, const Shortcut& shortcut) {
-        if (command.heard() == Heard::picture) return picture;
-        return !panelsSteer(shortcut) && !(panel && command.heard() == Heard::canvas);
+        if (command.heard == Heard::picture) return picture;
+        return !panelsSteer(shortcut) && !(panel && command.heard == Heard::canvas);
     };
     for (const auto& [shortcut, command] : editor.keymap)
         if (pressed(shortcut) && heard(*command, shortcut) && command->can(editor))
             return command->run(editor);
     leavePanels(editor);
-}
-
-/// Whether what the command shows or hides is there.
-bool shows(const Command& command, const Editor& editor) {
-    const std::string_view id = command.id;
-    if (id == "view.minimap") return editor.canvas.minimap;
-    if (id == "view.timeline") return editor.panels.timeline;
-    for (const SidePanel& panel : sidePanels())
-        if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;
-    return false;
 }
 
 void showMenus(Editor& editor) {

@@ -21,11 +21,10 @@ struct Command {
     const char* menu;  ///< "File", "Edit", "Node", "View", "Picture", "Help"; empty: in no menu
     const char* label;
     const char* keys;  ///< its shortcut by default, as textOf() has it; further ones after a blank
+    Heard heard;
     bool (*can)(const Editor& editor);
     void (*run)(Editor& editor);
     bool separated = false;  ///< a line stands before it in the menu
-
-    Heard heard() const;  ///< by its menu and its id
 };
 
 std::span<const Command> commands();

@@ -83,32 +83,10 @@ void showStatus(Editor& editor) {
     }
 }
 
-/// As CanvasMarks::animated. In a group nothing is moved by itself.
-std::map<std::string, std::vector<double>, std::less<>> animatedNow(Editor& editor) {
-    std::map<std::string, std::vector<double>, std::less<>> now;
-    const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
-    if (!timeline) return now;
-    for (const Track& track : timeline->tracks) {
-        const std::optional<AnimatedInput> input = animatedInput(editor.document.graph(), track);
-        const Node* node = input ? editor.document.graph().node(input->node) : nullptr;
-        if (!node) continue;
-        std::vector<double>& numbers =
-            now.try_emplace(input->node + "." + input->input, inputNumbers(*node, input->input))
-                .first->second;
-        const std::vector<double> there = evaluate(track, editor.viewport.seconds);
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-            if (input->component < 0 || input->component == int(i))
-                numbers[i] = std::clamp(there[std::min(i, there.size() - 1)], input->min, input->max);
-    }
-    return now;
-}
-
 void showCanvasPart(Editor& editor) {
     showBreadcrumb(editor);
-    CanvasMarks marks = marksOf(editor);
-    marks.animated = animatedNow(editor);
     const CanvasWishes wishes =
-        showCanvas(editor.canvas, editor.document, *editor.boxes, marks, editor.shell);
+        showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
     if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);
@@ -252,7 +230,27 @@ void pin(Editor& editor, const std::string& id) {
     editor.viewport.pinned = editor.viewport.pinned == path ? std::string() : std::move(path);
 }
 
-CanvasMarks marksOf(const Editor& editor) {
+namespace {
+
+/// As CanvasMarks::animated. In a group nothing is moved by itself.
+std::map<std::string, std::vector<double>, std::less<>> animatedNow(Editor& editor) {
+    std::map<std::string, std::vector<double>, std::less<>> now;
+    const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
+    if (!timeline) return now;
+    const Graph& graph = editor.document.graph();
+    for (const Track& track : timeline->tracks) {
+        const std::optional<AnimatedInput> input = animatedInput(graph, track);
+        if (!input) continue;
+        const auto [numbers, added] = now.try_emplace(input->node + "." + input->input);
+        if (added) numbers->second = inputNumbers(*graph.node(input->node), input->input);
+        applyTrack(track, *input, editor.viewport.seconds, numbers->second);
+    }
+    return now;
+}
+
+}  // namespace
+
+CanvasMarks marksOf(Editor& editor) {
     CanvasMarks marks;
     const PreviewResult& shown = editor.viewport.shown;
     const auto here = [&](std::string_view path) {
@@ -270,6 +268,7 @@ CanvasMarks marksOf(const Editor& editor) {
         const Error*& worst = marks.findings[id];
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }
+    marks.animated = animatedNow(editor);
     return marks;
 }
 

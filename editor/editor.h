@@ -95,8 +95,8 @@ bool moves(const Editor& editor);
 void apply(Editor& editor, std::string name, Edited edited);
 /// Says something in the status line for some seconds.
 void say(Editor& editor, std::string words);
-/// The findings about nodes of the scope shown.
-CanvasMarks marksOf(const Editor& editor);
+/// What there is to say about the nodes of the scope shown.
+CanvasMarks marksOf(Editor& editor);
 /// How far the distance of the surface that a node of the scope gives can be trusted, in the first of its
 /// instances; nullptr if that is not known.
 const NodeExactness* exactnessOf(const Editor& editor, const std::string& id);

@@ -7,6 +7,15 @@
 
 namespace fw::editor {
 
+namespace {
+
+/// Whether one key cannot be of both: over the picture it may do other things than elsewhere.
+bool shareKeys(const Command& a, const Command& b) {
+    return (a.heard == Heard::picture) == (b.heard == Heard::picture);
+}
+
+}  // namespace
+
 Keymap keymapOf(const Preferences& preferences) {
     Keymap keymap;
     for (const Command& command : commands())
@@ -36,9 +45,7 @@ std::string textOf(const std::vector<Shortcut>& keys) {
 
 const Command* userOf(const Shortcut& key, const Command& besides, const Preferences& preferences) {
     for (const auto& [each, command] : keymapOf(preferences))
-        if (each == key && command != &besides &&
-            (command->heard() == Heard::picture) == (besides.heard() == Heard::picture))
-            return command;
+        if (each == key && command != &besides && shareKeys(*command, besides)) return command;
     return nullptr;
 }
 
@@ -51,8 +58,7 @@ void setKeys(Preferences& preferences, const Command& command, const std::vector
             preferences.shortcuts[to.id] = text;
     };
     for (const Command& other : commands()) {
-        if (&other == &command || (other.heard() == Heard::picture) != (command.heard() == Heard::picture))
-            continue;
+        if (&other == &command || !shareKeys(other, command)) continue;
         std::vector<Shortcut> left = shortcutsOf(keysOf(other, preferences));
         if (std::erase_if(left, [&](const Shortcut& key) { return std::ranges::count(keys, key) > 0; }) > 0)
             give(other, left);

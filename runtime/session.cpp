@@ -6,6 +6,7 @@
 
 #include "graph/glsl.h"
 #include "graph/region.h"
+#include "runtime/clock.h"
 #include "runtime/mesher_host.h"
 
 namespace fw {
@@ -16,10 +17,6 @@ namespace {
 constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
-
-double milliseconds(std::chrono::steady_clock::time_point since) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
-}
 
 }  // namespace
 
@@ -45,8 +42,7 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
         case Extent::unbounded:
             return problem(
                 "the solid has no bounds within 16 km of the origin: give a region (region_min and "
-                "region_max "
-                "of the output, or --region x0 y0 z0 x1 y1 z1), or intersect it with a box");
+                "region_max of the output, or --region x0 y0 z0 x1 y1 z1), or intersect it with a box");
         case Extent::bounded: break;
     }
     return padded(found.box, resolution, 1.5);
@@ -78,13 +74,13 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     if (std::exchange(kernelsBehind, false)) renderer.reset();
     if (built && builtHash == current.structureHash) return false;
 
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const std::string field = emitField(current);
-    if (stages) stages->push_back({"emit", milliseconds(start)});
-    const auto compiling = std::chrono::steady_clock::now();
+    if (stages) stages->push_back({"emit", millisecondsSince(start)});
+    const auto compiling = Clock::now();
     pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
     renderer.reset();
-    if (stages) stages->push_back({"pipelines", milliseconds(compiling)});
+    if (stages) stages->push_back({"pipelines", millisecondsSince(compiling)});
     builtHash = current.structureHash;
     built = true;
     return true;

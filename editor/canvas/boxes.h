@@ -26,6 +26,9 @@ struct Row {
     bool linked = false;  ///< an input with a wire
     float y = 0.0f;       ///< of its middle, from the node's top
     int fields = 0;  ///< numbers that can be edited in the row; they stand in a second line if more than one
+
+    /// Whether its fields are numbers that can be typed.
+    bool typed() const { return fields > 0 && !linked && type != Type::string && type != Type::boolean; }
 };
 
 struct NodeBox {

@@ -75,11 +75,8 @@ void typeNext(FieldEdit& edit, std::string_view scope, const NodeBox& box, const
               int by) {
     std::ptrdiff_t at = &row - box.rows.data();
     component += by;
-    const auto typed = [](const Row& other) {
-        return other.fields > 0 && !other.linked && other.type != Type::string && other.type != Type::boolean;
-    };
     const auto next = [&]() -> const Row& { return box.rows[std::size_t(at)]; };
-    while (component < 0 || component >= next().fields || !typed(next())) {
+    while (component < 0 || component >= next().fields || !next().typed()) {
         at += by;
         if (at < 0 || at >= std::ssize(box.rows)) return;
         component = by > 0 ? 0 : next().fields - 1;

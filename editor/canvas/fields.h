@@ -26,7 +26,7 @@ struct TypedNumber {
     TypedNumber() = default;
     explicit TypedNumber(double number);
 };
-/// One frame of it, in place of the number, at ImGui's cursor. It goes on while it is neither.
+/// One frame of it, in place of the number, at ImGui's cursor.
 struct Typed {
     std::optional<double> number = {};  ///< that was entered
     bool ended = false;                 ///< the field is to go

@@ -152,19 +152,20 @@ struct Hand {
     void dropOn(const Wire& wire, const NodeBox& box) {
         constexpr float kApart = 40.0f;
         const NodeBox &from = boxes.nodes[wire.from], &to = boxes.nodes[wire.to];
-        const NodeIds one = {box.node->id}, next = {to.node->id};
+        const NodeIds one = {box.node->id};
         Graph made = dropOnWire(document.graph(), canvas.scope, boxes.input(wire), one[0]);
         if (made == document.graph()) return;
         const float right = std::max(0.0f, from.area.hi.x + kApart - box.area.lo.x),
                     on = std::max(0.0f, box.area.hi.x + right + kApart - to.area.lo.x);
+        const auto beside = [&](const NodeBox& other) {
+            return other.area.lo.y < box.area.hi.y && box.area.lo.y < other.area.hi.y;
+        };
+        if (right > 0.0f && beside(from)) made = moveNodes(made, canvas.scope, one, {double(right), 0});
         // What is already beyond it, or leads backwards, stays.
-        const bool beside =
-            to.area.hi.x > from.area.lo.x && to.area.lo.y < box.area.hi.y && box.area.lo.y < to.area.hi.y;
-        const std::set<std::string> after = downstream(nodesOf(made, canvas.scope), next);
-        if (right > 0.0f && from.area.lo.y < box.area.hi.y && box.area.lo.y < from.area.hi.y)
-            made = moveNodes(made, canvas.scope, one, {double(right), 0});
-        if (beside && on > 0.0f)
+        if (on > 0.0f && beside(to) && to.area.hi.x > from.area.lo.x) {
+            const std::set<std::string> after = downstream(nodesOf(made, canvas.scope), NodeIds{to.node->id});
             made = moveNodes(made, canvas.scope, NodeIds(after.begin(), after.end()), {double(on), 0});
+        }
         document.update(std::move(made));
     }
 

@@ -72,8 +72,7 @@ bool typeFirstValue(Canvas& canvas, const Boxes& boxes) {
     const NodeBox* box = boxes.find(canvas.active);
     if (!box || !showsFields(canvas.view)) return false;
     for (const Row& row : box->rows) {
-        const bool number = row.type != Type::string && row.type != Type::boolean;
-        if (row.fields == 0 || !number) continue;
+        if (!row.typed()) continue;
         bringIntoSight(canvas.view, box->area);
         canvas.field = {};
         canvas.field.type(canvas.scope, {box->node->id, row.name}, 0, numbersOf(row).at(0));

@@ -1,7 +1,6 @@
 #include "editor/files/export_job.h"
 
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <mutex>
 #include <new>
@@ -10,13 +9,13 @@
 
 #include "graph/check.h"
 #include "graph/glsl.h"
+#include "runtime/clock.h"
 #include "runtime/mesh_program.h"
 
 namespace fw::editor {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Phase = ExportState::Phase;
 
 struct Stage {
@@ -32,10 +31,6 @@ constexpr Stage kStages[] = {{"check", "checking the graph", 0.0f},
                              {"download", "reading the mesh", 0.6f},
                              {"report", "measuring the mesh", 0.65f},
                              {"write", "writing the file", 0.8f}};
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 }  // namespace
 

@@ -272,10 +272,9 @@ void showTrack(Editor& editor, const Timeline& timeline, const Ruler& ruler, std
 
 void showTimeline(Editor& editor) {
     const Timeline* read = timelineOf(editor);
-    if (!read) {
+    if (!read)
         return wrapped(themeColor(ThemeColor::error),
                        "The timeline cannot be read: " + editor.panelState.timelineProblem + ".");
-    }
     if (ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows))
         editor.panelState.timelineFrame = ImGui::GetFrameCount();
     const Timeline timeline = *read;  // what is done below makes it another

@@ -11,13 +11,12 @@
 
 #include "editor/preview/pinned.h"
 #include "graph/check.h"
+#include "runtime/clock.h"
 #include "runtime/player.h"
 
 namespace fw::editor {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Inputs that stay live after the hand has let go of them: taking hold again, or undoing, compiles nothing.
 constexpr std::size_t kMostLive = 6;
@@ -25,10 +24,6 @@ constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
 constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
 constexpr int kLeastHeldResolution = 48;
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 bool sameWish(const PreviewWish& a, const PreviewWish& b) {
     return a.graph == b.graph && a.revision == b.revision && a.document == b.document &&

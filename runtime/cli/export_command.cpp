@@ -1,9 +1,9 @@
 // `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request.
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/clock.h"
 #include "runtime/export/export.h"
 #include "runtime/export/output_file.h"
 #include "runtime/mesh_report.h"
@@ -11,8 +11,6 @@
 namespace fw::cli {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 Done writeText(const std::string& path, const std::string& text) {
     Result<OutputFile> file = OutputFile::open(path, nullptr);
@@ -47,7 +45,7 @@ int runExport(const ExportOptions& options) {
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());
     if (!options.report.empty()) {
-        const double total = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+        const double total = millisecondsSince(begin);
         const uint64_t peak = peakMemoryBytes();
         progress.start("report", 85);
         Result<Report> report = reportOnFile(options.output, fieldError(session.program(), opened->region));

@@ -25,7 +25,7 @@ void Progress::start(const char* name, int percent, const char* shownAs) {
     finish();
     current = name;
     words = shownAs ? shownAs : name;
-    since = std::chrono::steady_clock::now();
+    since = Clock::now();
     show(percent);
 }
 
@@ -34,9 +34,7 @@ void Progress::show(int percent) const {
 }
 
 void Progress::finish() {
-    using Milliseconds = std::chrono::duration<double, std::milli>;
-    if (!current.empty())
-        stages.emplace_back(current, Milliseconds(std::chrono::steady_clock::now() - since).count());
+    if (!current.empty()) stages.emplace_back(current, millisecondsSince(since));
     current.clear();
 }
 

@@ -2,7 +2,6 @@
 // player, and progress on the terminal.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
+#include "runtime/clock.h"
 #include "runtime/mesh_program.h"
 #include "runtime/player.h"
 
@@ -32,7 +32,7 @@ class Progress {
   private:
     bool shown;
     std::string current, words;
-    std::chrono::steady_clock::time_point since;
+    Clock::time_point since;
 };
 
 /// While it lives, Ctrl-C ends the process at once.

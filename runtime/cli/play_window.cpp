@@ -1,13 +1,13 @@
 #include "runtime/cli/play_window.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "graph/json.h"
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/clock.h"
 #include "runtime/file_watch.h"
 #include "runtime/window/overlay.h"
 #include "runtime/window/window.h"
@@ -15,12 +15,6 @@
 namespace fw::cli {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point then) {
-    return std::chrono::duration<double>(Clock::now() - then).count();
-}
 
 constexpr double kSlow = 0.12, kFast = 0.03;  // seconds of a picture, beyond which its size is changed
 constexpr double kRest = 0.15;                // seconds without a change, after which the picture is refined

@@ -70,9 +70,7 @@ SequenceProgress::~SequenceProgress() {
     if (shown) std::fprintf(stderr, "\r\033[K");
 }
 
-double SequenceProgress::seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
+double SequenceProgress::seconds() const { return secondsSince(begin); }
 
 void SequenceProgress::next(bool work) {
     ++done;

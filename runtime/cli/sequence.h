@@ -6,11 +6,11 @@
 // machines. A picture is the same bytes in whatever order the frames are made.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <utility>
 
 #include "runtime/cli/commands.h"
+#include "runtime/clock.h"
 #include "runtime/render/renderer.h"
 
 namespace fw::cli {
@@ -46,7 +46,7 @@ class SequenceProgress {
   private:
     long count;
     bool shown;
-    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    Clock::time_point begin = Clock::now();
 };
 
 /// What --view takes.

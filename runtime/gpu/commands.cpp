@@ -1,11 +1,11 @@
 #include "runtime/gpu/commands.h"
+#include "runtime/clock.h"
 
 #include <algorithm>
 
 namespace fw {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr uint32_t kMostStages = 64;
 
 void begin(Commands& commands) {
@@ -26,7 +26,7 @@ double run(Commands& commands) {
     Clock::time_point start = Clock::now();
     check(vkQueueSubmit2(device.queue, 1, &info, device.fence), "submitting work to the device");
     check(vkWaitForFences(device.handle, 1, &device.fence, VK_TRUE, UINT64_MAX), "waiting for the device");
-    double elapsed = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    double elapsed = millisecondsSince(start);
     check(vkResetFences(device.handle, 1, &device.fence), "resetting a fence");
     return elapsed;
 }

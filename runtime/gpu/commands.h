@@ -7,7 +7,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <glm/vec3.hpp>
 
 #include "runtime/gpu/resources.h"

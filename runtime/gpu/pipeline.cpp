@@ -1,22 +1,17 @@
 // Pipelines from compiled shaders (see shader.h).
 #include <algorithm>
-#include <chrono>
 #include <deque>
 #include <exception>
 #include <map>
 #include <optional>
 #include <thread>
 
+#include "runtime/clock.h"
 #include "runtime/gpu/commands.h"
 #include "runtime/gpu/shader.h"
 
 namespace fw {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 struct ModuleState {
     VkDevice device = VK_NULL_HANDLE;
@@ -236,13 +231,13 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
             try {
                 Clock::time_point start = Clock::now();
                 Spirv spirv = compileOrThrow(shaders[i]);
-                double compiled = since(start);
+                double compiled = millisecondsSince(start);
                 pipelines[i] = build(device, shaders[i], spirv);
                 std::lock_guard lock(mutex);
                 if (firstRuns) firstRuns->start(pipelines[i], shaders[i], spirv);
                 if (times) {
                     times->spirv += compiled;
-                    times->pipeline += since(start) - compiled;
+                    times->pipeline += millisecondsSince(start) - compiled;
                 }
             } catch (...) {
                 std::lock_guard lock(mutex);

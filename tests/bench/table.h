@@ -2,16 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
-namespace fw::bench {
+#include "runtime/clock.h"
 
-using Clock = std::chrono::steady_clock;
-inline double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+namespace fw::bench {
 
 /// Several measurements of one thing.
 struct Figure {

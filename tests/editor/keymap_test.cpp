@@ -19,7 +19,7 @@ Shortcut key(std::string_view text) {
 /// What a key runs, elsewhere than over the picture.
 std::string userOf(const Preferences& preferences, std::string_view text) {
     for (const auto& [each, user] : keymapOf(preferences))
-        if (each == key(text) && user->heard() != Heard::picture) return user->id;
+        if (each == key(text) && user->heard != Heard::picture) return user->id;
     return "";
 }
 

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cstdio>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <thread>
 
 #include "editor/shell/theme.h"
+#include "runtime/clock.h"
 #include "tests/support/virtual_display.h"
 
 namespace fw::editor {
@@ -20,11 +20,6 @@ namespace {
 
 using test::rest;
 using test::VirtualDisplay;
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point then) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
-}
 
 double processorSeconds() {
     rusage used{};
