@@ -92,13 +92,6 @@ CommandResult runCommand(const std::vector<std::string>& arguments, const Comman
     return result;
 }
 
-// Of the processor's time: what bounds a program's work on hostile input, at the speed of a sanitized one.
-#ifdef __SANITIZE_ADDRESS__
-constexpr double kMostSeconds = 10.0;
-#else
-constexpr double kMostSeconds = 2.0;
-#endif
-
 void expectRefusal(const CommandResult& result, int status, const std::vector<std::string>& parts) {
     EXPECT_FALSE(result.killed) << "by signal " << result.status - 128;
     EXPECT_EQ(result.status, status) << result.errors;
@@ -111,7 +104,7 @@ void expectRefusal(const CommandResult& result, int status, const std::vector<st
     EXPECT_GE(lines, 1);
     EXPECT_LE(lines, 5) << result.errors.substr(0, 2000);
     EXPECT_LT(result.cpuSeconds, kMostSeconds);
-    EXPECT_LT(result.peakMegabytes, 500.0);
+    EXPECT_LT(result.peakMegabytes, kMostMegabytes);
 }
 
 }  // namespace fw::test

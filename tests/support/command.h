@@ -24,12 +24,20 @@ struct CommandResult {
     double peakMegabytes = 0.0;
 };
 
+// What bounds a program's work on hostile input: its processor's time, in seconds, and its memory. Under a
+// sanitizer it is slower and larger.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr double kMostSeconds = 10.0, kMostMegabytes = 1500.0;
+#else
+inline constexpr double kMostSeconds = 2.0, kMostMegabytes = 500.0;
+#endif
+
 /// `fieldwright` with these arguments. Its caches lie in a folder of the test program's own unless the
 /// options' environment says otherwise.
 CommandResult runCommand(const std::vector<std::string>& arguments, const CommandOptions& options = {});
 
 /// Expects that the command ended by itself with this status, said all of `parts` on standard error in at
-/// most five lines, printed no result, and took little: 2 s of processor time, 500 MB.
+/// most five lines, printed no result, and took little: kMostSeconds and kMostMegabytes.
 void expectRefusal(const CommandResult& result, int status, const std::vector<std::string>& parts);
 
 }  // namespace fw::test
