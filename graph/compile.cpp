@@ -466,12 +466,14 @@ const Node* feeding(const Graph& graph, const Node& node, std::string_view name)
     return source && source->type == "reroute" ? feeding(graph, *source, "value") : source;
 }
 
-/// Resolution and region, from the output node or from the polygonize node that feeds it.
+/// Resolution, method and region, from the output node or from the polygonize node that feeds it.
 void readSettings(const Graph& graph, const Node& output, Program& program) {
     const Node* source = feeding(graph, output, "mesh");
     const Node* stage = source && source->type == "polygonize" ? source : &output;
     if (const auto resolution = inputNumbers(*stage, "resolution"); !resolution.empty())
         program.resolution = static_cast<int>(resolution[0]);
+    if (const InputValue* method = stage->input("method"))
+        if (const auto* name = std::get_if<std::string>(&method->value)) program.method = meshMethod(*name);
     const auto lo = inputNumbers(*stage, "region_min"), hi = inputNumbers(*stage, "region_max");
     if (lo.size() == 3 && hi.size() == 3) program.region = Box{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
 }
@@ -491,6 +493,10 @@ Error errorAt(const Graph& graph, const Node* node, std::string message) {
 }
 
 }  // namespace
+
+MeshMethod meshMethod(std::string_view name) {
+    return MeshMethod(std::ranges::find(kMeshMethodNames, name) - kMeshMethodNames);
+}
 
 bool Program::hasMaterial() const {
     for (int i = 0; i < 8; ++i)

@@ -26,7 +26,10 @@
 
 namespace fw {
 
-enum class MeshMethod : unsigned char { marchingCubes };
+enum class MeshMethod : unsigned char { marchingCubes, dualContouring };
+inline constexpr const char* kMeshMethodNames[] = {"marching-cubes", "dual-contouring"};
+/// That of this name, which is one of them.
+MeshMethod meshMethod(std::string_view name);
 
 /// One slot of the parameter buffer.
 struct LiveParameter {

@@ -69,6 +69,37 @@ std::vector<CellPolygon> derive(int pattern) {
     return polygons;
 }
 
+unsigned codeOf(const CellEdge& edge) {
+    return edge.corner.y | edge.corner.z << 2 | unsigned(edge.axis) << 3 | edge.corner.x << 5;
+}
+
+/// Bit f is set if the polygon runs over face f twice.
+int facesTwice(const CellPolygon& polygon) {
+    int once = 0, twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const int face = facesOf(polygon[i]) & facesOf(polygon[(i + 1) % polygon.size()]);
+        twice |= once & face;
+        once |= face;
+    }
+    return twice;
+}
+
+glm::uvec3 packPatch(const CellPolygon& polygon) {
+    glm::uvec3 words(0);
+    const int twice = facesTwice(polygon);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const CellEdge edge = cellEdge(polygon[i]);
+        const int first = edge.axis == 0 ? 1 : 0, second = edge.axis == 2 ? 1 : 2;
+        const auto isTwice = [&](int axis) {
+            return unsigned(twice >> (2 * axis + int(edge.corner[axis])) & 1);
+        };
+        const unsigned code =
+            codeOf(edge) | isTwice(first) << 1 | isTwice(second) << 6 | (i + 1 == polygon.size() ? 128u : 0u);
+        words[int(i) / 4] |= code << i % 4 * 8;
+    }
+    return words;
+}
+
 glm::uvec3 pack(const std::vector<CellPolygon>& polygons) {
     // An empty pattern ends at once, wherever the reader starts.
     if (polygons.empty()) return glm::uvec3(0x80808080u);
@@ -76,9 +107,7 @@ glm::uvec3 pack(const std::vector<CellPolygon>& polygons) {
     unsigned count = 0, last = 0;
     for (const CellPolygon& polygon : polygons) {
         for (std::size_t i = 0; i < polygon.size(); ++i, ++count) {
-            CellEdge edge = cellEdge(polygon[i]);
-            unsigned code =
-                edge.corner.y | edge.corner.z << 2 | unsigned(edge.axis) << 3 | edge.corner.x << 5;
+            const unsigned code = codeOf(cellEdge(polygon[i]));
             words[count / 4] |= (code | (i == 0 ? 64u : 0u)) << count % 4 * 8;
             last = count;
         }
@@ -113,6 +142,19 @@ const std::array<glm::uvec3, 256>& packedCellPolygons() {
     static const std::array<glm::uvec3, 256> packed = [] {
         std::array<glm::uvec3, 256> made;
         for (int i = 0; i < 256; ++i) made[i] = pack(cellPolygons(i));
+        return made;
+    }();
+    return packed;
+}
+
+const std::array<glm::uvec3, 256 * kMostCellPolygons>& packedCellPatches() {
+    static const std::array<glm::uvec3, 256 * kMostCellPolygons> packed = [] {
+        std::array<glm::uvec3, 256 * kMostCellPolygons> made{};
+        for (int pattern = 0; pattern < 256; ++pattern) {
+            const std::vector<CellPolygon>& polygons = cellPolygons(pattern);
+            for (std::size_t i = 0; i < polygons.size(); ++i)
+                made[std::size_t(pattern * kMostCellPolygons) + i] = packPatch(polygons[i]);
+        }
         return made;
     }();
     return packed;

@@ -32,9 +32,18 @@ struct CellEdge {
 };
 CellEdge cellEdge(int edge);
 
+/// The most polygons of one cell.
+inline constexpr int kMostCellPolygons = 4;
+
 /// The table as the index kernel reads it: up to twelve bytes from the lowest bit, one for each edge. Of a
 /// byte, bits 5 and 0 are the offsets of the edge along x and y, bit 2 that along z, bits 3 and 4 the axis;
 /// bit 6 marks the first edge of a polygon, bit 7 the last edge of all.
 const std::array<glm::uvec3, 256>& packedCellPolygons();
+
+/// The same for dual contouring, each polygon by itself: entry 4 * pattern + n is its n-th, all zero if it
+/// has fewer. Bit 7 marks the last edge of the polygon. Of the two faces of the cell at the edge, bit 1 marks
+/// the one that stands across the first of the other two axes, bit 6 the other one, if the polygon runs over
+/// that face twice.
+const std::array<glm::uvec3, 256 * kMostCellPolygons>& packedCellPatches();
 
 }  // namespace fw

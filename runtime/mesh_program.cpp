@@ -1,7 +1,6 @@
 #include "runtime/mesh_program.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "graph/language/lower.h"
@@ -29,7 +28,7 @@ Result<MeshedProgram> meshProgram(Device device, Program program, const MeshRequ
     if (!starts("pipelines")) return stopped();
     meshed.session.setProgram(std::move(program));
     if (!starts("mesh")) return stopped();
-    Result<MesherResult> mesh = meshed.session.polygonise({region, resolution}, timed);
+    Result<MesherResult> mesh = meshed.session.polygonise({region, resolution, request.method}, timed);
     if (!mesh) return mesh.error();
     if (mesh->triangles == 0) return nothingToSee(given, region, resolution);
     meshed.mesh = std::move(*mesh);
@@ -47,26 +46,6 @@ Error nothingToSee(bool given, const Box& region, int resolution) {
     std::snprintf(cell, sizeof cell, "%.3g", longest / resolution);
     return {.message = "the solid is empty or thinner than a cell of " + std::string(cell) +
                        " m: raise the resolution, or give a smaller region"};
-}
-
-FieldError fieldError(const Program& program, const Box& region) {
-    return [&program, region](std::span<const glm::dvec3> points, std::span<double> errors) {
-        std::vector<Point> positions(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i)
-            positions[i] = {points[i].x, points[i].y, points[i].z};
-        std::vector<ValueGradient> results(points.size());
-        evaluateGradient(program.ir, program.distance(), program.parameters(), positions, results);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Point& g = results[i].gradient;
-            const double slope = std::hypot(g[0], g[1], g[2]);
-            errors[i] = std::abs(results[i].value) / (slope > 1e-12 ? slope : 1.0);
-            double beyond = -INFINITY;
-            for (int axis = 0; axis < 3; ++axis)
-                beyond = std::max(
-                    {beyond, region.lo[axis] - positions[i][axis], positions[i][axis] - region.hi[axis]});
-            if (results[i].value < 0.0) errors[i] = std::min(errors[i], std::abs(beyond));
-        }
-    };
 }
 
 }  // namespace fw

@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "graph/compile.h"
-#include "runtime/mesh_report.h"
 #include "runtime/session.h"
 
 namespace fw {
@@ -33,9 +32,5 @@ Result<MeshedProgram> meshProgram(Device device, Program program, const MeshRequ
 
 /// What to say of a solid that has no triangle in `region`, which the user gave or which was found.
 Error nothingToSee(bool given, const Box& region, int resolution);
-
-/// |f| / |gradient f| by the CPU reference, for reports; none on the faces of `region`, where a solid that
-/// leaves it was closed. Holds on to `program`.
-FieldError fieldError(const Program& program, const Box& region);
 
 }  // namespace fw

@@ -3,40 +3,23 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <thread>
+#include <numeric>
+#include <random>
 
 #include "runtime/export/read_back.h"
+#include "runtime/parallel.h"
+#include "runtime/triangle_tree.h"
 
 namespace fw {
 namespace {
 
 constexpr double kDegenerateRatio =
     1e-12;  // area below this part of the longest side squared is rounding noise
-
-/// Calls work(block, first, last) for blocks of at most `size` items, on all processors. An exception reaches
-/// the caller.
-template <class Work>
-void forBlocks(std::size_t count, std::size_t size, const Work& work) {
-    const std::size_t blocks = (count + size - 1) / size;
-    std::atomic<std::size_t> next{0};
-    const auto worker = [&] {
-        for (std::size_t block = next++; block < blocks; block = next++)
-            work(block, block * size, std::min(count, (block + 1) * size));
-    };
-    std::vector<std::future<void>> others;
-    const std::size_t threads =
-        std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), blocks);
-    for (std::size_t i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, worker));
-    worker();
-    for (auto& other : others) other.get();
-}
 
 bool collapsed(const uint32_t* triangle) {
     return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
@@ -206,10 +189,15 @@ void measureTopology(const WeldedMesh& mesh, const Corners& corners, Report& rep
                                  static_cast<int64_t>(faces);
 }
 
+/// In degrees.
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * (180.0 / 3.14159265358979323846);
+}
+
 void measureSize(const WeldedMesh& mesh, Report& report) {
     constexpr std::size_t kTriangles = 65536;
     struct Part {
-        double volume = 0, area = 0;
+        double volume = 0, area = 0, smallest = 180, largest = 0;
         uint64_t degenerate = 0;
     };
     if (mesh.indices.empty()) return;
@@ -233,12 +221,22 @@ void measureSize(const WeldedMesh& mesh, Report& report) {
             const double area = glm::length(normal) * 0.5;
             const glm::dvec3 bc = ac - ab;
             const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-            part.degenerate += collapsed(triangle) || area <= kDegenerateRatio * longest;
+            const bool degenerate = collapsed(triangle) || area <= kDegenerateRatio * longest;
+            part.degenerate += degenerate;
+            if (!degenerate)
+                for (const double angle :
+                     {angleBetween(ab, ac), angleBetween(-ab, bc), angleBetween(ac, bc)}) {
+                    part.smallest = std::min(part.smallest, angle);
+                    part.largest = std::max(part.largest, angle);
+                }
             part.area += area;
             part.volume += glm::dot(a, normal) / 6.0;
         }
     });
+    report.smallestAngle = 180;
     for (const Part& part : parts) {
+        report.smallestAngle = std::min(report.smallestAngle, part.smallest);
+        report.largestAngle = std::max(report.largestAngle, part.largest);
         report.volume += part.volume;
         report.area += part.area;
         report.degenerateTriangles += part.degenerate;
@@ -283,13 +281,77 @@ void measureError(std::size_t count, const FieldError& fieldError, const Collect
     }
 }
 
-Report reportOnWelded(const WeldedMesh& mesh, const FieldError& fieldError) {
+/// Points spread evenly over the triangles' area: one in each of equal shares of it, at random there.
+std::vector<glm::dvec3> pointsOn(const WeldedMesh& mesh, double area, std::size_t count) {
+    std::vector<glm::dvec3> points;
+    std::mt19937_64 random(1);
+    const auto any = [&] { return double(random() >> 11) * 0x1p-53; };
+    const double share = area / double(count);
+    double next = any() * share, passed = 0.0;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        const glm::dvec3 a(mesh.positions[mesh.indices[t]]),
+            ab = glm::dvec3(mesh.positions[mesh.indices[t + 1]]) - a,
+            ac = glm::dvec3(mesh.positions[mesh.indices[t + 2]]) - a;
+        passed += 0.5 * glm::length(glm::cross(ab, ac));
+        for (; next < passed && points.size() < count; next = (double(points.size()) + any()) * share) {
+            const double u = std::sqrt(any()), v = any();
+            points.push_back(a + (1.0 - u) * ab + u * v * ac);
+        }
+    }
+    return points;
+}
+
+void measureToSurface(const WeldedMesh& mesh, const FieldError& distance, Report& report) {
+    constexpr std::size_t kSamples = 32768;
+    const std::vector<glm::dvec3> points = pointsOn(mesh, report.area, kSamples);
+    ErrorSum total;
+    const auto same = [&](std::size_t first, std::size_t last, std::vector<glm::dvec3>& some) {
+        some.assign(points.begin() + std::ptrdiff_t(first), points.begin() + std::ptrdiff_t(last));
+    };
+    measureError(points.size(), distance, same, total);
+    if (total.count > 0)
+        report.meshToSurface = {total.greatest, total.sum / double(total.count), total.count};
+}
+
+void measureFromSurface(const TriangleTree& tree, const std::vector<SurfacePoint>& surface, Report& report) {
+    if (surface.empty()) return;
+    std::vector<double> distances(surface.size());
+    forBlocks(distances.size(), 256, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) distances[i] = tree.distance(surface[i].position);
+    });
+    SampledDistance found{0, 0, distances.size()};
+    double weights = 0.0;
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        found.max = std::max(found.max, distances[i]);
+        found.mean += surface[i].weight * distances[i];
+        weights += surface[i].weight;
+    }
+    found.mean /= weights;
+    report.surfaceToMesh = found;
+}
+
+uint64_t selfIntersectionsOf(const TriangleTree& tree) {
+    constexpr std::size_t kTriangles = 1024;
+    std::vector<uint64_t> parts(tree.size() / kTriangles + 1);
+    forBlocks(tree.size(), kTriangles, [&](std::size_t block, std::size_t first, std::size_t last) {
+        parts[block] = tree.selfIntersections(first, last);
+    });
+    return std::accumulate(parts.begin(), parts.end(), uint64_t{0});
+}
+
+Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
     Report report;
     report.triangles = mesh.indices.size() / 3;
     const Corners corners = cornersOf(mesh);
     measureTopology(mesh, corners, report);
     measureSize(mesh, report);
-    if (!fieldError) return report;
+    if (options.selfIntersections || !options.surface.empty()) {
+        const TriangleTree tree(mesh.positions, mesh.indices);
+        if (options.selfIntersections) report.selfIntersections = selfIntersectionsOf(tree);
+        if (!tree.empty()) measureFromSurface(tree, options.surface, report);
+    }
+    if (options.distance && report.area > 0.0) measureToSurface(mesh, options.distance, report);
+    if (!options.error) return report;
     ErrorSum total;
     const auto vertices = [&](std::size_t first, std::size_t last, std::vector<glm::dvec3>& points) {
         for (std::size_t v = first; v < last; ++v)
@@ -305,8 +367,8 @@ Report reportOnWelded(const WeldedMesh& mesh, const FieldError& fieldError) {
                              3.0);
         }
     };
-    measureError(mesh.positions.size(), fieldError, vertices, total);
-    measureError(mesh.indices.size() / 3, fieldError, centroids, total);
+    measureError(mesh.positions.size(), options.error, vertices, total);
+    measureError(mesh.indices.size() / 3, options.error, centroids, total);
     if (total.count > 0) {
         report.maxError = total.greatest;
         report.meanError = total.sum / static_cast<double>(total.count);
@@ -316,15 +378,15 @@ Report reportOnWelded(const WeldedMesh& mesh, const FieldError& fieldError) {
 
 }  // namespace
 
-Result<Report> reportOnFile(const std::string& path, const FieldError& fieldError) {
+Result<Report> reportOnFile(const std::string& path, const MeasureOptions& options) {
     const Result<WeldedMesh> mesh = readWelded(path);
     if (!mesh) return mesh.error();
-    return reportOnWelded(*mesh, fieldError);
+    return reportOnWelded(*mesh, options);
 }
 
 Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
-                    const FieldError& fieldError) {
-    return reportOnWelded(weld(positions, indices), fieldError);
+                    const MeasureOptions& options) {
+    return reportOnWelded(weld(positions, indices), options);
 }
 
 std::string writeReport(const Report& report) {
@@ -347,6 +409,17 @@ std::string writeReport(const Report& report) {
     out["boundsMax"] = report.boundsMax;
     out["maxError"] = known(report.maxError);
     out["meanError"] = known(report.meanError);
+    out["selfIntersections"] = report.selfIntersections ? nlohmann::ordered_json(*report.selfIntersections)
+                                                        : nlohmann::ordered_json();
+    out["smallestAngle"] = report.smallestAngle;
+    out["largestAngle"] = report.largestAngle;
+    const auto sampled = [&](const std::string& name, const std::optional<SampledDistance>& distance) {
+        out[name + "Max"] = known(distance ? std::optional(distance->max) : std::nullopt);
+        out[name + "Mean"] = known(distance ? std::optional(distance->mean) : std::nullopt);
+        out[name + "Samples"] = distance ? distance->samples : 0;
+    };
+    sampled("meshToSurface", report.meshToSurface);
+    sampled("surfaceToMesh", report.surfaceToMesh);
     out["capped"] = report.capped;
     out["stages"] = nlohmann::ordered_json::object();
     for (const auto& [name, milliseconds] : report.stages) out["stages"][name] = milliseconds;

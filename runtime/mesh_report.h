@@ -29,6 +29,26 @@ namespace fw {
 /// with at most a few thousand points.
 using FieldError = std::function<void(std::span<const glm::dvec3> points, std::span<double> errors)>;
 
+/// A point of the true surface, and the area that it stands for beside the others'.
+struct SurfacePoint {
+    glm::dvec3 position;
+    double weight = 1.0;
+};
+
+/// What is measured besides topology and size; field_measure.h fills what compares with a field.
+struct MeasureOptions {
+    bool selfIntersections = false;
+    FieldError error = {};
+    FieldError distance = {};  ///< the same, but metres to a point of the surface nearby
+    std::vector<SurfacePoint> surface = {};
+};
+
+/// Distances in metres over sampled points.
+struct SampledDistance {
+    double max = 0, mean = 0;
+    uint64_t samples = 0;
+};
+
 struct Report {
     uint64_t vertices = 0;             ///< welded, used by a triangle that is not collapsed
     uint64_t triangles = 0;            ///< as the file lists them, collapsed ones included
@@ -45,6 +65,11 @@ struct Report {
     std::array<double, 3> boundsMin{}, boundsMax{};
     std::optional<double> maxError,
         meanError;  ///< over vertices and triangle centroids; none without a field
+    std::optional<uint64_t> selfIntersections;   ///< pairs of triangles that cut each other (triangle_tree.h)
+    double smallestAngle = 0, largestAngle = 0;  ///< of the triangles that are not degenerate, degrees
+    /// From points spread evenly over the mesh's area to the surface; from points of the surface, found
+    /// without regard to the mesh, to its nearest triangle (field_measure.h).
+    std::optional<SampledDistance> meshToSurface, surfaceToMesh;
 
     // The run that made the file: the caller fills these in.
     bool capped = false;                                 ///< the surface left the region and was closed there
@@ -60,11 +85,11 @@ struct Report {
 };
 
 /// Measures the mesh file at `path`. An Error says what in the file is not as it should be.
-Result<Report> reportOnFile(const std::string& path, const FieldError& fieldError = {});
+Result<Report> reportOnFile(const std::string& path, const MeasureOptions& options = {});
 
 /// Measures triangles in memory as if they had been read from a file.
 Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
-                    const FieldError& fieldError = {});
+                    const MeasureOptions& options = {});
 
 /// One flat JSON object with the keys named as the members of Report; an unknown error is null. Ends with a
 /// newline.

@@ -10,6 +10,7 @@
 
 #include "runtime/marching_cubes_table.h"
 #include "runtime/mesher_host.h"
+#include "runtime/mesher_pinches.h"
 
 namespace fw {
 namespace {
@@ -25,17 +26,24 @@ enum Kernel {
     link,
     sample,
     classify,
+    classifyDual,
     topGroups,
     topGroupsChunked,
+    topGroupsDual,
     triangles,
+    patches,
     vertices,
+    contour,
+    quads,
     colors,
     kernelCount
 };
 constexpr const char* kNames[kernelCount] = {
-    "mesher/blocks.comp",     "mesher/cull.comp",      "mesher/top_bricks.comp", "mesher/compact.comp",
-    "mesher/link.comp",       "mesher/sample.comp",    "mesher/classify.comp",   "mesher/top_groups.comp",
-    "mesher/top_groups.comp", "mesher/triangles.comp", "mesher/vertices.comp",   "mesher/colors.comp"};
+    "mesher/blocks.comp",     "mesher/cull.comp",       "mesher/top_bricks.comp", "mesher/compact.comp",
+    "mesher/link.comp",       "mesher/sample.comp",     "mesher/classify.comp",   "mesher/classify.comp",
+    "mesher/top_groups.comp", "mesher/top_groups.comp", "mesher/top_groups.comp", "mesher/triangles.comp",
+    "mesher/patches.comp",    "mesher/vertices.comp",   "mesher/contour.comp",    "mesher/quads.comp",
+    "mesher/colors.comp"};
 
 /// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
 constexpr int kCellsForBlocks = 512;
@@ -61,11 +69,19 @@ glm::uvec3 spread(uint64_t groups) {
     return {chunksOf(groups, y), y, 1};
 }
 
+/// Active edges that there is room for: each is a vertex, of dual contouring two triangles.
+uint64_t edgeCapacity(const MesherBuffers& buffers, bool dual) {
+    return dual ? buffers.triangleCapacity / 2 : buffers.vertexCapacity;
+}
+
 /// Sizes what depends on the grid, and what depends on how much surface is in it.
-void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount, bool wantColors) {
+void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount, bool dual,
+                bool wantColors) {
     uint64_t all = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
     if (reserve(device, buffers.table, sizeof(packedCellPolygons())))
         uploadBytes(device, buffers.table, packedCellPolygons().data(), sizeof(packedCellPolygons()));
+    if (dual && reserve(device, buffers.patchTable, sizeof(packedCellPatches())))
+        uploadBytes(device, buffers.patchTable, packedCellPatches().data(), sizeof(packedCellPatches()));
     reserve(device, buffers.counts, sizeof(MesherCounts), Memory::device);
     reserve(device, buffers.blockList, all * 4);
     reserve(device, buffers.blockAlive, all * 4);
@@ -81,7 +97,14 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.sums, groups * 16);
     reserve(device, buffers.edges, bricks * kLookupBytes);
     reserve(device, buffers.stripList, groups * MESHER_GROUP_STRIPS * 4);
-    reserve(device, buffers.vertexList, uint64_t(buffers.vertexCapacity) * 4);
+    const uint64_t edges = edgeCapacity(buffers, dual);
+    reserve(device, buffers.vertexList, edges * 4);
+    if (dual) {
+        reserve(device, buffers.points, edges * sizeof(gpu::MeshVertex));
+        reserve(device, buffers.corners, edges * 16);
+        reserve(device, buffers.pinched, edges * 4);
+        reserve(device, buffers.patchList, uint64_t(buffers.vertexCapacity) * 8);
+    }
     reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
     if (wantColors) reserve(device, buffers.colors, uint64_t(buffers.vertexCapacity) * 12);
     reserve(device, buffers.triangles, uint64_t(buffers.triangleCapacity) * 12);
@@ -91,13 +114,15 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
 struct Limits {
     uint32_t bricks, vertices, triangles;
 };
-Limits limitsOf(const Device& device) {
+Limits limitsOf(const Device& device, bool dual) {
     uint64_t range = device.properties.limits.maxStorageBufferRange;
-    uint64_t listed = range / 4;  // the list of vertices is bound as a whole
     uint64_t texels = device.properties.limits.maxTexelBufferElements;  // the lookup is read as texels
+    // Bound as a whole: the list of edges; of dual contouring that of patches, and each edge's four corners.
+    uint64_t listed = dual ? std::min(range / 8, texels) : range / 4;
+    uint64_t quads = dual ? std::min(range / 16, texels) : UINT32_MAX;
     return {uint32_t(std::min<uint64_t>({kMostBricks, range / kLookupBytes, texels * 16 / kLookupBytes})),
             uint32_t(std::min<uint64_t>(uint64_t(MESHER_VERTEX_CHUNK) * MESHER_CHUNKS, listed)),
-            uint32_t(uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS)};
+            uint32_t(std::min<uint64_t>(uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS, 2 * quads))};
 }
 
 constexpr uint64_t kVerticesOfABrick = 72;  // a plane across it and some folds
@@ -108,12 +133,13 @@ void guessCapacities(const Device& device, MesherBuffers& buffers, glm::uvec3 ce
     uint64_t section =
         (uint64_t(cells.x) * cells.y + uint64_t(cells.y) * cells.z + uint64_t(cells.z) * cells.x) / 3;
     uint64_t vertices = section * (device.software ? 24 : 8) + 8192;
-    auto raise = [](uint32_t& capacity, uint64_t guess, uint32_t limit) {
-        capacity = std::max(capacity, uint32_t(std::min<uint64_t>(guess, limit)));
+    // What the other method left may be more than this one can number.
+    auto set = [](uint32_t& capacity, uint64_t guess, uint32_t limit) {
+        capacity = uint32_t(std::min<uint64_t>(std::max<uint64_t>(capacity, guess), limit));
     };
-    raise(buffers.brickCapacity, vertices / 48 + 512, most.bricks);
-    raise(buffers.vertexCapacity, vertices, most.vertices);
-    raise(buffers.triangleCapacity, 2 * vertices, most.triangles);
+    set(buffers.brickCapacity, vertices / 48 + 512, most.bricks);
+    set(buffers.vertexCapacity, vertices, most.vertices);
+    set(buffers.triangleCapacity, 2 * vertices, most.triangles);
 }
 
 /// Capacity for a count that turned out larger, with some room so that small changes do not grow it each
@@ -138,7 +164,8 @@ Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer,
 }
 
 /// The mesh may be larger than one dispatch of the last two kernels can write.
-bool isChunked(const MesherPush& push) {
+bool isChunked(const MesherPush& push, bool dual) {
+    if (dual) return false;  // its chunks are of edges and patches
     return push.vertexCapacity > MESHER_VERTEX_CHUNK || push.triangleCapacity > MESHER_TRIANGLE_CHUNK;
 }
 
@@ -162,8 +189,11 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
         dispatch(commands, *pipelines.all[kernel], spread(groups), push, with(more));
         barrier(commands);
     };
-    uint32_t vertexChunks = chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK);
-    uint32_t triangleChunks = chunksOf(push.triangleCapacity, MESHER_TRIANGLE_CHUNK);
+    const bool dual = config.method == MeshMethod::dualContouring;
+    const uint32_t edgeChunks = chunksOf(edgeCapacity(b, dual), MESHER_VERTEX_CHUNK),
+                   vertexChunks = chunksOf(push.vertexCapacity, MESHER_VERTEX_CHUNK),
+                   triangleChunks = chunksOf(push.triangleCapacity, MESHER_TRIANGLE_CHUNK),
+                   quadChunks = chunksOf(edgeCapacity(b, dual), MESHER_QUAD_CHUNK);
 
     beginStage(commands, "cull");
     fill(commands, b.counts, 0);
@@ -196,11 +226,20 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
         indirect(sample, MESHER_BRICKS, {{5, b.brickList}, {7, b.planes}});
     }
     beginStage(commands, "classify");
-    indirect(classify, MESHER_BRICKS,
+    indirect(dual ? classifyDual : classify, MESHER_BRICKS,
              {{4, b.sums}, {5, b.brickList}, {6, b.links}, {7, b.planes}, {8, b.edges}, {12, b.stripList}});
-    direct(isChunked(push) ? topGroupsChunked : topGroups, 1, {{4, b.sums}});
-    beginStage(commands, "triangles");
-    for (push.chunk = 0; push.chunk < triangleChunks; ++push.chunk) {
+    direct(dual ? topGroupsDual : isChunked(push, dual) ? topGroupsChunked : topGroups, 1, {{4, b.sums}});
+    beginStage(commands, dual ? "patches" : "triangles");
+    if (dual)
+        indirect(patches, MESHER_TRIANGLES,
+                 {{4, b.sums},
+                  {7, b.planes},
+                  {8, b.edges},
+                  {9, b.patchList},
+                  {10, b.vertexList},
+                  {11, b.patchTable},
+                  {12, b.stripList}});
+    for (push.chunk = 0; !dual && push.chunk < triangleChunks; ++push.chunk) {
         indirect(triangles, MESHER_TRIANGLES + push.chunk,
                  {{4, b.sums},
                   {6, b.links},
@@ -211,24 +250,52 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
                   {12, b.stripList},
                   chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
     }
-    beginStage(commands, "vertices");
+    beginStage(commands, dual ? "points" : "vertices");
+    const Buffer& points = dual ? b.points : b.vertices;
+    const auto chunkOfVertices = [&](const Buffer& buffer) {
+        return chunkOf(device, 13, buffer, push.chunk,
+                       uint64_t(MESHER_VERTEX_CHUNK) * sizeof(gpu::MeshVertex));
+    };
     if (config.host) {
         flush(commands);
         const MesherCounts counts = download<MesherCounts>(device, b.counts, 1)[0];
-        if (counts.groups[MESHER_VERTICES].x == 0) return;  // there was not enough room
-        const auto vertexList = download<uint32_t>(device, b.vertexList, counts.vertices);
-        upload(device, b.vertices, config.host->vertices(push, brickList, vertexList));
-        return;
+        if (counts.groups[MESHER_EDGES].x == 0) return;  // there was not enough room
+        const auto vertexList = download<uint32_t>(device, b.vertexList, counts.edges);
+        upload(device, points, config.host->vertices(push, brickList, vertexList));
+    } else {
+        for (push.chunk = 0; push.chunk < edgeChunks; ++push.chunk)
+            indirect(vertices, MESHER_EDGES + push.chunk,
+                     {{5, b.brickList}, {10, b.vertexList}, chunkOfVertices(points)});
     }
-    for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk) {
-        uint32_t arguments = MESHER_VERTICES + push.chunk;
-        Descriptor target = chunkOf(device, 13, b.vertices, push.chunk,
-                                    uint64_t(MESHER_VERTEX_CHUNK) * sizeof(gpu::MeshVertex));
-        indirect(vertices, arguments, {{5, b.brickList}, {10, b.vertexList}, target});
-        if (config.colors)
-            indirect(colors, arguments,
-                     {target, chunkOf(device, 12, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
+    if (dual) {
+        beginStage(commands, "contour");
+        for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk)
+            indirect(contour, MESHER_VERTICES + push.chunk,
+                     {{3, b.points},
+                      {4, b.sums},
+                      {5, b.brickList},
+                      {6, b.links},
+                      {8, b.edges},
+                      {9, b.patchList},
+                      {11, b.patchTable},
+                      {12, b.corners},
+                      chunkOfVertices(b.vertices)});
+        beginStage(commands, "quads");
+        for (push.chunk = 0; push.chunk < quadChunks; ++push.chunk)
+            indirect(quads, MESHER_QUADS + push.chunk,
+                     {{3, b.points},
+                      {7, b.vertices},
+                      {9, b.pinched},
+                      {10, b.vertexList},
+                      {12, b.corners},
+                      chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_QUAD_CHUNK) * 24)});
     }
+    if (!config.colors || config.host) return;
+    beginStage(commands, "colors");
+    for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk)
+        indirect(colors, MESHER_VERTICES + push.chunk,
+                 {chunkOfVertices(b.vertices),
+                  chunkOf(device, 12, b.colors, push.chunk, uint64_t(MESHER_VERTEX_CHUNK) * 12)});
 }
 
 /// Builds those of `kernels` that are not built yet.
@@ -241,9 +308,11 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
         if (pipelines.all[kernel] || std::find(missing.begin(), missing.end(), kernel) != missing.end())
             continue;
         ShaderOptions options{.name = kNames[kernel], .field = pipelines.field};
-        if (kernel == topGroups || kernel == topGroupsChunked)
-            options.constants = {kernel == topGroupsChunked};
-        if (kernel == triangles) options.constants = {std::clamp(device.subgroupSize, 16u, 64u)};
+        if (kernel == classifyDual) options.constants = {true};
+        if (kernel == topGroupsChunked) options.constants = {true};
+        if (kernel == topGroupsDual) options.constants = {false, true};
+        if (kernel == triangles || kernel == patches)
+            options.constants = {std::clamp(device.subgroupSize, 16u, 64u)};
         shaders.push_back(std::move(options));
         missing.push_back(kernel);
     }
@@ -292,7 +361,8 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 
     glm::uvec3 cells(config.cells);
     glm::uvec3 blockCount = (cells + 2u + 63u) / 64u;
-    const Limits most = limitsOf(device);
+    const bool dual = config.method == MeshMethod::dualContouring;
+    const Limits most = limitsOf(device, dual);
     guessCapacities(device, buffers, cells, most);
     MesherPush push{};
     push.origin = config.origin;
@@ -301,17 +371,18 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     push.blocks = blockCount;
     push.nudge = nudge;
     if (config.host) build(device, pipelines, {topBricks, compact, link, classify, topGroups, triangles});
+    if (dual) build(device, pipelines, {classifyDual, topGroupsDual, patches, contour, quads});
     push.blocksListed = longest >= kCellsForBlocks && !config.host;
     if (push.blocksListed) build(device, pipelines, {blocks});
     const bool wantColors = config.colors && !config.host;
     if (wantColors) build(device, pipelines, {colors});
     MesherResult result;
     for (result.runs = 1;; ++result.runs) {
-        reserveAll(device, buffers, blockCount, wantColors);
+        reserveAll(device, buffers, blockCount, dual, wantColors);
         push.brickCapacity = buffers.brickCapacity;
         push.vertexCapacity = buffers.vertexCapacity;
         push.triangleCapacity = buffers.triangleCapacity;
-        if (isChunked(push)) build(device, pipelines, {topGroupsChunked});
+        if (isChunked(push, dual)) build(device, pipelines, {topGroupsChunked});
         Commands commands(device, config.timed);
         record(commands, pipelines, buffers, config, push);
         submit(commands);
@@ -321,15 +392,18 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
             return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, most.bricks);
         if (counts.vertices > most.vertices) return tooLarge("vertices", counts.vertices, most.vertices);
         if (counts.triangles > most.triangles) return tooLarge("triangles", counts.triangles, most.triangles);
-        bool fits = counts.bricks <= buffers.brickCapacity && counts.vertices <= buffers.vertexCapacity &&
-                    counts.triangles <= buffers.triangleCapacity;
+        const Addition parting = mostOfPinches(counts.pinched);
+        const uint64_t vertexCount = uint64_t(counts.vertices) + parting.vertices,
+                       triangleCount = uint64_t(counts.triangles) + parting.triangles;
+        bool fits = counts.bricks <= buffers.brickCapacity && vertexCount <= buffers.vertexCapacity &&
+                    triangleCount <= buffers.triangleCapacity;
         if (!fits) {
             // Too many bricks: nothing else was counted yet, so it is estimated.
             uint64_t perBrick = counts.vertices ? 0 : kVerticesOfABrick * counts.bricks;
             buffers.brickCapacity = grown(buffers.brickCapacity, counts.bricks, most.bricks);
-            buffers.vertexCapacity = grown(buffers.vertexCapacity, counts.vertices + perBrick, most.vertices);
+            buffers.vertexCapacity = grown(buffers.vertexCapacity, vertexCount + perBrick, most.vertices);
             buffers.triangleCapacity =
-                grown(buffers.triangleCapacity, counts.triangles + 2 * perBrick, most.triangles);
+                grown(buffers.triangleCapacity, triangleCount + 2 * perBrick, most.triangles);
             continue;
         }
         if (counts.leaks) {
@@ -341,10 +415,19 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
             if (push.margin > 16 * longest * widest) push.margin = std::numeric_limits<float>::infinity();
             continue;
         }
+        if (counts.pinched > 0) {
+            const Addition added = partPinches(device, buffers, counts);
+            result.pinches = added.vertices;
+            counts.vertices += added.vertices;
+            counts.triangles += added.triangles;
+            counts.draw[0] = 3 * counts.triangles;
+            uploadBytes(device, buffers.counts, &counts, sizeof counts);
+        }
         result.vertices = counts.vertices;
         result.triangles = counts.triangles;
         result.bricks = counts.bricks;
         result.capped = counts.caps != 0;
+        result.method = config.method;
         return result;
     }
 }

@@ -20,6 +20,13 @@
 // leaves the region is closed on its boundary (`capped`). Vertices keep a distance from grid points (about
 // 1e-4 cells), so that no triangle collapses. Sharp edges are bevelled by up to a cell.
 //
+// Dual contouring shares all of it up to the points on the edges and their normals. A vertex then stands for
+// each patch of surface in a cell, where the planes of its edges meet (shaders/mesher/contour.comp), and each
+// active edge gives two triangles between the four patches about it: creases and corners are sharp. A patch
+// is a polygon of the same table, so this surface is closed, oriented and manifold too, once the rare faces
+// have been seen to at which two patches meet twice (mesher_pinches.h). Triangles may cut each other where
+// the field bends at the scale of a cell.
+//
 // Lifetime: pipelines belong to a structure (a field's text), buffers to a resolution (they grow when a mesh
 // needs more and hold the last mesh), the configuration to one run.
 #pragma once
@@ -27,6 +34,7 @@
 #include <memory>
 #include <string>
 
+#include "graph/compile.h"
 #include "runtime/gpu/commands.h"
 #include "runtime/mesh.h"
 #include "shaders/shared.h"
@@ -41,7 +49,8 @@ struct MesherConfig {
     glm::ivec3 cells{128};           ///< of the region along each axis, any number from 1 to kMostMesherCells
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
     const Buffer* images = nullptr;      ///< that the field samples, where it does
-    bool colors = false;                 ///< also the base colour at each vertex
+    MeshMethod method = MeshMethod::marchingCubes;
+    bool colors = false;  ///< also the base colour at each vertex
     MesherHost* host =
         nullptr;         ///< evaluates the field instead of kernels, which then need not be built; no colours
     bool timed = false;  ///< fill MesherResult::stages (see commands.h for what that costs)
@@ -72,16 +81,19 @@ struct MesherBuffers {
     Buffer colors;     ///< vec3 each, if asked for
     Buffer triangles;  ///< three uint32 indices each
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
-    Buffer table, blockList, blockAlive, blockSums, rows, brickList, links, planes, sums, edges, vertexList,
-        stripList;
+    Buffer points;     ///< of dual contouring: gpu::MeshVertex on each active edge
+    Buffer table, patchTable, patchList, corners, pinched, blockList, blockAlive, blockSums, rows, brickList,
+        links, planes, sums, edges, vertexList, stripList;
     uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;
 };
 
 struct MesherResult {
     uint32_t vertices = 0, triangles = 0;
-    uint32_t bricks = 0;  ///< that were sampled
-    bool capped = false;  ///< the surface was closed at the region's boundary
-    int runs = 1;         ///< of the kernels; more than one if buffers had to grow
+    uint32_t pinches = 0;  ///< of dual contouring: places where two patches met twice, and were parted
+    uint32_t bricks = 0;   ///< that were sampled
+    bool capped = false;   ///< the surface was closed at the region's boundary
+    MeshMethod method = MeshMethod::marchingCubes;
+    int runs = 1;  ///< of the kernels; more than one if buffers had to grow
     std::vector<StageTime> stages;
 };
 
@@ -91,7 +103,7 @@ struct MesherResult {
 Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines, MesherBuffers& buffers,
                                const MesherConfig& config);
 
-/// Copies the last mesh to the host.
+/// Copies the last mesh to the host, vertex for vertex.
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);
 
 /// The unit vector that lib/octahedral.glsl packed.

@@ -206,7 +206,8 @@ void Player::adopt(Prepared prepared) {
     for (std::size_t slot = 0; slot < values.size(); ++slot) prepared.program.live[slot].value = values[slot];
     const bool same = meshed && session.program().structureHash == prepared.program.structureHash &&
                       session.program().parameters() == values && now.region == prepared.region &&
-                      now.program.resolution == prepared.program.resolution;
+                      now.program.resolution == prepared.program.resolution &&
+                      now.program.method == prepared.program.method;
     const bool moved = prepared.fieldMoves || now.fieldMoves;
     now = std::move(prepared);
     if (options.compileBehind)
@@ -295,12 +296,12 @@ Result<MesherResult> Player::meshOnDevice() {
     const double time = timelineTime();
     const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
     Result<MesherResult> result = MesherResult{};
-    if (!beyond) result = session.polygonise({*now.region, options.resolution});
+    if (!beyond) result = session.polygonise({*now.region, options.resolution, options.method});
     if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
         const Result<Box> own = meshRegion(session.program(), {{}, options.resolution});
         if (!own) return problem(now.graph, own.error().message);
-        result = session.polygonise({joined(*now.region, *own), options.resolution});
+        result = session.polygonise({joined(*now.region, *own), options.resolution, options.method});
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
@@ -404,7 +405,7 @@ Done Player::reload(Graph graph, const PlayerOptions& options_) {
         if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
     Result<Prepared> prepared = prepare(std::move(graph), changed);
     if (!prepared) return prepared.error();
-    if (changed.resolution != options.resolution) meshed.reset();
+    if (changed.resolution != options.resolution || changed.method != options.method) meshed.reset();
     options = changed;
     adopt(std::move(*prepared));
     chosen.clear();

@@ -35,11 +35,12 @@
 namespace fw {
 
 struct PlayerOptions {
-    std::string device = {};          ///< index or part of the name of the device; empty: chosen
-    std::optional<Box> region = {};   ///< metres; none: found
-    int resolution = 0;               ///< cells along the region's longest side; 0: the graph's
-    bool liveParameters = true;       ///< set() uploads; otherwise it compiles, and the field is faster
-    std::set<std::string> live = {};  ///< further inputs, "node.input", that reload() uploads
+    std::string device = {};                ///< index or part of the name of the device; empty: chosen
+    std::optional<Box> region = {};         ///< metres; none: found
+    int resolution = 0;                     ///< cells along the region's longest side; 0: the graph's
+    std::optional<MeshMethod> method = {};  ///< none: the graph's
+    bool liveParameters = true;             ///< set() uploads; otherwise it compiles, and the field is faster
+    std::set<std::string> live = {};        ///< further inputs, "node.input", that reload() uploads
     /// Nothing waits for kernels to be compiled: until they are there, meshes are made on the host and
     /// pictures are drafts (Session::replaceProgram).
     bool compileBehind = false;

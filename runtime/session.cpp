@@ -7,6 +7,7 @@
 #include "graph/glsl.h"
 #include "graph/region.h"
 #include "runtime/clock.h"
+#include "runtime/creases.h"
 #include "runtime/mesher_host.h"
 
 namespace fw {
@@ -186,6 +187,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.parameters = &parameters;
     config.images = &images;
     config.colors = current.hasMaterial();
+    config.method = request.method.value_or(current.method);
     config.timed = timed;
     std::optional<MesherHost> host;
     if (compiling()) config.host = &host.emplace(current.ir, current.distance(), current.parameters());
@@ -210,6 +212,7 @@ gpu::DraftMaterial Session::material() const {
 
 Mesh Session::download(const MesherResult& result) const {
     Mesh mesh = downloadMesh(*gpu, buffers, result);
+    if (result.method == MeshMethod::dualContouring) splitCreases(mesh);
     const gpu::DraftMaterial constants = material();
     mesh.roughness = constants.roughness;
     mesh.metallic = constants.metallic;

@@ -19,8 +19,9 @@ namespace fw {
 
 /// What to polygonise.
 struct MeshRequest {
-    std::optional<Box> region;  ///< none: the program's own, else found from the field
-    int resolution = 0;         ///< cells along the region's longest side; 0: the program's
+    std::optional<Box> region;              ///< none: the program's own, else found from the field
+    int resolution = 0;                     ///< cells along the region's longest side; 0: the program's
+    std::optional<MeshMethod> method = {};  ///< none: the program's
 };
 
 inline constexpr int kMostResolution = 4096;
@@ -53,7 +54,7 @@ class Session {
     /// none left (it is empty), a resolution out of range, and what runMesher refuses.
     Result<MesherResult> polygonise(const MeshRequest& request, bool timed = false);
 
-    /// The last mesh, with the program's material.
+    /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
     Mesh download(const MesherResult& result) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
 

@@ -31,11 +31,12 @@ using vec4 = glm::vec4;
 
 #define MESHER_VERTEX_CHUNK 8388608u  // vertices that one dispatch writes: 16 bytes each make 128 MiB
 #define MESHER_TRIANGLE_CHUNK \
-    11000000u                    // triangles that one dispatch starts: 12 bytes each and some slack, ditto
-#define MESHER_CHUNKS 16         // dispatches at most: 2 GiB, the largest allocation
-#define MESHER_GROUP_BRICKS 8    // bricks of a group: of one work group of the kernels over planes
-#define MESHER_GROUP_STRIPS 128  // strips of one such group: 16 a brick
-#define MESHER_GROUP_LINKS 64    // bricks and vertices of one work group of the kernels over those
+    11000000u                       // triangles that one dispatch starts: 12 bytes each and some slack, ditto
+#define MESHER_QUAD_CHUNK 5500000u  // edges that one dispatch makes two triangles each of
+#define MESHER_CHUNKS 16            // dispatches at most: 2 GiB, the largest allocation
+#define MESHER_GROUP_BRICKS 8       // bricks of a group: of one work group of the kernels over planes
+#define MESHER_GROUP_STRIPS 128     // strips of one such group: 16 a brick
+#define MESHER_GROUP_LINKS 64       // bricks and vertices of one work group of the kernels over those
 #define MESHER_GROUP_VERTICES 64
 
 // What every mesher kernel is told.
@@ -58,14 +59,16 @@ struct DispatchArguments {
 };
 
 // Places in MesherCounts::groups.
-#define MESHER_BLOCKS 0    // a work group for each block
-#define MESHER_COMPACT 1   // the same, none if there are too many bricks
-#define MESHER_LINKS 2     // over bricks
-#define MESHER_BRICKS 3    // over bricks
-#define MESHER_VERTICES 4  // over vertices, one for each chunk
+#define MESHER_BLOCKS 0   // a work group for each block
+#define MESHER_COMPACT 1  // the same, none if there are too many bricks
+#define MESHER_LINKS 2    // over bricks
+#define MESHER_BRICKS 3   // over bricks
+#define MESHER_EDGES 4    // over active edges, one for each chunk
 #define MESHER_TRIANGLES \
-    (MESHER_VERTICES + MESHER_CHUNKS)  // over groups of bricks, one for each chunk of triangles
-#define MESHER_GROUPS (MESHER_TRIANGLES + MESHER_CHUNKS)
+    (MESHER_EDGES + MESHER_CHUNKS)  // over groups of bricks, one for each chunk of triangles
+#define MESHER_VERTICES (MESHER_TRIANGLES + MESHER_CHUNKS)  // over vertices, one for each chunk
+#define MESHER_QUADS (MESHER_VERTICES + MESHER_CHUNKS)      // over active edges, one for each chunk of quads
+#define MESHER_GROUPS (MESHER_QUADS + MESHER_CHUNKS)
 
 // What the kernels count, and the arguments of the indirect dispatches and of the draw that follow.
 struct MesherCounts {
@@ -73,8 +76,10 @@ struct MesherCounts {
     uint bricks;  // the same
     uint caps;    // not 0 if the surface was closed at the region's boundary
     uint leaks;   // not 0 if surface runs on into a brick that was culled: the mesh is then not usable
+    uint edges;   // that cross the surface
     uint vertices;
     uint triangles;
+    uint pinched;  // of dual contouring: quads that meet another along two edges at once
     DispatchArguments groups[MESHER_GROUPS];
     uint groupStart[MESHER_CHUNKS + 1];  // first group of bricks of each chunk of triangles
     uint draw[5];                        // arguments of vkCmdDrawIndexedIndirect

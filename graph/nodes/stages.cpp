@@ -7,7 +7,8 @@ std::vector<NodeType> stageNodes() {
     const InputSpec resolution =
         integer("resolution", 128, 1, 4096, "Number of cells along the longest side of the region.");
     const InputSpec method =
-        choice("method", {"marching-cubes"}, "How the surface is turned into triangles.");
+        choice("method", {"marching-cubes", "dual-contouring"},
+               "How the surface is turned into triangles. Dual contouring keeps edges and corners sharp.");
     return {
         {.id = "polygonize",
          .label = "Polygonize",

@@ -13,6 +13,7 @@
 #include "graph/compile.h"
 #include "graph/graph.h"
 #include "graph/result.h"
+#include "runtime/mesh_requirements.h"
 
 namespace fw::cli {
 
@@ -43,11 +44,13 @@ struct MeshOptions {
     std::string device;
     std::optional<int> resolution;
     std::vector<double> region;  ///< empty, or x0 y0 z0 x1 y1 z1
+    std::optional<MeshMethod> method;
 };
 
 struct ExportOptions {
     MeshOptions mesh;
-    std::string output, method = "marching-cubes", report;
+    std::string output, report;
+    std::vector<Requirement> required;
 };
 int runExport(const ExportOptions& options);
 

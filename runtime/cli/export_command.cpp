@@ -6,7 +6,7 @@
 #include "runtime/clock.h"
 #include "runtime/export/export.h"
 #include "runtime/export/output_file.h"
-#include "runtime/mesh_report.h"
+#include "runtime/field_measure.h"
 
 namespace fw::cli {
 
@@ -30,7 +30,8 @@ int runExport(const ExportOptions& options) {
         return print(distinct.error()), kBadUsage;
     Progress progress;
     int status = kDone;
-    std::optional<MeshedProgram> opened = meshGraph(options.mesh, progress, !options.report.empty(), status);
+    const bool reported = !options.report.empty() || !options.required.empty();
+    std::optional<MeshedProgram> opened = meshGraph(options.mesh, progress, reported, status);
     if (!opened) return status;
     Session& session = opened->session;
     const MesherResult& meshed = opened->mesh;
@@ -44,11 +45,15 @@ int runExport(const ExportOptions& options) {
     if (meshed.capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());
-    if (!options.report.empty()) {
+    if (reported) {
         const double total = millisecondsSince(begin);
         const uint64_t peak = peakMemoryBytes();
         progress.start("report", 85);
-        Result<Report> report = reportOnFile(options.output, fieldError(session.program(), opened->region));
+        const bool compared = !options.report.empty() || needField(options.required);
+        MeasureOptions measured;
+        if (compared) measured = measureOf(session.program(), opened->region);
+        measured.selfIntersections = true;
+        Result<Report> report = reportOnFile(options.output, measured);
         if (!report) return print(report.error()), kSystemFailure;
         progress.finish();
         report->capped = meshed.capped;
@@ -58,8 +63,13 @@ int runExport(const ExportOptions& options) {
         report->totalMs = total;
         report->peakMemoryBytes = peak;
         report->device = session.device().name();
-        if (const Done saved = writeText(options.report, writeReport(*report)); !saved)
-            return print(saved.error()), kSystemFailure;
+        if (!options.report.empty())
+            if (const Done saved = writeText(options.report, writeReport(*report)); !saved)
+                return print(saved.error()), kSystemFailure;
+        const std::vector<std::string> reasons = unmet(options.required, *report);
+        for (const std::string& reason : reasons)
+            std::fprintf(stderr, "%s: %s\n", options.output.c_str(), reason.c_str());
+        if (!reasons.empty()) return kBadInput;
     }
     return kDone;
 }

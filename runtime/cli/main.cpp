@@ -111,6 +111,13 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
                      "Mesh only this box: x0 y0 z0 x1 y1 z1, in metres (default: found from the field)")
         ->expected(6)
         ->check(finite());
+    command
+        ->add_option_function<std::string>(
+            "--method", [&mesh](const std::string& name) { mesh.method = meshMethod(name); },
+            "How the surface becomes triangles: dual-contouring keeps edges and corners sharp (default: as "
+            "the graph says, else marching-cubes)")
+        ->check(CLI::IsMember(
+            std::vector<std::string>(std::begin(kMeshMethodNames), std::end(kMeshMethodNames))));
     command->add_option("--device", mesh.device,
                         "Index or part of the name of the device (see fieldwright info)");
 }
@@ -140,11 +147,19 @@ int run(int count, char** arguments) {
         ->add_option("-o,--output", exportOptions.output,
                      "The mesh file; its ending says the format: .glb .gltf .obj .stl .ply")
         ->required();
-    exportCommand->add_option("--method", exportOptions.method, "How the surface becomes triangles")
-        ->check(CLI::IsMember({"marching-cubes"}))
-        ->default_str("marching-cubes");
     exportCommand->add_option("--report", exportOptions.report,
                               "Write what the mesh file holds, measured from it, as JSON to this file");
+    exportCommand
+        ->add_option_function<std::string>(
+            "--require",
+            [&exportOptions](const std::string& list) {
+                Result<std::vector<Requirement>> required = parseRequirements(list);
+                if (!required) throw CLI::ValidationError("--require", required.error().message);
+                exportOptions.required = std::move(*required);
+            },
+            "What the mesh file must be, parted by commas; if it is not, the exit status is 1: " +
+                requirementNames())
+        ->type_name("LIST");
 
     RenderCommandOptions renderOptions;
     CLI::App* renderCommand = app.add_subcommand(

@@ -89,7 +89,7 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
     std::optional<Program> program = openProgram(*graph, options.graph.time);
     if (!program) return fail(kBadInput);
     progress.start("region", 10);
-    const MeshRequest request{region, options.resolution.value_or(program->resolution)};
+    const MeshRequest request{region, options.resolution.value_or(program->resolution), options.method};
     const Result<Box> box = meshRegion(*program, request);
     if (!box) return fail(badInput(options, box.error()));
     prepareMesher(emitField(*program));
@@ -119,6 +119,7 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     PlayerOptions playerOptions = wishes;
     playerOptions.device = playerOptions.deviceOptions.pick = options.device;
     playerOptions.resolution = options.resolution.value_or(0);
+    playerOptions.method = options.method;
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
     const BeforeOutput nothing;
     std::future<Result<Device>> opening =

@@ -1,5 +1,5 @@
-// From signs to what will be written: the edge -> vertex lookup, the strips with active cells, and how many vertices and
-// triangles each group of eight bricks has. A lane takes one plane of cells; places are counted from the first of the
+// From signs to what will be written: the edge -> vertex lookup, the strips with active cells, and how many active edges
+// and triangles (of dual contouring: patches) each group of eight bricks has. A lane takes one plane of cells; places are counted from the first of the
 // group, the level above (top_groups.comp) sums up the groups. Also finds surface that was closed at the region's
 // boundary, and surface that runs into a brick that was culled.
 //
@@ -14,8 +14,9 @@
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
+layout(constant_id = 0) const bool kDual = false;
 layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 12, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, first triangle << 7
+layout(binding = 12, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, its first triangle or patch << 7
 
 const uint kRow = 0x01010101u;  // y = 0 of every column
 
@@ -51,7 +52,7 @@ uint classShift(uint cells) { return cells > 16 ? 0 : cells > 8 ? 8 : cells > 4 
 /// What is kept of a strip while the group sums up.
 struct Strip {
     uvec3 crossed;
-    uint cells, triangles;
+    uint cells, parts;  // parts: triangles or patches
 };
 
 void main() {
@@ -66,20 +67,21 @@ void main() {
     uvec3 first = unpackBrick(brickList[slot]) * 8;
     uint faces = links[slot * 8 + 7];
     Strip strips[2];
-    uvec2 own = uvec2(0);  // vertices and triangles << 16; strips by class
+    uvec2 own = uvec2(0);  // active edges and parts << 16; strips by class
     bool cap = false, leak = false;
     uint side = 0;
     [[dont_unroll]] do {  // a loop, so that it is translated once
         StripSigns low = stripSigns(a, side), high = stripSigns(b, side);
-        Strip strip = Strip(activeEdges(low, high), bitCount(activeCells(low, high)), triangleCount(low, high));
+        Strip strip = Strip(activeEdges(low, high), bitCount(activeCells(low, high)),
+                            kDual ? loopCount(low, high) : triangleCount(low, high));
         ivec3 n = bitCount(strip.crossed);
-        own.x += n.x + n.y + n.z + (strip.triangles << 16);
+        own.x += n.x + n.y + n.z + (strip.parts << 16);
         own.y += strip.cells != 0 ? 1u << classShift(strip.cells) : 0;
         cap = cap || hasCap(first + uvec3(side * 4, 0, 0), z, strip.crossed);
         leak = leak || (crossedFaces(z, side, a, b, strip.crossed, high) & ~faces) != 0;
         strips[0].crossed = side == 0 ? strip.crossed : strips[0].crossed;
         strips[0].cells = side == 0 ? strip.cells : strips[0].cells;
-        strips[0].triangles = side == 0 ? strip.triangles : strips[0].triangles;
+        strips[0].parts = side == 0 ? strip.parts : strips[0].parts;
         strips[1] = strip;
     } while (++side < 2);
     uvec2 total;
@@ -87,18 +89,18 @@ void main() {
     uint ofLarger = total.y << 8;  // in each byte the count of the classes before; 128 strips at most in all
     ofLarger += ofLarger << 8;
     ofLarger += ofLarger << 16;
-    uint vertex = before.x & 0xffff, triangle = before.x >> 16;
+    uint vertex = before.x & 0xffff, part = before.x >> 16;
     [[unroll]] for (int i = 0; i < 2; ++i) {
         Strip strip = strips[i];
         ivec3 n = bitCount(strip.crossed);
         if (valid) edges[slot * 16 + z * 2 + i] = uvec4(strip.crossed, vertex);
         uint shift = classShift(strip.cells);
         uint place = (ofLarger >> shift & 255) + (before.y >> shift & 255);
-        uint word = gl_LocalInvocationIndex << 1 | i | triangle << 7;
+        uint word = gl_LocalInvocationIndex << 1 | i | part << 7;
         if (strip.cells != 0) stripList[group * MESHER_GROUP_STRIPS + place] = word;
         before.y += strip.cells != 0 ? 1u << shift : 0;
         vertex += n.x + n.y + n.z;
-        triangle += strip.triangles;
+        part += strip.parts;
     }
     if (gl_LocalInvocationIndex == 0) {
         uint strips = (ofLarger >> 24) + (total.y >> 24);

@@ -3,5 +3,6 @@
 // vertex is the first one's index plus the number of active edges before it.
 layout(binding = 8, scalar) buffer Edges { uvec4 edges[]; };
 
-// For each group of bricks: first vertex, first triangle, nothing, number of strips with active cells.
+// For each group of bricks: first active edge, first triangle (of dual contouring: patch), nothing, number of strips with
+// active cells.
 layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };

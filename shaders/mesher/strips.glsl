@@ -31,6 +31,12 @@ uint activeCells(StripSigns a, StripSigns b) {
     return (a.at | a.x | a.y | a.xy | b.at | b.x | b.y | b.xy) & ~(a.at & a.x & a.y & a.xy & b.at & b.x & b.y & b.xy);
 }
 
+/// Which corners of one cell are inside, by bits: marching_cubes_table.h numbers them.
+uint cornerPattern(StripSigns a, StripSigns b, uint bit) {
+    return (a.at >> bit & 1) | (a.x >> bit & 1) << 1 | (a.y >> bit & 1) << 2 | (a.xy >> bit & 1) << 3 |
+           (b.at >> bit & 1) << 4 | (b.x >> bit & 1) << 5 | (b.y >> bit & 1) << 6 | (b.xy >> bit & 1) << 7;
+}
+
 /// Two edges across a cell from each other, both ends of each inside and the other four corners outside.
 uint opposite(uint p, uint q, uint r, uint s, uint t, uint u, uint v, uint w) {
     return (p & q & r & s & ~(t | u | v | w)) | (t & u & v & w & ~(p | q | r | s));
@@ -43,12 +49,11 @@ uvec2 add(uint a, uint b, uint c) {
     return uvec2(either ^ c, (a & b) | (either & c));
 }
 
-/// Number of triangles of a strip. A cell whose edges cross the surface e times in c closed loops has e - 2 c
-/// triangles. Loops are counted by the regions that they part on the cell's boundary, a sphere: c = inside regions +
+/// Number of closed loops in which the edges of a strip's cells cross the surface. Loops are counted by the regions that they part on the cell's boundary, a sphere: c = inside regions +
 /// outside regions - 1. Inside corners join along edges only: a region is a lonely corner, or there is one of several
 /// corners, or two of those, which are then opposite edges. Outside corners join across faces too, so that there
 /// is one region unless just two opposite corners are outside. (The table has the same by construction, a test compares.)
-uint triangleCount(StripSigns a, StripSigns b) {
+uint loopCount(StripSigns a, StripSigns b) {
     uint lonely0 = a.at & ~(a.x | a.y | b.at), lonely1 = a.x & ~(a.at | a.xy | b.x);
     uint lonely2 = a.y & ~(a.at | a.xy | b.y), lonely3 = a.xy & ~(a.x | a.y | b.xy);
     uint lonely4 = b.at & ~(b.x | b.y | a.at), lonely5 = b.x & ~(b.at | b.xy | a.x);
@@ -67,13 +72,16 @@ uint triangleCount(StripSigns a, StripSigns b) {
     uvec2 l0 = add(lonely0, lonely1, lonely2), l1 = add(lonely3, lonely4, lonely5), l2 = add(lonely6, lonely7, joined);
     uvec2 l3 = add(l0.x, l1.x, l2.x), l4 = add(l3.x, pairs, holes);
     uvec2 m0 = add(l0.y, l1.y, l2.y), m1 = add(m0.x, l3.y, l4.y);
-    uint loops = bitCount(l4.x) + 2 * bitCount(m1.x) + 4 * bitCount(m0.y ^ m1.y) - bitCount(everyCorner);
+    return bitCount(l4.x) + 2 * bitCount(m1.x) + 4 * bitCount(m0.y ^ m1.y) - bitCount(everyCorner);
+}
 
+/// Number of triangles of a strip: a cell whose edges cross the surface e times in c closed loops has e - 2 c.
+uint triangleCount(StripSigns a, StripSigns b) {
     uvec2 e0 = add(a.at ^ a.x, a.y ^ a.xy, b.at ^ b.x), e1 = add(b.y ^ b.xy, a.at ^ a.y, a.x ^ a.xy);
     uvec2 e2 = add(b.at ^ b.y, b.x ^ b.xy, a.at ^ b.at), e3 = add(a.x ^ b.x, a.y ^ b.y, a.xy ^ b.xy);
     uvec2 e4 = add(e0.x, e1.x, e2.x), e5 = add(e4.x, e3.x, 0);
     uvec2 f0 = add(e0.y, e1.y, e2.y), f1 = add(e3.y, e4.y, e5.y), f2 = add(f0.x, f1.x, 0);
     uvec2 g = add(f0.y, f1.y, f2.y);
     uint edges = bitCount(e5.x) + 2 * bitCount(f2.x) + 4 * bitCount(g.x) + 8 * bitCount(g.y);
-    return edges - 2 * loops;
+    return edges - 2 * loopCount(a, b);
 }

@@ -6,6 +6,7 @@
 #include "mesher/mesher.glsl"
 #include "mesher/strips.glsl"
 #include "mesher/links.glsl"
+#include "mesher/list_edges.glsl"
 // edges.glsl says what these hold. As texels they come in one load each, without a branch a lane on software devices.
 layout(binding = 8, rgba32ui) readonly uniform uimageBuffer edges;
 layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
@@ -13,7 +14,6 @@ layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
 // A group has some eighty strips; small work groups leave few lanes without one.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLanes = 32;
-layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };  // sign, strip, axis, bit
 layout(binding = 11, scalar) uniform Table { uvec3 table[256]; };                 // marching_cubes_table.h
 layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
 layout(binding = 13, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
@@ -62,10 +62,7 @@ void main() {
         do {
             uint bit = findLSB(cells);
             cells &= cells - 1;
-            uint pattern = (low.at >> bit & 1) | (low.x >> bit & 1) << 1 | (low.y >> bit & 1) << 2 |
-                           (low.xy >> bit & 1) << 3 | (high.at >> bit & 1) << 4 | (high.x >> bit & 1) << 5 |
-                           (high.y >> bit & 1) << 6 | (high.xy >> bit & 1) << 7;
-            uvec3 codes = table[pattern];
+            uvec3 codes = table[cornerPattern(low, high, bit)];
             uint cell = (bit & 24) << 2 | bit & 7;
             uint first = vertexOn(codes.x, cell);
             uint before = vertexOn(codes.x >> 8, cell);
@@ -85,16 +82,6 @@ void main() {
             } while (!last);
         } while (cells != 0);
 
-        uvec3 crossed = valid ? strip.xyz : uvec3(0);
-        uint k = strip.w, end = k + bitCount(crossed.x) + bitCount(crossed.y) + bitCount(crossed.z);
-        uint entry = own << 7;
-        do {
-            bool next = crossed.x == 0;
-            crossed = next ? uvec3(crossed.yz, 0) : crossed;
-            entry += next ? 32 : 0;
-            uint bit = findLSB(crossed.x);
-            if (crossed.x != 0) vertexList[k++] = entry | bit | (low.at >> (bit & 31)) << 31;
-            crossed.x &= crossed.x - 1;
-        } while (k < end);
+        listEdges(own, strip, low.at, valid);
     } while ((item += kLanes) < base.w);
 }

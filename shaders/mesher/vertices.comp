@@ -23,7 +23,7 @@ void main() {
     fieldBegin();
     uint chunkStart = push.chunk * MESHER_VERTEX_CHUNK;
     uint index = linearGroup() * MESHER_GROUP_VERTICES + gl_LocalInvocationIndex;
-    bool valid = chunkStart + index < counts.vertices && index < MESHER_VERTEX_CHUNK;
+    bool valid = chunkStart + index < counts.edges && index < MESHER_VERTEX_CHUNK;
     uint word = vertexList[chunkStart + (valid ? index : 0)];
     uint bit = word & 31, axis = word >> 5 & 3, side = word >> 7 & 1, z = word >> 8 & 7;
     bool insideAtA = (word >> 31) != 0;

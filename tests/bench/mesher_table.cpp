@@ -34,10 +34,11 @@ struct Ours {
 
 /// Meshes the field, checks the mesh against what is expected of it, and times it.
 std::optional<Ours> timeMesher(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers, Field field,
-                               int cells) {
+                               int cells, MeshMethod method) {
     MesherConfig config{.origin = glm::vec3(-regionHalf(field)),
                         .cellSize = glm::vec3(2 * regionHalf(field) / float(cells)),
-                        .cells = glm::ivec3(cells)};
+                        .cells = glm::ivec3(cells),
+                        .method = method};
     const std::string name = std::string(fieldName(field)) + " at " + std::to_string(cells);
     const auto run = [&] {
         Result<MesherResult> result = runMesher(bench.device(), pipelines, buffers, config);
@@ -67,6 +68,15 @@ std::optional<Ours> timeMesher(Bench& bench, MesherPipelines& pipelines, MesherB
     }
     for (auto& [stage, figure] : ours.stages) std::ranges::sort(figure.runs);
     return ours;
+}
+
+/// Adds the row of the stages' medians; the first one gives the header.
+void addStages(Table& table, Field field, int cells, const Ours& ours) {
+    std::vector<std::string> row = {std::string(fieldName(field)), std::to_string(cells)};
+    if (table.header.size() == 2)
+        for (const auto& [stage, figure] : ours.stages) table.header.push_back(stage);
+    for (const auto& [stage, figure] : ours.stages) row.push_back(number(figure.median()));
+    table.rows.push_back(row);
 }
 
 /// Operations of a field: all of them, and those of sampling a brick's 9 planes of 9 rows of 9 samples, where
@@ -118,6 +128,11 @@ void mesherTable(Bench& bench) {
     Table peak{.title = "The mesher's stages and the device's peaks (tower)",
                .header = {"stage", "cells", "ms", "least MB", "least 10⁶ operations", "ms at the peaks",
                           "times that"}};
+    Table dual{.title = "Dual contouring: sharp edges (ms)",
+               .header = {"field", "cells", "vertices", "triangles", "pinches", "ours", "of the baseline",
+                          "of marching cubes"}};
+    Table dualStages{.title = "Where dual contouring's time goes (ms, likewise)",
+                     .header = {"field", "cells"}};
     const Peaks peaks = measurePeaks(bench.device(), bench.options.repeats);
     double tower256 = 0;
     bool everAhead = true;
@@ -142,7 +157,8 @@ void mesherTable(Bench& bench) {
                     bench.fail("baseline, " + name + ": " + fault);
             }
             MesherBuffers buffers;
-            const std::optional<Ours> ours = timeMesher(bench, pipelines, buffers, field, cells);
+            const std::optional<Ours> ours =
+                timeMesher(bench, pipelines, buffers, field, cells, MeshMethod::marchingCubes);
             if (!ours) continue;
             if (theirs) {
                 // Samples whose sign hangs on the last bit of a sine may fall either way.
@@ -159,11 +175,22 @@ void mesherTable(Bench& bench) {
                                   count(ours->result.vertices), count(ours->result.triangles),
                                   theirs ? text(*theirs) : "–", text(ours->total),
                                   theirs ? number(ratio) : "–"});
-            std::vector<std::string> row = {std::string(fieldName(field)), std::to_string(cells)};
-            if (stages.header.size() == 2)
-                for (const auto& [stage, figure] : ours->stages) stages.header.push_back(stage);
-            for (const auto& [stage, figure] : ours->stages) row.push_back(number(figure.median()));
-            stages.rows.push_back(row);
+            addStages(stages, field, cells, *ours);
+            if (const std::optional<Ours> sharp =
+                    timeMesher(bench, pipelines, buffers, field, cells, MeshMethod::dualContouring)) {
+                const double part = theirs ? sharp->total.median() / theirs->median() : 0;
+                dual.rows.push_back(
+                    {std::string(fieldName(field)), std::to_string(cells), count(sharp->result.vertices),
+                     count(sharp->result.triangles), count(sharp->result.pinches), text(sharp->total),
+                     theirs ? number(part) : "–", number(sharp->total.median() / ours->total.median())});
+                addStages(dualStages, field, cells, *sharp);
+                if (cells == 256 && theirs) {
+                    const double most = field == Field::tower ? 0.6 : 1.0;
+                    dual.notes.push_back(std::string(fieldName(field)) + " at 256: at most " + number(most) +
+                                         " of the baseline wanted, " + (part <= most ? "met" : "missed") +
+                                         " (" + number(part) + ").");
+                }
+            }
 
             if (field != Field::tower) continue;
             for (const auto& [size, factor] : kWanted)
@@ -206,6 +233,8 @@ void mesherTable(Bench& bench) {
                   "triangles consist."};
     print(speed, bench.options.markdown);
     print(stages, bench.options.markdown);
+    print(dual, bench.options.markdown);
+    print(dualStages, bench.options.markdown);
     print(peak, bench.options.markdown);
 }
 

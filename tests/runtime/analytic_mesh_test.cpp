@@ -264,7 +264,8 @@ std::vector<Row> rows() {
     };
 }
 
-Report measure(const Graph& graph, int resolution, double* cell = nullptr) {
+Report measure(const Graph& graph, int resolution, double* cell = nullptr,
+               MeshMethod method = MeshMethod::marchingCubes) {
     for (const Error& error : check(graph))
         EXPECT_NE(error.severity, Error::Severity::error) << format(error);
     Result<Program> program = compile(graph);
@@ -276,7 +277,7 @@ Report measure(const Graph& graph, int resolution, double* cell = nullptr) {
     EXPECT_TRUE(device);
     Session session(std::move(*device));
     session.setProgram(std::move(*program));
-    const Result<MesherResult> result = session.polygonise({box, resolution});
+    const Result<MesherResult> result = session.polygonise({box, resolution, method});
     EXPECT_TRUE(result) << format(result.error());
     const test::TempDir folder;
     const std::string path = folder.path("solid.glb");
@@ -320,6 +321,53 @@ TEST(AnalyticSolids, VolumeAreaBoundsAndTopology) {
             EXPECT_NEAR(report.boundsMin[axis], -row.halfExtents[axis], slack) << "axis " << axis;
         }
     }
+}
+
+TEST(AnalyticSolids, DualContouringKeepsTheirEdges) {
+    for (const Row& row : rows()) {
+        SCOPED_TRACE(row.name);
+        double cell = 0;
+        const Report report = measure(row.graph, 128, &cell, MeshMethod::dualContouring);
+        expectSound(report, row.name);
+        EXPECT_EQ(report.eulerCharacteristic, row.euler);
+        EXPECT_EQ(report.shells, static_cast<uint64_t>(row.shells));
+        const double smooth = 2 * cell * cell / 0.2;
+        EXPECT_NEAR(report.volume, row.volume, row.volume * smooth);
+        if (row.area > 0) { EXPECT_NEAR(report.area, row.area, row.area * smooth); }
+        for (int axis = 0; axis < 3; ++axis) {
+            if (row.halfExtents[axis] == 0) continue;
+            const double slack = row.pointed ? cell : 0.1 * cell;
+            EXPECT_NEAR(report.boundsMax[axis], row.halfExtents[axis], slack) << "axis " << axis;
+            EXPECT_NEAR(report.boundsMin[axis], -row.halfExtents[axis], slack) << "axis " << axis;
+        }
+    }
+}
+
+TEST(AnalyticSolids, DualContouringIsExactWhereFacesAreFlat) {
+    const Report box = measure(single("box", Inputs().set("half_extents", vec(0.51, 0.73, 0.615))), 64,
+                               nullptr, MeshMethod::dualContouring);
+    EXPECT_NEAR(box.volume, 8 * 0.51 * 0.73 * 0.615, 1e-5);
+    EXPECT_NEAR(box.area, 8 * (0.51 * 0.73 + 0.73 * 0.615 + 0.615 * 0.51), 1e-5);
+    EXPECT_NEAR(box.boundsMax[1], 0.73, 1e-6);
+    EXPECT_GT(box.smallestAngle, 20.0);
+    // Half of it cut away by a region: the cut is as sharp.
+    Result<Program> program = compile(single("box", {}));
+    ASSERT_TRUE(program);
+    Result<Device> device = createDevice({.validation = true});
+    ASSERT_TRUE(device);
+    Session session(std::move(*device));
+    session.setProgram(std::move(*program));
+    const Result<MesherResult> result =
+        session.polygonise({Box{{-2, -2, -2}, {0.123, 2, 2}}, 50, MeshMethod::dualContouring});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->capped);
+    const Mesh mesh = session.download(*result);
+    const Report report = reportOnMesh(mesh.positions, mesh.indices);
+    EXPECT_TRUE(report.closedManifold());
+    EXPECT_NEAR(report.volume, 1.123 * 4, 1e-4);
+    EXPECT_NEAR(report.area, 2 * 4 + 4 * 2 * 1.123, 1e-4);
+    for (const glm::vec3& normal : mesh.normals)  // each along an axis
+        EXPECT_NEAR(std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)}), 1.0f, 1e-4f);
 }
 
 TEST(AnalyticSolids, MengerSponges) {

@@ -130,5 +130,43 @@ TEST(MarchingCubesTable, PackedTableHoldsTheSame) {
     }
 }
 
+TEST(MarchingCubesTable, PackedPatchesAreThePolygonsOneByOne) {
+    int twice = 0;
+    for (int pattern = 0; pattern < 256; ++pattern) {
+        const std::vector<CellPolygon>& polygons = cellPolygons(pattern);
+        ASSERT_LE(polygons.size(), std::size_t(kMostCellPolygons));
+        for (std::size_t n = 0; n < std::size_t(kMostCellPolygons); ++n) {
+            const glm::uvec3 packed = packedCellPatches()[std::size_t(pattern * kMostCellPolygons) + n];
+            if (n >= polygons.size()) {
+                EXPECT_EQ(packed, glm::uvec3(0));
+                continue;
+            }
+            EXPECT_NE(packed.x, 0u);
+            const CellPolygon& polygon = polygons[n];
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const uint32_t code = packed[int(i / 4)] >> i % 4 * 8 & 255;
+                const CellEdge edge = cellEdge(polygon[i]);
+                EXPECT_EQ(code >> 5 & 1, edge.corner.x);
+                EXPECT_EQ(code & 1, edge.corner.y);
+                EXPECT_EQ(code >> 2 & 1, edge.corner.z);
+                EXPECT_EQ(int(code >> 3 & 3), edge.axis);
+                EXPECT_EQ((code & 128) != 0, i + 1 == polygon.size());
+                // A face is run over twice if all four of its edges belong to the polygon.
+                const int others[2] = {edge.axis == 0 ? 1 : 0, edge.axis == 2 ? 1 : 2};
+                for (int k = 0; k < 2; ++k) {
+                    int onFace = 0;
+                    for (const uint8_t other : polygon) {
+                        const CellEdge at = cellEdge(other);
+                        onFace += at.axis != others[k] && at.corner[others[k]] == edge.corner[others[k]];
+                    }
+                    EXPECT_EQ((code & (k == 0 ? 2u : 64u)) != 0, onFace == 4);
+                    twice += onFace == 4;
+                }
+            }
+        }
+    }
+    EXPECT_GT(twice, 0);
+}
+
 }  // namespace
 }  // namespace fw

@@ -20,8 +20,8 @@ namespace {
 
 using test::TempDir;
 
-Report reportOf(const Mesh& mesh, const FieldError& fieldError = {}) {
-    return reportOnMesh(mesh.positions, mesh.indices, fieldError);
+Report reportOf(const Mesh& mesh, const FieldError& error = {}) {
+    return reportOnMesh(mesh.positions, mesh.indices, {.error = error});
 }
 
 struct Topology {
@@ -223,6 +223,15 @@ TEST(MeshReport, JsonHasTheDocumentedKeysInOrder) {
                                               "boundsMax",
                                               "maxError",
                                               "meanError",
+                                              "selfIntersections",
+                                              "smallestAngle",
+                                              "largestAngle",
+                                              "meshToSurfaceMax",
+                                              "meshToSurfaceMean",
+                                              "meshToSurfaceSamples",
+                                              "surfaceToMeshMax",
+                                              "surfaceToMeshMean",
+                                              "surfaceToMeshSamples",
                                               "capped",
                                               "stages",
                                               "totalMs",

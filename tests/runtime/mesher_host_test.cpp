@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
 
@@ -13,6 +15,7 @@
 #include "runtime/mesher.h"
 #include "runtime/session.h"
 #include "tests/support/gpu.h"
+#include "tests/support/random_graph.h"
 
 namespace fw {
 namespace {
@@ -121,6 +124,51 @@ TEST(MesherHost, BuffersGrowUntilTheSurfaceFits) {
     const Meshed ours = run({}, gridOf(*box, 96), &host);
     EXPECT_EQ(reportOnMesh(ours.mesh.positions, ours.mesh.indices).boundaryEdges, 0u);
     EXPECT_GT(ours.mesh.positions.size(), 10000u);
+}
+
+TEST(MesherHost, RandomGraphsAreClosedAndManifoldByBothMethods) {
+    const int wanted = std::getenv("FIELDWRIGHT_LONG") ? 10'000 : 150;
+    const int cells = 20;
+    MesherPipelines pipelines;  // all that is needed is the same for every field
+    MesherBuffers buffers;
+    int meshed = 0, empty = 0;
+    uint64_t pinches = 0, cuts = 0, triangles = 0, flat = 0;
+    for (uint32_t seed = 1; meshed < wanted; ++seed) {
+        ASSERT_LT(seed, 20u * uint32_t(wanted));
+        Result<Program> program = compile(test::randomGraph(seed, 30));
+        if (!program || !program->ir.images().empty()) continue;
+        MesherHost host(program->ir, program->distance(), program->parameters());
+        bool any = false;
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring}) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", method " + std::to_string(int(method)));
+            const MesherConfig config{.origin = glm::vec3(-2.03f, -1.98f, -2.01f),
+                                      .cellSize = glm::vec3(4.0f / cells),
+                                      .cells = glm::ivec3(cells),
+                                      .method = method,
+                                      .host = &host};
+            const Result<MesherResult> result = runMesher(test::device(), pipelines, buffers, config);
+            ASSERT_TRUE(result) << format(result.error());
+            any = any || result->triangles > 0;
+            if (result->triangles == 0) continue;
+            const Mesh mesh = downloadMesh(test::device(), buffers, *result);
+            const bool dual = method == MeshMethod::dualContouring;
+            const Report report = reportOnMesh(mesh.positions, mesh.indices, {.selfIntersections = dual});
+            ASSERT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.nonManifoldVertices, 0u);
+            ASSERT_EQ(report.flippedEdges, 0u);
+            flat += report.degenerateTriangles;
+            if (!dual) continue;
+            pinches += result->pinches;
+            cuts += *report.selfIntersections;
+            triangles += report.triangles;
+        }
+        ++(any ? meshed : empty);
+    }
+    EXPECT_LE(flat, triangles / 10'000);  // points that a field with jumps puts in one line
+    const auto number = [](uint64_t of) { return static_cast<unsigned long long>(of); };
+    std::printf("%d graphs meshed, %d empty there, %llu triangles without area\n", meshed, empty,
+                number(flat));
+    std::printf("dual contouring: %llu triangles, %llu cuts, %llu pinches\n", number(triangles), number(cuts),
+                number(pinches));
 }
 
 }  // namespace

@@ -339,6 +339,28 @@ TEST(Player, AReloadKeepsTimeAndParametersOrEverything) {
     EXPECT_NEAR(lo.y, 2.3, 0.02);
 }
 
+TEST(Player, AReloadWithAnotherMethodMeshesAnew) {
+    const auto boxBy = [](const std::string& method) {
+        return R"({"fieldwright": 1, "nodes": [{"id": "box", "type": "box", "inputs": {"half_extents": [0.51, 0.73, 0.6]}},
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "box"}, "resolution": 40, "method": ")" +
+               method + R"("}}]})";
+    };
+    for (const bool behind : {false, true}) {
+        Played played(boxBy("marching-cubes"), {.compileBehind = behind});
+        const auto volume = [&] {
+            const Result<Mesh> mesh = played->mesh();
+            EXPECT_TRUE(mesh);
+            return reportOnMesh(mesh->positions, mesh->indices).volume;
+        };
+        const double exact = 8 * 0.51 * 0.73 * 0.6;
+        EXPECT_LT(volume(), 0.9995 * exact);  // its edges are bevelled
+        const Result<Graph> sharp = parseGraph(boxBy("dual-contouring"), "a.field.json", nullptr);
+        ASSERT_TRUE(sharp);
+        ASSERT_TRUE(played->reload(*sharp));
+        EXPECT_NEAR(volume(), exact, 1e-5);
+    }
+}
+
 TEST(Player, AReloadShowsAPictureAsItIsNow) {
     const TempDir folder;
     const auto paint = [&](uint8_t grey) {
