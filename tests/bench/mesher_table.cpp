@@ -34,7 +34,7 @@ struct Ours {
 
 /// Meshes the field, checks the mesh against what is expected of it, and times it.
 std::optional<Ours> timeMesher(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers, Field field,
-                               int cells, MeshMethod method) {
+                               int cells, MeshMethod method, std::vector<std::string>& refusals) {
     MesherConfig config{.origin = glm::vec3(-regionHalf(field)),
                         .cellSize = glm::vec3(2 * regionHalf(field) / float(cells)),
                         .cells = glm::ivec3(cells),
@@ -46,7 +46,9 @@ std::optional<Ours> timeMesher(Bench& bench, MesherPipelines& pipelines, MesherB
         return std::move(*result);
     };
     Ours ours;
-    ours.result = run();
+    const Result<MesherResult> first = runMesher(bench.device(), pipelines, buffers, config);
+    if (!first) return refusals.push_back(name + ": " + first.error().message + "."), std::nullopt;
+    ours.result = *first;
     {
         const Mesh mesh = downloadMesh(bench.device(), buffers, ours.result);
         if (const std::string fault = faultOf(mesh.indices, mesh.positions.size()); !fault.empty())
@@ -158,7 +160,7 @@ void mesherTable(Bench& bench) {
             }
             MesherBuffers buffers;
             const std::optional<Ours> ours =
-                timeMesher(bench, pipelines, buffers, field, cells, MeshMethod::marchingCubes);
+                timeMesher(bench, pipelines, buffers, field, cells, MeshMethod::marchingCubes, speed.notes);
             if (!ours) continue;
             if (theirs) {
                 // Samples whose sign hangs on the last bit of a sine may fall either way.
@@ -176,8 +178,8 @@ void mesherTable(Bench& bench) {
                                   theirs ? text(*theirs) : "–", text(ours->total),
                                   theirs ? number(ratio) : "–"});
             addStages(stages, field, cells, *ours);
-            if (const std::optional<Ours> sharp =
-                    timeMesher(bench, pipelines, buffers, field, cells, MeshMethod::dualContouring)) {
+            if (const std::optional<Ours> sharp = timeMesher(bench, pipelines, buffers, field, cells,
+                                                             MeshMethod::dualContouring, dual.notes)) {
                 const double part = theirs ? sharp->total.median() / theirs->median() : 0;
                 dual.rows.push_back(
                     {std::string(fieldName(field)), std::to_string(cells), count(sharp->result.vertices),
