@@ -5,23 +5,16 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
+#include <span>
+
+#include "runtime/corners.h"
 
 namespace fw {
 
 namespace {
 
-/// Corners (index into Mesh::indices) by vertex, in the order of the triangles.
-struct CornerLists {
-    std::vector<uint32_t> start, corners;
-
-    explicit CornerLists(const Mesh& mesh) : start(mesh.positions.size() + 1), corners(mesh.indices.size()) {
-        for (const uint32_t index : mesh.indices) ++start[index + 1];
-        std::partial_sum(start.begin(), start.end(), start.begin());
-        std::vector<uint32_t> place(start.begin(), start.end() - 1);
-        for (uint32_t corner = 0; corner < mesh.indices.size(); ++corner)
-            corners[place[mesh.indices[corner]]++] = corner;
-    }
-};
+uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+uint32_t previous(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 /// Not a number where the triangle has no area.
 glm::vec3 normalOf(const Mesh& mesh, uint32_t corner) {
@@ -31,27 +24,22 @@ glm::vec3 normalOf(const Mesh& mesh, uint32_t corner) {
 }
 
 float angleAt(const Mesh& mesh, uint32_t corner) {
-    const uint32_t triangle = corner / 3 * 3, at = corner - triangle;
     const glm::vec3 here = mesh.positions[mesh.indices[corner]];
-    const glm::vec3 a = mesh.positions[mesh.indices[triangle + (at + 1) % 3]] - here,
-                    b = mesh.positions[mesh.indices[triangle + (at + 2) % 3]] - here;
+    const glm::vec3 a = mesh.positions[mesh.indices[next(corner)]] - here,
+                    b = mesh.positions[mesh.indices[previous(corner)]] - here;
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
-
-uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-uint32_t previous(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 }  // namespace
 
 void splitCreases(Mesh& mesh, float degrees) {
     const float least = std::cos(degrees * std::numbers::pi_v<float> / 180.0f);
-    const CornerLists lists(mesh);
     const std::size_t vertices = mesh.positions.size();
+    const Corners corners = cornersOf(mesh.indices, vertices);
     std::vector<glm::vec3> normals;
     std::vector<uint32_t> side;
     for (std::size_t v = 0; v < vertices; ++v) {
-        const std::span<const uint32_t> around(&lists.corners[lists.start[v]],
-                                               lists.start[v + 1] - lists.start[v]);
+        const std::span<const uint32_t> around = corners.at(v);
         normals.clear();
         bool smooth = true;
         for (const uint32_t corner : around) {

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <random>
 
+#include "runtime/corners.h"
 #include "runtime/export/read_back.h"
 #include "runtime/parallel.h"
 #include "runtime/triangle_tree.h"
@@ -20,37 +21,6 @@ namespace {
 
 constexpr double kDegenerateRatio =
     1e-12;  // area below this part of the longest side squared is rounding noise
-
-bool collapsed(const uint32_t* triangle) {
-    return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
-}
-
-/// The corners at each vertex: corner 3 t + k is entry k of triangle t; collapsed triangles have none.
-struct Corners {
-    std::vector<uint32_t> start;  ///< one more than vertices
-    std::vector<uint32_t> corner;
-    uint32_t degree(std::size_t vertex) const { return start[vertex + 1] - start[vertex]; }
-};
-
-Corners cornersOf(const WeldedMesh& mesh) {
-    Corners corners;
-    corners.start.assign(mesh.positions.size() + 1, 0);
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        if (collapsed(&mesh.indices[i])) continue;
-        for (std::size_t k = 0; k < 3; ++k) ++corners.start[mesh.indices[i + k] + 1];
-    }
-    for (std::size_t v = 1; v < corners.start.size(); ++v) corners.start[v] += corners.start[v - 1];
-    corners.corner.resize(corners.start.back());
-    // Filling moves each start to its end, which is the next one's start: shifted back afterwards.
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        if (collapsed(&mesh.indices[i])) continue;
-        for (std::size_t k = 0; k < 3; ++k)
-            corners.corner[corners.start[mesh.indices[i + k]]++] = static_cast<uint32_t>(i + k);
-    }
-    std::copy_backward(corners.start.begin(), corners.start.end() - 1, corners.start.end());
-    corners.start[0] = 0;
-    return corners;
-}
 
 /// Union-find that threads may share: a link always points to a smaller number, so the roots do not depend on
 /// order.
@@ -105,7 +75,7 @@ class VertexScan {
         const uint32_t degree = corners.degree(vertex);
         if (degree == 0) return;
         ++counts.vertices;
-        const uint32_t* list = &corners.corner[corners.start[vertex]];
+        const std::span<const uint32_t> list = corners.at(vertex);
         spokes.clear();
         fans.resize(degree);
         for (uint32_t i = 0; i < degree; ++i) {
@@ -342,7 +312,7 @@ uint64_t selfIntersectionsOf(const TriangleTree& tree) {
 Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
     Report report;
     report.triangles = mesh.indices.size() / 3;
-    const Corners corners = cornersOf(mesh);
+    const Corners corners = cornersOf(mesh.indices, mesh.positions.size());
     measureTopology(mesh, corners, report);
     measureSize(mesh, report);
     if (options.selfIntersections || !options.surface.empty()) {

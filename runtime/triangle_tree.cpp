@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "runtime/corners.h"
+
 namespace fw {
 
 namespace {
@@ -70,7 +72,7 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<cons
     std::vector<Box> boxes(indices.size() / 3);
     for (std::size_t t = 0; t < boxes.size(); ++t) {
         const uint32_t* corner = &indices[3 * t];
-        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+        if (collapsed(corner)) continue;
         const glm::vec3 &a = positions[corner[0]], &b = positions[corner[1]], &c = positions[corner[2]];
         boxes[t] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
         order.push_back(uint32_t(t));

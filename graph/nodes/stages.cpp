@@ -1,4 +1,5 @@
 // Stages that turn a field into triangles, and the nodes that give a graph its structure.
+#include "graph/compile.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
@@ -7,7 +8,7 @@ std::vector<NodeType> stageNodes() {
     const InputSpec resolution =
         integer("resolution", 128, 1, 4096, "Number of cells along the longest side of the region.");
     const InputSpec method =
-        choice("method", {"marching-cubes", "dual-contouring"},
+        choice("method", {std::begin(kMeshMethodNames), std::end(kMeshMethodNames)},
                "How the surface is turned into triangles. Dual contouring keeps edges and corners sharp.");
     return {
         {.id = "polygonize",
