@@ -600,6 +600,7 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     if (program.ir.isConstant(program.distance()) && !std::isfinite(program.ir.number(program.distance())))
         return errorAt(graph, output, "the field is not a number anywhere: look for a division by zero");
     program.structureHash = program.ir.hash(program.surface);
+    program.families = findFamilies(program.ir, program.distance());
     program.exactness = result.exactness;
     program.spoiledBy = result.spoiler;
     program.nodeExactness = std::move(compiler.exactness);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "graph/evaluate.h"
+#include "graph/families.h"
 #include "graph/graph.h"
 #include "graph/ir.h"
 #include "graph/result.h"
@@ -57,6 +58,7 @@ struct Program {
     Ir ir;
     std::array<IrId, 9> surface{};  ///< roots, in the order of SurfaceComponent
     std::vector<LiveParameter> live;
+    Families families;           ///< of the distance
     uint64_t structureHash = 0;  ///< equal for equal code, whatever the live values
 
     Exactness exactness;

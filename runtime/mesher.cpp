@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 
 #include "runtime/marching_cubes_table.h"
 #include "runtime/mesher_host.h"
@@ -19,8 +20,12 @@ using gpu::MesherCounts;
 using gpu::MesherPush;
 
 enum Kernel {
+    prune64,
+    prune32,
+    prune16,
     blocks,
     cull,
+    prune8,
     topBricks,
     compact,
     link,
@@ -39,7 +44,8 @@ enum Kernel {
     kernelCount
 };
 constexpr const char* kNames[kernelCount] = {
-    "mesher/blocks.comp",     "mesher/cull.comp",       "mesher/top_bricks.comp", "mesher/compact.comp",
+    "mesher/prune.comp",      "mesher/prune.comp",      "mesher/prune.comp",      "mesher/blocks.comp",
+    "mesher/cull.comp",       "mesher/prune.comp",      "mesher/top_bricks.comp", "mesher/compact.comp",
     "mesher/link.comp",       "mesher/sample.comp",     "mesher/classify.comp",   "mesher/classify.comp",
     "mesher/top_groups.comp", "mesher/top_groups.comp", "mesher/top_groups.comp", "mesher/triangles.comp",
     "mesher/patches.comp",    "mesher/vertices.comp",   "mesher/contour.comp",    "mesher/quads.comp",
@@ -110,6 +116,39 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.triangles, uint64_t(buffers.triangleCapacity) * 12);
 }
 
+uint32_t longestList(const Families& families) {
+    uint32_t most = 0;
+    for (const Family& family : families.all) most = std::max(most, family.members);
+    return most;
+}
+
+/// Sizes the lists of the families' members, and writes the tables and the whole lists of place 0.
+void reserveLists(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount,
+                  const Families& families) {
+    constexpr uint64_t kEntriesOfABrick =
+        48;  // a guess; where it is too few, the list of a larger box serves
+    const uint64_t blocks = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
+    const uint64_t bricks = buffers.brickCapacity, count = families.all.size();
+    std::vector<uint32_t> all(longestList(families));
+    std::iota(all.begin(), all.end(), 0u);
+    std::vector<gpu::uvec2> heads;
+    uint64_t entries = all.size() + kEntriesOfABrick * bricks * count;
+    for (const Family& family : families.all) {
+        heads.emplace_back(0, family.members);
+        entries += blocks * (3 * family.members + 64 * kEntriesOfABrick);
+    }
+    const uint64_t range = device.properties.limits.maxStorageBufferRange;
+    reserve(device, buffers.fieldLists, std::min(entries * sizeof all[0], range));
+    reserve(device, buffers.fieldHeads, (1 + MESHER_PLACES * blocks + bricks) * count * sizeof heads[0]);
+    std::vector<float> tables;
+    for (const Family& family : families.all)
+        tables.insert(tables.end(), family.table.begin(), family.table.end());
+    reserve(device, buffers.fieldTables, tables.size() * sizeof tables[0]);
+    upload(device, buffers.fieldTables, tables);
+    upload(device, buffers.fieldLists, all);
+    upload(device, buffers.fieldHeads, heads);
+}
+
 /// What can be numbered and bound.
 struct Limits {
     uint32_t bricks, vertices, triangles;
@@ -175,6 +214,14 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     std::vector<Descriptor> common = {{0, b.counts}};
     if (config.parameters) common.push_back({FIELD_PARAMETERS, *config.parameters});
     if (config.images) common.push_back({FIELD_IMAGES, *config.images});
+    const auto listed = [&](std::vector<Descriptor> list) {
+        if (config.families && !config.families->empty()) {
+            list.push_back({FIELD_TABLES, b.fieldTables});
+            list.push_back({FIELD_LISTS, b.fieldLists});
+            list.push_back({FIELD_HEADS, b.fieldHeads});
+        }
+        return list;
+    };
     auto with = [&](const std::vector<Descriptor>& more) {
         std::vector<Descriptor> list = common;
         list.insert(list.end(), more.begin(), more.end());
@@ -204,9 +251,15 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     }
     if (push.blocksListed) fill(commands, b.rows, 0);
     barrier(commands);
-    std::vector<Descriptor> cullBuffers = {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}};
+    const bool pruned = push.listStart != 0;
+    if (pruned) {
+        const uint64_t all = uint64_t(push.blocks.x) * push.blocks.y * push.blocks.z;
+        for (const auto& [kernel, boxes] : {std::pair(prune64, all), {prune32, 8 * all}, {prune16, 64 * all}})
+            direct(kernel, chunksOf(boxes, MESHER_GROUP_LINKS), listed({{5, b.brickList}}));
+    }
+    std::vector<Descriptor> cullBuffers = listed({{1, b.blockList}, {3, b.rows}, {4, b.blockSums}});
     if (push.blocksListed) {
-        direct(blocks, 1, {{1, b.blockList}, {2, b.blockAlive}});
+        direct(blocks, 1, listed({{1, b.blockList}, {2, b.blockAlive}}));
         indirect(cull, MESHER_BLOCKS, cullBuffers);
     } else if (!config.host) {
         direct(cull, push.blocks.x * push.blocks.y * push.blocks.z, cullBuffers);
@@ -215,6 +268,10 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     direct(topBricks, 1, {{4, b.blockSums}});
     indirect(compact, MESHER_COMPACT, {{1, b.blockList}, {3, b.rows}, {4, b.blockSums}, {5, b.brickList}});
     indirect(link, MESHER_LINKS, {{3, b.rows}, {5, b.brickList}, {6, b.links}});
+    if (pruned) {
+        beginStage(commands, "prune");
+        indirect(prune8, MESHER_LINKS, listed({{5, b.brickList}}));
+    }
     beginStage(commands, "sample");
     std::vector<uint32_t> brickList;
     if (config.host) {
@@ -223,7 +280,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
         if (bricks <= push.brickCapacity) brickList = download<uint32_t>(device, b.brickList, bricks);
         upload(device, b.planes, config.host->sample(push, brickList));
     } else {
-        indirect(sample, MESHER_BRICKS, {{5, b.brickList}, {7, b.planes}});
+        indirect(sample, MESHER_BRICKS, listed({{5, b.brickList}, {7, b.planes}}));
     }
     beginStage(commands, "classify");
     indirect(dual ? classifyDual : classify, MESHER_BRICKS,
@@ -265,7 +322,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     } else {
         for (push.chunk = 0; push.chunk < edgeChunks; ++push.chunk)
             indirect(vertices, MESHER_EDGES + push.chunk,
-                     {{5, b.brickList}, {10, b.vertexList}, chunkOfVertices(points)});
+                     listed({{5, b.brickList}, {10, b.vertexList}, chunkOfVertices(points)}));
     }
     if (dual) {
         beginStage(commands, "contour");
@@ -308,6 +365,9 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
         if (pipelines.all[kernel] || std::find(missing.begin(), missing.end(), kernel) != missing.end())
             continue;
         ShaderOptions options{.name = kNames[kernel], .field = pipelines.field};
+        if (kernel == prune64) options.constants = {64};
+        if (kernel == prune32) options.constants = {32};
+        if (kernel == prune16) options.constants = {16};
         if (kernel == classifyDual) options.constants = {true};
         if (kernel == topGroupsChunked) options.constants = {true};
         if (kernel == topGroupsDual) options.constants = {false, true};
@@ -330,10 +390,13 @@ MesherPipelines createMesherPipelines(const Device& device, std::string field, b
                                       const MesherPipelines& previous, CompileTimes* times, Compile when) {
     MesherPipelines pipelines{previous.all, std::move(field)};
     pipelines.all.resize(kernelCount);
-    for (Kernel kernel : {blocks, cull, sample, vertices, colors}) pipelines.all[kernel] = nullptr;
+    const bool pruned = pipelines.field.find("#define FIELD_FAMILIES") != std::string::npos;
+    for (Kernel kernel : {prune64, prune32, prune16, blocks, cull, prune8, sample, vertices, colors})
+        pipelines.all[kernel] = nullptr;
     build(device, pipelines,
           {cull, sample, vertices, topBricks, compact, link, classify, topGroups, triangles,
-           wantColors ? colors : vertices},
+           wantColors ? colors : vertices, pruned ? prune64 : cull, pruned ? prune32 : cull,
+           pruned ? prune16 : cull, pruned ? prune8 : cull},
           times, when);
     return pipelines;
 }
@@ -376,9 +439,15 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     if (push.blocksListed) build(device, pipelines, {blocks});
     const bool wantColors = config.colors && !config.host;
     if (wantColors) build(device, pipelines, {colors});
+    const bool families = config.families && !config.families->empty() && !config.host;
+    if (families && config.pruned) {
+        build(device, pipelines, {prune64, prune32, prune16, prune8});
+        push.listStart = longestList(*config.families);
+    }
     MesherResult result;
     for (result.runs = 1;; ++result.runs) {
         reserveAll(device, buffers, blockCount, dual, wantColors);
+        if (families) reserveLists(device, buffers, blockCount, *config.families);
         push.brickCapacity = buffers.brickCapacity;
         push.vertexCapacity = buffers.vertexCapacity;
         push.triangleCapacity = buffers.triangleCapacity;

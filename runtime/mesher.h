@@ -49,6 +49,8 @@ struct MesherConfig {
     glm::ivec3 cells{128};           ///< of the region along each axis, any number from 1 to kMostMesherCells
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
     const Buffer* images = nullptr;      ///< that the field samples, where it does
+    const Families* families = nullptr;  ///< of the field, where it has some
+    bool pruned = true;  ///< a brick evaluates only the members that can matter in it; the same mesh, sooner
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;  ///< also the base colour at each vertex
     MesherHost* host =
@@ -82,6 +84,7 @@ struct MesherBuffers {
     Buffer triangles;  ///< three uint32 indices each
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
     Buffer points;     ///< of dual contouring: gpu::MeshVertex on each active edge
+    Buffer fieldTables, fieldHeads, fieldLists;  ///< of the field's families
     Buffer table, patchTable, patchList, corners, pinched, blockList, blockAlive, blockSums, rows, brickList,
         links, planes, sums, edges, vertexList, stripList;
     uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;

@@ -186,6 +186,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     ++content;
     config.parameters = &parameters;
     config.images = &images;
+    config.families = &current.families;
     config.colors = current.hasMaterial();
     config.method = request.method.value_or(current.method);
     config.timed = timed;

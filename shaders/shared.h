@@ -24,6 +24,10 @@ using vec4 = glm::vec4;
 #define FIELD_IMAGES \
     14  // binding of the images that the field samples, likewise; no shader has another there
 
+#define FIELD_HEADS 12  // bindings of the lists of members that matter at a place, in shaders that prune
+#define FIELD_LISTS 11
+#define FIELD_TABLES 9  // binding of the members' numbers
+
 // ---- Mesher
 // ------------------------------------------------------------------------------------------------------
 // Words used: sample, a grid point; cell, between eight samples; brick, 8^3 cells; block, 8^3 bricks; row, 8
@@ -39,6 +43,8 @@ using vec4 = glm::vec4;
 #define MESHER_GROUP_LINKS 64       // bricks and vertices of one work group of the kernels over those
 #define MESHER_GROUP_VERTICES 64
 
+#define MESHER_PLACES 73  // boxes of a block that have lists of members: of 64^3, of 32^3 and of 16^3 cells
+
 // What every mesher kernel is told.
 struct MesherPush {
     vec3 origin;        // of the region, metres
@@ -52,6 +58,7 @@ struct MesherPush {
     uint vertexCapacity;
     uint triangleCapacity;
     uint chunk;  // of vertices or triangles, for kernels that run once a chunk
+    uint listStart;  // where lists of members begin (field.glsl); 0: all places have the whole list
 };
 
 struct DispatchArguments {
@@ -80,6 +87,7 @@ struct MesherCounts {
     uint vertices;
     uint triangles;
     uint pinched;  // of dual contouring: quads that meet another along two edges at once
+    uint listed;   // entries that the lists of members take
     DispatchArguments groups[MESHER_GROUPS];
     uint groupStart[MESHER_CHUNKS + 1];  // first group of bricks of each chunk of triangles
     uint draw[5];                        // arguments of vkCmdDrawIndexedIndirect

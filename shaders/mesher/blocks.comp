@@ -1,8 +1,11 @@
 // Culls blocks of 64^3 cells and lists the survivors in order. One work group: there are few blocks.
 #define HISTOPYRAMID_LANES 256
 #define HISTOPYRAMID_TYPE uint
+#define FIELD_PRUNED
+#define FIELD_INTERVAL
 #include "mesher/mesher.glsl"
 #include "mesher/alive.glsl"
+#include "field.glsl"
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
@@ -18,7 +21,9 @@ void main() {
     uint i = 0;
     do {  // each >= 1
         uint block = min(first + i, all - 1);
-        bool alive = first + i < last && mayHoldSurface(blockAt(block) * 64, 64);
+        uvec3 at = blockAt(block) * 64;
+        bool alive = fieldChoose(placeOfBox(64, at));
+        alive = alive && first + i < last && mayHoldSurface(at, 64, fieldInterval(lowOf(at), highOf(at, 64)));
         if (first + i < last) blockAlive[first + i] = alive ? 1 : 0;
         found += alive ? 1 : 0;
     } while (++i < each);

@@ -2,8 +2,11 @@
 // here, the block's number of survivors goes to the level above.
 #define HISTOPYRAMID_LANES 64
 #define HISTOPYRAMID_TYPE uint
+#define FIELD_PRUNED
+#define FIELD_INTERVAL
 #include "mesher/mesher.glsl"
 #include "mesher/alive.glsl"
+#include "field.glsl"
 #include "mesher/rows.glsl"
 #include "lib/histopyramid.glsl"
 
@@ -22,7 +25,10 @@ void main() {
     uint x = 0;
     uint end = min((push.cells.x + 9) / 8 - brick.x, 8);  // bricks of the grid in this row
     do {
-        bits |= mayHoldSurface((brick + uvec3(x, 0, 0)) * 8, 8) ? 1u << x : 0u;
+        uvec3 first = (brick + uvec3(x, 0, 0)) * 8;
+        bool alive = fieldChoose(placeOfBox(16, first));
+        alive = mayHoldSurface(first, 8, fieldInterval(lowOf(first), highOf(first, 8))) && alive;
+        bits |= alive ? 1u << x : 0u;
     } while (++x < end);
     uint total;
     uint place = sumBefore(bitCount(bits), total);

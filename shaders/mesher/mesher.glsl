@@ -24,5 +24,14 @@ uvec3 blockAt(uint block) {
 float samplePosition(int axis, uint i) { return push.origin[axis] + float(int(i) - 1) * push.cellSize[axis]; }
 vec3 samplePosition(uvec3 i) { return push.origin + vec3(ivec3(i) - 1) * push.cellSize; }
 
+/// Places of which the field keeps lists: 0 is all of space; then come the boxes of 64^3 cells, of 32^3 and of 16^3, and
+/// at last the slots of bricks. `first` is a cell of the box.
+uint placeOfBox(uint size, uvec3 first) {
+    uvec3 at = first / size, boxes = push.blocks * (64 / size);
+    uint before = blockCount() * (size == 64 ? 0 : size == 32 ? 1 : 1 + 8);
+    return push.listStart != 0 ? 1 + before + (at.z * boxes.y + at.y) * boxes.x + at.x : 0;
+}
+uint placeOfBrick(uint slot) { return push.listStart != 0 ? 1 + blockCount() * MESHER_PLACES + slot : 0; }
+
 uint packBrick(uvec3 brick) { return brick.x | brick.y << 10 | brick.z << 20; }
 uvec3 unpackBrick(uint word) { return uvec3(word & 1023, word >> 10 & 1023, word >> 20); }

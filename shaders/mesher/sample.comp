@@ -3,6 +3,7 @@
 //
 // A plane is three words: the samples x < 4 and x < 8, a byte of eight y for each x, and the samples on the upper rim,
 // x = 8 (bits 0 to 8, by y) and y = 8 (bits 9 to 17, by x).
+#define FIELD_PRUNED
 #define FIELD_ROWS
 #include "mesher/mesher.glsl"
 #include "field.glsl"
@@ -16,6 +17,7 @@ void main() {
     uint slot = linearGroup() * MESHER_GROUP_BRICKS + gl_LocalInvocationIndex / 9;
     uint z = gl_LocalInvocationIndex % 9;
     bool valid = slot < counts.bricks;
+    fieldChoose(placeOfBrick(valid ? slot : 0));
     uvec3 first = unpackBrick(brickList[valid ? slot : 0]) * 8;
     FieldPlane plane = fieldPlane(samplePosition(2, first.z + z));
     // Samples that are not of the region are outside: bit i of a mask tells whether sample first + i is of it.
@@ -30,8 +32,18 @@ void main() {
         FieldRow row = fieldRow(plane, samplePosition(0, first.x + x));
         uint column = 0;
         uint y = 0;
+#ifdef FIELD_FAMILIES
+        float ys[9];
+        for (int k = 0; k < 9; ++k) ys[k] = samplePosition(1, first.y + k);
+        FieldColumn nine = fieldColumn(row, ys);
+#endif
         do {
-            column |= fieldAt(row, samplePosition(1, first.y + y)) < 0.0 ? 1u << y : 0u;
+#ifdef FIELD_FAMILIES
+            float f = fieldAt(row, nine, y, samplePosition(1, first.y + y));
+#else
+            float f = fieldAt(row, samplePosition(1, first.y + y));
+#endif
+            column |= f < 0.0 ? 1u << y : 0u;
         } while (++y < 9);
         column = (within.x >> x & 1) != 0 ? column & within.y : 0;
         uint low = (column & 255) << (x & 3) * 8;

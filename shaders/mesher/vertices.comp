@@ -6,6 +6,7 @@
 // The field is called from one place, in a loop: it is compiled once. A vertex keeps a small distance from the ends
 // of its edge: no two vertices then coincide, no triangle collapses, and the topology is the table's even where a
 // sample is exactly zero.
+#define FIELD_PRUNED
 #define FIELD_GRADIENT
 #include "mesher/mesher.glsl"
 #include "field.glsl"
@@ -27,7 +28,9 @@ void main() {
     uint word = vertexList[chunkStart + (valid ? index : 0)];
     uint bit = word & 31, axis = word >> 5 & 3, side = word >> 7 & 1, z = word >> 8 & 7;
     bool insideAtA = (word >> 31) != 0;
-    uvec3 begin = unpackBrick(brickList[word >> 11 & 0xfffff]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);
+    uint slot = word >> 11 & 0xfffff;
+    fieldChoose(placeOfBrick(slot));
+    uvec3 begin = unpackBrick(brickList[slot]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);
     uvec3 along = uvec3(equal(uvec3(axis), uvec3(0, 1, 2)));
     vec3 p = samplePosition(begin);
     vec3 edge = samplePosition(begin + along) - p;

@@ -62,6 +62,7 @@ TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
         const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
         upload(test::device(), images, words);
         config.images = &images;
+        config.families = &program.families;
         const Meshed kernels =
             run(createMesherPipelines(test::device(), emitField(program)), config, nullptr);
         MesherHost host(program.ir, program.distance(), program.parameters());

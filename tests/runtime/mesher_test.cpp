@@ -21,6 +21,7 @@ std::string fieldText(const std::string& value, const std::string& interval, con
     return before + R"(
 struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };
 void fieldBegin() {}
+bool fieldChoose(uint place) { return true; }
 float fieldValueOf(vec3 p) { return )" +
            value + R"(; }
 #ifdef FIELD_VALUE

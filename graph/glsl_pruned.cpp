@@ -1,0 +1,315 @@
+#include "graph/glsl_pruned.h"
+
+#include <limits>
+
+#include "graph/glsl_statements.h"
+
+namespace fw {
+
+namespace {
+
+constexpr int kSamples = 9;  // of a column, which stands for nine samples along y
+
+class PrunedEmitter : GlslStatements {
+  public:
+    explicit PrunedEmitter(const Program& program_)
+        : GlslStatements(program_),
+          program(program_),
+          ir(program_.ir),
+          root(program_.distance()),
+          needed(neededBy(std::span(&root, 1), true)) {}
+
+    std::string run() {
+        lists();
+        text += "#ifdef FIELD_GRADIENT\n";
+        gradientFunction();
+        text += "#endif\n#ifdef FIELD_INTERVAL\n#include \"lib/interval.glsl\"\n";
+        intervalFunction();
+        text += "#ifdef FIELD_PRUNE\n";
+        pruneFunction();
+        text += "#endif\n#endif\n#ifdef FIELD_ROWS\n";
+        rowFunctions();
+        text += "#endif\n";
+        return std::move(text);
+    }
+
+  private:
+    static std::string number(uint32_t n) { return std::to_string(n); }
+    static std::string list(uint32_t family) { return "fieldList" + number(family); }
+    static bool isLess(const FamilyGroup& group) { return group.op == Op::minimum; }
+    static std::string fold(const FamilyGroup& group) { return isLess(group) ? "min" : "max"; }
+    static std::string start(const FamilyGroup& group) {
+        const double infinity = std::numeric_limits<double>::infinity();
+        return glslLiteral(isLess(group) ? infinity : -infinity);
+    }
+    const FamilyGroup* groupAt(IrId id) const {
+        const auto group = program.families.groups.find(id);
+        return group == program.families.groups.end() ? nullptr : &group->second;
+    }
+
+    void lists() {
+        const std::string count = std::to_string(program.families.all.size());
+        text += "#define FIELD_FAMILIES " + count +
+                "\nlayout(set = 0, binding = " + std::to_string(kFieldHeadsBinding) +
+                ", std430) buffer FieldHeads { uvec2 fieldHeads[]; };\n"
+                "layout(set = 0, binding = " +
+                std::to_string(kFieldListsBinding) +
+                ", std430) buffer FieldLists { uint fieldLists[]; };\nlayout(set = 0, binding = " +
+                std::to_string(kFieldTablesBinding) +
+                ", rgba32ui) readonly uniform uimageBuffer fieldTables;\n";
+        std::size_t first = 0;
+        for (uint32_t f = 0; f < program.families.all.size(); ++f) {
+            const Family& family = program.families.all[f];
+            text += "uvec2 " + list(f) + ";\nuint fieldEntry" + number(f) + "(uint i) { return fieldLists[" +
+                    list(f) + ".x + min(i, " + list(f) + ".y - 1u)]; }\nint fieldMember" + number(f) +
+                    "(uint i) { return int(" + std::to_string(first / kTexel) + "u + " +
+                    number(family.width / kTexel) + "u * fieldEntry" + number(f) + "(i)); }\n";
+            first += family.table.size();
+        }
+        text += "bool fieldChoose(uint place) {\n";
+        for (uint32_t f = 0; f < program.families.all.size(); ++f)
+            text += "    " + list(f) + " = fieldHeads[place * " + count + "u + " + number(f) + "u];\n";
+        text += "    return " + list(0) + ".y != 0u;\n}\n";
+    }
+
+    /// A loop over the list of a family. A lane that is done with its own repeats the last, which changes no
+    /// minimum.
+    template <class Body>
+    void loop(uint32_t number_, Body body) {
+        const Family& family = program.families.all[number_];
+        text += "    {\n    uint i = 0u;\n    do {\n    int m = fieldMember" + number(number_) + "(i);\n";
+        for (uint32_t t = 0; t < family.width / kTexel; ++t)
+            text += "    vec4 t" + number(t) + " = uintBitsToFloat(imageLoad(fieldTables, m + " + number(t) +
+                    "));\n";
+        for (uint32_t c = 0; c < family.width; ++c)
+            text +=
+                "    float c" + number(c) + " = t" + number(c / kTexel) + "[" + number(c % kTexel) + "];\n";
+        member = &family;
+        body(family);
+        member = nullptr;
+        text += "    } while (++i < " + list(number_) + ".y);\n    }\n";
+    }
+
+    /// Defines a group's value by its families' F0, F1, …, which are there.
+    void define(const FamilyGroup& group, const char* type, const std::string& name,
+                std::string (GlslStatements::*named)(IrId) const) {
+        std::string all;
+        for (uint32_t f : group.families)
+            all = all.empty() ? "F" + number(f) : fold(group) + "(" + all + ", F" + number(f) + ")";
+        for (IrId other : group.others) all = fold(group) + "(" + all + ", " + (this->*named)(other) + ")";
+        text += std::string("    ") + type + " " + name + " = " + all + ";\n";
+    }
+
+    // ---- Value with gradient
+
+    void gradientFunction() {
+        Derivatives known = noDerivatives();
+        text += "vec4 fieldGradient(vec3 p) {\n";
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (!needed[id] || isInline(ir[id])) continue;
+            if (const FamilyGroup* group = groupAt(id))
+                groupGradient(id, *group, known);
+            else
+                gradientStatement(id, known);
+        }
+        text += "    return vec4(" + slopes(root, known) + ", " + value(root) + ");\n}\n";
+    }
+
+    static std::string slopes(IrId id, const Derivatives& known) {
+        std::string all;
+        for (int axis = 0; axis < 3; ++axis)
+            all += (axis > 0 ? ", " : "") + (known[axis][id].empty() ? "0.0" : known[axis][id]);
+        return all;
+    }
+
+    /// Best so far: derivatives and value, of which the first of several equal ones stays.
+    void groupGradient(IrId id, const FamilyGroup& group, Derivatives& known) {
+        const std::string best = "G" + std::to_string(id), closer = isLess(group) ? " < " : " > ";
+        const auto offer = [&](IrId from) {
+            const std::string of = value(from);
+            text += "    " + best + " = " + of + closer + best + ".w ? vec4(" + slopes(from, known) + ", " +
+                    of + ") : " + best + ";\n";
+        };
+        text += "    vec4 " + best + " = vec4(0.0, 0.0, 0.0, " + start(group) + ");\n";
+        for (uint32_t f : group.families)
+            loop(f, [&](const Family& family) {
+                for (IrId step : family.steps) gradientStatement(step, known);
+                offer(family.steps.back());
+            });
+        for (IrId other : group.others) offer(other);
+        text += "    float " + value(id) + " = " + best + ".w;\n";
+        for (int axis = 0; axis < 3; ++axis)
+            if (ir[id].positions >> axis & 1) known[axis][id] = best + "." + "xyz"[axis];
+    }
+
+    // ---- Interval
+
+    void intervalStatements(const std::vector<bool>& wanted) {
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (!wanted[id] || isInline(ir[id])) continue;
+            const FamilyGroup* group = groupAt(id);
+            if (!group) {
+                intervalStatement(id);
+                continue;
+            }
+            for (uint32_t f : group->families) {
+                const std::string all = "F" + number(f);
+                text += "    vec2 " + all + " = vec2(" + start(*group) + ");\n";
+                loop(f, [&](const Family& family) {
+                    for (IrId step : family.steps) intervalStatement(step);
+                    text += "    " + all + " = " + fold(*group) + "(" + all + ", " +
+                            interval(family.steps.back()) + ");\n";
+                });
+            }
+            define(*group, "vec2", interval(id), &GlslStatements::interval);
+        }
+    }
+
+    void intervalFunction() {
+        text += "vec2 fieldInterval(vec3 lo, vec3 hi) {\n";
+        intervalStatements(needed);
+        text += "    vec3 reach = max(abs(lo), abs(hi));\n    return iMargin(" + interval(root) +
+                ", reach.x + reach.y + reach.z);\n}\n";
+    }
+
+    /// The lists of a place, out of those chosen: empty ones where there is no surface, else of at least one
+    /// entry, since loops run at least once.
+    void pruneFunction() {
+        const std::string count = std::to_string(program.families.all.size());
+        text +=
+            "void fieldPrune(vec3 lo, vec3 hi, uint place) {\n"
+            "    vec3 far = max(abs(lo), abs(hi));\n    float reach = far.x + far.y + far.z;\n";
+        intervalStatements(needed);
+        text += "    bool open = " + list(0) + ".y != 0u && fieldMayHold(iMargin(" + interval(root) +
+                ", reach));\n";
+        for (uint32_t f = 0; f < program.families.all.size(); ++f)
+            text += "    if (!open) " + list(f) + ".y = 0u;\n";
+        for (const auto& [id, group] : program.families.groups) {
+            const bool less = isLess(group);
+            for (uint32_t f : group.families) {
+                text += "    {\n    float limit = iMargin(" + interval(id) + ", reach)." +
+                        (less ? "y" : "x") + ";\n    uint at = open ? fieldAllocate(" + list(f) +
+                        ".y) : 0u, kept = 0u;\n";
+                loop(f, [&](const Family& family) {
+                    for (IrId step : family.steps) intervalStatement(step);
+                    text += "    bool apart = iMargin(" + interval(family.steps.back()) + ", reach)." +
+                            (less ? "x > limit" : "y < limit") + " || i >= " + list(f) + ".y;\n" +
+                            "    if (!apart && at != 0u) fieldLists[at + kept] = fieldEntry" + number(f) +
+                            "(i);\n    kept += apart ? 0u : 1u;\n";
+                });
+                text += "    if (kept == 0u && at != 0u) fieldLists[at] = fieldEntry" + number(f) +
+                        "(0u);\n    fieldHeads[place * " + count + "u + " + number(f) +
+                        "u] = at != 0u ? uvec2(at, max(kept, 1u)) : " + list(f) + ";\n    }\n";
+            }
+        }
+        text += "}\n";
+    }
+
+    // ---- Rows
+
+    /// A group that does not vary along a column is computed in its stage.
+    void groupValue(IrId id, const FamilyGroup& group) {
+        for (uint32_t f : group.families) {
+            const std::string best = "F" + number(f);
+            text += "    float " + best + " = " + start(group) + ";\n";
+            loop(f, [&](const Family& family) {
+                for (IrId step : family.steps) valueStatement(step);
+                text += "    " + best + " = " + fold(group) + "(" + best + ", " + value(family.steps.back()) +
+                        ");\n";
+            });
+        }
+        define(group, "float", value(id), &GlslStatements::value);
+    }
+
+    void rowFunctions() {
+        GlslStages stages(*this, program, true, [&](IrId id) {
+            const FamilyGroup* group = groupAt(id);
+            if (!group) return false;
+            if (stageOf(ir[id]) < 2) {
+                groupValue(id, *group);
+                return true;
+            }
+            for (uint32_t f : group->families) {
+                text += "    float F" + number(f) + " = fieldPick(k";
+                for (int k = 0; k < kSamples; ++k) text += ", column.F" + number(f) + "_" + std::to_string(k);
+                text += ");\n";
+            }
+            define(*group, "float", value(id), &GlslStatements::value);
+            return true;
+        });
+        stages.planeFunction();
+        stages.rowFunction();
+        columnFunction(stages);
+        text +=
+            "float fieldPick(uint k, float a, float b, float c, float d, float e, float f, float g, float h, "
+            "float i) {\n"
+            "    return k == 0u ? a : k == 1u ? b : k == 2u ? c : k == 3u ? d : k == 4u ? e : k == 5u ? f : "
+            "k == 6u ? g : k == 7u ? h : i;\n}\n"
+            "float fieldAt(FieldRow row, FieldColumn column, uint k, float y) {\n";
+        stages.unpack(1, "row");
+        stages.define(2, "y");
+        text += "    return " + value(root) + ";\n}\n";
+    }
+
+    /// Nine samples at once, so that a member's numbers are loaded once for all of them.
+    void columnFunction(GlslStages& stages) {
+        std::vector<IrId> inputs;
+        std::string members, values;
+        std::vector<std::pair<uint32_t, const FamilyGroup*>> inColumn;
+        for (const auto& [id, group] : program.families.groups) {
+            if (stageOf(ir[id]) < 2) continue;
+            for (uint32_t f : group.families) {
+                inColumn.emplace_back(f, &group);
+                const Family& family = program.families.all[f];
+                inputs.insert(inputs.end(), family.inputs.begin(), family.inputs.end());
+            }
+        }
+        for (const auto& [f, group] : inColumn)
+            for (int k = 0; k < kSamples; ++k) {
+                const std::string name = "F" + number(f) + "_" + std::to_string(k);
+                members += " float " + name + ";";
+                values += ", " + name;
+            }
+        text += "struct FieldColumn { float unused;" + members +
+                " };\nFieldColumn fieldColumn(FieldRow row, float y[9]) {\n";
+        stages.unpack(1, "row");
+        const std::vector<bool> wanted = neededBy(inputs, true);
+        for (int k = 0; k < kSamples; ++k) {
+            suffix = "_" + std::to_string(k);
+            for (IrId id = 0; id < ir.size(); ++id)
+                if (wanted[id] && stageOf(ir[id]) == 2)
+                    valueStatement(id, ir[id].op == Op::positionY ? "y[" + std::to_string(k) + "]"
+                                                                  : std::string(opInfo(ir[id].op).glsl));
+        }
+        suffix.clear();
+        for (const auto& [f, group] : inColumn) {
+            for (int k = 0; k < kSamples; ++k)
+                text += "    float F" + number(f) + "_" + std::to_string(k) + " = " + start(*group) + ";\n";
+            loop(f, [&, group = group, f = f](const Family& family) {
+                for (IrId step : family.steps)
+                    if (stageOf(ir[step]) < 2) valueStatement(step);
+                for (int k = 0; k < kSamples; ++k) {
+                    suffix = "_" + std::to_string(k);
+                    for (IrId step : family.steps)
+                        if (stageOf(ir[step]) == 2) valueStatement(step);
+                    const std::string best = "F" + number(f) + suffix;
+                    text += "    " + best + " = " + fold(*group) + "(" + best + ", " +
+                            value(family.steps.back()) + ");\n";
+                    suffix.clear();
+                }
+            });
+        }
+        text += "    return FieldColumn(0.0" + values + ");\n}\n";
+    }
+
+    const Program& program;
+    const Ir& ir;
+    const IrId root;
+    const std::vector<bool> needed;
+};
+
+}  // namespace
+
+std::string emitPrunedField(const Program& program) { return PrunedEmitter(program).run(); }
+
+}  // namespace fw

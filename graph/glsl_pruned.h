@@ -1,0 +1,21 @@
+// The field's text for shaders that know where in space they are: loops over lists of the members that matter
+// there, in place of straight code for all (families.h). shaders/field.glsl tells the interface.
+#pragma once
+
+#include <string>
+
+#include "graph/compile.h"
+
+namespace fw {
+
+/// Binding (set 0) of the storage buffer with a list's first entry and length, for each place and family.
+inline constexpr int kFieldHeadsBinding = 12;
+/// Binding of the one with the lists: numbers of members.
+inline constexpr int kFieldListsBinding = 11;
+/// Binding of the texel buffer with the tables of all families, one after the other.
+inline constexpr int kFieldTablesBinding = 9;
+
+/// Expects a program with families.
+std::string emitPrunedField(const Program& program);
+
+}  // namespace fw

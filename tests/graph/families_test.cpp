@@ -1,0 +1,165 @@
+// Families: what is found alike in the IR, and that the table has the members' numbers.
+#include "graph/families.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "graph/compile.h"
+#include "graph/glsl.h"
+#include "graph/json.h"
+#include "tests/support/random_graph.h"
+
+namespace fw {
+namespace {
+
+Program programOf(const std::string& code) {
+    Graph graph;
+    Node field, output;
+    field.id = "field", field.type = "expression", field.code = code;
+    output.id = "out", output.type = "output";
+    InputValue link;
+    link.value = Link{"field", ""};
+    output.set("surface", std::move(link));
+    graph.nodes = {field, output};
+    Result<Program> program = compile(graph);
+    if (!program) throw std::runtime_error(format(program.error()));
+    return std::move(*program);
+}
+
+const std::string kPlace =
+    "c = vec3(hash(vec3(i, 1, 0), 1), hash(vec3(i, 2, 0), 1), hash(vec3(i, 3, 0), 1)) * 4;\n";
+
+std::string unionOf(int count, const std::string& shape, const std::string& before = "d = 1000.0;\n") {
+    return before + "for (int i = 0; i < " + std::to_string(count) + "; i++) {\n" + kPlace + "d = min(d, " +
+           shape + ");\n}\nreturn d;";
+}
+
+/// The family's member in that row by its steps and numbers, at a point.
+double memberAt(const Ir& ir, const Family& family, uint32_t row, const std::vector<double>& values) {
+    std::vector<double> own = values;
+    for (IrId step : family.steps) {
+        double operands[kMaxArity] = {};
+        for (int i = 0; i < opInfo(ir[step].op).arity; ++i) {
+            const IrId operand = ir[step].operands[i];
+            const auto column = family.columns.find({step, i});
+            operands[i] = column != family.columns.end()
+                              ? double(family.table[row * family.width + column->second])
+                          : ir.isConstant(operand) ? ir.number(operand)
+                                                   : own[operand];
+        }
+        own[step] = opInfo(ir[step].op).value(operands, ir.layer(ir[step]));
+    }
+    return own[family.steps.back()];
+}
+
+/// Folds all groups from tables and compares with the IR's own values.
+void expectTablesGiveTheGroups(const Program& program) {
+    const std::vector<Point> points = {{0.3, 0.2, 0.1}, {-1.5, 0.7, 2.0}, {3.1, -0.4, 1.2}, {0, 0, 0}};
+    const std::vector<double> parameters = program.parameters();
+    for (const Point& point : points) {
+        std::vector<double> values(program.ir.size());
+        for (IrId id = 0; id < program.ir.size(); ++id)
+            evaluate(program.ir, id, parameters, std::span(&point, 1), std::span(&values[id], 1));
+        for (const auto& [root, group] : program.families.groups) {
+            const bool less = group.op == Op::minimum;
+            double best = less ? HUGE_VAL : -HUGE_VAL;
+            const auto offer = [&](double value) {
+                best = less ? std::min(best, value) : std::max(best, value);
+            };
+            for (uint32_t f : group.families)
+                for (uint32_t row = 0; row < program.families.all[f].members; ++row)
+                    offer(memberAt(program.ir, program.families.all[f], row, values));
+            for (IrId other : group.others) offer(values[other]);
+            EXPECT_NEAR(best, values[root], 1e-6 * (1 + std::abs(values[root])));
+        }
+    }
+}
+
+TEST(Families, AUnionOfBoxesIsOneTable) {
+    const Program program =
+        programOf(unionOf(40, "box(p - c, vec3(0.1, 0.2, 0.1 + 0.01 * i), 0.02).distance"));
+    ASSERT_EQ(program.families.all.size(), 1u);
+    const Family& family = program.families.all[0];
+    EXPECT_EQ(family.members, 40u);
+    EXPECT_EQ(family.width, 4u);  // place and one half extent; what is the same in all is code
+    EXPECT_EQ(family.table.size(), 160u);
+    EXPECT_EQ(std::set<IrId>(family.inputs.begin(), family.inputs.end()), (std::set<IrId>{0, 1, 2}));
+    ASSERT_EQ(program.families.groups.size(), 1u);
+    EXPECT_EQ(program.families.groups.begin()->first, program.distance());
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, EachKindHasItsOwnAndTheRestStaysCode) {
+    const Program program =
+        programOf(unionOf(20, "box(p - c, vec3(0.1), 0.02).distance", "d = torus(p, 1, 0.1).distance;\n"));
+    ASSERT_EQ(program.families.all.size(), 1u);
+    EXPECT_EQ(program.families.groups.begin()->second.others.size(), 1u);
+    const Program two =
+        programOf(unionOf(40,
+                          "(i % 2 == 0 ? box(p - c, vec3(0.1), 0.02).distance : capsule(p - c, "
+                          "vec3(0), vec3(0, 1, 0), 0.1).distance)"));
+    ASSERT_EQ(two.families.all.size(), 2u);
+    EXPECT_EQ(two.families.all[0].members + two.families.all[1].members, 40u);
+    expectTablesGiveTheGroups(program);
+    expectTablesGiveTheGroups(two);
+}
+
+TEST(Families, HolesAreAMaximum) {
+    std::string code = "d = box(p, vec3(3)).distance;\nfor (int i = 0; i < 30; i++) {\n" + kPlace +
+                       "d = max(d, -box(p - c, vec3(0.2), 0.05).distance);\n}\nreturn d;";
+    const Program program = programOf(code);
+    ASSERT_EQ(program.families.all.size(), 1u);
+    EXPECT_EQ(program.families.groups.begin()->second.op, Op::maximum);
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, WhatAllShareIsComputedOnce) {
+    const Program program = programOf("p = vec3(0.8 * p.x + 0.6 * p.z, p.y, 0.8 * p.z - 0.6 * p.x);\n" +
+                                      unionOf(30, "box(p - c, vec3(0.1), 0.02).distance"));
+    ASSERT_EQ(program.families.all.size(), 1u);
+    for (IrId step : program.families.all[0].steps)
+        for (IrId operand : program.ir[step].operands)
+            EXPECT_FALSE(program.ir.isConstant(operand, 0.6)) << "the turn belongs ahead of the loop";
+    EXPECT_EQ(program.families.all[0].inputs.size(), 3u);
+    EXPECT_EQ(program.families.all[0].width, 3u);
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, NoneWhereALoopWouldNotPay) {
+    EXPECT_TRUE(programOf(unionOf(6, "box(p - c, vec3(0.1), 0.02).distance")).families.empty());
+    EXPECT_TRUE(programOf(unionOf(100, "p.x - c.x")).families.empty());
+    EXPECT_EQ(emitField(programOf(unionOf(6, "box(p - c, vec3(0.1), 0.02).distance"))).find("FIELD_FAMILIES"),
+              std::string::npos);
+}
+
+TEST(Families, LoopsAreNotNested) {
+    // Thirty unions of twenty boxes: one group of six hundred, or thirty members that are each a union, never
+    // both.
+    const Program program = programOf(
+        "d = 1000.0;\nfor (int i = 0; i < 30; i++) {\n" + kPlace +
+        "e = 1000.0;\nfor (int k = 0; k < 20; k++) e = min(e, box(p - c - vec3(k * 0.11, 0.07 * k * k, 0), "
+        "vec3(0.1), 0.02).distance);\nd = min(d, abs(e) - 0.01 * i);\n}\nreturn d;");
+    ASSERT_FALSE(program.families.empty());
+    for (const auto& [root, group] : program.families.groups)
+        for (uint32_t f : group.families)
+            for (IrId step : program.families.all[f].steps)
+                EXPECT_FALSE(program.families.groups.contains(step));
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, RandomGraphsKeepTheirValues) {
+    int found = 0;
+    for (uint32_t seed = 1; seed <= 300; ++seed) {
+        const Result<Program> program = compile(test::randomGraph(seed, 40));
+        if (!program || program->families.empty()) continue;
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        expectTablesGiveTheGroups(*program);
+        ++found;
+    }
+    EXPECT_GT(found, 3);
+}
+
+}  // namespace
+}  // namespace fw

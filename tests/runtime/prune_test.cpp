@@ -1,0 +1,174 @@
+// Pruned fields: lists of members, block by block and brick by brick, leave the mesh as it is, bit for bit.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include "graph/glsl.h"
+#include "graph/json.h"
+#include "runtime/mesh_report.h"
+#include "runtime/mesher.h"
+#include "runtime/session.h"
+#include "tests/support/gpu.h"
+
+namespace fw {
+namespace {
+
+struct Meshed {
+    Mesh mesh;
+    MesherResult result;
+};
+
+Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod method, bool pruned) {
+    const std::vector<uint32_t> words = imageWords(program.ir.images());
+    const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
+    upload(test::device(), images, words);
+    MesherConfig config{.origin = {box.lo[0], box.lo[1], box.lo[2]},
+                        .cellSize = glm::vec3(float((box.hi[0] - box.lo[0]) / cells)),
+                        .cells = glm::ivec3(cells),
+                        .images = &images,
+                        .families = &program.families,
+                        .pruned = pruned,
+                        .method = method};
+    MesherPipelines pipelines = createMesherPipelines(test::device(), emitField(program));
+    MesherBuffers buffers;
+    Result<MesherResult> result = runMesher(test::device(), pipelines, buffers, config);
+    if (!result) throw SystemError(format(result.error()));
+    return {downloadMesh(test::device(), buffers, *result), *result};
+}
+
+Program programOf(const std::string& code) {
+    const std::string text = R"({"fieldwright": 1, "nodes": [{"id": "f", "type": "expression", "code": ")" +
+                             code +
+                             R"("}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "f"}}}]})";
+    const Result<Graph> graph = parseGraph(text, "code", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<Program> program = compile(*graph);
+    if (!program) throw SystemError(format(program.error()));
+    return std::move(*program);
+}
+
+bool sameBytes(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec3)) == 0;
+}
+
+/// Closed, and the same bytes whether pruned or not.
+void expectPruningChangesNothing(const Program& program, const Box& box, int cells, MeshMethod method) {
+    const Meshed pruned = meshOf(program, box, cells, method, true),
+                 all = meshOf(program, box, cells, method, false);
+    EXPECT_EQ(pruned.mesh.indices, all.mesh.indices);
+    EXPECT_TRUE(sameBytes(pruned.mesh.positions, all.mesh.positions));
+    EXPECT_TRUE(sameBytes(pruned.mesh.normals, all.mesh.normals));
+    const Report report = reportOnMesh(pruned.mesh.positions, pruned.mesh.indices);
+    EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.flippedEdges, 0u);
+}
+
+/// The straight code has the same surface; numbers may differ in their last bits.
+void expectStraightCodeAgrees(const Program& program, const Box& box, int cells) {
+    const Meshed pruned = meshOf(program, box, cells, MeshMethod::marchingCubes, true);
+    Program straight = program;
+    straight.families = {};
+    const Meshed expected = meshOf(straight, box, cells, MeshMethod::marchingCubes, false);
+    EXPECT_NEAR(double(pruned.mesh.positions.size()), double(expected.mesh.positions.size()),
+                2 + 1e-3 * double(expected.mesh.positions.size()));
+    if (pruned.mesh.indices != expected.mesh.indices) return;  // a sample fell on the other side of zero
+    const float cell = float((box.hi[0] - box.lo[0]) / cells);
+    float off = 0;
+    for (std::size_t i = 0; i < expected.mesh.positions.size(); ++i)
+        off = std::max(off, glm::distance(pruned.mesh.positions[i], expected.mesh.positions[i]));
+    EXPECT_LT(off, 0.02f * cell);
+}
+
+const Box kBox{{-1.07, -1.06, -1.05}, {1.08, 1.09, 1.1}};
+
+TEST(Prune, ThreeHundredScatteredBoxes) {
+    const Program program = programOf(
+        "d = 1000.0; for (int i = 0; i < 300; i++) { c = vec3(hash(vec3(i, 1, 0), 1), hash(vec3(i, 2, 0), "
+        "1), "
+        "hash(vec3(i, 3, 0), 1)) * 2 - 1; d = min(d, box(p - c, vec3(0.05, 0.04, 0.06), 0.01).distance); } "
+        "return d;");
+    ASSERT_EQ(program.families.all.size(), 1u);
+    for (int cells : {20, 64, 150})  // one block; two; many, not a multiple of a brick
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring}) {
+            SCOPED_TRACE(std::to_string(cells) + " cells, method " + std::to_string(int(method)));
+            expectPruningChangesNothing(program, kBox, cells, method);
+        }
+    expectStraightCodeAgrees(program, kBox, 100);
+}
+
+TEST(Prune, BlocksAreListedOnLongGrids) {
+    const Program program = programOf(
+        "d = 1000.0; for (int i = 0; i < 40; i++) { c = vec3(hash(vec3(i, 1, 0), 1), hash(vec3(i, 2, 0), 1), "
+        "hash(vec3(i, 3, 0), 1)) * 2 - 1; d = min(d, sphere(p - c, 0.02 + 0.0007 * i).distance + 0.001 * "
+        "sin(i) * p.x); "
+        "} return d;");
+    ASSERT_FALSE(program.families.empty());
+    expectPruningChangesNothing(program, kBox, 530, MeshMethod::marchingCubes);
+}
+
+/// Shapes of several kinds, unions and holes, under a turn, a shell or a displacement.
+std::string randomCode(uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto number = [&](double lo, double hi) {
+        return std::to_string(lo + (hi - lo) * double(random() >> 8) / double(1 << 24));
+    };
+    const auto one = [&](std::initializer_list<const char*> of) {
+        return std::string(of.begin()[random() % of.size()]);
+    };
+    std::string code = one({"", "p = vec3(0.8 * p.x + 0.6 * p.z, p.y, 0.8 * p.z - 0.6 * p.x); ",
+                            "p.xz = p.zx * 1.1; ", "p = abs(p) - 0.2; "});
+    code += "d = " + one({"1000.0", "torus(p, 0.7, 0.1).distance", "box(p, vec3(0.5)).distance"}) + ";";
+    for (int group = 0; group < 1 + int(random() % 3); ++group) {
+        const std::string k = std::to_string(random() % 97);
+        const std::string shape =
+            one({"box(p - c, vec3(0.05, 0.03, 0.08) * (0.5 + c.x * c.x), 0.01).distance",
+                 "sphere(p - c, 0.06 + 0.03 * c.y).distance * 0.9 + 0.01 * p.x * c.z",
+                 "torus(p - c, 0.08 + 0.02 * c.z, 0.03).distance",
+                 "box_max(p - c, vec3(0.06, 0.04 + 0.01 * c.x, 0.05)).distance",
+                 "max(sphere(p - c, 0.1).distance, p.y * c.x - 0.05)"});
+        const std::string put =
+            one({"d = min(d, e);", "d = min(d, e);", "d = max(d, -e);", "d = max(-e, d);"});
+        code += "for (int i = 0; i < " + std::to_string(8 + random() % 40) +
+                "; i++) { c = vec3(hash(vec3(i, 1, " + k + "), 1), hash(vec3(i, 2, " + k +
+                "), 1), hash(vec3(i, 3, " + k + "), 1)) * 2 - 1; e = " + shape + "; " + put + "} ";
+    }
+    code += one({"", "", "d = abs(d) - 0.015; ", "d = d + 0.01 * sin(p.x * 9); ", "d = max(d, p.y - "});
+    if (code.ends_with("p.y - ")) code += number(-0.3, 0.6) + "); ";
+    return code + "return d;";
+}
+
+TEST(Prune, RandomGraphsWithFamilies) {
+    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 500 : 40;
+    int pruned = 0;
+    for (uint32_t seed = 1; seed <= most; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Program program = programOf(randomCode(seed));
+        if (program.families.empty()) continue;
+        expectPruningChangesNothing(program, kBox, 40 + int(seed % 40), MeshMethod(seed % 2));
+        if (seed % 8 == 0) expectStraightCodeAgrees(program, kBox, 50);
+        ++pruned;
+        if (::testing::Test::HasFailure()) break;
+    }
+    EXPECT_GT(pruned, int(most) / 2);
+}
+
+TEST(Prune, EverySampleWithFamilies) {
+    for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples")) {
+        if (!entry.path().string().ends_with(".field.json")) continue;
+        SCOPED_TRACE(entry.path().filename().string());
+        const Result<Graph> graph = readGraph(entry.path(), nullptr);
+        ASSERT_TRUE(graph);
+        const Result<Program> program = compile(*graph);
+        ASSERT_TRUE(program);
+        if (program->families.empty()) continue;
+        const Result<Box> box = meshRegion(*program, {std::nullopt, 48});
+        ASSERT_TRUE(box);
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring})
+            expectPruningChangesNothing(*program, *box, 48, method);
+    }
+}
+
+}  // namespace
+}  // namespace fw
