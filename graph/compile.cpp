@@ -28,6 +28,9 @@ using LoweredNodes = std::unordered_map<std::string, Lowered>;
 
 bool isSurface(const OutputSpec& output) { return output.type == Type::surface; }
 
+/// A mesh is known by the surface that it is made from.
+Type flowsAs(Type type) { return type == Type::mesh ? Type::surface : type; }
+
 Type literalType(const InputValue& input) {
     if (std::holds_alternative<bool>(input.value)) return Type::boolean;
     if (std::holds_alternative<std::string>(input.value)) return Type::string;
@@ -83,7 +86,7 @@ class Compiler {
         Lowered inputs;
         inputs.exactness = kExact;
         for (const GroupInput& input : group.inputs) {
-            inputs.outputs.push_back({input.name, typeNamed(input.type).value_or(Type::scalar)});
+            inputs.outputs.push_back({input.name, flowsAs(typeNamed(input.type).value_or(Type::scalar))});
             inputs.values.push_back(
                 language::defaultValue(state, {input.name, inputs.outputs.back().type, {}}));
         }
@@ -157,8 +160,8 @@ class Compiler {
     }
 
     /// The value that the file or the library gives for an input that is not linked.
-    Value literal(const Node& node, const std::string& prefix, const InputSpec& spec,
-                  const InputValue* given) {
+    Value literal(const Node& node, const std::string& prefix, const InputSpec& spec, const InputValue* given,
+                  bool folded = false) {
         Value value = language::defaultValue(state, spec);
         std::vector<double> numbers;
         if (spec.value.kind == InputDefault::Kind::numbers) numbers = spec.value.numbers;
@@ -169,7 +172,7 @@ class Compiler {
         }
         const bool mayBeLive =
             (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3) &&
-            !numbers.empty();
+            !numbers.empty() && !folded;
         if (mayBeLive && canBeLive) canBeLive->push_back(prefix + node.id + "." + spec.name);
         const std::string name = mayBeLive ? liveName(node, prefix, spec.name) : std::string();
         if (!name.empty()) {
@@ -229,13 +232,11 @@ class Compiler {
             const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
             const Lowered* source = nullptr;
             const Value* from = link ? linked(*link, done, &source) : nullptr;
-            // A mesh is known by the surface that it is made from.
-            const bool shape = spec.type == Type::surface || spec.type == Type::mesh;
+            const bool shape = flowsAs(spec.type) == Type::surface;
             Value value = shape ? language::emptySurface(state) : language::defaultValue(state, spec);
             if (from) {
                 fine &= !source->failed;
-                const Result<Value> converted =
-                    language::convert(state, *from, shape ? Type::surface : spec.type);
+                const Result<Value> converted = language::convert(state, *from, flowsAs(spec.type));
                 if (converted) {
                     value = *converted;
                 } else {
@@ -243,7 +244,7 @@ class Compiler {
                     fine = false;
                 }
             } else if (spec.type != Type::mesh) {
-                value = literal(node, prefix, spec, given);
+                value = literal(node, prefix, spec, given, type->body.empty());
             }
             if (shape) {
                 if (from) shown = inputs.size();
@@ -284,11 +285,15 @@ class Compiler {
             else if (inputsExact || result.spoiler.empty())
                 result.spoiler = prefix + node.id;
         }
-        if (type->body.empty()) {  // stages: what they take is read by the caller
+        if (type->body.empty()) {  // stages
             result.outputs = {{type->outputs.empty() ? "surface" : type->outputs[0].name, Type::surface}};
             result.values = {inputs.empty() ? language::emptySurface(state) : inputs[shown]};
             if (!inputs.empty() && classes.contains(type->inputs[shown].name))
                 result.exactness = classes[type->inputs[shown].name];
+            if (type->outputs.empty() || type->outputs[0].type != Type::mesh) return result;
+            std::optional<MeshRecipe> recipe = meshRecipe(node, prefix, *type, inputs, result.values[0]);
+            if (!recipe) return failure(type->outputs);
+            result.values[0].mesh = std::make_shared<const MeshRecipe>(std::move(*recipe));
             return result;
         }
         Result<std::vector<Value>> values = language::lowerNode(state, *type, std::move(inputs));
@@ -302,6 +307,46 @@ class Compiler {
         return result;
     }
 
+    /// How the mesh is made that a node gives which takes `from` and other `inputs`. Reported, and none, if a
+    /// number is not known when the graph is compiled.
+    std::optional<MeshRecipe> meshRecipe(const Node& node, const std::string& prefix, const NodeType& type,
+                                         const std::vector<Value>& inputs, const Value& from) {
+        bool known = true;
+        const auto input = [&](std::string_view name) -> const Value& {
+            return inputs[static_cast<std::size_t>(inputIndex(type, name))];
+        };
+        const auto number = [&](std::string_view name, int component = 0) {
+            const IrId id = input(name).ids[static_cast<std::size_t>(component)];
+            if (state.ir.isConstant(id)) return state.ir.number(id);
+            known = false;
+            report(node, prefix, std::string(name),
+                   {.message = "a mesh is made with one number, known when the graph is compiled: it cannot "
+                               "depend on the place, nor be live"});
+            return 0.0;
+        };
+        MeshRecipe recipe = from.mesh ? *from.mesh : MeshRecipe{};
+        if (type.id == "polygonize") {
+            recipe = MeshRecipe{};
+            recipe.resolution = static_cast<int>(number("resolution"));
+            recipe.method = meshMethod(input("method").text);
+            if (node.input("region_min") && node.input("region_max")) {
+                Box& box = recipe.region.emplace();
+                for (int i = 0; i < 3; ++i)
+                    box.lo[i] = number("region_min", i), box.hi[i] = number("region_max", i);
+            }
+        } else if (type.id == "smooth") {
+            recipe.stages.push_back(
+                {.kind = MeshStage::Kind::smooth, .times = static_cast<int>(number("iterations"))});
+        } else if (type.id == "subdivide") {
+            recipe.stages.push_back({.kind = MeshStage::Kind::subdivide,
+                                     .times = static_cast<int>(number("levels")),
+                                     .project = number("project") != 0.0});
+        } else {
+            recipe.stages.push_back({.kind = MeshStage::Kind::decimate, .error = number("error")});
+        }
+        return known ? std::optional(std::move(recipe)) : std::nullopt;
+    }
+
     /// A muted node or a reroute: the first linked input that gives the first output's type, else the first
     /// input.
     Lowered passOn(const Node& node, const LoweredNodes& done, const std::vector<OutputSpec>* outputs) {
@@ -311,19 +356,20 @@ class Compiler {
             const Link* link = std::get_if<Link>(&input.value);
             const Lowered* candidateSource = nullptr;
             const Value* candidate = link ? linked(*link, done, &candidateSource) : nullptr;
-            if (candidate && (!outputs || language::convert(state, *candidate, (*outputs)[0].type))) {
+            if (candidate &&
+                (!outputs || language::convert(state, *candidate, flowsAs((*outputs)[0].type)))) {
                 value = candidate, source = candidateSource;
                 break;
             }
         }
         if (!value) return failure(outputs ? *outputs : std::vector<OutputSpec>{});
         Lowered result = *source;
-        const Type type = outputs ? (*outputs)[0].type : value->type;
+        const Type type = outputs ? flowsAs((*outputs)[0].type) : value->type;
         result.outputs = {{outputs ? (*outputs)[0].name : "value", type}};
         result.values = {*language::convert(state, *value, type)};
         if (outputs)
             for (std::size_t i = 1; i < outputs->size(); ++i) {
-                const Result<Value> other = language::convert(state, *value, (*outputs)[i].type);
+                const Result<Value> other = language::convert(state, *value, flowsAs((*outputs)[i].type));
                 result.outputs.push_back((*outputs)[i]);
                 result.values.push_back(other ? *other
                                               : language::defaultValue(state, {"", (*outputs)[i].type, {}}));
@@ -369,13 +415,13 @@ class Compiler {
         if (!definition) return failure({});
         std::vector<OutputSpec> outputs;
         for (const GroupOutput& output : definition->outputs)
-            outputs.push_back({output.name, typeNamed(output.type).value_or(Type::scalar)});
+            outputs.push_back({output.name, flowsAs(typeNamed(output.type).value_or(Type::scalar))});
         if (node.muted) return passOn(node, done, &outputs);
 
         Lowered inputs;
         inputs.exactness = kExact;
         for (const GroupInput& input : definition->inputs) {
-            InputSpec spec{input.name, typeNamed(input.type).value_or(Type::scalar), {}};
+            InputSpec spec{input.name, flowsAs(typeNamed(input.type).value_or(Type::scalar)), {}};
             const InputValue* given = node.input(input.name);
             if (!given && input.value) given = &*input.value;
             const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
@@ -458,24 +504,19 @@ const Node* outputNode(const Graph& graph) {
     return found == graph.nodes.end() ? nullptr : &*found;
 }
 
-/// The node that feeds this input, reroutes passed over; nullptr if none does.
-const Node* feeding(const Graph& graph, const Node& node, std::string_view name) {
-    const InputValue* input = node.input(name);
-    const Link* link = input ? std::get_if<Link>(&input->value) : nullptr;
-    const Node* source = link ? graph.node(link->node) : nullptr;
-    return source && source->type == "reroute" ? feeding(graph, *source, "value") : source;
-}
-
-/// Resolution, method and region, from the output node or from the polygonize node that feeds it.
-void readSettings(const Graph& graph, const Node& output, Program& program) {
-    const Node* source = feeding(graph, output, "mesh");
-    const Node* stage = source && source->type == "polygonize" ? source : &output;
-    if (const auto resolution = inputNumbers(*stage, "resolution"); !resolution.empty())
+/// How the mesh is made: by the polygonize node that it comes from, else by the output node.
+void readSettings(const Node& output, const MeshRecipe& recipe, Program& program) {
+    program.stages = recipe.stages;
+    if (recipe.resolution > 0) {
+        program.resolution = recipe.resolution;
+        program.method = recipe.method;
+        program.region = recipe.region;
+        return;
+    }
+    if (const auto resolution = inputNumbers(output, "resolution"); !resolution.empty())
         program.resolution = static_cast<int>(resolution[0]);
-    if (const InputValue* method = stage->input("method"))
+    if (const InputValue* method = output.input("method"))
         if (const auto* name = std::get_if<std::string>(&method->value)) program.method = meshMethod(*name);
-    const auto lo = inputNumbers(*stage, "region_min"), hi = inputNumbers(*stage, "region_max");
-    if (lo.size() == 3 && hi.size() == 3) program.region = Box{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
 }
 
 /// The number with as few digits as name it.
@@ -604,7 +645,7 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     program.exactness = result.exactness;
     program.spoiledBy = result.spoiler;
     program.nodeExactness = std::move(compiler.exactness);
-    readSettings(graph, *output, program);
+    readSettings(*output, result.values[0].mesh ? *result.values[0].mesh : MeshRecipe{}, program);
     return program;
 }
 

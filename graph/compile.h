@@ -22,13 +22,12 @@
 #include "graph/families.h"
 #include "graph/graph.h"
 #include "graph/ir.h"
+#include "graph/mesh_recipe.h"
 #include "graph/result.h"
 #include "graph/types.h"
 
 namespace fw {
 
-enum class MeshMethod : unsigned char { marchingCubes, dualContouring };
-inline constexpr const char* kMeshMethodNames[] = {"marching-cubes", "dual-contouring"};
 /// That of this name, which is one of them.
 MeshMethod meshMethod(std::string_view name);
 
@@ -67,7 +66,8 @@ struct Program {
 
     int resolution = 128;  ///< cells along the longest side
     MeshMethod method = MeshMethod::marchingCubes;
-    std::optional<Box> region;  ///< given by a polygonize node
+    std::optional<Box> region;      ///< given by a polygonize node
+    std::vector<MeshStage> stages;  ///< what is done to the mesh, in order; not part of structureHash
 
     IrId distance() const { return surface[distanceComponent]; }
     /// Some point's material differs from another's or from the default.

@@ -68,13 +68,6 @@ std::string brief(float number) {
 
 uint32_t chunksOf(uint64_t items, uint64_t each) { return uint32_t((items + each - 1) / each); }
 
-/// Work groups spread over two axes, as groupsFor in mesher.glsl does it.
-glm::uvec3 spread(uint64_t groups) {
-    constexpr uint64_t kMostGroups = 65535;
-    uint32_t y = std::max(chunksOf(groups, kMostGroups), 1u);
-    return {chunksOf(groups, y), y, 1};
-}
-
 /// Active edges that there is room for: each is a vertex, of dual contouring two triangles.
 uint64_t edgeCapacity(const MesherBuffers& buffers, bool dual) {
     return dual ? buffers.triangleCapacity / 2 : buffers.vertexCapacity;
@@ -497,8 +490,18 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         result.bricks = counts.bricks;
         result.capped = counts.caps != 0;
         result.method = config.method;
+        result.colors = wantColors;
+        result.creases = dual;
         return result;
     }
+}
+
+uint32_t packOctahedral(glm::dvec3 n) {
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    const glm::dvec2 folded(n.z >= 0 ? n.x : std::copysign(1 - std::abs(n.y), n.x),
+                            n.z >= 0 ? n.y : std::copysign(1 - std::abs(n.x), n.y));
+    const auto fraction = [](double x) { return uint32_t(uint16_t(int16_t(std::lround(x * 32767)))); };
+    return fraction(folded.x) | fraction(folded.y) << 16;
 }
 
 glm::vec3 unpackOctahedral(uint32_t word) {
@@ -523,7 +526,7 @@ Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const Mesh
         mesh.positions[i] = packed[i].position;
         mesh.normals[i] = unpackOctahedral(packed[i].normal);
     }
-    if (buffers.colors) mesh.colors = download<glm::vec3>(device, buffers.colors, result.vertices);
+    if (result.colors) mesh.colors = download<glm::vec3>(device, buffers.colors, result.vertices);
     return mesh;
 }
 

@@ -96,7 +96,10 @@ struct MesherResult {
     uint32_t bricks = 0;   ///< that were sampled
     bool capped = false;   ///< the surface was closed at the region's boundary
     MeshMethod method = MeshMethod::marchingCubes;
-    int runs = 1;  ///< of the kernels; more than one if buffers had to grow
+    bool colors = false;       ///< there is one at each vertex
+    bool creases = false;      ///< vertices on creases are to be doubled (creases.h)
+    bool undecimated = false;  ///< a decimation left the mesh as it was
+    int runs = 1;              ///< of the kernels; more than one if buffers had to grow
     std::vector<StageTime> stages;
 };
 
@@ -109,6 +112,8 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 /// Copies the last mesh to the host, vertex for vertex.
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);
 
+/// A unit vector in a word, as lib/octahedral.glsl packs it.
+uint32_t packOctahedral(glm::dvec3 vector);
 /// The unit vector that lib/octahedral.glsl packed.
 glm::vec3 unpackOctahedral(uint32_t word);
 

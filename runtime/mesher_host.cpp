@@ -7,6 +7,8 @@
 #include <glm/vector_relational.hpp>
 #include <thread>
 
+#include "runtime/mesher.h"
+
 namespace fw {
 
 using gpu::MesherPush;
@@ -27,15 +29,6 @@ float samplePosition(const MesherPush& push, int axis, uint32_t i) {
 }
 
 uvec3 unpackBrick(uint32_t word) { return {word & 1023, word >> 10 & 1023, word >> 20}; }
-
-/// As lib/octahedral.glsl packs it.
-uint32_t packOctahedral(glm::dvec3 n) {
-    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    const glm::dvec2 folded(n.z >= 0 ? n.x : std::copysign(1 - std::abs(n.y), n.x),
-                            n.z >= 0 ? n.y : std::copysign(1 - std::abs(n.x), n.y));
-    const auto fraction = [](double x) { return uint32_t(uint16_t(int16_t(std::lround(x * 32767)))); };
-    return fraction(folded.x) | fraction(folded.y) << 16;
-}
 
 /// One edge's search for its root: t from a to b, as in vertices.comp.
 struct Search {

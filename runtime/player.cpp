@@ -207,7 +207,8 @@ void Player::adopt(Prepared prepared) {
     const bool same = meshed && session.program().structureHash == prepared.program.structureHash &&
                       session.program().parameters() == values && now.region == prepared.region &&
                       now.program.resolution == prepared.program.resolution &&
-                      now.program.method == prepared.program.method;
+                      now.program.method == prepared.program.method &&
+                      now.program.stages == prepared.program.stages;
     const bool moved = prepared.fieldMoves || now.fieldMoves;
     now = std::move(prepared);
     if (options.compileBehind)
@@ -289,19 +290,21 @@ void Player::seek(double to) {
     }
 }
 
-Result<MesherResult> Player::meshOnDevice() {
+Result<MesherResult> Player::meshOnDevice() { return makeMesh(true); }
+
+Result<MesherResult> Player::makeMesh(bool stages) {
     if (meshed) return *meshed;
     if (!now.region)
         if (const Done found = findSharedRegion(now, options); !found) return found.error();
     const double time = timelineTime();
     const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
     Result<MesherResult> result = MesherResult{};
-    if (!beyond) result = session.polygonise({*now.region, options.resolution, options.method});
+    if (!beyond) result = session.polygonise({*now.region, options.resolution, options.method, stages});
     if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
         const Result<Box> own = meshRegion(session.program(), {{}, options.resolution});
         if (!own) return problem(now.graph, own.error().message);
-        result = session.polygonise({joined(*now.region, *own), options.resolution, options.method});
+        result = session.polygonise({joined(*now.region, *own), options.resolution, options.method, stages});
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
@@ -318,8 +321,8 @@ Result<Mesh> Player::mesh() {
 Result<std::span<const gpu::MeshVertex>> Player::outline() {
     if (!points.empty()) return std::span<const gpu::MeshVertex>(points);
     const double rest = seconds;
-    const auto add = [&]() -> Done {
-        const Result<MesherResult> result = meshOnDevice();
+    const auto add = [&](bool stages) -> Done {
+        const Result<MesherResult> result = makeMesh(stages);
         if (!result) return result.error();
         const auto more =
             download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, result->vertices);
@@ -332,13 +335,13 @@ Result<std::span<const gpu::MeshVertex>> Player::outline() {
         for (int i = 0; i <= kOutlineSteps && added; ++i) {
             seek(now.timeline.length * i / kOutlineSteps);
             meshed.reset();
-            added = add();
+            added = add(false);
         }
         options.resolution = resolution;
         meshed.reset();
         seek(rest);
     } else {
-        added = add();
+        added = add(true);
     }
     if (!added) return points.clear(), added.error();
     return std::span<const gpu::MeshVertex>(points);
@@ -386,8 +389,10 @@ Done Player::reload(Graph graph) { return reload(std::move(graph), options); }
 
 bool Player::compiling() {
     const bool meshing = session.compiling(), drafting = session.drafting();
-    // The mesh of the host has no colours.
-    if (!meshing && std::exchange(meshedOnHost, false) && now.program.hasMaterial()) meshed.reset();
+    // The mesh of the host has no colours, and its new vertices are not on the field.
+    if (!meshing && std::exchange(meshedOnHost, false) &&
+        (now.program.hasMaterial() || std::ranges::any_of(now.program.stages, &projectsVertices)))
+        meshed.reset();
     return meshing || drafting;
 }
 

@@ -158,6 +158,8 @@ class Player {
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
     static std::vector<double> valuesAt(const Prepared& prepared, double seconds);
     void adopt(Prepared prepared);
+    /// meshOnDevice(), or the mesh without the program's stages: an outline needs none.
+    Result<MesherResult> makeMesh(bool stages);
     /// Calls draw(mesh, options) with all that a picture of now needs.
     template <class Draw>
     auto look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes));

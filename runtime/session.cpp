@@ -8,6 +8,8 @@
 #include "graph/region.h"
 #include "runtime/clock.h"
 #include "runtime/creases.h"
+#include "runtime/decimate.h"
+#include "runtime/field_measure.h"
 #include "runtime/mesher_host.h"
 
 namespace fw {
@@ -192,7 +194,32 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.timed = timed;
     std::optional<MesherHost> host;
     if (compiling()) config.host = &host.emplace(current.ir, current.distance(), current.parameters());
-    return runMesher(*gpu, pipelines, buffers, config);
+    Result<MesherResult> result = runMesher(*gpu, pipelines, buffers, config);
+    if (result && request.stages && !current.stages.empty())
+        if (const Done staged = runStages(*result, *region, !host, timed); !staged) return staged.error();
+    return result;
+}
+
+Done Session::runStages(MesherResult& result, const Box& region, bool kernels, bool timed) {
+    if (!stagePipelines) stagePipelines = createMeshStagePipelines(*gpu);
+    MeshStageConfig config{.pipelines = &*stagePipelines,
+                           .lo = grid.lo,
+                           .hi = grid.hi,
+                           .parameters = &parameters,
+                           .images = &images,
+                           .project = kernels,
+                           .timed = timed};
+    const bool projects = std::ranges::any_of(current.stages, &projectsVertices);
+    if (kernels && projects && (!stagePipelines->project || projectionHash != current.structureHash)) {
+        stagePipelines->project = createProjection(*gpu, emitField(current));
+        projectionHash = current.structureHash;
+    }
+    std::optional<MeasureOptions> measure;  // made by the first decimation
+    config.decimate = [&](Mesh& mesh, double error) {
+        if (!measure) measure = measureOf(current, region);
+        return decimate(mesh, error, *measure);
+    };
+    return runMeshStages(*gpu, stageBuffers, buffers, result, current.stages, config);
 }
 
 gpu::DraftMaterial Session::material() const {
@@ -213,7 +240,7 @@ gpu::DraftMaterial Session::material() const {
 
 Mesh Session::download(const MesherResult& result) const {
     Mesh mesh = downloadMesh(*gpu, buffers, result);
-    if (result.method == MeshMethod::dualContouring) splitCreases(mesh);
+    if (result.creases) splitCreases(mesh);
     const gpu::DraftMaterial constants = material();
     mesh.roughness = constants.roughness;
     mesh.metallic = constants.metallic;
@@ -226,13 +253,18 @@ Mesh Session::download(const MesherResult& result) const {
 
 template <class Draw>
 auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw) {
-    const bool draft = drafting();
-    if (!renderer) renderer = draft ? createRenderer(*gpu) : createRenderer(*gpu, emitField(current));
+    // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
+    const bool draft = drafting() || !current.stages.empty();
+    if (!renderer) renderer = createRenderer(*gpu);
+    if (!draft && renderer->field.empty())
+        setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));
     std::vector<gpu::MeshVertex> points;
     if (options.framed.empty() && result.vertices > 0) {
         points = fw::download<gpu::MeshVertex>(*gpu, buffers.vertices, result.vertices);
         options.framed = points;
     }
+    gpu::DraftMaterial look = material();
+    look.colored = result.colors && 12ull * result.vertices <= gpu->properties.limits.maxStorageBufferRange;
     const RenderScene scene{.mesh = buffers,
                             .vertices = result.vertices,
                             .triangles = result.triangles,
@@ -240,7 +272,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
                             .buffers = {&parameters, &images},
                             .bounds = boundsOf(options.framed),
-                            .draft = draft ? std::optional(material()) : std::nullopt,
+                            .draft = draft ? std::optional(look) : std::nullopt,
                             .content = content};
     return draw(*renderer, scene, options);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "graph/compile.h"
+#include "runtime/mesh_stages.h"
 #include "runtime/mesher.h"
 #include "runtime/render/renderer.h"
 
@@ -22,6 +23,7 @@ struct MeshRequest {
     std::optional<Box> region;              ///< none: the program's own, else found from the field
     int resolution = 0;                     ///< cells along the region's longest side; 0: the program's
     std::optional<MeshMethod> method = {};  ///< none: the program's
+    bool stages = true;                     ///< also what the program does to the mesh then
 };
 
 inline constexpr int kMostResolution = 4096;
@@ -50,8 +52,9 @@ class Session {
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
 
-    /// Runs the mesher into device memory. Errors: a region without bounds (the field is unbounded) or with
-    /// none left (it is empty), a resolution out of range, and what runMesher refuses.
+    /// Runs the mesher into device memory, and then the program's stages. Errors: a region without bounds
+    /// (the field is unbounded) or with none left (it is empty), a resolution out of range, and what
+    /// runMesher and runMeshStages refuse.
     Result<MesherResult> polygonise(const MeshRequest& request, bool timed = false);
 
     /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
@@ -72,6 +75,8 @@ class Session {
   private:
     void take(Program program);
     gpu::DraftMaterial material() const;
+    /// What the program does to the mesh that was made in `region`; `kernels` tells whether by its kernels.
+    Done runStages(MesherResult& result, const Box& region, bool kernels, bool timed);
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
     template <class Draw>
     auto draw(const MesherResult& result, RenderOptions options, Draw draw);
@@ -82,6 +87,9 @@ class Session {
     bool built = false;
     MesherPipelines pipelines;
     MesherBuffers buffers;
+    std::optional<MeshStagePipelines> stagePipelines;  ///< made by the first program that has stages
+    uint64_t projectionHash = 0;                       ///< structure that its `project` belongs to
+    MeshStageBuffers stageBuffers;
     MeshGrid grid;
     std::optional<Renderer> renderer;  ///< made by the first picture
     uint64_t content = 0;              ///< counts changes of mesh and parameters

@@ -24,6 +24,7 @@
 
 #include "graph/ir.h"
 #include "graph/language/parser.h"
+#include "graph/mesh_recipe.h"
 #include "graph/node_type.h"
 
 namespace fw::language {
@@ -35,6 +36,7 @@ struct Value {
     std::string text{};
     std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
     uint32_t image = 0;                                   ///< number among Ir::images()
+    std::shared_ptr<const MeshRecipe> mesh{};  ///< of a surface that stands for a mesh: how that is made
 
     IrId id() const { return ids[0]; }
 };

@@ -10,6 +10,7 @@ std::vector<NodeType> stageNodes() {
     const InputSpec method =
         choice("method", {std::begin(kMeshMethodNames), std::end(kMeshMethodNames)},
                "How the surface is turned into triangles. Dual contouring keeps edges and corners sharp.");
+    const InputSpec mesh = {.name = "mesh", .type = Type::mesh, .value = {}, .doc = "The mesh to change."};
     return {
         {.id = "polygonize",
          .label = "Polygonize",
@@ -28,6 +29,30 @@ std::vector<NodeType> stageNodes() {
                      .doc = "Highest corner of the region; found from the surface if not given."},
                     resolution,
                     method},
+         .outputs = {{"mesh", Type::mesh}}},
+        {.id = "smooth",
+         .label = "Smooth",
+         .category = Category::mesh,
+         .doc = "Evens out a mesh: each vertex moves toward the mean of its neighbours. Edges get round, and "
+                "thin parts thinner.",
+         .inputs = {mesh, integer("iterations", 1, 0, 100, "How often; more is smoother.")},
+         .outputs = {{"mesh", Type::mesh}}},
+        {.id = "subdivide",
+         .label = "Subdivide",
+         .category = Category::mesh,
+         .doc = "Makes four triangles of each, with a new vertex on every edge. Put it ahead of smooth: new "
+                "vertices go to the field, and not to the old ones if these have left it.",
+         .inputs = {mesh, integer("levels", 1, 0, 6, "How often; each level has four times the triangles."),
+                    toggle("project", true,
+                           "Move new vertices onto the field's surface, by no more than a quarter of their "
+                           "edge; else they stay in its middle.")},
+         .outputs = {{"mesh", Type::mesh}}},
+        {.id = "decimate",
+         .label = "Decimate",
+         .category = Category::mesh,
+         .doc = "Leaves out triangles while the mesh stays near the field. What is measured is the result, "
+                "against the field, so a mesh that is farther away from it already is left as it is.",
+         .inputs = {mesh, positiveLength("error", 0.01, "The farthest that mesh and surface may be apart.")},
          .outputs = {{"mesh", Type::mesh}}},
         {.id = "output",
          .label = "Output",

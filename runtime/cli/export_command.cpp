@@ -45,6 +45,11 @@ int runExport(const ExportOptions& options) {
     if (meshed.capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());
+    if (meshed.undecimated)
+        std::fprintf(stderr,
+                     "%s: note: decimate left out nothing: the mesh is as far from the surface as its error "
+                     "allows, or farther; raise the error, or the resolution\n",
+                     options.output.c_str());
     if (reported) {
         const double total = millisecondsSince(begin);
         const uint64_t peak = peakMemoryBytes();

@@ -116,4 +116,10 @@ constexpr uint32_t groupsFor(uint64_t items, uint32_t perGroup) {
     return uint32_t((items + perGroup - 1) / perGroup);
 }
 
+/// So many groups over two axes, of which each holds 65,535 at most; some more run, to no effect.
+inline glm::uvec3 spread(uint64_t groups) {
+    const uint32_t y = groupsFor(groups > 0 ? groups : 1, 65535);
+    return {groupsFor(groups, y), y, 1};
+}
+
 }  // namespace fw

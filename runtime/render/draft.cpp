@@ -6,41 +6,51 @@ namespace fw {
 
 namespace {
 
-void resizeNormals(Commands& commands, Draft& draft, VkExtent3D extent) {
-    if (draft.normals && draft.normals.extent.width == extent.width &&
-        draft.normals.extent.height == extent.height)
+void resizeLooks(Commands& commands, Draft& draft, VkExtent3D extent) {
+    if (draft.looks && draft.looks.extent.width == extent.width && draft.looks.extent.height == extent.height)
         return;
-    draft.normals = {};
-    draft.normals = createImage(commands.device,
-                                {.extent = extent,
-                                 .format = VK_FORMAT_R32_UINT,
-                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
-    imageBarrier(commands, draft.normals, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    draft.looks = {};
+    draft.looks = createImage(commands.device,
+                              {.extent = extent,
+                               .format = VK_FORMAT_R32G32_UINT,
+                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
+    imageBarrier(commands, draft.looks, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
 }
 
 }  // namespace
 
 Draft createDraft(const Device& device) {
     Draft draft;
-    draft.draw = createGraphicsPipeline(
-        device, {.shaders = {{.name = "render/draft.vert"}, {.name = "render/draft.frag"}},
-                 .colorFormats = {VK_FORMAT_R32_UINT},
-                 .depthFormat = kDepthFormat,
-                 .vertexStride = sizeof(gpu::MeshVertex),
-                 .vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::MeshVertex, position)},
-                                      {1, 0, VK_FORMAT_R32_UINT, offsetof(gpu::MeshVertex, normal)}},
-                 .depthTest = true,
-                 .depthWrite = true});
+    const auto drawing = [&](std::vector<std::string> defines) {
+        return createGraphicsPipeline(
+            device,
+            {.shaders = {{.name = "render/draft.vert", .defines = defines},
+                         {.name = "render/draft.frag", .defines = defines}},
+             .colorFormats = {VK_FORMAT_R32G32_UINT},
+             .depthFormat = kDepthFormat,
+             .vertexStride = sizeof(gpu::MeshVertex),
+             .vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::MeshVertex, position)},
+                                  {1, 0, VK_FORMAT_R32_UINT, offsetof(gpu::MeshVertex, normal)}},
+             .depthTest = true,
+             .depthWrite = true});
+    };
+    draft.draw = drawing({});
+    draft.drawColored = drawing({"COLORS"});
     draft.surface = createComputePipeline(device, {.name = "render/draft.comp"});
     return draft;
 }
 
 void drawDraft(Commands& commands, Draft& draft, DepthTarget& target, VkExtent3D extent,
-               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters) {
-    resizeNormals(commands, draft, extent);
+               const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters, uint32_t colors) {
+    resizeLooks(commands, draft, extent);
     prepareDepth(commands, target, extent);
-    beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR, &draft.normals);
-    if (clusters) drawClusters(commands, draft.draw, clip, mesh, *clusters);
+    beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR, &draft.looks);
+    if (clusters && colors > 0) {
+        const Descriptor bound[] = {{0, mesh.colors, 0, 12ull * colors}};
+        drawClusters(commands, draft.drawColored, clip, mesh, *clusters, bound);
+    } else if (clusters) {
+        drawClusters(commands, draft.draw, clip, mesh, *clusters);
+    }
     vkCmdEndRendering(commands.handle);
     copyDepth(commands, target);
 }
@@ -54,7 +64,7 @@ void fillFromDraft(Commands& commands, const Draft& draft, GBuffer& gbuffer, con
                                 storage(1, depth),
                                 storage(2, gbuffer.now()),
                                 {3, gbuffer.tileLists},
-                                storage(4, draft.normals)};
+                                storage(4, draft.looks)};
     dispatchIndirect(commands, draft.surface, gbuffer.arguments, argumentsOf(RENDER_NEAR), material, bound);
     barrier(commands);
 }

@@ -82,8 +82,8 @@ void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp loa
 }
 
 void drawClusters(Commands& commands, const Pipeline& pipeline, const glm::mat4& clip,
-                  const MesherBuffers& mesh, const Clusters& clusters) {
-    bind(commands, pipeline, &clip, sizeof clip, {});
+                  const MesherBuffers& mesh, const Clusters& clusters, std::span<const Descriptor> bound) {
+    fw::bind(commands, pipeline, &clip, sizeof clip, bound);
     const VkDeviceSize start = 0;
     vkCmdBindVertexBuffers(commands.handle, 0, 1, &mesh.vertices.handle, &start);
     vkCmdBindIndexBuffer(commands.handle, clusters.indices.handle, 0, VK_INDEX_TYPE_UINT32);

@@ -53,7 +53,8 @@ void beginDrawing(Commands& commands, const Image& depth, VkAttachmentLoadOp loa
 
 /// Draws the listed clusters (cullClusters) between beginDrawing and its end.
 void drawClusters(Commands& commands, const Pipeline& pipeline, const glm::mat4& clip,
-                  const MesherBuffers& mesh, const Clusters& clusters);
+                  const MesherBuffers& mesh, const Clusters& clusters,
+                  std::span<const Descriptor> bound = {});
 
 /// Makes the attachment of this size, ready to be drawn into; and copies what was drawn to `depth`.
 void prepareDepth(Commands& commands, DepthTarget& target, VkExtent3D extent);

@@ -184,7 +184,8 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
         const Clusters* clusters =
             cull(commands, renderer, scene, clip, glm::vec4(frame.now.eye, 1), !outside);
         if (scene.draft)
-            drawDraft(commands, renderer.draft, renderer.seen, extent, clip, scene.mesh, clusters);
+            drawDraft(commands, renderer.draft, renderer.seen, extent, clip, scene.mesh, clusters,
+                      scene.draft->colored ? scene.vertices : 0);
         else
             drawDepth(commands, renderer.depth, renderer.seen, extent, clip, scene.mesh, clusters);
         return;

@@ -12,7 +12,8 @@
 // one frame at a time with what the last one knew (ambient.h), goes on to the same mean while nothing
 // changes, and then stops.
 //
-// Until the kernels of a field are compiled, the renderer draws drafts (draft.h).
+// Until the kernels of a field are compiled, and of meshes that no longer are the field's, the renderer draws
+// drafts (draft.h).
 //
 // Lifetime: a Renderer belongs to one device and has the kernels of one field at a time; images and buffers
 // take the size of the picture and keep it until another is asked for.
@@ -43,7 +44,8 @@ struct RenderScene {
     float lipschitz = 1.0f;                ///< of the field; infinite if unknown
     FieldBuffers buffers = {};             ///< of the field
     SeenBounds bounds = {};                ///< of RenderOptions::framed
-    /// If given, the mesh alone is drawn, in this material: the renderer need not have the field's kernels.
+    /// If given, the mesh alone is drawn, in this material or its colours: the renderer need not have the
+    /// field's kernels.
     std::optional<gpu::DraftMaterial> draft = {};
     uint64_t content =
         0;  ///< another number if mesh or field differ from those of the live view's last frame

@@ -1,5 +1,5 @@
-// The G-buffer of one tile with anything near the solid from what was drawn of the mesh: surface.comp's place, for a field whose
-// kernels are still being compiled. It samples no field, so its pipeline serves all graphs.
+// The G-buffer of one tile with anything near the solid from what was drawn of the mesh: surface.comp's place, where
+// the mesh is to be seen and not the field. It samples no field, so its pipeline serves all graphs.
 #define FIELD_MATERIAL
 #include "shared.h"
 #include "render/render.h"
@@ -14,7 +14,7 @@ layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
 layout(binding = 1, r32f) readonly uniform image2D seen;
 layout(binding = 2, rgba32ui) writeonly uniform uimage2D surfaces;
 layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
-layout(binding = 4, r32ui) readonly uniform uimage2D normals;  // draft.frag
+layout(binding = 4, rg32ui) readonly uniform uimage2D looks;  // draft.frag
 
 #include "render/solid.glsl"
 
@@ -30,10 +30,12 @@ void main() {
     float depth = imageLoad(seen, at).x, toGround = groundAlong(view, ray), along = view.near / max(depth, 1e-30);
     bool hit = depth > 0.0 && !(toGround > 0.0 && toGround < along);
     vec4 region = regionDistance(view.eye + ray * along);
-    vec3 n = abs(region.w) < kOnSide * frame.cellSize ? region.xyz : unpackOctahedral(imageLoad(normals, at).x);
+    uvec2 drawn = imageLoad(looks, at).xy;
+    vec3 n = abs(region.w) < kOnSide * frame.cellSize ? region.xyz : unpackOctahedral(drawn.x);
     float facing = dot(n, toEye);  // never away from the eye, as between vertices it can be
     n = facing < 0.0 ? normalize(n - 1.02 * facing * toEye) : n;
-    FieldMaterial material = FieldMaterial(look.base, look.roughness, look.metallic, look.emission);
+    vec3 color = unpackUnorm4x8(drawn.y).rgb;
+    FieldMaterial material = FieldMaterial(look.colored != 0 ? color * color : look.base, look.roughness, look.metallic, look.emission);
     uvec4 surface = hit ? packSurface(depth, n, material) : toGround > 0.0 ? packGround(view.near / toGround) : uvec4(0);
     if (inPicture) imageStore(surfaces, ivec2(pixel), surface);
 }

@@ -134,10 +134,11 @@ struct CullPush {
 
 // What a draft shows the solid in: as FieldMaterial of field.glsl.
 struct DraftMaterial {
-    vec3 base;
+    vec3 base;  // unless each vertex has its own
     float roughness;
     vec3 emission;
     float metallic;
+    uint colored;  // 1: each vertex has its own base colour
 };
 
 // Rays of trace.comp: from origin + x originX + y originY along direction + x directionX + y directionY, over

@@ -1,7 +1,9 @@
 // Our mesher beside the plain C++ baseline, and how far each of its stages is from what the device can do.
 #include <fstream>
+#include <map>
 
 #include "graph/glsl.h"
+#include "runtime/mesh_stages.h"
 #include "runtime/mesher.h"
 #include "tests/bench/baseline.h"
 #include "tests/bench/peaks.h"
@@ -120,6 +122,60 @@ Work leastWork(const std::string& stage, const MesherResult& mesh, double gridBr
     return {};
 }
 
+/// Cells of the meshes that stages are timed on, and the most that one may take of the time to make the mesh.
+constexpr int kStageCells = 256;
+constexpr double kMostOfMaking = 0.5;
+constexpr const char* kStageNames[] = {"sort", "smooth", "normals", "subdivide", "project"};
+
+/// Times one iteration of smoothing and one level of subdivision, each with what it needs, and adds the
+/// field's rows; `making` is the time of the mesh itself.
+void addMeshStages(Bench& bench, Table& table, Field field, const Program& program,
+                   MesherPipelines& pipelines, const Figure& making) {
+    const MesherConfig config{.origin = glm::vec3(-regionHalf(field)),
+                              .cellSize = glm::vec3(2 * regionHalf(field) / float(kStageCells)),
+                              .cells = glm::ivec3(kStageCells)};
+    MeshStagePipelines stagePipelines = createMeshStagePipelines(bench.device());
+    stagePipelines.project = createProjection(bench.device(), emitField(program));
+    const MeshStageConfig stageConfig{.pipelines = &stagePipelines,
+                                      .lo = glm::vec3(-regionHalf(field)),
+                                      .hi = glm::vec3(regionHalf(field)),
+                                      .timed = true};
+    const MeshStage smooth{.kind = MeshStage::Kind::smooth}, subdivide{.kind = MeshStage::Kind::subdivide};
+    MesherBuffers buffers;
+    MeshStageBuffers stageBuffers;
+    std::map<std::string, Figure> figures;
+    MesherResult made;
+    for (int run = -1; run < bench.options.repeats; run++)
+        for (const MeshStage& stage : {smooth, subdivide}) {
+            const Result<MesherResult> meshed = runMesher(bench.device(), pipelines, buffers, config);
+            if (!meshed) return bench.fail(meshed.error().message);
+            made = *meshed;
+            MesherResult changed = made;
+            const Done ran =
+                runMeshStages(bench.device(), stageBuffers, buffers, changed, {&stage, 1}, stageConfig);
+            if (!ran)
+                return table.notes.push_back(std::string(fieldName(field)) + ": " + ran.error().message +
+                                             ".");
+            if (run < 0) {  // to warm up, and to be checked
+                const Mesh mesh = downloadMesh(bench.device(), buffers, changed);
+                if (const std::string fault = faultOf(mesh.indices, mesh.positions.size()); !fault.empty())
+                    return bench.fail(std::string(fieldName(field)) + ", changed: " + fault);
+                continue;
+            }
+            for (const StageTime& time : changed.stages)
+                if (stage.kind == MeshStage::Kind::smooth || time.name == "subdivide" ||
+                    time.name == "project")
+                    figures[time.name].runs.push_back(time.milliseconds);
+        }
+    for (const char* name : kStageNames) {
+        Figure& figure = figures[name];
+        std::ranges::sort(figure.runs);
+        const double part = figure.median() / making.median();
+        table.rows.push_back({std::string(fieldName(field)), count(made.triangles), text(making), name,
+                              text(figure), number(part), part <= kMostOfMaking ? "met" : "missed"});
+    }
+}
+
 }  // namespace
 
 void mesherTable(Bench& bench) {
@@ -135,6 +191,9 @@ void mesherTable(Bench& bench) {
                           "of marching cubes"}};
     Table dualStages{.title = "Where dual contouring's time goes (ms, likewise)",
                      .header = {"field", "cells"}};
+    Table meshStages{.title = "What is done to a mesh afterwards, at 256 cells (ms, likewise)",
+                     .header = {"field", "triangles", "making the mesh", "stage", "ms", "of making",
+                                "at most " + number(kMostOfMaking)}};
     const Peaks peaks = measurePeaks(bench.device(), bench.options.repeats);
     double tower256 = 0;
     bool everAhead = true;
@@ -178,6 +237,8 @@ void mesherTable(Bench& bench) {
                                   theirs ? text(*theirs) : "–", text(ours->total),
                                   theirs ? number(ratio) : "–"});
             addStages(stages, field, cells, *ours);
+            if (cells == kStageCells)
+                addMeshStages(bench, meshStages, field, *program, pipelines, ours->total);
             if (const std::optional<Ours> sharp = timeMesher(bench, pipelines, buffers, field, cells,
                                                              MeshMethod::dualContouring, dual.notes)) {
                 const double part = theirs ? sharp->total.median() / theirs->median() : 0;
@@ -238,6 +299,7 @@ void mesherTable(Bench& bench) {
     print(dual, bench.options.markdown);
     print(dualStages, bench.options.markdown);
     print(peak, bench.options.markdown);
+    print(meshStages, bench.options.markdown);
 }
 
 }  // namespace fw::bench

@@ -1,0 +1,11 @@
+// What lies around a vertex: the places of its corners in the sorted lists, and the mesh's vertices.
+#include "mesh/mesh.glsl"
+#include "mesh/exact_sum.glsl"
+
+layout(local_size_x = MESH_GROUP) in;
+layout(binding = 0, rgba32ui) readonly uniform uimageBuffer vertices;  // MeshVertex
+layout(binding = 1, scalar) readonly buffer Counts { uint counts[]; };
+layout(binding = 2, scalar) readonly buffer Starts { uint starts[]; };
+layout(binding = 3, scalar) readonly buffer Next { uint next[]; };
+
+vec3 positionOf(uint vertex) { return uintBitsToFloat(imageLoad(vertices, int(vertex)).xyz); }
