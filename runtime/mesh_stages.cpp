@@ -16,6 +16,7 @@ namespace fw {
 namespace {
 
 constexpr uint64_t kMostTriangles = 1u << 24;
+constexpr uint64_t kWholeTexels = 16;  // bytes behind a list that is also read as texels
 
 /// A power of two that is at least as large.
 float powerAbove(float size) { return std::exp2(std::ceil(std::log2(std::max(size, 1e-30f)))); }
@@ -27,7 +28,8 @@ struct Most {
 Most mostOf(const Device& device) {
     const uint64_t range = device.properties.limits.maxStorageBufferRange;
     const uint64_t texels = device.properties.limits.maxTexelBufferElements;
-    return {std::min(kMostTriangles, range / 12), std::min(range / sizeof(gpu::MeshVertex), texels)};
+    return {std::min(kMostTriangles, (range - kWholeTexels) / 12),
+            std::min(range / sizeof(gpu::MeshVertex), texels)};
 }
 
 std::string thousands(uint64_t count) {
@@ -84,7 +86,7 @@ void sortCorners(Commands& commands, Run& run) {
     for (Buffer* perVertex : {&b.counts, &b.starts, &b.edgeCounts, &b.edgeStarts})
         reserve(device, *perVertex, 4ull * push.vertices);
     for (Buffer* perCorner : {&b.ranks, &b.next, &b.previous})
-        reserve(device, *perCorner, 12ull * push.triangles);
+        reserve(device, *perCorner, 12ull * push.triangles + kWholeTexels);
     reserve(device, b.sums, 16ull * groupsFor(push.vertices, MESH_SUM_LANES * MESH_SUM_EACH));
     beginStage(commands, "sort");
     fill(commands, b.counts, 0);

@@ -4,12 +4,12 @@
 // before it. The triangle in which an edge leads from its lower vertex to the higher one writes the new vertex. In place
 // of a normal that gets the edge's length, which project.comp needs.
 #include "mesh/mesh.glsl"
+#include "mesh/bucket.glsl"
 
 layout(local_size_x = MESH_GROUP) in;
 layout(binding = 0, rgba32ui) readonly uniform uimageBuffer vertices;  // MeshVertex
 layout(binding = 1, scalar) readonly buffer Counts { uint counts[]; };
 layout(binding = 2, scalar) readonly buffer Starts { uint starts[]; };
-layout(binding = 3, scalar) readonly buffer Next { uint next[]; };
 layout(binding = 4, scalar) readonly buffer Edges { uint edgeStarts[]; };
 layout(binding = 5, rgba32ui) writeonly uniform uimageBuffer split;  // MeshVertex
 layout(binding = 6, scalar) readonly buffer Triangles { uvec3 triangles[]; };
@@ -27,12 +27,11 @@ void main() {
     uvec3 from = triangles[valid ? t : 0], to = from.yzx;  // of the three edges
     uvec3 low = min(from, to), high = max(from, to), rank = uvec3(0);
     uvec3 first = uvec3(starts[low.x], starts[low.y], starts[low.z]);
-    uvec3 count = uvec3(counts[low.x], counts[low.y], counts[low.z]);
-    uint i = 0, most = max(count.x, max(count.y, count.z));
+    uvec3 last = first + uvec3(counts[low.x], counts[low.y], counts[low.z]), texels = texelsOf(first, last);
+    uint i = 0, most = max(texels.x, max(texels.y, texels.z));
     do {  // as long as any lane: one that is done counts nothing
-        uvec3 at = first + min(uvec3(i), count - 1);
-        uvec3 other = uvec3(next[at.x], next[at.y], next[at.z]);
-        rank += uvec3(lessThan(uvec3(i), count)) * uvec3(greaterThan(other, low)) * uvec3(lessThan(other, high));
+        rank += uvec3(countBetween(first.x, last.x, i, low.x, high.x), countBetween(first.y, last.y, i, low.y, high.y),
+                      countBetween(first.z, last.z, i, low.z, high.z));
     } while (subgroupAny(++i < most));
     uvec3 made = push.vertices + uvec3(edgeStarts[low.x], edgeStarts[low.y], edgeStarts[low.z]) + rank;
     if (!valid) return;

@@ -101,6 +101,9 @@ const std::map<std::string, std::vector<std::string>>& promised() {
         {"expression", {}},
         {"material", {"surface", "base_color", "roughness", "metallic", "emission"}},
         {"polygonize", {"surface", "region_min", "region_max", "resolution", "method"}},
+        {"smooth", {"mesh", "iterations"}},
+        {"subdivide", {"mesh", "levels", "project"}},
+        {"decimate", {"mesh", "error"}},
         {"output", {"surface", "mesh", "resolution", "method"}},
         {"reroute", {}},
         {"frame", {}},
@@ -131,6 +134,9 @@ TEST(NodeTable, HoldsEveryPromisedNameInItsOrder) {
         {"distance", {"value"}},
         {"from_distance", {"surface"}},
         {"polygonize", {"mesh"}},
+        {"smooth", {"mesh"}},
+        {"subdivide", {"mesh"}},
+        {"decimate", {"mesh"}},
     };
     for (const auto& [id, names] : outputs) {
         for (std::size_t i = 0; i < names.size(); i++)
@@ -210,7 +216,8 @@ TEST(NodeTable, DefaultsFitTheirInputs) {
 
 TEST(NodeTable, EveryNodeHasAMeaning) {
     const std::set<std::string> treatedByTheCompiler = {
-        "expression", "polygonize", "output", "reroute", "frame", "group", "group_input", "group_output"};
+        "expression", "polygonize", "smooth", "subdivide",   "decimate",    "output",
+        "reroute",    "frame",      "group",  "group_input", "group_output"};
     for (const NodeType& type : nodeTypes()) {
         EXPECT_EQ(type.body.empty(), treatedByTheCompiler.contains(type.id)) << type.id;
         EXPECT_EQ(type.open, type.body.empty() && type.inputs.empty()) << type.id;
