@@ -88,6 +88,23 @@ TEST(Session, AReplacementOfTheSameStructureCompilesNothing) {
     EXPECT_FALSE(session.compiling());
 }
 
+TEST(Session, StagesRunBeforeTheKernelsAreThereAndAgainByThem) {
+    Session waiting = openSession();
+    waiting.setProgram(sample("worn_steps"));
+    const Mesh expected = meshOf(waiting);
+    Session session = openSession();
+    session.replaceProgram(sample("worn_steps"));
+    EXPECT_TRUE(session.compiling());
+    const Mesh first = meshOf(session);
+    expectClosed(first);
+    EXPECT_EQ(first.triangleCount() % 4, 0u);
+    waitForKernels(session);
+    const Mesh second = meshOf(session);
+    EXPECT_EQ(second.positions, expected.positions);
+    EXPECT_EQ(second.colors, expected.colors);
+    EXPECT_EQ(second.indices, expected.indices);
+}
+
 TEST(Session, ClosesWhileKernelsAreBeingCompiled) {
     Session session = openSession();
     session.replaceProgram(sample("menger"));
