@@ -14,28 +14,6 @@ constexpr const char* kNotANumber =
 
 bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// Offset of the first byte that is no part of well-formed UTF-8, or is NUL; npos if there is none.
-std::size_t firstBadByte(std::string_view text) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-    };
-    for (std::size_t i = 0; i < text.size();) {
-        const unsigned lead = byte(i);
-        if (lead == 0) return i;
-        const int length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : (lead & 0xF0) == 0xE0 ? 3 : 4;
-        if (length == 4 && (lead < 0xF0 || lead > 0xF4)) return i;
-        for (int k = 1; k < length; ++k)
-            if ((byte(i + k) & 0xC0) != 0x80) return i;
-        // Overlong forms, surrogates and what lies beyond U+10FFFF, told by the second byte.
-        const unsigned second = byte(i + 1);
-        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
-            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90))
-            return i;
-        i += length;
-    }
-    return std::string_view::npos;
-}
-
 /// Receives nlohmann's SAX events (their names are his) and follows them through the text.
 class Follower {
   public:
@@ -276,6 +254,27 @@ class Follower {
 };
 
 }  // namespace
+
+std::size_t firstBadByte(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned lead = byte(i);
+        if (lead == 0) return i;
+        const int length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : (lead & 0xF0) == 0xE0 ? 3 : 4;
+        if (length == 4 && (lead < 0xF0 || lead > 0xF4)) return i;
+        for (int k = 1; k < length; ++k)
+            if ((byte(i + k) & 0xC0) != 0x80) return i;
+        // Overlong forms, surrogates and what lies beyond U+10FFFF, told by the second byte.
+        const unsigned second = byte(i + 1);
+        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second >= 0xA0) ||
+            (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second >= 0x90))
+            return i;
+        i += length;
+    }
+    return std::string_view::npos;
+}
 
 Result<JsonTokens> tokenize(std::string_view text, const std::string& path) {
     Follower follower(text, path);

@@ -33,6 +33,9 @@ struct JsonTokens {
         unescaped;  ///< contents of strings with escapes, which `text` cannot take from the file
 };
 
+/// Offset of the first byte that is no part of well-formed UTF-8, or is NUL; npos if there is none.
+std::size_t firstBadByte(std::string_view text);
+
 /// The values in `text`, which must outlive the result. Errors: what is not JSON or not UTF-8, a key that
 /// stands twice in an object, a number beyond double, nesting or a number of values beyond the limits of
 /// graph.h. `path` is the file they name.

@@ -8,6 +8,16 @@
 
 namespace fw {
 
+namespace {
+
+double cellSizeOf(const Box& region, int resolution) {
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region.hi[axis] - region.lo[axis]);
+    return longest / resolution;
+}
+
+}  // namespace
+
 Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options) {
     const Result<Timeline> timeline = readTimeline(graph);
     if (!timeline) return timeline.error();
@@ -24,7 +34,7 @@ Result<MeshedProgram> meshProgram(Device device, Program program, const MeshRequ
     const auto stopped = [] { return Error{.message = "cancelled; nothing was written"}; };
     const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
     const bool given = request.region || program.region;
-    MeshedProgram meshed{Session(std::move(device)), {}, region};
+    MeshedProgram meshed{Session(std::move(device)), {}, region, cellSizeOf(region, resolution)};
     if (!starts("pipelines")) return stopped();
     meshed.session.setProgram(std::move(program));
     if (!starts("mesh")) return stopped();
@@ -40,10 +50,8 @@ Error nothingToSee(bool given, const Box& region, int resolution) {
         return {.message =
                     "the surface does not pass through the region: move or enlarge the region, or "
                     "raise the resolution"};
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, region.hi[axis] - region.lo[axis]);
     char cell[32];
-    std::snprintf(cell, sizeof cell, "%.3g", longest / resolution);
+    std::snprintf(cell, sizeof cell, "%.3g", cellSizeOf(region, resolution));
     return {.message = "the solid is empty or thinner than a cell of " + std::string(cell) +
                        " m: raise the resolution, or give a smaller region"};
 }

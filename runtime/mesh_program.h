@@ -22,6 +22,7 @@ struct MeshedProgram {
     Session session;
     MesherResult mesh;  ///< has triangles
     Box region;         ///< what it was meshed in
+    double cellSize;    ///< of the grid, along the region's longest side, metres
 };
 
 /// Compiles the program for the device (stage "pipelines") and meshes it (stage "mesh"). `region` is

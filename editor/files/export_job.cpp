@@ -68,7 +68,8 @@ struct ExportJob::Shared {
 Result<ExportState> ExportJob::Shared::make() {
     const Clock::time_point begin = Clock::now();
     const Error stopped;
-    if (const Done known = checkExportPath(wish.path); !known) return known.error();
+    if (const Done known = checkExportPath(wish.path, {.manifold = wish.manifold}); !known)
+        return known.error();
     if (const Done distinct = checkDistinct(wish.graph->path, exportedPaths(wish.path)); !distinct)
         return distinct.error();
     std::future<Result<Device>> opening =
@@ -99,7 +100,8 @@ Result<ExportState> ExportJob::Shared::make() {
     made.report.capped = meshed->mesh.capped;
     made.report.device = meshed->session.device().name();
     if (!start("write")) return stopped;
-    Result<ExportedFiles> written = exportMesh(mesh, wish.path, {.cancel = &cancel});
+    Result<ExportedFiles> written = exportMesh(
+        mesh, wish.path, {.cellSize = float(meshed->cellSize), .manifold = wish.manifold, .cancel = &cancel});
     if (!written) return written.error();
     made.files = std::move(*written);
     made.report.totalMs = millisecondsSince(begin);

@@ -25,6 +25,7 @@ struct ExportWish {
     std::string path;           ///< of the mesh file; its ending says the format
     MeshRequest mesh = {};      ///< as of `fieldwright export`: what is left out is found
     double seconds = 0.0;       ///< on the timeline
+    bool manifold = false;      ///< as ExportOptions has it
     DeviceOptions device = {};  ///< that meshes
 };
 

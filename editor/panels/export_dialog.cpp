@@ -34,14 +34,6 @@ std::string printed(const char* format, Values... values) {
     return text;
 }
 
-/// The format whose ending the path has; none if it has another.
-const ExportFormat* formatOf(const std::string& path) {
-    const auto formats = exportFormats();
-    const auto known = std::ranges::find_if(
-        formats, [&](const ExportFormat& format) { return fs::path(path).extension() == format.ending; });
-    return known == formats.end() ? nullptr : &*known;
-}
-
 /// A file in the folder that one works in, named as the document's.
 std::string proposal(const Editor& editor) {
     const std::string name = fs::path(editor.document.graph().path).filename().string();
@@ -51,7 +43,7 @@ std::string proposal(const Editor& editor) {
 
 void showFormat(ExportDialog& dialog) {
     propertyRow("Format");
-    const ExportFormat* chosen = formatOf(dialog.path);
+    const ExportFormat* chosen = exportFormat(dialog.path);
     if (!ImGui::BeginCombo("##format", chosen ? chosen->ending + 1 : "not known")) return;
     for (const ExportFormat& format : exportFormats()) {
         const std::string label = std::string(format.ending + 1) + "   " + format.about;
@@ -67,7 +59,7 @@ void showFile(ExportDialog& dialog, float scale) {
     ImGui::InputText("##file", &dialog.path);
     ImGui::SameLine(0, 4 * scale);
     if (ImGui::Button("Browse …", {-1, 0})) {
-        const ExportFormat* format = formatOf(dialog.path);
+        const ExportFormat* format = exportFormat(dialog.path);
         dialog.browser.ending = format ? format->ending : exportFormats().front().ending;
         open(dialog.browser, FileBrowser::Kind::save, dialog.path);
     }
@@ -78,6 +70,10 @@ void showSettings(Editor& editor) {
     if (!beginProperties("export")) return;
     showFormat(dialog);
     showFile(dialog, editor.shell.scale());
+    if (const ExportFormat* format = exportFormat(dialog.path); format && format->manifold) {
+        propertyRow("Solid", "For programs that compute with solids (EXT_mesh_manifold).");
+        ImGui::Checkbox("marked as one##manifold", &dialog.manifold);
+    }
     propertyRow("Resolution");
     bool own = !dialog.givesResolution;
     if (ImGui::Checkbox("as the output node says##resolution", &own)) dialog.givesResolution = !own;
@@ -109,6 +105,8 @@ void begin(Editor& editor) {
     ExportWish wish{
         .graph = editor.graph, .path = dialog.path, .seconds = dialog.seconds, .device = editor.device};
     const std::array<double, 6>& r = dialog.region;
+    const ExportFormat* format = exportFormat(dialog.path);
+    wish.manifold = dialog.manifold && format && format->manifold;
     if (dialog.givesResolution) wish.mesh.resolution = dialog.resolution;
     if (dialog.givesRegion) wish.mesh.region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
     dialog.job.reset();
@@ -166,10 +164,10 @@ void showButtons(Editor& editor) {
         if (fs::exists(dialog.path, error))
             wrapped(themeColor(ThemeColor::warning),
                     fs::path(dialog.path).filename().string() + " is there and will be replaced.");
-        if (!formatOf(dialog.path))
+        if (!exportFormat(dialog.path))
             wrapped(themeColor(ThemeColor::error),
                     "The name has to end in one of the formats: choose one above.");
-        ImGui::BeginDisabled(!formatOf(dialog.path));
+        ImGui::BeginDisabled(!exportFormat(dialog.path));
         if (ImGui::Button("Export", size)) begin(editor);
         ImGui::EndDisabled();
     }

@@ -26,6 +26,7 @@ struct ExportDialog {
     bool givesRegion = false;                              ///< else found from the solid
     std::array<double, 6> region = {-1, -1, -1, 1, 1, 1};  ///< least corner, greatest corner, metres
     double seconds = 0.0;                                  ///< on the timeline
+    bool manifold = false;                                 ///< of glTF: marked as a solid
     FileBrowser browser;
     std::unique_ptr<ExportJob> job = {};
     bool told = true;  ///< what came of the job was said

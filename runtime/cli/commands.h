@@ -51,6 +51,7 @@ struct ExportOptions {
     MeshOptions mesh;
     std::string output, report;
     std::vector<Requirement> required;
+    bool manifold = false;  ///< as fw::ExportOptions has it
 };
 int runExport(const ExportOptions& options);
 

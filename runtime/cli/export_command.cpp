@@ -23,14 +23,16 @@ Done writeText(const std::string& path, const std::string& text) {
 
 int runExport(const ExportOptions& options) {
     const auto begin = Clock::now();
-    if (const Done known = checkExportPath(options.output); !known) return print(known.error()), kBadUsage;
+    const bool reported = !options.report.empty() || !options.required.empty();
+    fw::ExportOptions how{.manifold = options.manifold, .cancel = &interrupted};
+    if (const Done known = checkExportPath(options.output, how, reported); !known)
+        return print(known.error()), kBadUsage;
     std::vector<std::string> outputs = exportedPaths(options.output);
     if (!options.report.empty()) outputs.push_back(options.report);
     if (const Done distinct = checkDistinct(options.mesh.graph.path, outputs); !distinct)
         return print(distinct.error()), kBadUsage;
     Progress progress;
     int status = kDone;
-    const bool reported = !options.report.empty() || !options.required.empty();
     std::optional<MeshedProgram> opened = meshGraph(options.mesh, progress, reported, status);
     if (!opened) return status;
     Session& session = opened->session;
@@ -38,7 +40,8 @@ int runExport(const ExportOptions& options) {
     progress.start("download", 60);
     const Mesh mesh = session.download(meshed);
     progress.start("write", 70);
-    const Result<ExportedFiles> written = exportMesh(mesh, options.output, {.cancel = &interrupted});
+    how.cellSize = static_cast<float>(opened->cellSize);
+    const Result<ExportedFiles> written = exportMesh(mesh, options.output, how);
     if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
     progress.finish();
 

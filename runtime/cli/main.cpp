@@ -16,6 +16,7 @@
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/sequence.h"
+#include "runtime/export/export.h"
 #include "runtime/export/output_file.h"
 #include "runtime/window/viewer.h"
 #include "tests/bench/bench.h"
@@ -143,10 +144,16 @@ int run(int count, char** arguments) {
     ExportOptions exportOptions;
     CLI::App* exportCommand = app.add_subcommand("export", "Turn a graph into a mesh file");
     addMesh(exportCommand, exportOptions.mesh);
+    std::string endings;
+    for (const ExportFormat& format : exportFormats())
+        endings += (endings.empty() ? "" : " ") + std::string(format.ending);
     exportCommand
         ->add_option("-o,--output", exportOptions.output,
-                     "The mesh file; its ending says the format: .glb .gltf .obj .stl .ply")
+                     "The mesh file; its ending says the format: " + endings)
         ->required();
+    exportCommand->add_flag("--manifold", exportOptions.manifold,
+                            "Mark the mesh of a .glb or .gltf as a solid (EXT_mesh_manifold), for programs "
+                            "that compute with solids; an error if it is none");
     exportCommand->add_option("--report", exportOptions.report,
                               "Write what the mesh file holds, measured from it, as JSON to this file");
     exportCommand

@@ -11,34 +11,30 @@
 #include <utility>
 
 #include "graph/image.h"
+#include "graph/json_tokens.h"
+#include "runtime/corners.h"
 #include "runtime/export/formats.h"
+#include "runtime/mesh_requirements.h"
 
 namespace fw {
 namespace {
 
-enum class Format { glb, gltf, obj, stl, ply };
+enum class Format { glb, gltf, obj, stl, ply, threeMf, vdb };
 
 /// In the order of Format.
 constexpr ExportFormat kFormats[] = {
-    {".glb", "glTF in one file, with colours: Blender, game engines, the web"},
-    {".gltf", "glTF as text and a .bin file beside it"},
+    {".glb", "glTF in one file, with colours: Blender, game engines, the web", true},
+    {".gltf", "glTF as text and a .bin file beside it", true},
     {".obj", "OBJ with colours and a .mtl file beside it"},
     {".stl", "STL: the shape alone, for printing"},
     {".ply", "PLY with colours: MeshLab and other tools for meshes"},
+    {".3mf", "3MF in millimetres with colours, for printing"},
+    {".vdb", "OpenVDB level set: distances instead of triangles, for Houdini and Blender", false, false},
 };
 
-std::string lowerExtension(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension;
-}
-
 std::optional<Format> formatOf(const std::string& path) {
-    const std::string extension = lowerExtension(path);
-    for (std::size_t i = 0; i < std::size(kFormats); ++i)
-        if (extension == kFormats[i].ending) return Format(i);
-    return std::nullopt;
+    const ExportFormat* format = exportFormat(path);
+    return format ? std::optional(Format(format - kFormats)) : std::nullopt;
 }
 
 /// The bounds, or nothing if some coordinate is NaN or infinite.
@@ -98,12 +94,47 @@ std::string percentEncoded(const std::string& name) {
     return uri;
 }
 
-/// Names stand on a line of their own in OBJ and in JSON: control characters and broken UTF-8 must not reach
-/// them.
-std::string printable(const std::string& name) {
-    std::string text;
-    for (const char c : name) text += (c > ' ' && c < 127) ? c : '_';
-    return text.empty() ? "mesh" : text;
+/// Names stand on a line of their own in OBJ, and in JSON and XML: spaces, control characters and broken
+/// UTF-8 must not reach them.
+std::string printable(std::string name) {
+    for (std::size_t bad; (bad = firstBadByte(name)) != std::string::npos;) name[bad] = '_';
+    for (char& c : name)
+        if ((c > 0 && c <= ' ') || c == 127) c = '_';
+    return name.empty() ? "mesh" : name;
+}
+
+/// What keeps the mesh from being a solid for the format; empty if nothing does. A level set needs an inside.
+/// 3MF and EXT_mesh_manifold need two triangles at each edge, which run along it in opposite directions;
+/// parts may touch at a vertex. Triangles that collapsed are left out of 3MF, but glTF has to show them.
+std::string whyNoSolid(const WeldedMesh& solid, Format format) {
+    Report report = reportOnMesh(solid.positions, solid.indices);
+    report.nonManifoldVertices = 0;
+    const auto needed = parseRequirements(format == Format::vdb ? "closed" : "closed,manifold");
+    const std::vector<std::string> reasons = unmet(*needed, report);
+    if (!reasons.empty()) return reasons.front();
+    if (!exportFormats()[std::size_t(format)].manifold) return {};
+    for (std::size_t i = 0; i < solid.indices.size(); i += 3)
+        if (collapsed(&solid.indices[i])) return "a triangle of it has two corners at one place";
+    return {};
+}
+
+Merges mergesOf(const Mesh& mesh, const WeldedMesh& solid) {
+    constexpr uint32_t kNone = ~0u;
+    std::vector<uint32_t> first(solid.positions.size(), kNone);  // vertex at each place
+    Merges merges;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        uint32_t& vertex = first[solid.indices[i]];
+        if (vertex == kNone) vertex = mesh.indices[i];
+        if (vertex == mesh.indices[i]) continue;
+        merges.entries.push_back(static_cast<uint32_t>(i));
+        merges.vertices.push_back(vertex);
+    }
+    return merges;
+}
+
+float voxelSize(const ExportOptions& options, const Bounds& bounds) {
+    const glm::vec3 size = bounds.max - bounds.min;
+    return options.cellSize > 0.0f ? options.cellSize : std::max({size.x, size.y, size.z}) / 128.0f;
 }
 
 Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, OutputFile* beside) {
@@ -121,6 +152,11 @@ Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, Outpu
 }  // namespace
 
 std::span<const ExportFormat> exportFormats() { return kFormats; }
+
+const ExportFormat* exportFormat(const std::string& path) {
+    const auto* format = std::ranges::find(kFormats, lowerExtension(path), &ExportFormat::ending);
+    return format == std::end(kFormats) ? nullptr : format;
+}
 
 Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs) {
     namespace fs = std::filesystem;
@@ -144,8 +180,21 @@ Done checkDistinct(const std::string& graph, const std::vector<std::string>& out
     return done();
 }
 
-Done checkExportPath(const std::string& path) {
-    if (formatOf(path)) return done();
+Done checkExportPath(const std::string& path, const ExportOptions& options, bool measured) {
+    if (const ExportFormat* format = exportFormat(path)) {
+        const std::string ending = format->ending;
+        if (options.manifold && !format->manifold)
+            return Error{
+                .message =
+                    "a mesh is marked as a solid in .glb and .gltf alone: leave that out for " + ending,
+                .file = path};
+        if (measured && !format->measurable)
+            return Error{.message = ending +
+                                    " holds distances and no triangles that a report could measure: "
+                                    "ask for the report of a .ply of the same graph",
+                         .file = path};
+        return done();
+    }
     const std::string extension = lowerExtension(path);
     std::string message = extension.empty() ? "the file needs an extension that names its format: "
                                             : "unknown format '" + extension + "'; known are ";
@@ -167,7 +216,7 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     const auto refuse = [&](std::string message) {
         return Error{.message = std::move(message), .file = path};
     };
-    if (Done known = checkExportPath(path); !known) return known.error();
+    if (Done known = checkExportPath(path, options); !known) return known.error();
     const Format format = *formatOf(path);
     assert(mesh.indices.size() % 3 == 0);
     assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
@@ -188,6 +237,16 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         return exportMesh(repaired, path, options);
     }
 
+    WeldedMesh solid;
+    if (options.manifold || format == Format::threeMf || format == Format::vdb) {
+        solid = weld(mesh.positions, mesh.indices);
+        if (const std::string why = whyNoSolid(solid, format); !why.empty())
+            return refuse("the mesh is no solid: " + why + "; change the resolution, or write " +
+                          (options.manifold ? "glTF without saying that it is one" : "another format"));
+    }
+    const Merges merges = options.manifold ? mergesOf(mesh, solid) : Merges{};
+    const Merges* const marked = options.manifold ? &merges : nullptr;
+
     const std::filesystem::path full(path);
     const std::string name = printable(options.name.empty() ? full.stem().string() : options.name);
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
@@ -199,21 +258,34 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         if (!beside) return beside.error();
         const std::string besideName = std::filesystem::path(besidePath).filename().string();
         if (format == Format::gltf)
-            writeGltf(mesh, *bounds, name, percentEncoded(besideName), *file, *beside);
+            writeGltf(mesh, *bounds, name, marked, percentEncoded(besideName), *file, *beside);
         else
             writeObj(mesh, name, besideName, *file, *beside);
         return commitAll(path, *file, &*beside);
     }
+    std::string failure;
     switch (format) {
         case Format::glb:
-            if (!writeGlb(mesh, *bounds, name, *file))
+            if (!writeGlb(mesh, *bounds, name, marked, *file))
                 return refuse("the mesh exceeds the 4 GiB of a GLB; write .gltf or lower the resolution");
             break;
         case Format::stl: writeStl(mesh, *file); break;
         case Format::ply: writePly(mesh, *file); break;
+        case Format::threeMf: failure = write3mf(mesh, solid, name, options.cancel, *file); break;
+        case Format::vdb:
+            failure = writeVdb(solid, voxelSize(options, *bounds), name, options.cancel, *file);
+            break;
         default: break;
     }
+    if (!failure.empty()) return refuse("cannot write: " + failure);
     return commitAll(path, *file, nullptr);
+}
+
+std::string lowerExtension(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension;
 }
 
 std::string generatorName() { return std::string("Fieldwright ") + FIELDWRIGHT_VERSION; }

@@ -2,14 +2,15 @@
 //
 // Why it is built as it is: a mesh of 256 cells a side holds 600,000 triangles and the whole process has 0.25
 // s, so the writers hand the mesh's own arrays to the system where the format allows and format the rest in
-// small chunks. No copy of the file is ever held in memory.
+// small chunks. No copy of the file is held in memory, but of the compressed ones (3MF, OpenVDB).
 //
 // What is guaranteed: the file appears under its name whole or not at all (output_file.h). On any failure the
 // temporary file is removed and a file that stood there before is as it was. glTF and OBJ have a second file
 // (.bin, .mtl): two renames, that one first.
 //
-// Positions are metres, +Y up, in every format. Colours: glTF holds them linear, as its specification asks;
-// PLY, OBJ and MTL hold them sRGB-encoded, as the programs that read them expect.
+// +Y is up in every format, and positions are metres, in 3MF millimetres. Colours: glTF holds them
+// linear, as its specification asks; PLY, OBJ, MTL and 3MF hold them sRGB-encoded, as the programs that read
+// them expect.
 #pragma once
 
 #include <atomic>
@@ -25,6 +26,10 @@ namespace fw {
 
 struct ExportOptions {
     std::string name = {};  ///< of the object inside the file; the file's stem if empty
+    float cellSize = 0.0f;  ///< of the grid that the mesh was made on, metres: a voxel of a level set is as
+                            ///< large; 0: a 128th of the mesh's longest side
+    bool manifold =
+        false;  ///< of glTF: say which vertices are one, so that it is a solid (EXT_mesh_manifold)
     const std::atomic<bool>* cancel =
         nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
 };
@@ -35,9 +40,10 @@ struct ExportedFiles {
     uint64_t bytes = 0;              ///< of all of them
 };
 
-/// Writes `mesh` to `path`; the extension (.glb, .gltf, .obj, .stl, .ply, in any case) picks the format.
+/// Writes `mesh` to `path`; the extension (one of exportFormats(), in any case) picks the format.
 /// Errors name the path: unknown extension, empty mesh, index or coordinate out of range, unwritable folder,
-/// full disk, cancelled. Normals that are not unit vectors are replaced by those of the triangles around.
+/// full disk, cancelled, no closed solid where the format asks for one. Normals that are not unit vectors are
+/// replaced by those of the triangles around.
 Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
                                  const ExportOptions& options = {});
 
@@ -46,16 +52,20 @@ std::vector<std::string> exportedPaths(const std::string& path);
 
 /// What exportMesh can write.
 struct ExportFormat {
-    const char* ending;  ///< ".glb"
-    const char* about;   ///< what it is good for, some words
+    const char* ending;      ///< ".glb"
+    const char* about;       ///< what it is good for, some words
+    bool manifold = false;   ///< whether ExportOptions::manifold is for it
+    bool measurable = true;  ///< whether it holds triangles, which a report measures
 };
 std::span<const ExportFormat> exportFormats();
+/// That of the path's ending; nullptr if it is none of them.
+const ExportFormat* exportFormat(const std::string& path);
 
 /// Refuses outputs that would replace the graph or each other, whatever their names look like.
 Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs);
 
 /// Refuses, before any work is done, a path whose extension exportMesh does not know; the message lists those
-/// it does.
-Done checkExportPath(const std::string& path);
+/// it does. Also options that the format does not have; `measured` says that a report is wanted of the file.
+Done checkExportPath(const std::string& path, const ExportOptions& options = {}, bool measured = false);
 
 }  // namespace fw

@@ -5,11 +5,15 @@
 // normalised 16-bit RGBA, because 8 bits of linear light band visibly in the dark and floats take twice the
 // room.
 //
-// An emission above 1 is the one thing the core cannot say; KHR_materials_emissive_strength says it.
+// Two things the core cannot say. An emission above 1: KHR_materials_emissive_strength says it. That a mesh
+// with doubled vertices is a solid: on request EXT_mesh_manifold says it, with a second primitive over the
+// same positions, whose indices are the first's but for those that a sparse accessor replaces; its two parts
+// stand once more as accessors, for programs that merge vertices by them.
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
@@ -22,16 +26,58 @@ namespace fw {
 namespace {
 
 struct Layout {
-    uint64_t vertices = 0, indices = 0;
+    uint64_t vertices = 0, indices = 0, merges = 0;
     bool normals = false, colors = false, shortIndices = false;
-    uint64_t indexBytes() const { return indices * (shortIndices ? 2 : 4); }
-    uint64_t bytes() const { return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0)) + indexBytes(); }
+    uint64_t indexSize() const { return shortIndices ? 2 : 4; }
+    uint64_t bytes() const {
+        return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0)) + indices * indexSize() +
+               merges * (4 + indexSize());
+    }
 };
 
-Layout layoutOf(const Mesh& mesh) {
+Layout layoutOf(const Mesh& mesh, const Merges* merges) {
     // 65535 is the restart value and may not be an index.
-    return {mesh.positions.size(), mesh.indices.size(), !mesh.normals.empty(), !mesh.colors.empty(),
-            mesh.positions.size() <= 65535};
+    return {mesh.positions.size(), mesh.indices.size(),  merges ? merges->entries.size() : 0,
+            !mesh.normals.empty(), !mesh.colors.empty(), mesh.positions.size() <= 65535};
+}
+
+/// Adds EXT_mesh_manifold. The accessors that the document has are those of its one primitive.
+void addManifold(nlohmann::json& document, const Layout& layout) {
+    using nlohmann::json;
+    json& accessors = document["accessors"];
+    json& object = document["meshes"][0];
+    const json& primitive = object["primitives"][0];
+    json solid = {{"attributes", {{"POSITION", primitive["attributes"]["POSITION"]}}},
+                  {"indices", primitive["indices"]},
+                  {"mode", TINYGLTF_MODE_TRIANGLES}};
+    json extension;
+    if (layout.merges > 0) {
+        const json indices = accessors[primitive["indices"].get<std::size_t>()];
+        json sparse = {{"count", layout.merges}};
+        uint64_t offset = layout.bytes() - layout.merges * (4 + layout.indexSize());
+        const auto part = [&](const char* accessorName, const char* sparseName, const json& componentType,
+                              uint64_t bytes) {
+            json& views = document["bufferViews"];
+            views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}});
+            offset += bytes;
+            accessors.push_back({{"bufferView", views.size() - 1},
+                                 {"componentType", componentType},
+                                 {"count", layout.merges},
+                                 {"type", "SCALAR"}});
+            extension[accessorName] = accessors.size() - 1;
+            sparse[sparseName] = {{"bufferView", views.size() - 1}};
+        };
+        part("mergeIndices", "indices", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, layout.merges * 4);
+        sparse["indices"]["componentType"] = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        part("mergeValues", "values", indices["componentType"], layout.merges * layout.indexSize());
+        json merged = indices;
+        merged["sparse"] = sparse;
+        accessors.push_back(merged);
+        solid["indices"] = accessors.size() - 1;
+    }
+    extension["manifoldPrimitive"] = solid;
+    object["extensions"]["EXT_mesh_manifold"] = extension;
+    document["extensionsUsed"].push_back("EXT_mesh_manifold");
 }
 
 tinygltf::Material materialOf(const Mesh& mesh) {
@@ -53,8 +99,9 @@ tinygltf::Material materialOf(const Mesh& mesh) {
 }
 
 /// The JSON; its one buffer has the given uri, or none where the binary part follows in the same file.
-std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const std::string& uri) {
-    const Layout layout = layoutOf(mesh);
+std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
+                   const std::string& uri) {
+    const Layout layout = layoutOf(mesh, merges);
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = generatorName();
@@ -103,7 +150,7 @@ std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& na
         primitive.attributes["COLOR_0"] = lastAccessor();
     }
     addAccessor(
-        addView(layout.indexBytes(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
+        addView(layout.indices * layout.indexSize(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
         layout.shortIndices ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
         TINYGLTF_TYPE_SCALAR, layout.indices);
     primitive.indices = lastAccessor();
@@ -131,6 +178,7 @@ std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& na
     // here.
     auto document = nlohmann::json::parse(text.str());
     document["buffers"][0]["byteLength"] = layout.bytes();
+    if (merges) addManifold(document, layout);
     if (!uri.empty()) document["buffers"][0]["uri"] = uri;
     return uri.empty() ? document.dump() : document.dump(2) + "\n";
 }
@@ -140,7 +188,22 @@ uint16_t unit16(float value) {
                         : uint16_t{0};  // NaN: 0
 }
 
-void writeBinary(const Mesh& mesh, OutputFile& file) {
+void writeIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& file) {
+    if (!asShorts) {
+        file.write(indices);
+        return;
+    }
+    const auto narrow = [&](char* out, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i, out += 2) {
+            const auto index = static_cast<uint16_t>(indices[i]);
+            std::memcpy(out, &index, 2);
+        }
+        return out;
+    };
+    writeBlocks(indices.size(), 2, narrow, file);
+}
+
+void writeBinary(const Mesh& mesh, const Merges* merges, OutputFile& file) {
     file.write(std::span(mesh.positions));
     file.write(std::span(mesh.normals));
     const auto formatColors = [&](char* out, std::size_t first, std::size_t last) {
@@ -152,26 +215,21 @@ void writeBinary(const Mesh& mesh, OutputFile& file) {
         return out;
     };
     writeBlocks(mesh.colors.size(), 8, formatColors, file);
-    if (!layoutOf(mesh).shortIndices) {
-        file.write(std::span(mesh.indices));
-        return;
-    }
-    const auto narrow = [&](char* out, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i, out += 2) {
-            const auto index = static_cast<uint16_t>(mesh.indices[i]);
-            std::memcpy(out, &index, 2);
-        }
-        return out;
-    };
-    writeBlocks(mesh.indices.size(), 2, narrow, file);
+    const Layout layout = layoutOf(mesh, merges);
+    writeIndices(mesh.indices, layout.shortIndices, file);
+    if (!merges) return;
+    assert(mesh.indices.size() % 2 == 0);  // of a solid; so the entries lie at a multiple of 4
+    file.write(std::span(merges->entries));
+    writeIndices(merges->vertices, layout.shortIndices, file);
 }
 
 }  // namespace
 
-bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, OutputFile& file) {
-    std::string json = jsonOf(mesh, bounds, name, {});
+bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
+              OutputFile& file) {
+    std::string json = jsonOf(mesh, bounds, name, merges, {});
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const uint64_t binary = layoutOf(mesh).bytes();
+    const uint64_t binary = layoutOf(mesh, merges).bytes();
     const uint64_t padded = (binary + 3) / 4 * 4;
     const uint64_t total = 12 + 8 + json.size() + 8 + padded;
     if (total > 0xffffffffu) return false;
@@ -182,15 +240,15 @@ bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, O
     file.write(std::span<const uint32_t>(head));
     file.write(json);
     file.write(std::span<const uint32_t>(chunk));
-    writeBinary(mesh, file);
+    writeBinary(mesh, merges, file);
     file.write("\0\0\0", padded - binary);
     return true;
 }
 
-void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const std::string& binaryUri,
-               OutputFile& file, OutputFile& binary) {
-    file.write(jsonOf(mesh, bounds, name, binaryUri));
-    writeBinary(mesh, binary);
+void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
+               const std::string& binaryUri, OutputFile& file, OutputFile& binary) {
+    file.write(jsonOf(mesh, bounds, name, merges, binaryUri));
+    writeBinary(mesh, merges, binary);
 }
 
 }  // namespace fw

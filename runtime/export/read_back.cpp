@@ -18,7 +18,8 @@
 #include <system_error>
 #include <utility>
 
-#include "runtime/export/read_gltf.h"
+#include "runtime/export/formats.h"
+#include "runtime/export/readers.h"
 
 namespace fw {
 namespace {
@@ -344,14 +345,14 @@ Result<WeldedMesh> readWelded(const std::string& path) {
     MappedFile file;
     if (const std::string failure = file.open(path); !failure.empty())
         return fault("cannot read: " + failure);
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = lowerExtension(path);
     if (extension == ".stl") return readStl(file.bytes(), fault);
     if (extension == ".obj") return readObj(file.bytes(), fault);
     if (extension == ".ply") return readPly(file.bytes(), fault);
     if (extension == ".glb") return readGlb(file.bytes(), fault);
     if (extension == ".gltf") return readGltf(file.bytes(), path, fault);
+    if (extension == ".3mf") return read3mf(file.bytes(), fault);
+    if (extension == ".vdb") return fault("it holds distances and no triangles");
     return fault("unknown format '" + extension + "'");
 }
 

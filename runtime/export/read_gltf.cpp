@@ -1,4 +1,4 @@
-#include "runtime/export/read_gltf.h"
+#include "runtime/export/readers.h"
 
 #include <algorithm>
 #include <filesystem>

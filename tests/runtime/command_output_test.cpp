@@ -46,7 +46,7 @@ TEST_F(CommandOutput, PlacesThatCannotBeWritten) {
 }
 
 TEST_F(CommandOutput, AFullQuotaKeepsTheOldFile) {
-    for (const char* extension : {".glb", ".gltf", ".obj", ".stl", ".ply"}) {
+    for (const char* extension : {".glb", ".gltf", ".obj", ".stl", ".ply", ".3mf", ".vdb"}) {
         const std::string path = folder.path(std::string("a") + extension);
         test::writeText(path, "before");
         CommandOptions options;

@@ -70,9 +70,17 @@ TEST_F(Command, MissingArgumentsAndUnknownOptionsAreUsage) {
 
 TEST_F(Command, OutputsThatAreNoMeshFileAreUsage) {
     expectRefusal(runCommand({"export", graph, "-o", folder.path("ball.xyz")}), 2,
-                  {"unknown format '.xyz'", ".glb, .gltf, .obj, .stl and .ply"});
+                  {"unknown format '.xyz'", ".glb, .gltf, .obj, .stl, .ply, .3mf and .vdb"});
     expectRefusal(runCommand({"export", graph, "-o", folder.path("ball")}), 2, {"needs an extension"});
     expectRefusal(runCommand({"export", graph, "-o", ""}), 2, {"needs an extension"});
+    for (const std::vector<std::string>& asked :
+         {std::vector<std::string>{"--require", "closed"}, {"--report", folder.path("report.json")}}) {
+        std::vector<std::string> words{"export", graph, "-o", folder.path("ball.vdb")};
+        words.insert(words.end(), asked.begin(), asked.end());
+        expectRefusal(runCommand(words), 2, {"ball.vdb", "no triangles that a report could measure", ".ply"});
+    }
+    expectRefusal(runCommand({"export", graph, "-o", mesh, "--manifold"}), 2,
+                  {"ball.stl", "marked as a solid in .glb and .gltf alone"});
 }
 
 TEST_F(Command, ResolutionsOutOfRangeAreUsage) {
@@ -189,9 +197,9 @@ TEST_F(Command, HelpOfEveryCommandSaysWhatThereIs) {
             EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
     };
     help({}, {"export", "check", "eval", "compile", "nodes", "info", "bench", "Exit status", "130", "Try:"});
-    help({"export"}, {"Usage: fieldwright export", "-o,--output", ".glb .gltf .obj .stl .ply", "--resolution",
-                      "4096", "--region", "x0 y0 z0 x1 y1 z1", "metres", "--set", "name=value", "--time",
-                      "--report", "--device", "Exit status"});
+    help({"export"}, {"Usage: fieldwright export", "-o,--output", ".glb .gltf .obj .stl .ply .3mf .vdb",
+                      "--manifold", "--resolution", "4096", "--region", "x0 y0 z0 x1 y1 z1", "metres",
+                      "--set", "name=value", "--time", "--report", "--device", "Exit status"});
     help({"check"}, {"GRAPH...", "file:line:column"});
     help({"eval"}, {"--at", "--gradient", "--interval", "negative inside"});
     help({"compile"}, {"--emit", "glsl", "spirv", "--live", "node.input"});

@@ -24,7 +24,7 @@ namespace {
 
 using test::TempDir;
 
-constexpr const char* kExtensions[] = {".glb", ".gltf", ".obj", ".stl", ".ply"};
+constexpr const char* kExtensions[] = {".glb", ".gltf", ".obj", ".stl", ".ply", ".3mf", ".vdb"};
 
 std::string messageOf(const Mesh& mesh, const std::string& path, const ExportOptions& options = {}) {
     const Result<ExportedFiles> written = exportMesh(mesh, path, options);
@@ -47,7 +47,7 @@ void expectRefused(const TempDir& folder, const Mesh& mesh, const std::string& p
 TEST(ExportFailure, UnknownExtensionNamesTheKnownOnes) {
     const TempDir folder;
     expectRefused(folder, test::cube(), folder.path("mesh.fbx"),
-                  "unknown format '.fbx'; known are .glb, .gltf, .obj, .stl and .ply");
+                  "unknown format '.fbx'; known are .glb, .gltf, .obj, .stl, .ply, .3mf and .vdb");
     expectRefused(folder, test::cube(), folder.path("mesh"), "needs an extension");
     expectRefused(folder, test::cube(), folder.path(""), "needs an extension");
     EXPECT_FALSE(checkExportPath("a.glb.bak"));
@@ -128,8 +128,8 @@ TEST(ExportFailure, FolderWithoutPermission) {
 /// folder.
 void expectOldFilesSurvive(const TempDir& folder, const Mesh& mesh, const std::string& part,
                            const ExportOptions& options = {}) {
-    const std::vector<std::string> old = {"mesh.bin", "mesh.glb", "mesh.gltf", "mesh.mtl",
-                                          "mesh.obj", "mesh.ply", "mesh.stl"};
+    const std::vector<std::string> old = {"mesh.3mf", "mesh.bin", "mesh.glb", "mesh.gltf", "mesh.mtl",
+                                          "mesh.obj", "mesh.ply", "mesh.stl", "mesh.vdb"};
     for (const std::string& name : old) test::writeText(folder.path(name), "old " + name);
     for (const char* extension : kExtensions) {
         const std::string message = messageOf(mesh, folder.path(std::string("mesh") + extension), options);
@@ -138,6 +138,8 @@ void expectOldFilesSurvive(const TempDir& folder, const Mesh& mesh, const std::s
     EXPECT_EQ(folder.names(), old);
     for (const std::string& name : old) EXPECT_EQ(test::readText(folder.path(name)), "old " + name);
 }
+
+constexpr float kSmallVoxel = 0.007f;  // metres: the torus' level set has some 5 MB, too
 
 TEST(ExportFailure, FileSizeLimit) {
     // What a full disk does in the middle of writing, without the right to mount one.
@@ -148,7 +150,7 @@ TEST(ExportFailure, FileSizeLimit) {
     const auto handler = ::signal(SIGXFSZ, SIG_IGN);
     const rlimit small{2u << 20, old.rlim_max};
     ASSERT_EQ(0, ::setrlimit(RLIMIT_FSIZE, &small));
-    expectOldFilesSurvive(folder, mesh, "File too large");
+    expectOldFilesSurvive(folder, mesh, "File too large", {.cellSize = kSmallVoxel});
     ASSERT_EQ(0, ::setrlimit(RLIMIT_FSIZE, &old));
     ::signal(SIGXFSZ, handler);
 }
@@ -162,7 +164,8 @@ TEST(ExportFailure, FullDisk) {
         if (::unshare(CLONE_NEWNS) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) ::_exit(2);
         if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) ::_exit(2);
         if (::mount("tmpfs", folder.folder.c_str(), "tmpfs", 0, "size=2m") != 0) ::_exit(2);
-        expectOldFilesSurvive(folder, test::torus(400, 300), "No space left on device");
+        expectOldFilesSurvive(folder, test::torus(400, 300), "No space left on device",
+                              {.cellSize = kSmallVoxel});
         ::_exit(::testing::Test::HasFailure() ? 1 : 0);
     }
     int status = 0;
@@ -173,6 +176,35 @@ TEST(ExportFailure, FullDisk) {
             "no right to mount a small file system here; ExportFailure.FileSizeLimit covers the same path");
     else
         EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(ExportFailure, MeshesThatAreNoSolid) {
+    const TempDir folder;
+    Mesh open = test::cube(), flipped = test::cube(), thrice = test::cube(), collapsed = test::cube();
+    open.indices.resize(33);
+    test::flip(flipped, 5);
+    thrice.indices.insert(thrice.indices.end(), {0, 4, 6, 0, 6, 4});
+    collapsed.indices.insert(collapsed.indices.end(), {0, 0, 4});
+    struct Case {
+        const char* name;
+        const Mesh& mesh;
+        const char* why;
+        bool manifold;
+    };
+    const Case cases[] = {{"mesh.3mf", open, "not closed: it has 3 open edges", false},
+                          {"mesh.glb", open, "not closed: it has 3 open edges", true},
+                          {"mesh.vdb", open, "not closed: it has 3 open edges", false},
+                          {"mesh.3mf", flipped, "not manifold: it has 3 edges between", false},
+                          {"mesh.gltf", flipped, "not manifold: it has 3 edges between", true},
+                          {"mesh.3mf", thrice, "not manifold: it has 3 edges of more than two", false},
+                          {"mesh.glb", thrice, "not manifold: it has 3 edges of more than two", true},
+                          {"mesh.glb", collapsed, "two corners at one place", true},
+                          {"mesh.stl", test::cube(), "marked as a solid in .glb and .gltf alone", true}};
+    for (const Case& each : cases) {
+        const std::string message = messageOf(each.mesh, folder.path(each.name), {.manifold = each.manifold});
+        EXPECT_NE(message.find(each.why), std::string::npos) << each.name << ": " << message;
+        EXPECT_TRUE(folder.names().empty());
+    }
 }
 
 TEST(ExportFailure, CancelledBeforeItBegins) {

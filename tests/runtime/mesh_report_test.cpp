@@ -268,7 +268,7 @@ TEST(ReadBack, DamagedFilesGiveAMeshOrAnErrorAndNeverMore) {
     test::paint(mesh);
     std::mt19937 random(7);
     std::size_t refused = 0;
-    for (const char* name : {"mesh.glb", "mesh.gltf", "mesh.obj", "mesh.stl", "mesh.ply"}) {
+    for (const char* name : {"mesh.glb", "mesh.gltf", "mesh.obj", "mesh.stl", "mesh.ply", "mesh.3mf"}) {
         ASSERT_TRUE(exportMesh(mesh, folder.path(name)));
         const std::string whole = test::readText(folder.path(name));
         const std::string damaged =

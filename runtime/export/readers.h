@@ -1,4 +1,4 @@
-// glTF part of the reader behind read_back.h, and what it shares with the other formats. Internal to
+// The parts of the reader behind read_back.h that have files of their own, and what they share. Internal to
 // runtime/export.
 #pragma once
 
@@ -43,6 +43,7 @@ class MappedFile {
     Bytes content;
 };
 
+Result<WeldedMesh> read3mf(const Bytes& bytes, const Fault& fault);
 Result<WeldedMesh> readGlb(const Bytes& bytes, const Fault& fault);
 /// `path` is that of the JSON: the binary file beside it is found from there and may not lie elsewhere.
 Result<WeldedMesh> readGltf(const Bytes& bytes, const std::string& path, const Fault& fault);
