@@ -2,7 +2,7 @@
 //
 // Why it is built as it is: a mesh of 256 cells a side holds 600,000 triangles and the whole process has 0.25
 // s, so the writers hand the mesh's own arrays to the system where the format allows and format the rest in
-// small chunks. No copy of the file is held in memory, but of the compressed ones (3MF, OpenVDB).
+// small chunks. No copy of the file is held in memory, but by the libraries that write 3MF and OpenVDB.
 //
 // What is guaranteed: the file appears under its name whole or not at all (output_file.h). On any failure the
 // temporary file is removed and a file that stood there before is as it was. glTF and OBJ have a second file
