@@ -551,6 +551,14 @@ std::vector<double> Program::parameters() const {
     return values;
 }
 
+std::vector<float> Program::numbers() const {
+    std::vector<float> all;
+    for (const LiveParameter& parameter : live) all.push_back(static_cast<float>(parameter.value));
+    for (const Family& family : families.all) all.insert(all.end(), family.table.begin(), family.table.end());
+    all.resize(std::max<std::size_t>(all.size(), 1));
+    return all;
+}
+
 std::optional<Type> compiledType(const Graph& graph, std::string_view group, const Link& link) {
     const Group* inside = group.empty() ? nullptr : graph.group(group);
     const std::vector<Node>& nodes = inside ? inside->nodes : graph.nodes;

@@ -74,6 +74,8 @@ struct Program {
     bool hasMaterial() const;
     /// The live values in their slots.
     std::vector<double> parameters() const;
+    /// What the field's buffer holds: the live values in their slots, then the families' tables. Not empty.
+    std::vector<float> numbers() const;
 };
 
 /// Compiles the field that the graph's output shows. The Error is the first of check()'s errors, if there are

@@ -7,9 +7,11 @@ namespace fw {
 
 namespace {
 
-constexpr std::size_t kLeastMembers = 12;  // fewer cost less as straight code
-constexpr std::size_t kLeastSteps = 4;     // of a member: less is not worth a load
-constexpr std::size_t kMostSteps = 400;    // bounds the search as well
+// A loop pays, in the device's time and the compiler's, from so many members and operations of all of them
+// on.
+constexpr std::size_t kLeastMembers = 6, kLeastOperations = 240;
+constexpr std::size_t kLeastSteps = 4;   // of a member: less is not worth a load
+constexpr std::size_t kMostSteps = 400;  // bounds the search as well
 
 uint64_t mixed(uint64_t hash, uint64_t word) {
     hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
@@ -168,7 +170,8 @@ class Finder {
             own[id] = true;
             family.steps.push_back(id);
         }
-        if (family.steps.size() < kLeastSteps) return std::nullopt;
+        if (family.steps.size() < kLeastSteps || family.steps.size() * of.size() < kLeastOperations)
+            return std::nullopt;
         std::vector<std::vector<float>> columns;
         for (std::size_t i = 0; i < first.constants.size(); ++i) {
             if (!own[first.constantsOf[i].first]) continue;

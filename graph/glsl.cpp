@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "graph/glsl_pruned.h"
+#include "graph/glsl_families.h"
 #include "graph/glsl_statements.h"
 
 namespace fw {
@@ -27,15 +27,15 @@ class Emitter : GlslStatements {
             "float fieldPower(float a, float b) { return a > 0.0 ? pow(a, b) : b > 0.0 ? 0.0 : b < 0.0 ? "
             "1e30 : 1.0; }\n"
             "float fieldArcTangent2(float y, float x) { return y == 0.0 && x == 0.0 ? 0.0 : atan(y, x); }\n";
-        const bool pruned = !program.families.empty();
-        text += "#ifdef FIELD_PRUNED\n";
-        text += pruned ? emitPrunedField(program) + "#else\n"
-                       : "bool fieldChoose(uint place) { return true; }\n#endif\n";
-        gradientFunction();
-        intervalFunction();
-        rows();
-        if (pruned) text += "#endif\n";
-        valueFunction();
+        if (program.families.empty()) {
+            text += "#ifdef FIELD_PRUNED\nbool fieldChoose(uint place) { return true; }\n#endif\n";
+            valueFunction();
+            gradientFunction();
+            intervalFunction();
+            rows();
+        } else {
+            text += emitFamilies(program);
+        }
         material();
         return std::move(text);
     }
@@ -43,9 +43,12 @@ class Emitter : GlslStatements {
   private:
     void parameters() {
         text += "struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };\n";
-        if (!program.live.empty())
+        const bool tablesAlone = program.live.empty() && !program.families.empty();
+        if (tablesAlone) text += "#ifndef FIELD_PRUNED\n";
+        if (tablesAlone || !program.live.empty())
             text += "layout(set = 0, binding = " + std::to_string(kFieldParametersBinding) +
                     ", std430) readonly buffer FieldParameters { float fieldParameters[]; };\n";
+        if (tablesAlone) text += "#endif\n";
         for (std::size_t slot = 0; slot < program.live.size(); ++slot)
             text += "float fieldP" + std::to_string(slot) + ";\n";
         text += "void fieldBegin() {\n";

@@ -65,9 +65,7 @@ void Session::take(Program program) {
         reserve(*gpu, images, words.size() * sizeof(uint32_t));
         upload(*gpu, images, words);
     }
-    std::vector<float> values;
-    for (double value : current.parameters()) values.push_back(static_cast<float>(value));
-    values.resize(std::max<std::size_t>(values.size(), 1));
+    const std::vector<float> values = current.numbers();
     reserve(*gpu, parameters, values.size() * sizeof(float), Memory::upload);
     upload(*gpu, parameters, values);
 }

@@ -224,6 +224,53 @@ for (int i = 0; i < 2; i++) {
 }
 return s;)",
          .aliases = {"array"}},
+        // Of the 27 cells about p all copies are looked at. A copy reaches at most half a period beyond its
+        // cell, so
+        // those of all other cells are half a period away, which bounds the distance. Cells are counted from
+        // seven
+        // before their own: the same sum for each of them, so that the copies are alike (graph/families.h)
+        // and a
+        // brick pays only for those near it.
+        {.id = "scatter",
+         .label = "Scatter",
+         .category = Category::domain,
+         .doc = "Copies a surface to the cells of a grid, each moved, turned, sized and left out at random.",
+         .inputs =
+             {subject(
+                  "The surface to scatter, centred on the origin; at its greatest size it should fit into a "
+                  "cell, whichever way it is turned."),
+              lengths("period", {2.5, 2.5, 2.5},
+                      "Size of a cell along x, y and z; 0 has one layer along that axis."),
+              share("jitter", 0.5,
+                    "How far copies stand off the middle of their cells; 1 is up to its sides."),
+              share("turn", 1, "How far copies are turned about y; 1 is any way."),
+              share("size_variation", 0.5, "How much smaller the smallest copy is."),
+              share("chance", 1, "Share of the cells that have a copy."),
+              integer("seed", 0, 0, 1000000, "Another number gives another pattern.")},
+         .outputs = kSurface,
+         .exactness = weakened,
+         .body = R"(
+float own(float x, float period) { return period > 0.0 ? floor(x / period + 0.5) : 0.5; }
+vec3 home = vec3(own(p.x, period.x), own(p.y, period.y), own(p.z, period.z));
+float reach = 0.5 * min(period.x > 0.0 ? period.x : 1e9, period.y > 0.0 ? period.y : 1e9, period.z > 0.0 ? period.z : 1e9);
+s = empty();
+for (int i = 0; i < 27; i++) {
+    vec3 offset = vec3(mod(i, 3), mod(floor(i / 3), 3), floor(i / 9));
+    if (period.x <= 0.0 && offset.x != 0.0) continue;
+    if (period.y <= 0.0 && offset.y != 0.0) continue;
+    if (period.z <= 0.0 && offset.z != 0.0) continue;
+    vec3 cell = floor(home + (offset - 0.5));
+    vec3 place = hash3(cell, seed);
+    vec3 kind = hash3(cell, seed + 1000001);
+    vec3 q = p - period * (cell + (place - 0.5) * jitter);
+    float angle = TAU * turn * kind.x;
+    float size = max(1.0 - size_variation * kind.y, 0.01);
+    q = vec3(cos(angle) * q.x - sin(angle) * q.z, q.y, cos(angle) * q.z + sin(angle) * q.x) / size;
+    copy = surface(q);
+    copy = with_distance(copy, (chance >= 1.0 || kind.z < chance) ? min(copy.distance * size, reach) : reach);
+    if (i == 0) s = copy; else s = min(s, copy);
+}
+return s;)"},
         // As repeat, in the angle: u points to the first copy, v a quarter turn on.
         {.id = "polar_repeat",
          .label = "Polar repeat",

@@ -20,13 +20,24 @@ struct FieldSample {
 };
 layout(binding = 1, scalar) writeonly buffer Samples { FieldSample samples[]; };
 
+float byRows(vec3 p) {
+    FieldRow row = fieldRow(fieldPlane(p.z), p.x);
+#ifdef FIELD_FAMILIES
+    float y[9];
+    for (int k = 0; k < 9; ++k) y[k] = p.y + float(k);
+    return fieldAt(row, fieldColumn(row, y), 0, p.y);
+#else
+    return fieldAt(row, p.y);
+#endif
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     fieldBegin();
     vec3 p = points[i];
     FieldMaterial material = fieldMaterial(p);
-    samples[i] = FieldSample(fieldValue(p), fieldAt(fieldRow(fieldPlane(p.z), p.x), p.y),
+    samples[i] = FieldSample(fieldValue(p), byRows(p),
                              fieldInterval(p - halfSize, p + halfSize), fieldGradient(p), material.baseColor,
                              material.roughness);
 }

@@ -73,6 +73,7 @@ const std::map<std::string, std::vector<std::string>>& promised() {
         {"transform", {"surface", "translation", "rotation", "scale"}},
         {"mirror", {"surface", "normal", "offset"}},
         {"repeat", {"surface", "period", "count"}},
+        {"scatter", {"surface", "period", "jitter"}},
         {"polar_repeat", {"surface", "count", "axis"}},
         {"twist", {"surface", "rate"}},
         {"bend", {"surface", "rate"}},

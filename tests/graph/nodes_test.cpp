@@ -126,7 +126,8 @@ InputValue randomSetting(Random& random, const NodeType& type, const InputSpec& 
     std::vector<double> values;
     for (int i = 0; i < componentCount(input.type); i++) {
         const double value = randomNumber(random, input);
-        values.push_back(type.id == "repeat" && value > 0.2 ? value + 1 : type.id == "repeat" ? 0 : value);
+        const bool period = type.id == "repeat" || type.id == "scatter";
+        values.push_back(!period ? value : value > 0.2 ? value + 1 : 0);
     }
     return numbers(values);
 }

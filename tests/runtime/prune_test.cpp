@@ -11,6 +11,7 @@
 #include "runtime/mesh_report.h"
 #include "runtime/mesher.h"
 #include "runtime/session.h"
+#include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
 
 namespace fw {
@@ -130,7 +131,7 @@ std::string randomCode(uint32_t seed) {
                  "max(sphere(p - c, 0.1).distance, p.y * c.x - 0.05)"});
         const std::string put =
             one({"d = min(d, e);", "d = min(d, e);", "d = max(d, -e);", "d = max(-e, d);"});
-        code += "for (int i = 0; i < " + std::to_string(8 + random() % 40) +
+        code += "for (int i = 0; i < " + std::to_string(16 + random() % 40) +
                 "; i++) { c = vec3(hash(vec3(i, 1, " + k + "), 1), hash(vec3(i, 2, " + k +
                 "), 1), hash(vec3(i, 3, " + k + "), 1)) * 2 - 1; e = " + shape + "; " + put + "} ";
     }
@@ -151,7 +152,96 @@ TEST(Prune, RandomGraphsWithFamilies) {
         ++pruned;
         if (::testing::Test::HasFailure()) break;
     }
-    EXPECT_GT(pruned, int(most) / 2);
+    EXPECT_GT(pruned, int(most) / 3);
+}
+
+/// Value, rows, interval and gradient of the loops over all members are those of the operations one by one.
+TEST(Prune, LoopsGiveTheValuesOfTheReference) {
+    for (uint32_t seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Program program = programOf(randomCode(seed));
+        std::vector<std::array<float, 3>> points;
+        std::vector<Point> same;
+        std::mt19937 random(seed);
+        for (int i = 0; i < 500; ++i) {
+            std::array<float, 3> point;
+            for (float& x : point) x = -1.2f + 2.4f * float(random() >> 8) / float(1 << 24);
+            points.push_back(point);
+            same.push_back({point[0], point[1], point[2]});
+        }
+        const std::vector<test::FieldSample> found = test::evaluateOnDevice(program, points, 0.05f);
+        std::vector<double> values(points.size());
+        evaluate(program.ir, program.distance(), {}, same, values);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_NEAR(found[i].value, values[i], 2e-5);
+            EXPECT_NEAR(found[i].rowValue, values[i], 2e-5);
+            EXPECT_NEAR(found[i].gradient[3], values[i], 2e-5);
+            EXPECT_LE(found[i].interval[0], values[i] + 1e-5);
+            EXPECT_GE(found[i].interval[1], values[i] - 1e-5);
+        }
+    }
+}
+
+std::string scattered(const std::string& shape, const std::string& settings) {
+    return R"({"fieldwright": 1, "nodes": [)" + shape +
+           R"(, {"id": "many", "type": "scatter", "inputs": {"surface": )" + R"({"from": "shape"}, )" +
+           settings + R"(}}, {"id": "out", "type": "output", "inputs": {"surface": )" +
+           R"({"from": "many"}}}]})";
+}
+
+Program programOfText(const std::string& text) {
+    const Result<Graph> graph = parseGraph(text, "scatter", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<Program> program = compile(*graph);
+    if (!program) throw SystemError(format(program.error()));
+    return std::move(*program);
+}
+
+const Box kTenCells{{-5.03, -5.03, -5.03}, {5.03, 5.03, 5.03}};
+
+TEST(Scatter, CopiesAreWholeWhereverTheyStand) {
+    const std::string ball = R"({"id": "shape", "type": "sphere", "inputs": {"radius": 0.23}})";
+    // One layer of cells of 2 m: 25 balls lie within, none at the sides, since the region ends in the middle
+    // of cells.
+    const Program program =
+        programOfText(scattered(ball, R"("period": [2.012, 0, 2.012], "jitter": 0.4, "size_variation": 0)"));
+    ASSERT_FALSE(program.families.empty());
+    const Meshed many = meshOf(program, kTenCells, 200, MeshMethod::marchingCubes, true);
+    const Report report = reportOnMesh(many.mesh.positions, many.mesh.indices);
+    EXPECT_EQ(report.shells, 25u);
+    const double whole = 4.0 / 3.0 * 3.14159265 * 0.23 * 0.23 * 0.23;
+    EXPECT_NEAR(report.volume, 25 * whole, 0.03 * 25 * whole);
+    EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges, 0u);
+    EXPECT_FALSE(many.result.capped);
+}
+
+TEST(Scatter, ChanceLeavesCopiesOutAndSeedsDiffer) {
+    const std::string ball = R"({"id": "shape", "type": "sphere", "inputs": {"radius": 0.3}})";
+    const auto parts = [&](const std::string& settings) {
+        const Meshed many = meshOf(
+            programOfText(scattered(ball, R"("period": [1.006, 1.006, 1.006], "jitter": 0.2, )" + settings)),
+            kTenCells, 120, MeshMethod::marchingCubes, true);
+        return std::pair(reportOnMesh(many.mesh.positions, many.mesh.indices).shells, many.mesh.positions);
+    };
+    const auto [all, positions] = parts(R"("chance": 1)");
+    const auto [half, some] = parts(R"("chance": 0.5)");
+    const auto [other, others] = parts(R"("chance": 0.5, "seed": 7)");
+    EXPECT_NEAR(double(half), 0.5 * double(all), 0.08 * double(all));
+    EXPECT_NEAR(double(other), 0.5 * double(all), 0.08 * double(all));
+    EXPECT_NE(some.size(), others.size());
+    EXPECT_EQ(parts(R"("chance": 0)").first, 0u);
+}
+
+TEST(Scatter, IsPrunedWithoutAChange) {
+    const std::string box =
+        R"({"id": "shape", "type": "box", "inputs": {"half_extents": [0.3, 0.2, 0.4], "rounding": 0.05}})";
+    for (const char* settings :
+         {R"("period": [1.2, 1.3, 1.4])", R"("period": [1.2, 0, 1.4], "chance": 0.6)"}) {
+        const Program program = programOfText(scattered(box, settings));
+        ASSERT_FALSE(program.families.empty());
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring})
+            expectPruningChangesNothing(program, kTenCells, 110, method);
+    }
 }
 
 TEST(Prune, EverySampleWithFamilies) {

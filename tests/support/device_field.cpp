@@ -12,9 +12,7 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
     const Pipeline pipeline = createComputePipeline(gpu, {.name = "field/evaluate.comp", .field = field});
     const Buffer in = createBuffer(gpu, points.size_bytes(), Memory::upload);
     const Buffer out = createBuffer(gpu, points.size() * sizeof(FieldSample), Memory::readback);
-    std::vector<float> live;
-    for (double value : program.parameters()) live.push_back(static_cast<float>(value));
-    live.resize(std::max<std::size_t>(live.size(), 1));
+    const std::vector<float> live = program.numbers();
     const Buffer parameters = createBuffer(gpu, live.size() * sizeof(float), Memory::upload);
     const std::vector<uint32_t> words = imageWords(program.ir.images());
     const Buffer images = createBuffer(gpu, words.size() * sizeof(uint32_t), Memory::upload);

@@ -1,5 +1,6 @@
-// The field's text for shaders that know where in space they are: loops over lists of the members that matter
-// there, in place of straight code for all (families.h). shaders/field.glsl tells the interface.
+// The field's text where it has families (families.h): loops over tables in place of straight code for every
+// member. In shaders that know where in space they are (FIELD_PRUNED) the loops go over lists of the members
+// that matter there, in others over all. shaders/field.glsl tells the interface.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@ inline constexpr int kFieldListsBinding = 11;
 /// Binding of the texel buffer with the tables of all families, one after the other.
 inline constexpr int kFieldTablesBinding = 9;
 
-/// Expects a program with families.
-std::string emitPrunedField(const Program& program);
+/// The functions of the distance. Expects a program with families.
+std::string emitFamilies(const Program& program);
 
 }  // namespace fw

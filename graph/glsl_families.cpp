@@ -1,4 +1,4 @@
-#include "graph/glsl_pruned.h"
+#include "graph/glsl_families.h"
 
 #include <limits>
 
@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kSamples = 9;  // of a column, which stands for nine samples along y
 
-class PrunedEmitter : GlslStatements {
+class FamilyEmitter : GlslStatements {
   public:
-    explicit PrunedEmitter(const Program& program_)
+    explicit FamilyEmitter(const Program& program_)
         : GlslStatements(program_),
           program(program_),
           ir(program_.ir),
@@ -20,8 +20,10 @@ class PrunedEmitter : GlslStatements {
           needed(neededBy(std::span(&root, 1), true)) {}
 
     std::string run() {
-        lists();
-        text += "#ifdef FIELD_GRADIENT\n";
+        tables();
+        text += "#ifdef FIELD_VALUE\n";
+        valueFunction();
+        text += "#endif\n#ifdef FIELD_GRADIENT\n";
         gradientFunction();
         text += "#endif\n#ifdef FIELD_INTERVAL\n#include \"lib/interval.glsl\"\n";
         intervalFunction();
@@ -47,29 +49,31 @@ class PrunedEmitter : GlslStatements {
         return group == program.families.groups.end() ? nullptr : &group->second;
     }
 
-    void lists() {
-        const std::string count = std::to_string(program.families.all.size());
-        text += "#define FIELD_FAMILIES " + count +
-                "\nlayout(set = 0, binding = " + std::to_string(kFieldHeadsBinding) +
-                ", std430) buffer FieldHeads { uvec2 fieldHeads[]; };\n"
-                "layout(set = 0, binding = " +
-                std::to_string(kFieldListsBinding) +
-                ", std430) buffer FieldLists { uint fieldLists[]; };\nlayout(set = 0, binding = " +
-                std::to_string(kFieldTablesBinding) +
-                ", rgba32ui) readonly uniform uimageBuffer fieldTables;\n";
-        std::size_t first = 0;
-        for (uint32_t f = 0; f < program.families.all.size(); ++f) {
-            const Family& family = program.families.all[f];
-            text += "uvec2 " + list(f) + ";\nuint fieldEntry" + number(f) + "(uint i) { return fieldLists[" +
-                    list(f) + ".x + min(i, " + list(f) + ".y - 1u)]; }\nint fieldMember" + number(f) +
-                    "(uint i) { return int(" + std::to_string(first / kTexel) + "u + " +
-                    number(family.width / kTexel) + "u * fieldEntry" + number(f) + "(i)); }\n";
-            first += family.table.size();
-        }
+    void tables() {
+        const std::vector<Family>& all = program.families.all;
+        const std::string count = std::to_string(all.size());
+        const auto binding = [](int at) { return "layout(set = 0, binding = " + std::to_string(at) + ", "; };
+        text += "#define FIELD_FAMILIES " + count + "\n#ifdef FIELD_PRUNED\n" + binding(kFieldHeadsBinding) +
+                "std430) buffer FieldHeads { uvec2 fieldHeads[]; };\n" + binding(kFieldListsBinding) +
+                "std430) buffer FieldLists { uint fieldLists[]; };\n" + binding(kFieldTablesBinding) +
+                "rgba32ui) readonly uniform uimageBuffer fieldTables;\n"
+                "vec4 fieldTexel(uint t) { return uintBitsToFloat(imageLoad(fieldTables, int(t))); }\n";
+        for (uint32_t f = 0; f < all.size(); ++f)
+            text += "uvec2 " + list(f) + ";\nuint fieldLength" + number(f) + "() { return " + list(f) +
+                    ".y; }\nuint fieldEntry" + number(f) + "(uint i) { return fieldLists[" + list(f) +
+                    ".x + min(i, " + list(f) + ".y - 1u)]; }\n";
         text += "bool fieldChoose(uint place) {\n";
-        for (uint32_t f = 0; f < program.families.all.size(); ++f)
+        for (uint32_t f = 0; f < all.size(); ++f)
             text += "    " + list(f) + " = fieldHeads[place * " + count + "u + " + number(f) + "u];\n";
-        text += "    return " + list(0) + ".y != 0u;\n}\n";
+        text += "    return " + list(0) + ".y != 0u;\n}\n#else\nvec4 fieldTexel(uint t) {\n    uint at = " +
+                std::to_string(program.live.size()) + "u + " + number(kTexel) +
+                "u * t;\n    return vec4(fieldParameters[at], fieldParameters[at + 1u], fieldParameters[at + "
+                "2u], "
+                "fieldParameters[at + 3u]);\n}\n";
+        for (uint32_t f = 0; f < all.size(); ++f)
+            text += "uint fieldLength" + number(f) + "() { return " + number(all[f].members) +
+                    "u; }\nuint fieldEntry" + number(f) + "(uint i) { return i; }\n";
+        text += "#endif\n";
     }
 
     /// A loop over the list of a family. A lane that is done with its own repeats the last, which changes no
@@ -77,17 +81,19 @@ class PrunedEmitter : GlslStatements {
     template <class Body>
     void loop(uint32_t number_, Body body) {
         const Family& family = program.families.all[number_];
-        text += "    {\n    uint i = 0u;\n    do {\n    int m = fieldMember" + number(number_) + "(i);\n";
+        std::size_t first = 0;
+        for (uint32_t f = 0; f < number_; ++f) first += program.families.all[f].table.size() / kTexel;
+        text += "    {\n    uint i = 0u;\n    do {\n    uint m = " + std::to_string(first) + "u + " +
+                number(family.width / kTexel) + "u * fieldEntry" + number(number_) + "(i);\n";
         for (uint32_t t = 0; t < family.width / kTexel; ++t)
-            text += "    vec4 t" + number(t) + " = uintBitsToFloat(imageLoad(fieldTables, m + " + number(t) +
-                    "));\n";
+            text += "    vec4 t" + number(t) + " = fieldTexel(m + " + number(t) + "u);\n";
         for (uint32_t c = 0; c < family.width; ++c)
             text +=
                 "    float c" + number(c) + " = t" + number(c / kTexel) + "[" + number(c % kTexel) + "];\n";
         member = &family;
         body(family);
         member = nullptr;
-        text += "    } while (++i < " + list(number_) + ".y);\n    }\n";
+        text += "    } while (++i < fieldLength" + number(number_) + "());\n    }\n";
     }
 
     /// Defines a group's value by its families' F0, F1, …, which are there.
@@ -98,6 +104,33 @@ class PrunedEmitter : GlslStatements {
             all = all.empty() ? "F" + number(f) : fold(group) + "(" + all + ", F" + number(f) + ")";
         for (IrId other : group.others) all = fold(group) + "(" + all + ", " + (this->*named)(other) + ")";
         text += std::string("    ") + type + " " + name + " = " + all + ";\n";
+    }
+
+    // ---- Value
+
+    void valueFunction() {
+        text += "float fieldValue(vec3 p) {\n";
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (!needed[id] || isInline(ir[id])) continue;
+            if (const FamilyGroup* group = groupAt(id))
+                groupValue(id, *group);
+            else
+                valueStatement(id);
+        }
+        text += "    return " + value(root) + ";\n}\n";
+    }
+
+    void groupValue(IrId id, const FamilyGroup& group) {
+        for (uint32_t f : group.families) {
+            const std::string best = "F" + number(f);
+            text += "    float " + best + " = " + start(group) + ";\n";
+            loop(f, [&](const Family& family) {
+                for (IrId step : family.steps) valueStatement(step);
+                text += "    " + best + " = " + fold(group) + "(" + best + ", " + value(family.steps.back()) +
+                        ");\n";
+            });
+        }
+        define(group, "float", value(id), &GlslStatements::value);
     }
 
     // ---- Value with gradient
@@ -207,25 +240,11 @@ class PrunedEmitter : GlslStatements {
 
     // ---- Rows
 
-    /// A group that does not vary along a column is computed in its stage.
-    void groupValue(IrId id, const FamilyGroup& group) {
-        for (uint32_t f : group.families) {
-            const std::string best = "F" + number(f);
-            text += "    float " + best + " = " + start(group) + ";\n";
-            loop(f, [&](const Family& family) {
-                for (IrId step : family.steps) valueStatement(step);
-                text += "    " + best + " = " + fold(group) + "(" + best + ", " + value(family.steps.back()) +
-                        ");\n";
-            });
-        }
-        define(group, "float", value(id), &GlslStatements::value);
-    }
-
     void rowFunctions() {
         GlslStages stages(*this, program, true, [&](IrId id) {
             const FamilyGroup* group = groupAt(id);
             if (!group) return false;
-            if (stageOf(ir[id]) < 2) {
+            if (stageOf(ir[id]) < 2) {  // it does not vary along a column
                 groupValue(id, *group);
                 return true;
             }
@@ -310,6 +329,6 @@ class PrunedEmitter : GlslStatements {
 
 }  // namespace
 
-std::string emitPrunedField(const Program& program) { return PrunedEmitter(program).run(); }
+std::string emitFamilies(const Program& program) { return FamilyEmitter(program).run(); }
 
 }  // namespace fw
