@@ -1,6 +1,7 @@
 #include "runtime/mesher.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -52,7 +53,7 @@ constexpr const char* kNames[kernelCount] = {
     "mesher/colors.comp"};
 
 /// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
-constexpr int kCellsForBlocks = 512;
+constexpr uint32_t kCellsForBlocks = 512;
 
 constexpr uint32_t kMostBricks = 1u << 20;  // twenty bits in the list of vertices
 constexpr uint64_t kLookupBytes = 16 * 16;  // of the edge -> vertex lookup, for a brick
@@ -180,10 +181,11 @@ uint32_t grown(uint32_t capacity, uint64_t needed, uint32_t most) {
     return needed <= capacity ? capacity : uint32_t(std::min<uint64_t>(needed + needed / 8 + 256, most));
 }
 
+constexpr char kTooMuch[] = "the surface needs ";
+
 Error tooLarge(const char* what, uint64_t has, uint64_t most) {
-    return {.message = std::string("the surface needs ") + std::to_string(has) + " " + what +
-                       " at this resolution, " + std::to_string(most) +
-                       " is the most; choose a lower resolution or a smaller region"};
+    return {.message = kTooMuch + std::to_string(has) + " " + what + " at this resolution, " +
+                       std::to_string(most) + " is the most; choose a lower resolution or a smaller region"};
 }
 
 /// A range of a buffer that a binding can hold: chunk `index` of `stride` bytes and up to the limit behind
@@ -416,19 +418,26 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
                          " m in single precision; choose a lower resolution or move the model to the origin"};
 
     glm::uvec3 cells(config.cells);
-    glm::uvec3 blockCount = (cells + 2u + 63u) / 64u;
+    const glm::uvec3 gridBlocks = (cells + 2u + 63u) / 64u, first(config.tile.begin);
+    glm::uvec3 end(config.tile.end);
+    for (int axis = 0; axis < 3; ++axis) end[axis] = end[axis] == 0 ? gridBlocks[axis] : end[axis];
+    const glm::uvec3 blockCount = glm::min(end + 1u, gridBlocks) - first;
+    const glm::uvec3 tileCells = glm::min(cells, (end - first) * 64u);
     const bool dual = config.method == MeshMethod::dualContouring;
+    assert(!(dual || config.host) || (first == glm::uvec3(0) && end == gridBlocks));
     const Limits most = limitsOf(device, dual);
-    guessCapacities(device, buffers, cells, most);
+    guessCapacities(device, buffers, tileCells, most);
     MesherPush push{};
     push.origin = config.origin;
     push.cellSize = config.cellSize;
     push.cells = cells;
     push.blocks = blockCount;
     push.nudge = nudge;
+    push.begin = first * 8u;
+    push.end = end * 8u;
     if (config.host) build(device, pipelines, {topBricks, compact, link, classify, topGroups, triangles});
     if (dual) build(device, pipelines, {classifyDual, topGroupsDual, patches, contour, quads});
-    push.blocksListed = longest >= kCellsForBlocks && !config.host;
+    push.blocksListed = std::max({tileCells.x, tileCells.y, tileCells.z}) >= kCellsForBlocks && !config.host;
     if (push.blocksListed) build(device, pipelines, {blocks});
     const bool wantColors = config.colors && !config.host;
     if (wantColors) build(device, pipelines, {colors});
@@ -503,6 +512,7 @@ uint32_t packOctahedral(glm::dvec3 n) {
     const auto fraction = [](double x) { return uint32_t(uint16_t(int16_t(std::lround(x * 32767)))); };
     return fraction(folded.x) | fraction(folded.y) << 16;
 }
+bool isTooMuchSurface(const Error& error) { return error.message.starts_with(kTooMuch); }
 
 glm::vec3 unpackOctahedral(uint32_t word) {
     auto fraction = [](uint32_t bits) { return std::max(float(int16_t(bits & 0xffff)) / 32767.0f, -1.0f); };

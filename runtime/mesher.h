@@ -27,6 +27,11 @@
 // have been seen to at which two patches meet twice (mesher_pinches.h). Triangles may cut each other where
 // the field bends at the scale of a cell.
 //
+// A region can be meshed in tiles of whole blocks, each by a run of its own. Bricks and samples are numbered
+// and placed as in the whole, so that the tiles' triangles are the whole's, to the bit. A tile has vertices
+// on all its faces; on its far ones they come from one layer of bricks of the tiles beyond. Nothing is closed
+// between tiles.
+//
 // Lifetime: pipelines belong to a structure (a field's text), buffers to a resolution (they grow when a mesh
 // needs more and hold the last mesh), the configuration to one run.
 #pragma once
@@ -43,6 +48,12 @@ namespace fw {
 
 class MesherHost;
 
+/// Blocks of 64^3 cells of a region's grid, in which samples are numbered from 0, outside the region, to
+/// cells + 2.
+struct MesherTile {
+    glm::ivec3 begin{0}, end{0};  ///< the end is not of it; 0 where it reaches the grid's end
+};
+
 struct MesherConfig {
     glm::vec3 origin{-1.0f};         ///< least corner of the region, metres
     glm::vec3 cellSize{2.0f / 128};  ///< metres along each axis
@@ -51,6 +62,7 @@ struct MesherConfig {
     const Buffer* images = nullptr;      ///< that the field samples, where it does
     const Families* families = nullptr;  ///< of the field, where it has some
     bool pruned = true;  ///< a brick evaluates only the members that can matter in it; the same mesh, sooner
+    MesherTile tile = {};  ///< of the region, the whole by default; only marching cubes takes another
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;  ///< also the base colour at each vertex
     MesherHost* host =
@@ -108,6 +120,9 @@ struct MesherResult {
 /// memory runs out.
 Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines, MesherBuffers& buffers,
                                const MesherConfig& config);
+
+/// Whether runMesher refused for the amount of surface alone: smaller tiles of the region may do.
+bool isTooMuchSurface(const Error& error);
 
 /// Copies the last mesh to the host, vertex for vertex.
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);

@@ -21,6 +21,12 @@ constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
 
+double longestSide(const Box& box) {
+    double longest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, box.hi[axis] - box.lo[axis]);
+    return longest;
+}
+
 }  // namespace
 
 Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
@@ -49,6 +55,27 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
         case Extent::bounded: break;
     }
     return padded(found.box, resolution, 1.5);
+}
+
+Result<CellGrid> cellGrid(const Box& region, int resolution) {
+    if (resolution < 1 || resolution > kMostResolution)
+        return problem("the resolution must be between 1 and " + std::to_string(kMostResolution) + " cells");
+    const double longest = longestSide(region), cell = longest / resolution;
+    double farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        farthest = std::max({farthest, std::abs(region.lo[axis]), std::abs(region.hi[axis])});
+    if (!(cell >= kLeastCell) || !(farthest <= kFarthestCorner))
+        return problem("the region is too " + std::string(cell < kLeastCell ? "small" : "large") +
+                       " for single precision, in which lengths are squared: scale the model");
+    CellGrid grid{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = region.hi[axis] - region.lo[axis];
+        grid.cells[axis] =
+            std::clamp(static_cast<int>(std::lround(resolution * side / longest)), 1, resolution);
+        grid.origin[axis] = static_cast<float>(region.lo[axis]);
+        grid.cellSize[axis] = static_cast<float>(side / grid.cells[axis]);
+    }
+    return grid;
 }
 
 Session::Session(Device device) : gpu(std::make_unique<Device>(std::move(device))) {}
@@ -157,37 +184,21 @@ void Session::setParameter(std::size_t slot, double value) {
 
 Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed) {
     const int resolution = request.resolution > 0 ? request.resolution : current.resolution;
-    if (resolution < 1 || resolution > kMostResolution)
-        return problem("the resolution must be between 1 and " + std::to_string(kMostResolution) + " cells");
     const Result<Box> region = meshRegion(current, {request.region, resolution});
     if (!region) return region.error();
+    const Result<CellGrid> cells = cellGrid(*region, resolution);
+    if (!cells) return cells.error();
 
-    MesherConfig config;
-    double longest = 0.0, farthest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        longest = std::max(longest, region->hi[axis] - region->lo[axis]);
-        farthest = std::max({farthest, std::abs(region->lo[axis]), std::abs(region->hi[axis])});
-    }
-    const double cell = longest / resolution;
-    if (!(cell >= kLeastCell) || !(farthest <= kFarthestCorner))
-        return problem("the region is too " + std::string(cell < kLeastCell ? "small" : "large") +
-                       " for single precision, in which lengths are squared: scale the model");
-    for (int axis = 0; axis < 3; ++axis) {
-        // A whole number of cells along each side, as near to cubes as that allows.
-        const double side = region->hi[axis] - region->lo[axis];
-        config.cells[axis] =
-            std::clamp(static_cast<int>(std::lround(resolution * side / longest)), 1, resolution);
-        config.origin[axis] = static_cast<float>(region->lo[axis]);
-        config.cellSize[axis] = static_cast<float>(side / config.cells[axis]);
-    }
+    MesherConfig config{.origin = cells->origin, .cellSize = cells->cellSize, .cells = cells->cells};
     grid.lo = config.origin;
     grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
-    grid.cellSize = static_cast<float>(longest / resolution);
+    grid.cellSize = static_cast<float>(longestSide(*region) / resolution);
     ++content;
     config.parameters = &parameters;
     config.images = &images;
     config.families = &current.families;
     config.colors = current.hasMaterial();
+    config.tile = request.tile;
     config.method = request.method.value_or(current.method);
     config.timed = timed;
     std::optional<MesherHost> host;

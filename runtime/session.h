@@ -24,7 +24,18 @@ struct MeshRequest {
     int resolution = 0;                     ///< cells along the region's longest side; 0: the program's
     std::optional<MeshMethod> method = {};  ///< none: the program's
     bool stages = true;                     ///< also what the program does to the mesh then
+    MesherTile tile = {};                   ///< of the region's grid; the whole by default
 };
+
+/// The cells of a region.
+struct CellGrid {
+    glm::vec3 origin, cellSize;  ///< metres
+    glm::ivec3 cells;
+};
+
+/// So many cells along the region's longest side, as near to cubes as whole numbers of them along each side
+/// allow. Errors: a resolution out of range, a region too small or too large for single precision.
+Result<CellGrid> cellGrid(const Box& region, int resolution);
 
 inline constexpr int kMostResolution = 4096;
 
@@ -57,6 +68,9 @@ class Session {
     /// runMesher and runMeshStages refuse.
     Result<MesherResult> polygonise(const MeshRequest& request, bool timed = false);
 
+    /// The program's material where it is the same everywhere, else its default.
+    gpu::DraftMaterial material() const;
+
     /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
     Mesh download(const MesherResult& result) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
@@ -74,7 +88,6 @@ class Session {
 
   private:
     void take(Program program);
-    gpu::DraftMaterial material() const;
     /// What the program does to the mesh that was made in `region`; `kernels` tells whether by its kernels.
     Done runStages(MesherResult& result, const Box& region, bool kernels, bool timed);
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.

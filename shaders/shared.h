@@ -51,14 +51,17 @@ struct MesherPush {
     vec3 cellSize;      // metres along each axis
     uvec3 cells;        // of the region
     float margin;       // an interval this close to zero counts as reaching it
-    uvec3 blocks;       // of the grid, which has one layer of outside samples around the region
+    uvec3 blocks;       // of the tile and the bricks beyond its far faces; the grid has one layer of outside
+                        // samples around the region
     float nudge;        // least distance of a vertex from the ends of its grid edge, in cells
     uint blocksListed;  // 1: the blocks to look into are listed; 0: all are meant
     uint brickCapacity;
     uint vertexCapacity;
     uint triangleCapacity;
-    uint chunk;  // of vertices or triangles, for kernels that run once a chunk
+    uint chunk;      // of vertices or triangles, for kernels that run once a chunk
     uint listStart;  // where lists of members begin (field.glsl); 0: all places have the whole list
+    uvec3 begin;     // first brick of the tile, at a corner of a block; 0 where the region is one tile
+    uvec3 end;  // bricks from here on along an axis are the next tile's: they lend the edges on the far face
 };
 
 struct DispatchArguments {

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/cli/tiled_export.h"
 #include "runtime/clock.h"
 #include "runtime/export/export.h"
 #include "runtime/export/output_file.h"
@@ -23,18 +24,28 @@ Done writeText(const std::string& path, const std::string& text) {
 
 int runExport(const ExportOptions& options) {
     const auto begin = Clock::now();
+    const bool tiled = options.tiles > 0 || !options.share.empty();
     const bool reported = !options.report.empty() || !options.required.empty();
     fw::ExportOptions how{.manifold = options.manifold, .cancel = &interrupted};
-    if (const Done known = checkExportPath(options.output, how, reported); !known)
-        return print(known.error()), kBadUsage;
+    if (const Done fine = tiled ? checkTiledExport(options) : checkExportPath(options.output, how, reported); !fine)
+        return print(fine.error()), kBadUsage;
     std::vector<std::string> outputs = exportedPaths(options.output);
     if (!options.report.empty()) outputs.push_back(options.report);
     if (const Done distinct = checkDistinct(options.mesh.graph.path, outputs); !distinct)
         return print(distinct.error()), kBadUsage;
     Progress progress;
     int status = kDone;
-    std::optional<MeshedProgram> opened = meshGraph(options.mesh, progress, reported, status);
-    if (!opened) return status;
+    std::optional<OpenedGraph> graph = openForMesh(options.mesh, progress, status);
+    if (!graph) return status;
+    if (tiled || wantsTiles(graph->request)) return exportTiles(options, std::move(*graph), progress);
+    const bool dual = graph->request.method == MeshMethod::dualContouring;
+    Result<MeshedProgram> opened = meshOpened(std::move(*graph), progress, reported);
+    if (interrupted) return stopped();
+    if (!opened && !dual && isTooMuchSurface(opened.error())) {
+        graph = openForMesh(options.mesh, progress, status);
+        return graph ? exportTiles(options, std::move(*graph), progress) : status;
+    }
+    if (!opened) return badInput(options.mesh, opened.error());
     Session& session = opened->session;
     const MesherResult& meshed = opened->mesh;
     progress.start("download", 60);

@@ -168,6 +168,26 @@ int run(int count, char** arguments) {
                 requirementNames())
         ->type_name("LIST");
 
+    exportCommand
+        ->add_option("--tiles", exportOptions.tiles,
+                     "Mesh in tiles, about this many along the longest side, each by itself: memory is "
+                     "bounded by one, and "
+                     "an export that was stopped goes on where it was (default: above 1,024 cells)")
+        ->check(whole(1, 64));
+    exportCommand->add_option(
+        "--tile", exportOptions.share,
+        "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge");
+
+    MergeOptions mergeOptions;
+    CLI::App* mergeCommand =
+        app.add_subcommand("merge", "Join the parts that export --tile wrote into one mesh file");
+    mergeCommand->add_option("PART", mergeOptions.parts, "The part files, all of one mesh, in any order")
+        ->required();
+    mergeCommand
+        ->add_option("-o,--output", mergeOptions.output,
+                     "The mesh file; its ending says the format: .glb .gltf .stl .ply")
+        ->required();
+
     RenderCommandOptions renderOptions;
     CLI::App* renderCommand = app.add_subcommand(
         "render", "Make a picture of a graph, or with --from, --to or --fps one for every frame");
@@ -306,8 +326,10 @@ int run(int count, char** arguments) {
         app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
-    if (exportCommand->parsed() || renderCommand->parsed() || playCommand->parsed()) listenForInterrupt();
+    if (exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed() || playCommand->parsed())
+        listenForInterrupt();
     if (exportCommand->parsed()) return runExport(exportOptions);
+    if (mergeCommand->parsed()) return runMerge(mergeOptions);
     if (renderCommand->parsed()) return runRender(renderOptions);
     if (playCommand->parsed()) return runPlay(playOptions);
     if (checkCommand->parsed()) return runCheck(checkPaths);

@@ -11,10 +11,6 @@
 
 namespace fw::cli {
 
-namespace {
-constexpr char kCompiling[] = "compiling for the device";
-}
-
 Progress::Progress() : shown(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
@@ -69,8 +65,7 @@ bool readRegion(const MeshOptions& options, std::optional<Box>& region) {
 
 }  // namespace
 
-std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
-                                       int& status) {
+std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status) {
     const auto fail = [&status](int with) {
         status = with;
         return std::nullopt;
@@ -89,7 +84,8 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
     std::optional<Program> program = openProgram(*graph, options.graph.time);
     if (!program) return fail(kBadInput);
     progress.start("region", 10);
-    const MeshRequest request{region, options.resolution.value_or(program->resolution), options.method};
+    const MeshRequest request{region, options.resolution.value_or(program->resolution),
+                              options.method.value_or(program->method)};
     const Result<Box> box = meshRegion(*program, request);
     if (!box) return fail(badInput(options, box.error()));
     prepareMesher(emitField(*program));
@@ -98,16 +94,28 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
     if (!device) return print(device.error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
 
+    return OpenedGraph{std::move(*device), std::move(*program), request, *box};
+}
+
+Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed) {
+    const BeforeOutput nothing;
     const auto starts = [&](const char* stage) {
         const bool meshes = std::string_view(stage) == "mesh";
         if (!interrupted) progress.start(stage, meshes ? 50 : 20, meshes ? nullptr : kCompiling);
         return !interrupted.load();
     };
-    Result<MeshedProgram> meshed =
-        meshProgram(std::move(*device), std::move(*program), request, *box, starts, timed);
-    if (interrupted) return fail(stopped());
-    if (!meshed) return fail(badInput(options, meshed.error()));
-    return std::move(*meshed);
+    return meshProgram(std::move(opened.device), std::move(opened.program), opened.request, opened.region,
+                       starts, timed);
+}
+
+std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& progress, bool timed,
+                                       int& status) {
+    std::optional<OpenedGraph> opened = openForMesh(options, progress, status);
+    if (!opened) return std::nullopt;
+    Result<MeshedProgram> meshed = meshOpened(std::move(*opened), progress, timed);
+    if (meshed && !interrupted) return std::move(*meshed);
+    status = interrupted ? stopped() : badInput(options, meshed.error());
+    return std::nullopt;
 }
 
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& wishes,

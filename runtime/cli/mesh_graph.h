@@ -46,6 +46,24 @@ class BeforeOutput {
     bool before;
 };
 
+/// A graph's program, and what to mesh of it where.
+struct OpenedGraph {
+    Device device;
+    Program program;
+    MeshRequest request;  ///< with its resolution and method
+    Box region;
+};
+
+/// Reads and compiles the graph and opens the device; the stages take the first 20 % of the progress. Failure
+/// is told as by meshGraph.
+std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status);
+
+/// Meshes what openForMesh gave; "cancelled" is among the errors if Ctrl-C was heard.
+Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed);
+
+/// Shown while pipelines are made.
+inline constexpr char kCompiling[] = "compiling for the device";
+
 /// Reads, compiles and meshes; the stages take the first 60 % of the progress. If that cannot be done, says
 /// why on standard error and sets `status` to the exit status.
 std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& progress, bool timed,

@@ -288,6 +288,81 @@ std::string lowerExtension(const std::string& path) {
     return extension;
 }
 
+Done checkPiecesPath(const std::string& path) {
+    if (Done known = checkExportPath(path); !known) return known;
+    const std::optional<Format> format = formatOf(path);
+    if (format != Format::obj && format != Format::threeMf && format != Format::vdb) return done();
+    return Error{.message = lowerExtension(path) + " cannot be written from tiles: choose .ply, .stl, .glb or .gltf",
+                 .file = path};
+}
+
+Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& path,
+                                   const ExportOptions& options) {
+    const auto refuse = [&](std::string message) {
+        return Error{.message = std::move(message), .file = path};
+    };
+    if (Done known = checkPiecesPath(path); !known) return known.error();
+    const Format format = *formatOf(path);
+    if (mesh.triangleCount == 0)
+        return refuse("nothing to export: the surface has no triangle inside the region");
+    if (mesh.vertexCount > 0x7fffffffu || mesh.triangleCount > 0xffffffffu)
+        return refuse(
+            "the mesh has more vertices or triangles than the format can number; lower the resolution");
+
+    const std::string name =
+        printable(options.name.empty() ? std::filesystem::path(path).stem().string() : options.name);
+    Result<OutputFile> file = OutputFile::open(path, options.cancel);
+    if (!file) return file.error();
+    /// Loads that part of every piece and hands it to `write`.
+    const auto each = [&](MeshPieces::Part part, OutputFile& to,
+                          const std::function<void(const Mesh&)>& write) -> Done {
+        for (std::size_t i = 0; i < mesh.count && to.good(); ++i) {
+            const Result<Mesh> piece = mesh.load(i, part);
+            if (!piece) return piece.error();
+            write(*piece);
+        }
+        return done();
+    };
+    const GltfLayout layout{.vertices = mesh.vertexCount, .indices = 3 * mesh.triangleCount, .normals = true, .colors = mesh.colors};
+    const Bounds bounds{mesh.least, mesh.greatest};
+    const auto binaryPart = [&](OutputFile& to) -> Done {
+        using enum MeshPieces::Part;
+        Done written = each(vertices, to, [&](const Mesh& m) { to.write(std::span(m.positions)); });
+        if (written) written = each(vertices, to, [&](const Mesh& m) { to.write(std::span(m.normals)); });
+        if (written && mesh.colors)
+            written = each(vertices, to, [&](const Mesh& m) { writeGltfColors(m, to); });
+        if (!written) return written;
+        return each(triangles, to, [&](const Mesh& m) { writeGltfIndices(m.indices, layout.shortIndices(), to); });
+    };
+    if (format == Format::gltf) {
+        const std::string besidePath = exportedPaths(path).back();
+        Result<OutputFile> beside = OutputFile::open(besidePath, options.cancel);
+        if (!beside) return beside.error();
+        file->write(gltfJson(mesh.material, layout, bounds, name,
+                             percentEncoded(std::filesystem::path(besidePath).filename().string())));
+        if (const Done written = binaryPart(*beside); !written) return written.error();
+        return commitAll(path, *file, &*beside);
+    }
+    Done written = done();
+    if (format == Format::glb) {
+        if (!writeGlbHead(mesh.material, layout, bounds, name, *file))
+            return refuse(
+                "the mesh exceeds the 4 GiB of a GLB; write .gltf or .ply, or lower the resolution");
+        written = binaryPart(*file);
+        writeGlbEnd(layout, *file);
+    } else if (format == Format::stl) {
+        writeStlHeader(mesh.triangleCount, *file);
+        written = each(MeshPieces::corners, *file, [&](const Mesh& m) { writeStlFacets(m, *file); });
+    } else {
+        writePlyHeader(mesh.vertexCount, mesh.triangleCount, true, *file);
+        written = each(MeshPieces::vertices, *file, [&](const Mesh& m) { writePlyVertices(m, *file); });
+        if (written)
+            written = each(MeshPieces::triangles, *file, [&](const Mesh& m) { writePlyFaces(m, *file); });
+    }
+    if (!written) return written.error();
+    return commitAll(path, *file, nullptr);
+}
+
 std::string generatorName() { return std::string("Fieldwright ") + FIELDWRIGHT_VERSION; }
 
 unsigned char encodeSrgb(float linear) {

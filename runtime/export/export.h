@@ -15,6 +15,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,28 @@ struct ExportedFiles {
 /// replaced by those of the triangles around.
 Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
                                  const ExportOptions& options = {});
+
+/// A mesh too large for memory, read piece by piece. Its vertices are those of the pieces in their order.
+struct MeshPieces {
+    enum Part {
+        vertices,   ///< those of the piece: positions, normals, and colours if there are some
+        triangles,  ///< their indices into the vertices of the whole mesh
+        corners     ///< all that the triangles need: positions, and indices into those
+    };
+    Mesh material;                    ///< of which only the material counts
+    glm::vec3 least{0}, greatest{0};  ///< coordinates over all vertices
+    uint64_t vertexCount = 0, triangleCount = 0;
+    bool colors = false;
+    std::size_t count = 0;
+    std::function<Result<Mesh>(std::size_t piece, Part part)> load;
+};
+
+/// As exportMesh, with one piece in memory at a time. Errors also: a format that cannot be written so (OBJ),
+/// what load() says, and more triangles than the format can count.
+Result<ExportedFiles> exportPieces(const MeshPieces& pieces, const std::string& path,
+                                   const ExportOptions& options = {});
+/// Refuses, before any work is done, a path that exportPieces cannot write.
+Done checkPiecesPath(const std::string& path);
 
 /// The files that exportMesh writes for this path: it, then the one beside it if the format has one.
 std::vector<std::string> exportedPaths(const std::string& path);

@@ -26,6 +26,31 @@ struct Merges {
     std::vector<uint32_t> entries, vertices;
 };
 
+/// How much there is of what a glTF holds.
+struct GltfLayout {
+    uint64_t vertices = 0, indices = 0;
+    bool normals = false, colors = false;
+    bool solid = false;   ///< said to be one
+    uint64_t merges = 0;  ///< then: vertices that the solid has in place of others
+    /// 65535 is the restart value and may not be an index.
+    bool shortIndices() const { return vertices <= 65535; }
+    uint64_t indexSize() const { return shortIndices() ? 2 : 4; }
+    uint64_t bytes() const {
+        return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0)) + indices * indexSize() +
+               merges * (4 + indexSize());
+    }
+};
+/// The JSON with the material of `mesh`, whose arrays are not looked at. Its one buffer has the given uri, or
+/// none where the binary part follows in the same file: all positions, normals, colours, then indices.
+std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
+                     const std::string& name, const std::string& uri);
+/// All of a GLB before its binary part; false if the whole would exceed the format's 4 GiB.
+bool writeGlbHead(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds, const std::string& name,
+                  OutputFile& file);
+void writeGlbEnd(const GltfLayout& layout, OutputFile& file);
+void writeGltfColors(const Mesh& mesh, OutputFile& file);
+void writeGltfIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& file);
+
 /// With `merges`, glTF says that the mesh is a solid. Both writers return false if the parts exceed what the
 /// format can count (4 GiB in a GLB).
 bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
@@ -38,6 +63,12 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
               OutputFile& library);
 void writePly(const Mesh& mesh, OutputFile& file);
 void writeStl(const Mesh& mesh, OutputFile& file);
+/// Their parts, for meshes that come in pieces: the header, then each piece's vertices, then its triangles.
+void writePlyHeader(uint64_t vertices, uint64_t triangles, bool normals, OutputFile& file);
+void writePlyVertices(const Mesh& mesh, OutputFile& file);
+void writePlyFaces(const Mesh& mesh, OutputFile& file);
+void writeStlHeader(uint64_t triangles, OutputFile& file);
+void writeStlFacets(const Mesh& mesh, OutputFile& file);
 /// `solid` is the mesh with equal positions merged. Returns why it failed, if that is not in `file`.
 std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::string& name,
                      const std::atomic<bool>* cancel, OutputFile& file);

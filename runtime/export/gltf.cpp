@@ -25,24 +25,17 @@
 namespace fw {
 namespace {
 
-struct Layout {
-    uint64_t vertices = 0, indices = 0, merges = 0;
-    bool normals = false, colors = false, shortIndices = false;
-    uint64_t indexSize() const { return shortIndices ? 2 : 4; }
-    uint64_t bytes() const {
-        return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0)) + indices * indexSize() +
-               merges * (4 + indexSize());
-    }
-};
-
-Layout layoutOf(const Mesh& mesh, const Merges* merges) {
-    // 65535 is the restart value and may not be an index.
-    return {mesh.positions.size(), mesh.indices.size(),  merges ? merges->entries.size() : 0,
-            !mesh.normals.empty(), !mesh.colors.empty(), mesh.positions.size() <= 65535};
+GltfLayout layoutOf(const Mesh& mesh, const Merges* merges) {
+    return {.vertices = mesh.positions.size(),
+            .indices = mesh.indices.size(),
+            .normals = !mesh.normals.empty(),
+            .colors = !mesh.colors.empty(),
+            .solid = merges != nullptr,
+            .merges = merges ? merges->entries.size() : 0};
 }
 
 /// Adds EXT_mesh_manifold. The accessors that the document has are those of its one primitive.
-void addManifold(nlohmann::json& document, const Layout& layout) {
+void addManifold(nlohmann::json& document, const GltfLayout& layout) {
     using nlohmann::json;
     json& accessors = document["accessors"];
     json& object = document["meshes"][0];
@@ -80,9 +73,9 @@ void addManifold(nlohmann::json& document, const Layout& layout) {
     document["extensionsUsed"].push_back("EXT_mesh_manifold");
 }
 
-tinygltf::Material materialOf(const Mesh& mesh) {
+tinygltf::Material materialOf(const Mesh& mesh, bool colors) {
     tinygltf::Material material;
-    const glm::vec3 color = mesh.colors.empty() ? mesh.baseColor : glm::vec3(1.0f);
+    const glm::vec3 color = colors ? glm::vec3(1.0f) : mesh.baseColor;
     material.pbrMetallicRoughness.baseColorFactor = {std::clamp(color.x, 0.0f, 1.0f),
                                                      std::clamp(color.y, 0.0f, 1.0f),
                                                      std::clamp(color.z, 0.0f, 1.0f), 1.0};
@@ -98,10 +91,27 @@ tinygltf::Material materialOf(const Mesh& mesh) {
     return material;
 }
 
-/// The JSON; its one buffer has the given uri, or none where the binary part follows in the same file.
-std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
-                   const std::string& uri) {
-    const Layout layout = layoutOf(mesh, merges);
+uint16_t unit16(float value) {
+    return value > 0.0f ? static_cast<uint16_t>(std::min(value, 1.0f) * 65535.0f + 0.5f)
+                        : uint16_t{0};  // NaN: 0
+}
+
+void writeBinary(const Mesh& mesh, const Merges* merges, OutputFile& file) {
+    const bool asShorts = layoutOf(mesh, merges).shortIndices();
+    file.write(std::span(mesh.positions));
+    file.write(std::span(mesh.normals));
+    writeGltfColors(mesh, file);
+    writeGltfIndices(mesh.indices, asShorts, file);
+    if (!merges) return;
+    assert(mesh.indices.size() % 2 == 0);  // of a solid; so the entries lie at a multiple of 4
+    file.write(std::span(merges->entries));
+    writeGltfIndices(merges->vertices, asShorts, file);
+}
+
+}  // namespace
+
+std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
+                     const std::string& name, const std::string& uri) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = generatorName();
@@ -151,11 +161,11 @@ std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& na
     }
     addAccessor(
         addView(layout.indices * layout.indexSize(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
-        layout.shortIndices ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+        layout.shortIndices() ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
         TINYGLTF_TYPE_SCALAR, layout.indices);
     primitive.indices = lastAccessor();
 
-    tinygltf::Material material = materialOf(mesh);
+    tinygltf::Material material = materialOf(mesh, layout.colors);
     material.name = name;
     for (const auto& extension : material.extensions) model.extensionsUsed.push_back(extension.first);
     model.materials.push_back(material);
@@ -178,17 +188,24 @@ std::string jsonOf(const Mesh& mesh, const Bounds& bounds, const std::string& na
     // here.
     auto document = nlohmann::json::parse(text.str());
     document["buffers"][0]["byteLength"] = layout.bytes();
-    if (merges) addManifold(document, layout);
+    if (layout.solid) addManifold(document, layout);
     if (!uri.empty()) document["buffers"][0]["uri"] = uri;
     return uri.empty() ? document.dump() : document.dump(2) + "\n";
 }
 
-uint16_t unit16(float value) {
-    return value > 0.0f ? static_cast<uint16_t>(std::min(value, 1.0f) * 65535.0f + 0.5f)
-                        : uint16_t{0};  // NaN: 0
+void writeGltfColors(const Mesh& mesh, OutputFile& file) {
+    const auto formatColors = [&](char* out, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i, out += 8) {
+            const glm::vec3 c = mesh.colors[i];
+            const std::array<uint16_t, 4> rgba = {unit16(c.x), unit16(c.y), unit16(c.z), 65535};
+            std::memcpy(out, rgba.data(), 8);
+        }
+        return out;
+    };
+    writeBlocks(mesh.colors.size(), 8, formatColors, file);
 }
 
-void writeIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& file) {
+void writeGltfIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& file) {
     if (!asShorts) {
         file.write(indices);
         return;
@@ -203,34 +220,11 @@ void writeIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& 
     writeBlocks(indices.size(), 2, narrow, file);
 }
 
-void writeBinary(const Mesh& mesh, const Merges* merges, OutputFile& file) {
-    file.write(std::span(mesh.positions));
-    file.write(std::span(mesh.normals));
-    const auto formatColors = [&](char* out, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i, out += 8) {
-            const glm::vec3 c = mesh.colors[i];
-            const std::array<uint16_t, 4> rgba = {unit16(c.x), unit16(c.y), unit16(c.z), 65535};
-            std::memcpy(out, rgba.data(), 8);
-        }
-        return out;
-    };
-    writeBlocks(mesh.colors.size(), 8, formatColors, file);
-    const Layout layout = layoutOf(mesh, merges);
-    writeIndices(mesh.indices, layout.shortIndices, file);
-    if (!merges) return;
-    assert(mesh.indices.size() % 2 == 0);  // of a solid; so the entries lie at a multiple of 4
-    file.write(std::span(merges->entries));
-    writeIndices(merges->vertices, layout.shortIndices, file);
-}
-
-}  // namespace
-
-bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
-              OutputFile& file) {
-    std::string json = jsonOf(mesh, bounds, name, merges, {});
+bool writeGlbHead(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds, const std::string& name,
+                  OutputFile& file) {
+    std::string json = gltfJson(mesh, layout, bounds, name, {});
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const uint64_t binary = layoutOf(mesh, merges).bytes();
-    const uint64_t padded = (binary + 3) / 4 * 4;
+    const uint64_t padded = (layout.bytes() + 3) / 4 * 4;
     const uint64_t total = 12 + 8 + json.size() + 8 + padded;
     if (total > 0xffffffffu) return false;
     const std::array<uint32_t, 5> head = {0x46546C67, 2, static_cast<uint32_t>(total),
@@ -240,14 +234,25 @@ bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, c
     file.write(std::span<const uint32_t>(head));
     file.write(json);
     file.write(std::span<const uint32_t>(chunk));
+    return true;
+}
+
+void writeGlbEnd(const GltfLayout& layout, OutputFile& file) {
+    file.write("\0\0\0", (4 - layout.bytes() % 4) % 4);
+}
+
+bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
+              OutputFile& file) {
+    const GltfLayout layout = layoutOf(mesh, merges);
+    if (!writeGlbHead(mesh, layout, bounds, name, file)) return false;
     writeBinary(mesh, merges, file);
-    file.write("\0\0\0", padded - binary);
+    writeGlbEnd(layout, file);
     return true;
 }
 
 void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
                const std::string& binaryUri, OutputFile& file, OutputFile& binary) {
-    file.write(jsonOf(mesh, bounds, name, merges, binaryUri));
+    file.write(gltfJson(mesh, layoutOf(mesh, merges), bounds, name, binaryUri));
     writeBinary(mesh, merges, binary);
 }
 

@@ -22,18 +22,20 @@ Rgb encode(glm::vec3 color) { return {encodeSrgb(color.x), encodeSrgb(color.y), 
 
 }  // namespace
 
-void writePly(const Mesh& mesh, OutputFile& file) {
-    const bool normals = !mesh.normals.empty();
+void writePlyHeader(uint64_t vertices, uint64_t triangles, bool normals, OutputFile& file) {
     std::string header =
         "ply\nformat binary_little_endian 1.0\ncomment " + generatorName() + ", metres, +Y up\n";
-    header += "element vertex " + std::to_string(mesh.positions.size()) + "\n";
+    header += "element vertex " + std::to_string(vertices) + "\n";
     header += "property float x\nproperty float y\nproperty float z\n";
     if (normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
     header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    header += "element face " + std::to_string(mesh.triangleCount()) + "\n";
+    header += "element face " + std::to_string(triangles) + "\n";
     header += "property list uchar int vertex_indices\nend_header\n";
     file.write(header);
+}
 
+void writePlyVertices(const Mesh& mesh, OutputFile& file) {
+    const bool normals = !mesh.normals.empty();
     const std::size_t stride = normals ? 27 : 15;
     const auto formatVertices = [&](char* out, std::size_t first, std::size_t last) {
         glm::vec3 lastColor = mesh.baseColor;  // neighbours mostly share a colour: encode it once
@@ -48,6 +50,9 @@ void writePly(const Mesh& mesh, OutputFile& file) {
         return out;
     };
     writeBlocks(mesh.positions.size(), stride, formatVertices, file);
+}
+
+void writePlyFaces(const Mesh& mesh, OutputFile& file) {
     const auto formatFaces = [&](char* out, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i, out += 13) {
             out[0] = 3;
@@ -56,6 +61,12 @@ void writePly(const Mesh& mesh, OutputFile& file) {
         return out;
     };
     writeBlocks(mesh.triangleCount(), 13, formatFaces, file);
+}
+
+void writePly(const Mesh& mesh, OutputFile& file) {
+    writePlyHeader(mesh.positions.size(), mesh.triangleCount(), !mesh.normals.empty(), file);
+    writePlyVertices(mesh, file);
+    writePlyFaces(mesh, file);
 }
 
 }  // namespace fw

@@ -12,15 +12,17 @@
 
 namespace fw {
 
-void writeStl(const Mesh& mesh, OutputFile& file) {
-    constexpr std::size_t kRecord = 50;
+void writeStlHeader(uint64_t triangles, OutputFile& file) {
     std::array<char, 80> header{};
     const std::string text = generatorName() + ", binary STL, metres, +Y up";
     std::memcpy(header.data(), text.data(), std::min(text.size(), header.size()));
     file.write(header.data(), header.size());
-    const auto count = static_cast<uint32_t>(mesh.triangleCount());
+    const auto count = static_cast<uint32_t>(triangles);
     file.write(&count, sizeof count);
+}
 
+void writeStlFacets(const Mesh& mesh, OutputFile& file) {
+    constexpr std::size_t kRecord = 50;
     const auto format = [&](char* out, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i, out += kRecord) {
             const uint32_t* corner = &mesh.indices[i * 3];
@@ -36,7 +38,12 @@ void writeStl(const Mesh& mesh, OutputFile& file) {
         }
         return out;
     };
-    writeBlocks(count, kRecord, format, file);
+    writeBlocks(mesh.triangleCount(), kRecord, format, file);
+}
+
+void writeStl(const Mesh& mesh, OutputFile& file) {
+    writeStlHeader(mesh.triangleCount(), file);
+    writeStlFacets(mesh, file);
 }
 
 }  // namespace fw

@@ -7,7 +7,7 @@ bool mayHoldSurface(uvec3 first, uint size, vec2 f) {
     bool atRim = any(equal(first, uvec3(0))) || any(greaterThan(first + size, push.cells + 1));
     bool outside = f.x >= push.margin;
     bool inside = f.y < -push.margin && !atRim;
-    bool inGrid = all(lessThan(first, push.cells + 2));
+    bool inGrid = all(lessThan(first, min(push.cells + 2, push.end * 8 + 8)));
     return inGrid && !outside && !inside;
 }
 

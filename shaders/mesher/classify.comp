@@ -16,7 +16,7 @@
 layout(local_size_x = HISTOPYRAMID_LANES) in;
 layout(constant_id = 0) const bool kDual = false;
 layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 12, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, its first triangle or patch << 7
+layout(binding = 12, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, its first triangle or patch << 7, beyond the tile << 31
 
 const uint kRow = 0x01010101u;  // y = 0 of every column
 
@@ -46,6 +46,20 @@ uint crossedFaces(uint z, uint side, uvec3 a, uvec3 b, uvec3 edges, StripSigns t
     return bits.x | bits.y | bits.z;
 }
 
+/// Those of a strip's active edges that are the tile's: in bricks beyond it the ones that lie in its far faces.
+uvec3 edgesOfTile(uvec3 crossed, bvec3 beyond, uint z, uint side) {
+    uint inFaces = (!beyond.x ? ~0u : side == 0 ? 255 : 0) & (beyond.y ? kRow : ~0u) & (beyond.z && z != 0 ? 0 : ~0u);
+    return crossed & mix(uvec3(inFaces), uvec3(0), beyond);
+}
+
+/// Faces of a brick that must have a brick beyond them if surface crosses them. Those between tiles are looked at by the
+/// tile that is before them, once in each of the two bricks.
+uint checkedFaces(uvec3 brick, bvec3 beyond) {
+    uvec3 low = mix(uvec3(0), uvec3(8, 16, 32), any(beyond) ? beyond : equal(brick, push.begin));
+    uint faces = low.x | low.y | low.z;
+    return any(beyond) ? faces : 63 - faces;
+}
+
 /// Where the strips of a class are counted: a byte for each class, that of most cells lowest.
 uint classShift(uint cells) { return cells > 16 ? 0 : cells > 8 ? 8 : cells > 4 ? 16 : 24; }
 
@@ -64,8 +78,9 @@ void main() {
     uvec3 a = planes[slot * 9 + z], b = planes[slot * 9 + z + 1];
     a = valid ? a : uvec3(0);
     b = valid ? b : uvec3(0);
-    uvec3 first = unpackBrick(brickList[slot]) * 8;
-    uint faces = links[slot * 8 + 7];
+    uvec3 brick = unpackBrick(brickList[slot]), first = brick * 8;
+    bvec3 beyond = beyondTile(brick);
+    uint leaky = checkedFaces(brick, beyond) & ~links[slot * 8 + 7];
     Strip strips[2];
     uvec2 own = uvec2(0);  // active edges and parts << 16; strips by class
     bool cap = false, leak = false;
@@ -74,11 +89,14 @@ void main() {
         StripSigns low = stripSigns(a, side), high = stripSigns(b, side);
         Strip strip = Strip(activeEdges(low, high), bitCount(activeCells(low, high)),
                             kDual ? loopCount(low, high) : triangleCount(low, high));
+        cap = cap || hasCap(first + uvec3(side * 4, 0, 0), z, strip.crossed);
+        leak = leak || (crossedFaces(z, side, a, b, strip.crossed, high) & leaky) != 0;
+        strip.crossed = edgesOfTile(strip.crossed, beyond, z, side);
+        strip.parts = any(beyond) ? 0 : strip.parts;
+        strip.cells = any(beyond) ? (strip.crossed != uvec3(0) ? 1 : 0) : strip.cells;
         ivec3 n = bitCount(strip.crossed);
         own.x += n.x + n.y + n.z + (strip.parts << 16);
         own.y += strip.cells != 0 ? 1u << classShift(strip.cells) : 0;
-        cap = cap || hasCap(first + uvec3(side * 4, 0, 0), z, strip.crossed);
-        leak = leak || (crossedFaces(z, side, a, b, strip.crossed, high) & ~faces) != 0;
         strips[0].crossed = side == 0 ? strip.crossed : strips[0].crossed;
         strips[0].cells = side == 0 ? strip.cells : strips[0].cells;
         strips[0].parts = side == 0 ? strip.parts : strips[0].parts;
@@ -96,7 +114,7 @@ void main() {
         if (valid) edges[slot * 16 + z * 2 + i] = uvec4(strip.crossed, vertex);
         uint shift = classShift(strip.cells);
         uint place = (ofLarger >> shift & 255) + (before.y >> shift & 255);
-        uint word = gl_LocalInvocationIndex << 1 | i | part << 7;
+        uint word = gl_LocalInvocationIndex << 1 | i | part << 7 | (any(beyond) ? 1u << 31 : 0);
         if (strip.cells != 0) stripList[group * MESHER_GROUP_STRIPS + place] = word;
         before.y += strip.cells != 0 ? 1u << shift : 0;
         vertex += n.x + n.y + n.z;

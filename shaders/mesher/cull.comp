@@ -23,7 +23,7 @@ void main() {
     uvec3 brick = blockAt(block) * 8 + uvec3(0, gl_LocalInvocationIndex & 7, gl_LocalInvocationIndex >> 3);
     uint bits = 0;
     uint x = 0;
-    uint end = min((push.cells.x + 9) / 8 - brick.x, 8);  // bricks of the grid in this row
+    uint end = min(min((push.cells.x + 9) / 8, push.end.x + 1) - brick.x, 8);  // bricks of the grid in this row
     do {
         uvec3 first = (brick + uvec3(x, 0, 0)) * 8;
         bool alive = fieldChoose(placeOfBox(16, first));

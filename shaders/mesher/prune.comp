@@ -33,7 +33,7 @@ void main() {
     bool valid = index < (kSize > 8 ? boxes.x * boxes.y * boxes.z : counts.bricks);
     index = valid ? index : 0;
     uvec3 at = uvec3(index % boxes.x, index / boxes.x % boxes.y, index / (boxes.x * boxes.y));
-    first = kSize > 8 ? at * kSize : unpackBrick(brickList[index]) * 8;
+    first = kSize > 8 ? push.begin * 8 + at * kSize : unpackBrick(brickList[index]) * 8;
     fieldChoose(kSize < 64 ? placeOfBox(2 * kSize, first) : 0);
 #ifdef FIELD_FAMILIES
     vec3 low = lowOf(first), high = max(low, highOf(first, kSize));

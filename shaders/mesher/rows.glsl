@@ -2,6 +2,7 @@
 // first survivor among them; a brick's slot is that plus the number of survivors before it.
 layout(binding = 3, scalar) buffer Rows { uvec2 rows[]; };
 
+/// `brick` is counted from the tile's first.
 uint rowIndex(uvec3 brick) {
     uvec3 block = brick >> 3;
     return ((block.z * push.blocks.y + block.y) * push.blocks.x + block.x) * 64 + (brick.z & 7) * 8 + (brick.y & 7);
@@ -9,6 +10,7 @@ uint rowIndex(uvec3 brick) {
 
 /// Slot of a brick, or `otherwise` if it was culled or is not of the grid.
 uint slotOf(uvec3 brick, uint otherwise) {
+    brick -= push.begin;  // wraps to what is not of the grid
     bool inGrid = all(lessThan(brick, push.blocks * 8));
     uvec2 row = rows[inGrid ? rowIndex(brick) : 0];
     uint bit = 1u << (brick.x & 7);

@@ -58,7 +58,9 @@ void main() {
         } while (n != 0);
 
         uint cells = activeCells(low, high);
-        uint place = base.y + (word >> 7) - push.chunk * MESHER_TRIANGLE_CHUNK;
+        bool beyond = (word >> 31) != 0;  // the tile: only edges are asked for
+        cells = beyond ? cells & -cells : cells;
+        uint place = base.y + (word >> 7 & 0xffffff) - push.chunk * MESHER_TRIANGLE_CHUNK;
         do {
             uint bit = findLSB(cells);
             cells &= cells - 1;
@@ -73,7 +75,7 @@ void main() {
                 uint vertex = vertexOn(codes.x, cell);
                 bool starts = (codes.x & 64) != 0;
                 last = (codes.x & 128) != 0;
-                if (!starts && open && valid) triangles[place] = uvec3(first, before, vertex);
+                if (!starts && open && valid && !beyond) triangles[place] = uvec3(first, before, vertex);
                 place += !starts && open ? 1 : 0;
                 first = starts ? vertex : first;
                 open = !starts;

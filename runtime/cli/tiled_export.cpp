@@ -1,0 +1,217 @@
+#include "runtime/cli/tiled_export.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+
+#include "runtime/export/export.h"
+#include "runtime/tiled_mesh.h"
+
+namespace fw::cli {
+namespace {
+
+constexpr int kMostUntiled = 1024;  // cells along the longest side, unless the option asks for tiles
+constexpr int kTileCells = 1024;
+constexpr char kPartEnding[] = ".part";
+
+struct Share {
+    uint32_t share = 1, shares = 1;
+};
+
+/// Of "i/n", 1 to n.
+std::optional<Share> readShare(const std::string& text) {
+    Share share;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, share.share);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return std::nullopt;
+    const auto second = std::from_chars(first.ptr + 1, end, share.shares);
+    if (second.ec != std::errc() || second.ptr != end || share.share < 1 || share.share > share.shares)
+        return std::nullopt;
+    return share;
+}
+
+/// The size of tile whose files lie in the folder from before, the smallest if several do.
+int tileCellsThere(const CellGrid& grid, const Session& session, const std::string& folder) {
+    for (int cells = kLeastTile; cells < kTileCells; cells *= 2) {
+        const TilePlan plan = planTiles(grid, cells);
+        const uint64_t key = tileKey(session, plan);
+        for (std::size_t i = 0; i < plan.tiles.size(); ++i)
+            if (doneTile(folder, plan, key, i)) return cells;
+    }
+    return kTileCells;
+}
+
+/// Meshes tiles first to last (not of it) that are not there yet.
+Result<std::vector<TileRecord>> meshTiles(Session& session, const MeshRequest& request, const TilePlan& plan,
+                                          uint64_t key, std::pair<std::size_t, std::size_t> range,
+                                          const std::string& folder, Progress& progress) {
+    std::vector<TileRecord> tiles;
+    const auto [first, last] = range;
+    for (std::size_t i = first; i < last; ++i) {
+        std::optional<TileRecord> done = doneTile(folder, plan, key, i);
+        if (!done) {
+            if (interrupted) return Error{.message = "interrupted"};
+            const std::string words =
+                "tile " + std::to_string(i - first + 1) + " of " + std::to_string(last - first);
+            progress.start("tile", int(20 + 60 * (i - first) / (last - first)), words.c_str());
+            Result<TileRecord> meshed = meshTile(session, request, plan, key, i, folder, &interrupted);
+            if (!meshed) return meshed.error();
+            done = std::move(*meshed);
+        }
+        tiles.push_back(std::move(*done));
+    }
+    return tiles;
+}
+
+/// Says that tiles stay for the next time, if some do.
+void sayWhatIsKept(const std::string& folder) {
+    std::error_code ignored;
+    std::filesystem::remove(folder, ignored);  // only if it is empty
+    if (std::filesystem::exists(folder, ignored))
+        std::fprintf(
+            stderr,
+            "fieldwright: the tiles that are done are kept in %s: the same command goes on from there\n",
+            inQuotes(folder).c_str());
+}
+
+/// The exit status where writing the output failed.
+int writingFailed(const Error& error) {
+    if (!interrupted) return print(error), kSystemFailure;
+    std::fprintf(stderr, "fieldwright: interrupted; no mesh was written\n");
+    return kInterrupted;
+}
+
+}  // namespace
+
+Done checkTiledExport(const ExportOptions& options) {
+    const auto refuse = [&](std::string message) {
+        return Error{.message = std::move(message), .file = options.output};
+    };
+    if (!options.report.empty() || !options.required.empty())
+        return refuse(
+            "--report and --require hold the whole mesh in memory, which tiles are there to avoid: leave "
+            "them "
+            "out, or mesh at 1,024 cells or fewer without --tiles and --tile");
+    if (options.share.empty()) return checkPiecesPath(options.output);
+    if (!readShare(options.share))
+        return refuse("--tile " + inQuotes(options.share) + ": write part i of n as i/n, from 1/n to n/n");
+    if (!options.output.ends_with(kPartEnding))
+        return refuse("with --tile the output is a part, not a mesh: name it with the ending .part");
+    return done();
+}
+
+bool wantsTiles(const MeshRequest& request) {
+    return request.resolution > kMostUntiled && request.method != MeshMethod::dualContouring;
+}
+
+int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress) {
+    if (const Done fine = checkTiledExport(options); !fine) return print(fine.error()), kBadUsage;
+    if (opened.request.method == MeshMethod::dualContouring)
+        return badInput(options.mesh, {.message = "dual contouring is not meshed in tiles: take --method "
+                                                  "marching-cubes, or leave out --tiles and --tile"});
+    const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);
+    if (!grid) return badInput(options.mesh, grid.error());
+    const bool given = opened.request.region || opened.program.region;
+    opened.request.region = opened.region;
+    const Share share = readShare(options.share).value_or(Share{});
+    const std::string folder = options.output + ".tiles";
+
+    progress.start("pipelines", 15, kCompiling);
+    Session session(std::move(opened.device));
+    {
+        const BeforeOutput nothing;
+        session.setProgram(std::move(opened.program));
+    }
+    std::error_code failure;
+    std::filesystem::create_directory(folder, failure);
+    if (failure || !std::filesystem::is_directory(folder, failure))
+        return print({.message = "cannot make a folder for the tiles: " + failure.message(), .file = folder}),
+               kSystemFailure;
+
+    const bool chosen = options.tiles > 0 || share.shares > 1;  // by the user, so that it stays
+    const int longest = std::max({grid->cells.x, grid->cells.y, grid->cells.z});
+    int tileCells = options.tiles > 0 ? longest / options.tiles
+                    : chosen          ? kTileCells
+                                      : tileCellsThere(*grid, session, folder);
+    Result<std::vector<TileRecord>> tiles = Error{};
+    uint64_t key = 0;
+    for (bool again = true; again;) {
+        const TilePlan plan = planTiles(*grid, tileCells);
+        if (share.shares > plan.tiles.size()) {
+            sayWhatIsKept(folder);
+            return print({.message = "there are only " + std::to_string(plan.tiles.size()) + " tiles for " +
+                                     std::to_string(share.shares) +
+                                     " parts: ask for fewer parts or more --tiles",
+                          .file = options.output}),
+                   kBadUsage;
+        }
+        key = tileKey(session, plan);
+        tiles = meshTiles(session, opened.request, plan, key,
+                          tilesOfShare(plan.tiles.size(), share.share, share.shares), folder, progress);
+        again = !tiles && isTooMuchSurface(tiles.error()) && !chosen && plan.tileCells > kLeastTile;
+        tileCells = plan.tileCells / 2;
+    }
+    if (!tiles) {
+        progress.finish();
+        int status = kInterrupted;
+        if (interrupted)
+            std::fprintf(stderr, "fieldwright: interrupted; no mesh was written\n");
+        else if (isTooMuchSurface(tiles.error()))
+            status = badInput(options.mesh, {.message = tiles.error().message + "; or take more --tiles"});
+        else
+            status = (print(tiles.error()), tiles.error().file.empty() ? kBadInput : kSystemFailure);
+        sayWhatIsKept(folder);
+        return status;
+    }
+    progress.start("write", 80);
+    const bool capped = std::any_of(tiles->begin(), tiles->end(),
+                                    [](const TileRecord& tile) { return tile.header.capped != 0; });
+    const bool empty = std::all_of(tiles->begin(), tiles->end(),
+                                   [](const TileRecord& tile) { return tile.header.triangles == 0; });
+    if (!options.share.empty()) {
+        PartHeader part{.key = key, .share = share.share, .shares = share.shares};
+        if (const Done written = writePart(part, *tiles, options.output, &interrupted); !written) {
+            const int status = writingFailed(written.error());
+            return sayWhatIsKept(folder), status;
+        }
+    } else if (empty) {
+        removeTiles(folder);
+        return badInput(options.mesh, nothingToSee(given, opened.region, opened.request.resolution));
+    } else {
+        const Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
+        if (!mesh) return removeTiles(folder), badInput(options.mesh, mesh.error());
+        const Result<ExportedFiles> written = exportPieces(*mesh, options.output, {.cancel = &interrupted});
+        if (!written) {
+            const int status = writingFailed(written.error());
+            return sayWhatIsKept(folder), status;
+        }
+    }
+    progress.finish();
+    removeTiles(folder);
+    if (capped)
+        std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
+                     options.output.c_str());
+    return kDone;
+}
+
+int runMerge(const MergeOptions& options) {
+    if (const Done known = checkPiecesPath(options.output); !known) return print(known.error()), kBadUsage;
+    Progress progress;
+    progress.start("read", 0);
+    Result<std::vector<TileRecord>> tiles = readParts(options.parts);
+    if (!tiles) return print(tiles.error()), kBadInput;
+    const Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
+    if (!mesh) return print(mesh.error()), kBadInput;
+    if (mesh->triangleCount == 0)
+        return print({.message = "the parts hold no triangle: the surface does not pass through the region",
+                      .file = options.parts[0]}),
+               kBadInput;
+    progress.start("write", 20);
+    const Result<ExportedFiles> written = exportPieces(*mesh, options.output, {.cancel = &interrupted});
+    if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
+    progress.finish();
+    return kDone;
+}
+
+}  // namespace fw::cli

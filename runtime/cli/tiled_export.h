@@ -1,0 +1,18 @@
+// `fieldwright export` in tiles: those that are done lie in the folder OUTPUT.tiles until the mesh file is
+// there, so that the same command goes on after it was stopped.
+#pragma once
+
+#include "runtime/cli/mesh_graph.h"
+
+namespace fw::cli {
+
+/// Refuses options that do not go with tiles.
+Done checkTiledExport(const ExportOptions& options);
+
+/// Whether the request is for a mesh so large that tiles are the way.
+bool wantsTiles(const MeshRequest& request);
+
+/// The export from there on; the exit status.
+int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress);
+
+}  // namespace fw::cli

@@ -1,0 +1,314 @@
+#include "runtime/export/tile_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <glm/common.hpp>
+#include <memory>
+#include <type_traits>
+#include <unordered_map>
+
+#include "runtime/export/output_file.h"
+#include "runtime/mesher.h"
+
+namespace fw {
+namespace {
+
+static_assert(sizeof(TileHeader) == 112 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 20);
+static_assert(sizeof(gpu::MeshVertex) == 16 && std::is_trivially_copyable_v<TileHeader>);
+
+Error damaged(const std::string& path, const char* what) {
+    return {.message = std::string(what) + ": make it again", .file = path};
+}
+
+/// Where the arrays of a record begin, from its own beginning.
+struct RecordLayout {
+    uint64_t shared, vertices, colors, triangles, end;
+};
+RecordLayout layoutOf(const TileHeader& header) {
+    RecordLayout at{};
+    at.shared = sizeof header;
+    at.vertices = at.shared + header.shared * sizeof(SharedVertex);
+    at.colors = at.vertices + header.vertices * sizeof(gpu::MeshVertex);
+    at.triangles = at.colors + (header.colors ? header.vertices * sizeof(glm::vec3) : 0);
+    at.end = at.triangles + header.triangles * 12;
+    return at;
+}
+
+/// `count` values at `offset` of a file.
+template <class T>
+Result<std::vector<T>> readArray(const std::string& path, uint64_t offset, uint64_t count) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<T> values(count);
+    file.seekg(static_cast<std::streamoff>(offset));
+    if (count > 0)
+        file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
+    if (!file) return damaged(path, "the file of tiles was cut short while it was read");
+    return values;
+}
+
+/// The record at `offset`, which must lie within the file's `size` bytes.
+Result<TileRecord> recordAt(const std::string& path, uint64_t offset, uint64_t size) {
+    if (offset > size || size - offset < sizeof(TileHeader)) return damaged(path, "the file is cut short");
+    const Result<std::vector<TileHeader>> header = readArray<TileHeader>(path, offset, 1);
+    if (!header) return header.error();
+    const TileRecord record{path, offset, header->front()};
+    const TileHeader& has = record.header;
+    constexpr uint64_t kMost = uint64_t(1) << 40;  // so that sizes do not overflow
+    if (std::memcmp(has.magic, TileHeader().magic, sizeof has.magic) != 0 || has.colors > 1 ||
+        has.vertices > 0xffffffffu || has.shared > has.vertices || has.triangles > kMost)
+        return damaged(path, "this is no file of tiles, or it is damaged");
+    if (size - offset < layoutOf(has).end) return damaged(path, "the file is cut short");
+    return record;
+}
+
+Result<uint64_t> sizeOf(const std::string& path) {
+    std::error_code failure;
+    const uint64_t size = std::filesystem::file_size(path, failure);
+    if (failure) return Error{.message = "cannot read: " + failure.message(), .file = path};
+    return size;
+}
+
+uint64_t bits(float value) {
+    uint32_t word;
+    std::memcpy(&word, &value, sizeof word);
+    return word;
+}
+
+struct PositionHash {
+    std::size_t operator()(const glm::vec3& p) const {
+        uint64_t hash = bits(p.x);
+        for (const uint64_t word : {bits(p.y), bits(p.z)})
+            hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + word;
+        return (hash ^ hash >> 32) * 0xBF58476D1CE4E5B9u;
+    }
+};
+struct SameBits {
+    bool operator()(const glm::vec3& a, const glm::vec3& b) const {
+        return std::memcmp(&a, &b, sizeof a) == 0;
+    }
+};
+
+/// What is kept of all tiles to load any of them.
+struct Joined {
+    struct Tile {
+        TileRecord record;
+        uint32_t firstVertex = 0;            ///< of the whole mesh
+        std::vector<uint32_t> sharedNumber;  ///< in the whole mesh, of each shared vertex
+    };
+    std::vector<Tile> tiles;
+
+    Result<Mesh> load(std::size_t tile, MeshPieces::Part part) const;
+};
+
+Result<Mesh> Joined::load(std::size_t index, MeshPieces::Part part) const {
+    const Tile& tile = tiles[index];
+    const auto& [path, offset, header] = tile.record;
+    const RecordLayout at = layoutOf(header);
+    Mesh mesh;
+    std::vector<SharedVertex> shared;
+    if (part != MeshPieces::corners) {
+        Result<std::vector<SharedVertex>> read =
+            readArray<SharedVertex>(path, offset + at.shared, header.shared);
+        if (!read) return read.error();
+        shared = std::move(*read);
+    }
+    if (part != MeshPieces::vertices) {
+        Result<std::vector<uint32_t>> indices =
+            readArray<uint32_t>(path, offset + at.triangles, header.triangles * 3);
+        if (!indices) return indices.error();
+        for (const uint32_t corner : *indices)
+            if (corner >= header.vertices) return damaged(path, "the file is damaged");
+        mesh.indices = std::move(*indices);
+    }
+    if (part == MeshPieces::triangles) {
+        std::vector<uint32_t> numbers(header.vertices);
+        uint32_t next = tile.firstVertex;
+        std::size_t s = 0;
+        for (uint32_t v = 0; v < header.vertices; ++v) {
+            const bool isShared = s < shared.size() && shared[s].vertex == v;
+            const bool known = isShared && tile.sharedNumber[s] < tile.firstVertex;
+            numbers[v] = known ? tile.sharedNumber[s] : next++;
+            s += isShared ? 1 : 0;
+        }
+        for (uint32_t& corner : mesh.indices) corner = numbers[corner];
+        return mesh;
+    }
+    const Result<std::vector<gpu::MeshVertex>> vertices =
+        readArray<gpu::MeshVertex>(path, offset + at.vertices, header.vertices);
+    if (!vertices) return vertices.error();
+    if (part == MeshPieces::corners) {
+        for (const gpu::MeshVertex& vertex : *vertices) mesh.positions.push_back(vertex.position);
+        return mesh;
+    }
+    const Result<std::vector<glm::vec3>> colors =
+        readArray<glm::vec3>(path, offset + at.colors, header.colors ? header.vertices : 0);
+    if (!colors) return colors.error();
+    mesh.baseColor = header.baseColor;
+    std::size_t s = 0;
+    for (uint32_t v = 0; v < header.vertices; ++v) {
+        const bool isShared = s < shared.size() && shared[s].vertex == v;
+        if (!isShared || tile.sharedNumber[s] >= tile.firstVertex) {
+            mesh.positions.push_back((*vertices)[v].position);
+            mesh.normals.push_back(unpackOctahedral((*vertices)[v].normal));
+            if (header.colors) mesh.colors.push_back((*colors)[v]);
+        }
+        s += isShared ? 1 : 0;
+    }
+    return mesh;
+}
+
+}  // namespace
+
+Done writeTile(TileContent& tile, const std::string& path, const std::atomic<bool>* cancel) {
+    tile.header.vertices = tile.vertices.size();
+    tile.header.triangles = tile.indices.size() / 3;
+    tile.header.shared = tile.shared.size();
+    tile.header.colors = tile.colors.empty() ? 0 : 1;
+    Result<OutputFile> file = OutputFile::open(path, cancel);
+    if (!file) return file.error();
+    file->write(&tile.header, sizeof tile.header);
+    file->write(std::span<const SharedVertex>(tile.shared));
+    file->write(std::span<const gpu::MeshVertex>(tile.vertices));
+    file->write(std::span<const glm::vec3>(tile.colors));
+    file->write(std::span<const uint32_t>(tile.indices));
+    return file->commit();
+}
+
+Result<TileRecord> readTile(const std::string& path) {
+    const Result<uint64_t> size = sizeOf(path);
+    if (!size) return size.error();
+    Result<TileRecord> record = recordAt(path, 0, *size);
+    if (record && layoutOf(record->header).end != *size) return damaged(path, "the file is damaged");
+    return record;
+}
+
+std::pair<std::size_t, std::size_t> tilesOfShare(std::size_t tiles, uint32_t share, uint32_t shares) {
+    return {tiles * (share - 1) / shares, tiles * share / shares};
+}
+
+Done writePart(const PartHeader& part, const std::vector<TileRecord>& tiles, const std::string& path,
+               const std::atomic<bool>* cancel) {
+    Result<OutputFile> file = OutputFile::open(path, cancel);
+    if (!file) return file.error();
+    file->write(&part, sizeof part);
+    constexpr uint64_t kPiece = 4u << 20;
+    for (const TileRecord& tile : tiles) {
+        const uint64_t end = layoutOf(tile.header).end;
+        for (uint64_t at = 0; at < end && file->good(); at += kPiece) {
+            const Result<std::vector<char>> bytes =
+                readArray<char>(tile.path, tile.offset + at, std::min(kPiece, end - at));
+            if (!bytes) return bytes.error();
+            file->write(std::span<const char>(*bytes));
+        }
+    }
+    return file->commit();
+}
+
+Result<std::vector<TileRecord>> readParts(const std::vector<std::string>& paths) {
+    std::vector<TileRecord> tiles;
+    std::vector<std::string> ofShare;  // the file that holds each
+    PartHeader first;
+    for (const std::string& path : paths) {
+        const Result<uint64_t> size = sizeOf(path);
+        if (!size) return size.error();
+        Result<std::vector<PartHeader>> header = damaged(path, "the file is cut short");
+        if (*size >= sizeof(PartHeader)) header = readArray<PartHeader>(path, 0, 1);
+        if (!header) return header.error();
+        const PartHeader& part = header->front();
+        if (std::memcmp(part.magic, first.magic, sizeof first.magic) != 0 || part.share < 1 ||
+            part.share > part.shares || part.shares > 1u << 20)
+            return Error{.message = "this is not a part that export --tile wrote", .file = path};
+        if (ofShare.empty()) first = part, ofShare.resize(part.shares);
+        if (part.key != first.key || part.shares != first.shares)
+            return Error{.message = "this part is of another mesh than " + paths.front() +
+                                    ": the graph, its parameters, the resolution, the tiles, the number of "
+                                    "parts, the device and "
+                                    "the version must be the same for all",
+                         .file = path};
+        std::string& holder = ofShare[part.share - 1];
+        if (!holder.empty())
+            return Error{.message = "part " + std::to_string(part.share) + " is also in " + holder,
+                         .file = path};
+        holder = path;
+        uint64_t offset = sizeof part;
+        do {
+            Result<TileRecord> tile = recordAt(path, offset, *size);
+            if (!tile) return tile.error();
+            if (tile->header.key != part.key) return damaged(path, "the file is damaged");
+            offset += layoutOf(tile->header).end;
+            tiles.push_back(std::move(*tile));
+        } while (offset < *size);
+        const auto [begin, end] = tilesOfShare(tiles.back().header.tiles, part.share, part.shares);
+        if (tiles.back().header.tile + 1 < end) return damaged(path, "the file is cut short");
+    }
+    std::string missing;
+    std::size_t missingCount = 0;
+    for (std::size_t i = 0; i < ofShare.size(); ++i)
+        if (ofShare[i].empty() && ++missingCount <= 20)
+            missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
+    if (missingCount > 20) missing += ", …";
+    if (missingCount > 0)
+        return Error{.message = std::to_string(missingCount) + " of the " + std::to_string(ofShare.size()) +
+                                " parts are missing: " + missing};
+    std::sort(tiles.begin(), tiles.end(),
+              [](const TileRecord& a, const TileRecord& b) { return a.header.tile < b.header.tile; });
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        if (tiles[i].header.tile != i || tiles[i].header.tiles != tiles.size())
+            return damaged(tiles[i].path, "the parts do not make up one mesh");
+    return tiles;
+}
+
+Result<MeshPieces> joinTiles(std::vector<TileRecord> tiles) {
+    struct Known {
+        uint32_t number, left;
+    };
+    std::unordered_map<glm::vec3, Known, PositionHash, SameBits> open;
+    auto joined = std::make_shared<Joined>();
+    MeshPieces pieces;
+    const TileHeader& some = tiles.front().header;
+    pieces.material.baseColor = some.baseColor;
+    pieces.material.emission = some.emission;
+    pieces.material.roughness = some.roughness;
+    pieces.material.metallic = some.metallic;
+    const Error hole{.message =
+                         "the tiles do not fit together: the surface ends at a face between two of them. The "
+                         "field's bounds are wrong there, or the devices compute differently; export without "
+                         "tiles, or all parts on one kind of device"};
+    for (TileRecord& record : tiles) {
+        const TileHeader header = record.header;
+        const Result<std::vector<SharedVertex>> shared =
+            readArray<SharedVertex>(record.path, record.offset + layoutOf(header).shared, header.shared);
+        if (!shared) return shared.error();
+        if (pieces.vertexCount + header.vertices > 0x7fffffffu)
+            return Error{.message = "the mesh has more than 2,147,483,647 vertices; lower the resolution"};
+        Joined::Tile tile{std::move(record), uint32_t(pieces.vertexCount), {}};
+        uint32_t known = 0;
+        for (const SharedVertex& vertex : *shared) {
+            if (vertex.vertex >= header.vertices || vertex.holders < 2)
+                return damaged(tile.record.path, "the file is damaged");
+            const auto [at, isNew] = open.try_emplace(
+                vertex.position, Known{tile.firstVertex + vertex.vertex - known, vertex.holders});
+            known += isNew ? 0 : 1;
+            tile.sharedNumber.push_back(at->second.number);
+            if (--at->second.left == 0) open.erase(at);
+        }
+        if (header.vertices > 0) {
+            pieces.least = pieces.vertexCount > 0 ? glm::min(pieces.least, header.least) : header.least;
+            pieces.greatest =
+                pieces.vertexCount > 0 ? glm::max(pieces.greatest, header.greatest) : header.greatest;
+            pieces.colors = header.colors != 0;
+        }
+        pieces.vertexCount += header.vertices - known;
+        pieces.triangleCount += header.triangles;
+        joined->tiles.push_back(std::move(tile));
+    }
+    if (!open.empty()) return hole;
+    pieces.count = joined->tiles.size();
+    pieces.load = [joined](std::size_t tile, MeshPieces::Part part) { return joined->load(tile, part); };
+    return pieces;
+}
+
+}  // namespace fw

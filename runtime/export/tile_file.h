@@ -1,0 +1,80 @@
+// Tiles of a mesh on disk, and how they become one mesh again.
+//
+// A tile is a record: a TileHeader, its vertices on faces between tiles, all its vertices, their colours, its
+// triangles. A tile's file holds one record; a part, which shares out the work on one mesh, is a PartHeader
+// and the records of consecutive tiles. Numbers are as in memory, little-endian.
+//
+// Joining: neighbours hold a vertex on their common face each, with equal bits. The first tile in order keeps
+// it. Only those vertices are numbered through a table of positions, and one is dropped from it with the last
+// tile that holds it; what is kept is four bytes for each time a tile has one. A table that is not empty in
+// the end means a hole: tiles that do not belong together, or a field whose bounds are wrong.
+//
+// Nothing read is trusted: sizes are checked against the file's, indices against the sizes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/result.h"
+#include "runtime/export/export.h"
+#include "shaders/shared.h"
+
+namespace fw {
+
+struct TileHeader {
+    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '1', 0};
+    uint64_t key = 0;  ///< equal for tiles of one mesh
+    uint32_t tile = 0, tiles = 0;
+    uint32_t capped = 0, colors = 0;  ///< 0 or 1
+    uint64_t vertices = 0, triangles = 0, shared = 0;
+    glm::vec3 least{0}, greatest{0};  ///< coordinates, if there are vertices
+    glm::vec3 baseColor{0}, emission{0};
+    float roughness = 0, metallic = 0;
+};
+
+/// A vertex on a face between tiles.
+struct SharedVertex {
+    uint32_t vertex = 0;   ///< of the tile; ascending
+    uint32_t holders = 0;  ///< tiles that have it
+    glm::vec3 position{0};
+};
+
+struct TileContent {
+    TileHeader header;  ///< its counts are set from the arrays
+    std::vector<SharedVertex> shared;
+    std::vector<gpu::MeshVertex> vertices;
+    std::vector<glm::vec3> colors;
+    std::vector<uint32_t> indices;
+};
+
+/// Where a record is.
+struct TileRecord {
+    std::string path;
+    uint64_t offset = 0;
+    TileHeader header;
+};
+
+Done writeTile(TileContent& tile, const std::string& path, const std::atomic<bool>* cancel);
+/// Errors: no file, not a tile, cut short.
+Result<TileRecord> readTile(const std::string& path);
+
+struct PartHeader {
+    char magic[8] = {'F', 'W', 'P', 'A', 'R', 'T', '1', 0};
+    uint64_t key = 0;
+    uint32_t share = 0, shares = 0;  ///< from 1
+};
+
+/// Tiles first to last (not of it) are those of share 1 to `shares` out of `tiles`.
+std::pair<std::size_t, std::size_t> tilesOfShare(std::size_t tiles, uint32_t share, uint32_t shares);
+
+/// Puts the tiles' records behind each other.
+Done writePart(const PartHeader& part, const std::vector<TileRecord>& tiles, const std::string& path,
+               const std::atomic<bool>* cancel);
+/// The tiles of these parts, all of one mesh, in order. Errors: what readTile says, parts of different
+/// meshes, one given twice, missing ones, which it names.
+Result<std::vector<TileRecord>> readParts(const std::vector<std::string>& paths);
+
+/// The one mesh of all tiles, in order. `tiles` is not empty. Errors: a hole, too many vertices.
+Result<MeshPieces> joinTiles(std::vector<TileRecord> tiles);
+
+}  // namespace fw

@@ -1,0 +1,351 @@
+// Tiles joined are the mesh of the whole region, to the bit; and the commands that make, keep, share and join
+// them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "graph/json.h"
+#include "runtime/mesh_report.h"
+#include "runtime/tiled_mesh.h"
+#include "tests/support/command.h"
+#include "tests/support/gpu.h"
+#include "tests/support/random_graph.h"
+#include "tests/support/temp_dir.h"
+
+namespace fw {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandOptions;
+using test::CommandResult;
+using test::expectRefusal;
+using test::runCommand;
+using test::TempDir;
+
+/// Position, normal and colour of the corners of every triangle, sorted.
+using Corners = std::array<float, 27>;
+std::vector<Corners> trianglesOf(const Mesh& mesh) {
+    std::vector<Corners> triangles;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        Corners corners{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const uint32_t v = mesh.indices[i + k];
+            std::memcpy(&corners[9 * k], &mesh.positions[v], 12);
+            std::memcpy(&corners[9 * k + 3], &mesh.normals[v], 12);
+            if (!mesh.colors.empty()) std::memcpy(&corners[9 * k + 6], &mesh.colors[v], 12);
+        }
+        triangles.push_back(corners);
+    }
+    std::sort(triangles.begin(), triangles.end(),
+              [](const Corners& a, const Corners& b) { return std::memcmp(&a, &b, sizeof a) < 0; });
+    return triangles;
+}
+
+/// All pieces in one, and that each part tells the same of them.
+Mesh gathered(const MeshPieces& pieces) {
+    Mesh whole;
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        const Result<Mesh> vertices = pieces.load(i, MeshPieces::vertices),
+                           triangles = pieces.load(i, MeshPieces::triangles),
+                           corners = pieces.load(i, MeshPieces::corners);
+        if (!vertices || !triangles || !corners) throw SystemError("a tile cannot be loaded");
+        whole.positions.insert(whole.positions.end(), vertices->positions.begin(), vertices->positions.end());
+        whole.normals.insert(whole.normals.end(), vertices->normals.begin(), vertices->normals.end());
+        whole.colors.insert(whole.colors.end(), vertices->colors.begin(), vertices->colors.end());
+        EXPECT_EQ(triangles->indices.size(), corners->indices.size());
+        whole.indices.insert(whole.indices.end(), triangles->indices.begin(), triangles->indices.end());
+    }
+    EXPECT_EQ(whole.positions.size(), pieces.vertexCount);
+    EXPECT_EQ(whole.indices.size(), 3 * pieces.triangleCount);
+    return whole;
+}
+
+struct Tiled {
+    Mesh mesh;
+    std::size_t tiles = 0;
+    bool capped = false;
+};
+Tiled tiledMesh(Session& session, const MeshRequest& request, int tileCells) {
+    const TempDir folder;
+    const Result<Box> region = meshRegion(session.program(), request);
+    const Result<CellGrid> grid = cellGrid(*region, request.resolution);
+    const TilePlan plan = planTiles(*grid, tileCells);
+    const uint64_t key = tileKey(session, plan);
+    Tiled result{{}, plan.tiles.size()};
+    std::vector<TileRecord> tiles;
+    for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+        const Result<TileRecord> tile =
+            meshTile(session, request, plan, key, i, folder.folder.string(), nullptr);
+        if (!tile) throw SystemError(format(tile.error()));
+        result.capped = result.capped || tile->header.capped;
+        tiles.push_back(*tile);
+    }
+    const Result<MeshPieces> pieces = joinTiles(std::move(tiles));
+    if (!pieces) throw SystemError(format(pieces.error()));
+    result.mesh = gathered(*pieces);
+    return result;
+}
+
+/// Meshes both ways and compares; false if there is no surface.
+bool expectTilesMakeUpTheWhole(Session& session, const MeshRequest& request, int tileCells = 64) {
+    const Result<MesherResult> result = session.polygonise(request);
+    if (!result) throw SystemError(format(result.error()));
+    if (result->triangles == 0) return false;
+    const Mesh whole = session.download(*result);
+    const Tiled tiled = tiledMesh(session, request, tileCells);
+    EXPECT_GE(tiled.tiles, 2u);
+    EXPECT_EQ(tiled.mesh.positions.size(), whole.positions.size());
+    EXPECT_TRUE(trianglesOf(tiled.mesh) == trianglesOf(whole));
+    EXPECT_EQ(tiled.capped, result->capped);
+    const Report report = reportOnMesh(tiled.mesh.positions, tiled.mesh.indices);
+    EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.flippedEdges, 0u);
+    return true;
+}
+
+Session sessionOf(Program program) {
+    Result<Device> device = createDevice({});
+    if (!device) throw SystemError(format(device.error()));
+    Session session(std::move(*device));
+    session.setProgram(std::move(program));
+    return session;
+}
+
+Program programOf(const Graph& graph) {
+    Result<Program> program = compile(graph);
+    if (!program) throw SystemError(format(program.error()));
+    return std::move(*program);
+}
+
+std::string samplePath(const std::string& name) {
+    return FIELDWRIGHT_SOURCE_DIR "/samples/" + name + ".field.json";
+}
+
+TEST(Tiles, MakeUpTheWholeMesh) {
+    for (const char* name : {"tower", "csg_part", "menger", "brick_block", "gyroid_sphere", "dusk_city"}) {
+        const Result<Graph> graph = readGraph(samplePath(name), nullptr);
+        ASSERT_TRUE(graph);
+        Session session = sessionOf(programOf(*graph));
+        for (const int cells : {96, 135, 193}) {
+            SCOPED_TRACE(std::string(name) + " at " + std::to_string(cells));
+            EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {{}, cells}));
+        }
+        SCOPED_TRACE(std::string(name) + ", capped");
+        const Box box = *meshRegion(session.program(), {{}, 96});
+        Box part = box;
+        for (int axis = 0; axis < 3; ++axis) {
+            part.lo[axis] += 0.31 * (box.hi[axis] - box.lo[axis]);
+            part.hi[axis] -= 0.12 * (box.hi[axis] - box.lo[axis]);
+        }
+        EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {part, 128}));
+        EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
+    }
+}
+
+TEST(Tiles, OfRandomGraphsMakeUpTheWholeMesh) {
+    int meshed = 0, capped = 0;
+    for (uint32_t seed = 1; meshed < 8; ++seed) {
+        ASSERT_LT(seed, 200u);
+        Result<Program> program = compile(test::randomGraph(seed, 12));
+        if (!program) continue;
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Session session = sessionOf(std::move(*program));
+        const MeshRequest request{Box{{-2.03, -1.98, -2.01}, {1.97, 2.02, 1.99}}, 97};
+        if (!expectTilesMakeUpTheWhole(session, request)) continue;
+        ++meshed;
+        capped += session.polygonise(request)->capped ? 1 : 0;
+    }
+    EXPECT_GT(capped, 0);
+}
+
+TEST(Tiles, BlocksAreCulledInTilesToo) {
+    // A tile long enough for blocks to be culled before bricks, of a region that is not a cube.
+    const Result<Graph> graph = readGraph(samplePath("tower"), nullptr);
+    Session session = sessionOf(programOf(*graph));
+    EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {Box{{-2, -0.4, -0.3}, {2, 0.4, 0.4}}, 1100}, 576));
+}
+
+TEST(Tiles, PlansCoverTheGrid) {
+    for (const glm::ivec3 cells :
+         {glm::ivec3(1), {63, 64, 65}, {95, 96, 97}, {127, 128, 129}, {2048, 7, 1300}}) {
+        for (const int size : {1, 64, 100, 512}) {
+            const TilePlan plan = planTiles({{}, glm::vec3(1), cells}, size);
+            EXPECT_EQ(plan.tileCells % kLeastTile, 0);
+            int64_t blocks = 0;
+            const glm::ivec3 all = (cells + 2 + 63) / 64;
+            for (const MesherTile& tile : plan.tiles) {
+                int64_t own = 1;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const int end = tile.end[axis] ? tile.end[axis] : all[axis];
+                    EXPECT_LT(tile.begin[axis], end);
+                    EXPECT_LE(tile.begin[axis] * 64, cells[axis]);  // a face is never on the region's own
+                    own *= end - tile.begin[axis];
+                }
+                blocks += own;
+            }
+            EXPECT_EQ(blocks, int64_t(all.x) * all.y * all.z);
+        }
+    }
+}
+
+struct TilesCommand : testing::Test {
+    TempDir folder;
+    std::string graph = samplePath("gyroid_sphere");
+    std::vector<std::string> to(const std::string& name, std::vector<std::string> more = {},
+                                const std::string& resolution = "130") const {
+        std::vector<std::string> words = {"export",       graph,      "-o",      folder.path(name),
+                                          "--resolution", resolution, "--tiles", "2"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    void expectDone(const std::vector<std::string>& words, const CommandOptions& options = {}) const {
+        const CommandResult result = runCommand(words, options);
+        EXPECT_EQ(result.status, 0) << result.errors;
+        EXPECT_EQ(result.errors, "");
+    }
+    std::string bytes(const std::string& name) const { return test::readText(folder.path(name)); }
+    /// What one export in tiles gives.
+    std::string expected(const std::string& name = "a.ply") const {
+        expectDone(to(name));
+        const std::string content = bytes(name);
+        fs::remove(folder.path(name));
+        EXPECT_TRUE(folder.names().empty());
+        return content;
+    }
+};
+
+TEST_F(TilesCommand, FilesHoldTheSameMeshAsWithoutTiles) {
+    fs::create_directory(folder.path("whole"));
+    for (const char* name : {"a.ply", "a.stl", "a.glb", "a.gltf"}) {
+        SCOPED_TRACE(name);
+        const std::string path = folder.path(name), other = folder.path(std::string("whole/") + name);
+        expectDone(to(name));
+        expectDone({"export", graph, "-o", other, "--resolution", "130"});
+        const Result<Report> tiled = reportOnFile(path, {}), whole = reportOnFile(other, {});
+        ASSERT_TRUE(tiled && whole);
+        EXPECT_EQ(tiled->triangles, whole->triangles);
+        EXPECT_EQ(tiled->vertices, whole->vertices);
+        EXPECT_EQ(tiled->boundaryEdges + tiled->nonManifoldEdges + tiled->flippedEdges, 0u);
+        EXPECT_NEAR(tiled->volume, whole->volume, 1e-9);
+        EXPECT_EQ(fs::file_size(path), fs::file_size(other));
+    }
+    expectRefusal(runCommand(to("a.obj")), 2, {"a.obj: error", ".ply, .stl, .glb or .gltf"});
+    expectRefusal(runCommand(to("b.ply", {"--require", "closed"})), 2,
+                  {"b.ply: error", "--require", "memory"});
+    expectRefusal(runCommand(to("b.ply", {"--method", "dual-contouring"})), 1, {"--method marching-cubes"});
+    EXPECT_FALSE(fs::exists(folder.path("b.ply.tiles")));
+}
+
+TEST_F(TilesCommand, PartsMergeToTheSameBytes) {
+    const std::string whole = expected();
+    std::vector<std::string> parts;
+    for (const char* part : {"3", "1", "2"}) {
+        const std::string name = std::string(part) + ".part";
+        expectDone(to(name, {"--tile", std::string(part) + "/3"}));
+        parts.push_back(folder.path(name));
+    }
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"1.part", "2.part", "3.part"}));
+    const auto merge = [&](const std::vector<std::string>& of) {
+        std::vector<std::string> words{"merge", "-o", folder.path("a.ply")};
+        words.insert(words.end(), of.begin(), of.end());
+        return words;
+    };
+    expectDone(merge(parts));
+    EXPECT_TRUE(bytes("a.ply") == whole);
+    fs::remove(folder.path("a.ply"));
+
+    expectRefusal(runCommand(merge({parts[1]})), 1, {"2 of the 3 parts are missing: 2, 3"});
+    expectRefusal(runCommand(merge({parts[0], parts[1], parts[0]})), 1, {"part 3 is also in"});
+    expectDone({"export", graph, "-o", folder.path("foreign.part"), "--resolution", "131", "--tiles", "2",
+                "--tile", "2/3"});
+    expectRefusal(runCommand(merge({parts[0], parts[1], folder.path("foreign.part")})), 1,
+                  {"foreign.part: error", "another mesh"});
+    expectRefusal(runCommand(merge({graph})), 1, {"not a part"});
+    expectRefusal(runCommand(merge({folder.path("none.part")})), 1, {"none.part: error", "cannot read"});
+    const std::string part = bytes("2.part");
+    for (const std::size_t size :
+         {std::size_t(0), std::size_t(10), std::size_t(100), part.size() / 2, part.size() - 1}) {
+        test::writeText(folder.path("cut.part"), part.substr(0, size));
+        expectRefusal(runCommand(merge({parts[0], parts[1], folder.path("cut.part")})), 1,
+                      {"cut.part: error", "cut short"});
+    }
+    CommandOptions quota;
+    quota.maxFileBytes = 100'000;
+    test::writeText(folder.path("a.ply"), "before");
+    expectRefusal(runCommand(merge(parts), quota), 3, {"a.ply: error"});
+    EXPECT_EQ(bytes("a.ply"), "before");
+
+    expectRefusal(runCommand(to("a.ply", {"--tile", "1/3"})), 2, {"a.ply: error", ".part"});
+    expectRefusal(runCommand(to("a.part", {"--tile", "0/3"})), 2, {"--tile '0/3'", "i/n"});
+    expectRefusal(runCommand(to("a.part", {"--tile", "1/9"})), 2, {"only 8 tiles for 9 parts"});
+    EXPECT_FALSE(fs::exists(folder.path("a.part.tiles")));
+}
+
+TEST_F(TilesCommand, GoOnWhereTheyWereStopped) {
+    const std::string whole = expected();
+    // The tiles fit, the mesh does not.
+    CommandOptions quota;
+    quota.maxFileBytes = static_cast<long>(whole.size() / 2);
+    const auto stop = [&] {
+        const CommandResult result = runCommand(to("a.ply"), quota);
+        EXPECT_EQ(result.status, 3);
+        EXPECT_NE(result.errors.find("goes on from there"), std::string::npos) << result.errors;
+        EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
+    };
+    const auto files = [&] {
+        std::vector<fs::path> tiles;
+        for (const auto& entry : fs::directory_iterator(folder.path("a.ply.tiles")))
+            tiles.push_back(entry.path());
+        std::sort(tiles.begin(), tiles.end());
+        return tiles;
+    };
+    stop();
+    ASSERT_EQ(files().size(), 8u);
+    fs::remove(files()[3]);
+    fs::resize_file(files()[1], 1000);
+    test::writeText(folder.path("a.ply.tiles/.64-000002.tile.1-1.tmp"), "of a killed process");
+    expectDone(to("a.ply"));
+    EXPECT_TRUE(bytes("a.ply") == whole);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+    fs::remove(folder.path("a.ply"));
+
+    // What is there is taken: a tile that was tampered with shows.
+    stop();
+    std::fstream(files()[0], std::ios::in | std::ios::out | std::ios::binary)
+        .seekp(static_cast<std::streamoff>(fs::file_size(files()[0]) - 12))
+        .write("\0\0\0\0\0\0\0\0\0\0\0\0", 12);
+    expectDone(to("a.ply"));
+    EXPECT_EQ(bytes("a.ply").size(), whole.size());
+    EXPECT_FALSE(bytes("a.ply") == whole);
+    fs::remove(folder.path("a.ply"));
+
+    // Unless it is of another mesh.
+    stop();
+    expectDone(to("a.ply", {}, "129"));
+    EXPECT_FALSE(bytes("a.ply") == whole);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+}
+
+TEST_F(TilesCommand, AreKeptWhenInterrupted) {
+    const std::string whole = expected();
+    int interrupted = 0;
+    for (int delay : {100, 300, 500, 700, 900, 1100, 1500, 2000}) {
+        CommandOptions options;
+        options.interruptAfterMs = delay;
+        const CommandResult result = runCommand(to("a.ply"), options);
+        interrupted += result.status == 130 ? 1 : 0;
+        if (result.status == 0) break;
+        EXPECT_EQ(result.status, 130) << result.errors;
+        EXPECT_FALSE(fs::exists(folder.path("a.ply")));
+    }
+    EXPECT_GT(interrupted, 0);
+    expectDone(to("a.ply"));
+    EXPECT_TRUE(bytes("a.ply") == whole);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+}
+
+}  // namespace
+}  // namespace fw
