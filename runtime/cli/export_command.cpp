@@ -37,15 +37,21 @@ int runExport(const ExportOptions& options) {
     int status = kDone;
     std::optional<OpenedGraph> graph = openForMesh(options.mesh, progress, status);
     if (!graph) return status;
-    if (tiled || wantsTiles(graph->request)) return exportTiles(options, std::move(*graph), progress);
+    if (tiled || wantsTiles(options, graph->request))
+        return exportTiles(options, std::move(*graph), progress);
     const bool dual = graph->request.method == MeshMethod::dualContouring;
     Result<MeshedProgram> opened = meshOpened(std::move(*graph), progress, reported);
     if (interrupted) return stopped();
-    if (!opened && !dual && isTooMuchSurface(opened.error())) {
+    if (!opened && !dual && isTooMuchSurface(opened.error()) && checkTiledExport(options)) {
         graph = openForMesh(options.mesh, progress, status);
         return graph ? exportTiles(options, std::move(*graph), progress) : status;
     }
-    if (!opened) return badInput(options.mesh, opened.error());
+    if (!opened) {
+        Error error = opened.error();
+        if (!dual && isTooMuchSurface(error))
+            error.message += "; or let it be meshed in tiles: without --report and --require, not to .obj";
+        return badInput(options.mesh, error);
+    }
     Session& session = opened->session;
     const MesherResult& meshed = opened->mesh;
     progress.start("download", 60);

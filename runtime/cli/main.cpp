@@ -172,7 +172,8 @@ int run(int count, char** arguments) {
         ->add_option("--tiles", exportOptions.tiles,
                      "Mesh in tiles, about this many along the longest side, each by itself: memory is "
                      "bounded by one, and "
-                     "an export that was stopped goes on where it was (default: above 1,024 cells)")
+                     "an export that was stopped goes on where it was (default: above 1,024 cells and where "
+                     "the surface is too much at once)")
         ->check(whole(1, 64));
     exportCommand->add_option(
         "--tile", exportOptions.share,
@@ -362,7 +363,9 @@ int main(int count, char** arguments) {
     } catch (const fw::SystemError& error) {
         std::fprintf(stderr, "fieldwright: %s\n", error.what());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "fieldwright: out of memory: lower --resolution or shrink --region\n");
+        std::fprintf(
+            stderr,
+            "fieldwright: out of memory: export with --tiles, lower --resolution or shrink --region\n");
     }
     return fw::cli::kSystemFailure;
 }

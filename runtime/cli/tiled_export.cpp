@@ -75,6 +75,15 @@ void sayWhatIsKept(const std::string& folder) {
             inQuotes(folder).c_str());
 }
 
+/// Has the pieces' loading shown as progress from 80 %: a format reads each about twice.
+void showLoading(MeshPieces& mesh, const Progress& progress) {
+    mesh.load = [load = mesh.load, &progress, all = 2 * mesh.count, loaded = std::size_t(0)](
+                    std::size_t piece, MeshPieces::Part part) mutable {
+        progress.show(80 + int(20 * std::min(loaded++, all - 1) / all));
+        return load(piece, part);
+    };
+}
+
 /// The exit status where writing the output failed.
 int writingFailed(const Error& error) {
     if (!interrupted) return print(error), kSystemFailure;
@@ -101,8 +110,9 @@ Done checkTiledExport(const ExportOptions& options) {
     return done();
 }
 
-bool wantsTiles(const MeshRequest& request) {
-    return request.resolution > kMostUntiled && request.method != MeshMethod::dualContouring;
+bool wantsTiles(const ExportOptions& options, const MeshRequest& request) {
+    return request.resolution > kMostUntiled && request.method != MeshMethod::dualContouring &&
+           checkTiledExport(options);
 }
 
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress) {
@@ -179,8 +189,9 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
         removeTiles(folder);
         return badInput(options.mesh, nothingToSee(given, opened.region, opened.request.resolution));
     } else {
-        const Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
+        Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
         if (!mesh) return removeTiles(folder), badInput(options.mesh, mesh.error());
+        showLoading(*mesh, progress);
         const Result<ExportedFiles> written = exportPieces(*mesh, options.output, {.cancel = &interrupted});
         if (!written) {
             const int status = writingFailed(written.error());
@@ -201,13 +212,14 @@ int runMerge(const MergeOptions& options) {
     progress.start("read", 0);
     Result<std::vector<TileRecord>> tiles = readParts(options.parts);
     if (!tiles) return print(tiles.error()), kBadInput;
-    const Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
+    Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
     if (!mesh) return print(mesh.error()), kBadInput;
     if (mesh->triangleCount == 0)
         return print({.message = "the parts hold no triangle: the surface does not pass through the region",
                       .file = options.parts[0]}),
                kBadInput;
-    progress.start("write", 20);
+    progress.start("write", 80);
+    showLoading(*mesh, progress);
     const Result<ExportedFiles> written = exportPieces(*mesh, options.output, {.cancel = &interrupted});
     if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
     progress.finish();

@@ -329,6 +329,23 @@ TEST_F(TilesCommand, GoOnWhereTheyWereStopped) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
 }
 
+TEST_F(TilesCommand, AreTakenAboveAThousandCellsWhereTheyCanBe) {
+    const auto stopped = [&](const std::string& name, const char* resolution, long quotaBytes) {
+        CommandOptions quota;
+        quota.maxFileBytes = quotaBytes;
+        const CommandResult result =
+            runCommand({"export", graph, "-o", folder.path(name), "--resolution", resolution, "--region",
+                        "-1", "-0.03", "-0.03", "1", "0.03", "0.03"},
+                       quota);
+        EXPECT_EQ(result.status, 3) << result.errors;
+        return result.errors.find("goes on from there") != std::string::npos;
+    };
+    EXPECT_TRUE(stopped("a.ply", "1200", 4'800'000));  // the tile fits, with 4.1 MB, the mesh does not
+    EXPECT_FALSE(stopped("b.obj", "1200", 4'800'000));
+    EXPECT_FALSE(stopped("c.ply", "1024", 3'500'000));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
+}
+
 TEST_F(TilesCommand, AreKeptWhenInterrupted) {
     const std::string whole = expected();
     int interrupted = 0;
