@@ -12,7 +12,9 @@ namespace fw::cli {
 namespace {
 
 constexpr int kMostUntiled = 1024;  // cells along the longest side, unless the option asks for tiles
-constexpr int kTileCells = 1024;
+/// A tile's side unless the option says otherwise: the fastest here of 256, 512 and 1,024
+/// (docs/benchmarks.md), and too few bricks for what the mesher can number.
+constexpr int kTileCells = 256;
 constexpr char kPartEnding[] = ".part";
 
 struct Share {
@@ -29,17 +31,6 @@ std::optional<Share> readShare(const std::string& text) {
     if (second.ec != std::errc() || second.ptr != end || share.share < 1 || share.share > share.shares)
         return std::nullopt;
     return share;
-}
-
-/// The size of tile whose files lie in the folder from before, the smallest if several do.
-int tileCellsThere(const CellGrid& grid, const Session& session, const std::string& folder) {
-    for (int cells = kLeastTile; cells < kTileCells; cells *= 2) {
-        const TilePlan plan = planTiles(grid, cells);
-        const uint64_t key = tileKey(session, plan);
-        for (std::size_t i = 0; i < plan.tiles.size(); ++i)
-            if (doneTile(folder, plan, key, i)) return cells;
-    }
-    return kTileCells;
 }
 
 /// Meshes tiles first to last (not of it) that are not there yet.
@@ -139,29 +130,19 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
         return print({.message = "cannot make a folder for the tiles: " + failure.message(), .file = folder}),
                kSystemFailure;
 
-    const bool chosen = options.tiles > 0 || share.shares > 1;  // by the user, so that it stays
     const int longest = std::max({grid->cells.x, grid->cells.y, grid->cells.z});
-    int tileCells = options.tiles > 0 ? longest / options.tiles
-                    : chosen          ? kTileCells
-                                      : tileCellsThere(*grid, session, folder);
-    Result<std::vector<TileRecord>> tiles = Error{};
-    uint64_t key = 0;
-    for (bool again = true; again;) {
-        const TilePlan plan = planTiles(*grid, tileCells);
-        if (share.shares > plan.tiles.size()) {
-            sayWhatIsKept(folder);
-            return print({.message = "there are only " + std::to_string(plan.tiles.size()) + " tiles for " +
-                                     std::to_string(share.shares) +
-                                     " parts: ask for fewer parts or more --tiles",
-                          .file = options.output}),
-                   kBadUsage;
-        }
-        key = tileKey(session, plan);
-        tiles = meshTiles(session, opened.request, plan, key,
-                          tilesOfShare(plan.tiles.size(), share.share, share.shares), folder, progress);
-        again = !tiles && isTooMuchSurface(tiles.error()) && !chosen && plan.tileCells > kLeastTile;
-        tileCells = plan.tileCells / 2;
+    const TilePlan plan = planTiles(*grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
+    if (share.shares > plan.tiles.size()) {
+        sayWhatIsKept(folder);
+        return print({.message = "there are only " + std::to_string(plan.tiles.size()) + " tiles for " +
+                                 std::to_string(share.shares) + " parts: ask for fewer parts or more --tiles",
+                      .file = options.output}),
+               kBadUsage;
     }
+    const uint64_t key = tileKey(session, plan);
+    Result<std::vector<TileRecord>> tiles =
+        meshTiles(session, opened.request, plan, key,
+                  tilesOfShare(plan.tiles.size(), share.share, share.shares), folder, progress);
     if (!tiles) {
         progress.finish();
         int status = kInterrupted;

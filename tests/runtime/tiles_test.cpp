@@ -346,6 +346,28 @@ TEST_F(TilesCommand, AreTakenAboveAThousandCellsWhereTheyCanBe) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
 }
 
+TEST_F(TilesCommand, AreTakenWhereTheSurfaceIsTooMuchAtOnce) {
+    const std::string dense = folder.path("dense.field.json"), mesh = folder.path("a.ply");
+    test::writeText(dense, R"({"fieldwright": 1, "nodes": [
+        {"id": "weave", "type": "gyroid", "inputs": {"period": 0.03, "thickness": 0.008}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "weave"}}}]})");
+    const std::vector<std::string> box = {"--resolution", "1024", "--region", "-1",  "-1",
+                                          "-0.35",        "1",    "1",        "0.35"};
+    const auto to = [&](const std::string& name) {
+        std::vector<std::string> words{"export", dense, "-o", folder.path(name)};
+        words.insert(words.end(), box.begin(), box.end());
+        return runCommand(words);
+    };
+    const CommandResult obj = to("a.obj");
+    if (obj.status == 0) GTEST_SKIP() << "this device can number more bricks";
+    EXPECT_EQ(obj.status, 1);
+    EXPECT_NE(obj.errors.find("bricks"), std::string::npos) << obj.errors;
+    EXPECT_NE(obj.errors.find("in tiles"), std::string::npos) << obj.errors;
+    EXPECT_EQ(to("a.ply").status, 0);
+    EXPECT_GT(fs::file_size(mesh), 50'000'000u);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply", "dense.field.json"}));
+}
+
 TEST_F(TilesCommand, AreKeptWhenInterrupted) {
     const std::string whole = expected();
     int interrupted = 0;
