@@ -52,8 +52,8 @@ struct ExportOptions {
     std::string output, report;
     std::vector<Requirement> required;
     bool manifold = false;  ///< as fw::ExportOptions has it
-    int tiles = 0;      ///< along the longest side; 0: as many as it takes
-    std::string share;  ///< "i/n": only this part of the tiles; empty: all
+    int tiles = 0;          ///< along the longest side; 0: as many as it takes
+    std::string share;      ///< "i/n": only this part of the tiles; empty: all
 };
 int runExport(const ExportOptions& options);
 

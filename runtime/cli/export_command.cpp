@@ -27,7 +27,8 @@ int runExport(const ExportOptions& options) {
     const bool tiled = options.tiles > 0 || !options.share.empty();
     const bool reported = !options.report.empty() || !options.required.empty();
     fw::ExportOptions how{.manifold = options.manifold, .cancel = &interrupted};
-    if (const Done fine = tiled ? checkTiledExport(options) : checkExportPath(options.output, how, reported); !fine)
+    if (const Done fine = tiled ? checkTiledExport(options) : checkExportPath(options.output, how, reported);
+        !fine)
         return print(fine.error()), kBadUsage;
     std::vector<std::string> outputs = exportedPaths(options.output);
     if (!options.report.empty()) outputs.push_back(options.report);
@@ -37,19 +38,20 @@ int runExport(const ExportOptions& options) {
     int status = kDone;
     std::optional<OpenedGraph> graph = openForMesh(options.mesh, progress, status);
     if (!graph) return status;
-    if (tiled || wantsTiles(options, graph->request))
-        return exportTiles(options, std::move(*graph), progress);
-    const bool dual = graph->request.method == MeshMethod::dualContouring;
+    if (tiled || wantsTiles(options, *graph)) return exportTiles(options, std::move(*graph), progress);
+    const bool canTile = canBeTiled(options, *graph);
     Result<MeshedProgram> opened = meshOpened(std::move(*graph), progress, reported);
     if (interrupted) return stopped();
-    if (!opened && !dual && isTooMuchSurface(opened.error()) && checkTiledExport(options)) {
+    if (!opened && canTile && isTooMuchSurface(opened.error())) {
         graph = openForMesh(options.mesh, progress, status);
         return graph ? exportTiles(options, std::move(*graph), progress) : status;
     }
     if (!opened) {
         Error error = opened.error();
-        if (!dual && isTooMuchSurface(error))
-            error.message += "; or let it be meshed in tiles: without --report and --require, not to .obj";
+        if (isTooMuchSurface(error))
+            error.message +=
+                "; or let it be meshed in tiles: by marching cubes, without stages, --report, --require and "
+                "--manifold, to .ply, .stl, .glb or .gltf";
         return badInput(options.mesh, error);
     }
     Session& session = opened->session;

@@ -93,6 +93,9 @@ Done checkTiledExport(const ExportOptions& options) {
             "--report and --require hold the whole mesh in memory, which tiles are there to avoid: leave "
             "them "
             "out, or mesh at 1,024 cells or fewer without --tiles and --tile");
+    if (options.manifold)
+        return refuse(
+            "--manifold holds the whole mesh in memory, which tiles are there to avoid: leave it out");
     if (options.share.empty()) return checkPiecesPath(options.output);
     if (!readShare(options.share))
         return refuse("--tile " + inQuotes(options.share) + ": write part i of n as i/n, from 1/n to n/n");
@@ -101,9 +104,13 @@ Done checkTiledExport(const ExportOptions& options) {
     return done();
 }
 
-bool wantsTiles(const ExportOptions& options, const MeshRequest& request) {
-    return request.resolution > kMostUntiled && request.method != MeshMethod::dualContouring &&
+bool canBeTiled(const ExportOptions& options, const OpenedGraph& opened) {
+    return opened.request.method != MeshMethod::dualContouring && opened.program.stages.empty() &&
            checkTiledExport(options);
+}
+
+bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened) {
+    return opened.request.resolution > kMostUntiled && canBeTiled(options, opened);
 }
 
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress) {
@@ -111,6 +118,10 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     if (opened.request.method == MeshMethod::dualContouring)
         return badInput(options.mesh, {.message = "dual contouring is not meshed in tiles: take --method "
                                                   "marching-cubes, or leave out --tiles and --tile"});
+    if (!opened.program.stages.empty())
+        return badInput(options.mesh,
+                        {.message = "a mesh in tiles cannot be smoothed, subdivided or decimated: leave "
+                                    "out --tiles and --tile, or connect the output to polygonize"});
     const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);
     if (!grid) return badInput(options.mesh, grid.error());
     const bool given = opened.request.region || opened.program.region;

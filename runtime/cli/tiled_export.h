@@ -9,8 +9,11 @@ namespace fw::cli {
 /// Refuses options that do not go with tiles.
 Done checkTiledExport(const ExportOptions& options);
 
-/// Whether the request is for a mesh so large that tiles are the way, where the options allow them.
-bool wantsTiles(const ExportOptions& options, const MeshRequest& request);
+/// Whether options, method and stages allow tiles.
+bool canBeTiled(const ExportOptions& options, const OpenedGraph& opened);
+
+/// Whether they do, and so many cells are wanted that tiles are the way.
+bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened);
 
 /// The export from there on; the exit status.
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress);

@@ -292,8 +292,9 @@ Done checkPiecesPath(const std::string& path) {
     if (Done known = checkExportPath(path); !known) return known;
     const std::optional<Format> format = formatOf(path);
     if (format != Format::obj && format != Format::threeMf && format != Format::vdb) return done();
-    return Error{.message = lowerExtension(path) + " cannot be written from tiles: choose .ply, .stl, .glb or .gltf",
-                 .file = path};
+    return Error{
+        .message = lowerExtension(path) + " cannot be written from tiles: choose .ply, .stl, .glb or .gltf",
+        .file = path};
 }
 
 Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& path,
@@ -323,7 +324,10 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         }
         return done();
     };
-    const GltfLayout layout{.vertices = mesh.vertexCount, .indices = 3 * mesh.triangleCount, .normals = true, .colors = mesh.colors};
+    const GltfLayout layout{.vertices = mesh.vertexCount,
+                            .indices = 3 * mesh.triangleCount,
+                            .normals = true,
+                            .colors = mesh.colors};
     const Bounds bounds{mesh.least, mesh.greatest};
     const auto binaryPart = [&](OutputFile& to) -> Done {
         using enum MeshPieces::Part;
@@ -332,7 +336,8 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         if (written && mesh.colors)
             written = each(vertices, to, [&](const Mesh& m) { writeGltfColors(m, to); });
         if (!written) return written;
-        return each(triangles, to, [&](const Mesh& m) { writeGltfIndices(m.indices, layout.shortIndices(), to); });
+        return each(triangles, to,
+                    [&](const Mesh& m) { writeGltfIndices(m.indices, layout.shortIndices(), to); });
     };
     if (format == Format::gltf) {
         const std::string besidePath = exportedPaths(path).back();
