@@ -91,8 +91,8 @@ Done checkTiledExport(const ExportOptions& options) {
     if (!options.report.empty() || !options.required.empty())
         return refuse(
             "--report and --require hold the whole mesh in memory, which tiles are there to avoid: leave "
-            "them "
-            "out, or mesh at 1,024 cells or fewer without --tiles and --tile");
+            "them out, "
+            "or --tiles and --tile");
     if (options.manifold)
         return refuse(
             "--manifold holds the whole mesh in memory, which tiles are there to avoid: leave it out");

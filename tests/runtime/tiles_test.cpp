@@ -168,6 +168,26 @@ TEST(Tiles, BlocksAreCulledInTilesToo) {
     EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {Box{{-2, -0.4, -0.3}, {2, 0.4, 0.4}}, 1100}, 576));
 }
 
+TEST(Tiles, ThatDoNotMeetAreRefused) {
+    const Result<Graph> graph = readGraph(samplePath("gyroid_sphere"), nullptr);
+    Session session = sessionOf(programOf(*graph));
+    const TempDir folder;
+    const MeshRequest request{Box{{-1, -1, -1}, {1, 1, 1}}, 128};
+    const TilePlan plan = planTiles(*cellGrid(*request.region, request.resolution), 64);
+    std::vector<TileRecord> tiles;
+    for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+        const Result<TileRecord> tile =
+            meshTile(session, request, plan, 1, i, folder.folder.string(), nullptr);
+        ASSERT_TRUE(tile);
+        tiles.push_back(*tile);
+    }
+    EXPECT_TRUE(joinTiles(tiles));
+    tiles.erase(tiles.begin() + 5);
+    const Result<MeshPieces> hole = joinTiles(tiles);
+    ASSERT_FALSE(hole);
+    EXPECT_NE(hole.error().message.find("do not fit together"), std::string::npos);
+}
+
 TEST(Tiles, PlansCoverTheGrid) {
     for (const glm::ivec3 cells :
          {glm::ivec3(1), {63, 64, 65}, {95, 96, 97}, {127, 128, 129}, {2048, 7, 1300}}) {
@@ -327,6 +347,18 @@ TEST_F(TilesCommand, GoOnWhereTheyWereStopped) {
     expectDone(to("a.ply", {}, "129"));
     EXPECT_FALSE(bytes("a.ply") == whole);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+}
+
+TEST_F(TilesCommand, AFullQuotaLeavesNoPiecesOfTiles) {
+    test::writeText(folder.path("a.ply"), "before");
+    CommandOptions quota;
+    quota.maxFileBytes = 20'000;
+    expectRefusal(runCommand(to("a.ply"), quota), 3, {"a.ply.tiles/64-000000.tile: error", "cannot write"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+    EXPECT_EQ(bytes("a.ply"), "before");
+    test::writeText(folder.path("b.ply.tiles"), "a file in the way");
+    expectRefusal(runCommand(to("b.ply")), 3, {"b.ply.tiles: error", "folder for the tiles"});
+    expectRefusal(runCommand(to("none/b.ply")), 3, {"none/b.ply.tiles: error", "folder for the tiles"});
 }
 
 TEST_F(TilesCommand, AreTakenAboveAThousandCellsWhereTheyCanBe) {
