@@ -197,9 +197,10 @@ TEST_F(Command, HelpOfEveryCommandSaysWhatThereIs) {
             EXPECT_NE(result.output.find(part), std::string::npos) << part << "\n" << result.output;
     };
     help({}, {"export", "check", "eval", "compile", "nodes", "info", "bench", "Exit status", "130", "Try:"});
-    help({"export"}, {"Usage: fieldwright export", "-o,--output", ".glb .gltf .obj .stl .ply .3mf .vdb",
-                      "--manifold", "--resolution", "4096", "--region", "x0 y0 z0 x1 y1 z1", "metres",
-                      "--set", "name=value", "--time", "--report", "--device", "--tiles", "--tile", ".part", "Exit status"});
+    help({"export"},
+         {"Usage: fieldwright export", "-o,--output", ".glb .gltf .obj .stl .ply .3mf .vdb", "--manifold",
+          "--resolution", "4096", "--region", "x0 y0 z0 x1 y1 z1", "metres", "--set", "name=value", "--time",
+          "--report", "--device", "--tiles", "--tile", ".part", "Exit status"});
     help({"merge"}, {"PART...", "-o,--output", ".glb .gltf .stl .ply"});
     help({"check"}, {"GRAPH...", "file:line:column"});
     help({"eval"}, {"--at", "--gradient", "--interval", "negative inside"});
