@@ -91,7 +91,7 @@ TEST(Prune, ThreeHundredScatteredBoxes) {
         "hash(vec3(i, 3, 0), 1)) * 2 - 1; d = min(d, box(p - c, vec3(0.05, 0.04, 0.06), 0.01).distance); } "
         "return d;");
     ASSERT_EQ(program.families.all.size(), 1u);
-    for (int cells : {20, 64, 150})  // one block; two; many, not a multiple of a brick
+    for (int cells : {20, 100})  // one block; several, not a multiple of a brick
         for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring}) {
             SCOPED_TRACE(std::to_string(cells) + " cells, method " + std::to_string(int(method)));
             expectPruningChangesNothing(program, kBox, cells, method);
@@ -141,23 +141,23 @@ std::string randomCode(uint32_t seed) {
 }
 
 TEST(Prune, RandomGraphsWithFamilies) {
-    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 500 : 14;
+    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 500 : 6;
     int pruned = 0;
     for (uint32_t seed = 1; seed <= most; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Program program = programOf(randomCode(seed));
         if (program.families.empty()) continue;
         expectPruningChangesNothing(program, kBox, 40 + int(seed % 40), MeshMethod(seed % 2));
-        if (seed % 7 == 0) expectStraightCodeAgrees(program, kBox, 50);
+        if (seed % 6 == 0) expectStraightCodeAgrees(program, kBox, 50);
         ++pruned;
         if (::testing::Test::HasFailure()) break;
     }
-    EXPECT_GT(pruned, int(most) / 3);
+    EXPECT_GE(pruned, int(most) / 3);
 }
 
 /// Value, rows, interval and gradient of the loops over all members are those of the operations one by one.
 TEST(Prune, LoopsGiveTheValuesOfTheReference) {
-    for (uint32_t seed = 1; seed <= 6; ++seed) {
+    for (uint32_t seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Program program = programOf(randomCode(seed));
         std::vector<std::array<float, 3>> points;
@@ -220,7 +220,7 @@ TEST(Scatter, ChanceLeavesCopiesOutAndSeedsDiffer) {
     const auto parts = [&](const std::string& settings) {
         const Meshed many = meshOf(
             programOfText(scattered(ball, R"("period": [1.006, 1.006, 1.006], "jitter": 0.2, )" + settings)),
-            kTenCells, 120, MeshMethod::marchingCubes, true);
+            kTenCells, 80, MeshMethod::marchingCubes, true);
         return std::pair(reportOnMesh(many.mesh.positions, many.mesh.indices).shells, many.mesh.positions);
     };
     const auto [all, positions] = parts(R"("chance": 1)");
