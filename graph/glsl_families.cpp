@@ -177,9 +177,9 @@ class FamilyEmitter : GlslStatements {
 
     // ---- Interval
 
-    void intervalStatements(const std::vector<bool>& wanted) {
+    void intervalStatements() {
         for (IrId id = 0; id < ir.size(); ++id) {
-            if (!wanted[id] || isInline(ir[id])) continue;
+            if (!needed[id] || isInline(ir[id])) continue;
             const FamilyGroup* group = groupAt(id);
             if (!group) {
                 intervalStatement(id);
@@ -200,7 +200,7 @@ class FamilyEmitter : GlslStatements {
 
     void intervalFunction() {
         text += "vec2 fieldInterval(vec3 lo, vec3 hi) {\n";
-        intervalStatements(needed);
+        intervalStatements();
         text += "    vec3 reach = max(abs(lo), abs(hi));\n    return iMargin(" + interval(root) +
                 ", reach.x + reach.y + reach.z);\n}\n";
     }
@@ -212,7 +212,7 @@ class FamilyEmitter : GlslStatements {
         text +=
             "void fieldPrune(vec3 lo, vec3 hi, uint place) {\n"
             "    vec3 far = max(abs(lo), abs(hi));\n    float reach = far.x + far.y + far.z;\n";
-        intervalStatements(needed);
+        intervalStatements();
         text += "    bool open = " + list(0) + ".y != 0u && fieldMayHold(iMargin(" + interval(root) +
                 ", reach));\n";
         for (uint32_t f = 0; f < program.families.all.size(); ++f)
