@@ -116,6 +116,11 @@ uint32_t longestList(const Families& families) {
     return most;
 }
 
+/// What the heads of all places' lists take.
+uint64_t headBytes(uint64_t blocks, uint64_t bricks, const Families& families) {
+    return (1 + MESHER_PLACES * blocks + bricks) * families.all.size() * sizeof(gpu::uvec2);
+}
+
 /// Sizes the lists of the families' members, and writes the tables and the whole lists of place 0.
 void reserveLists(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount,
                   const Families& families) {
@@ -133,7 +138,7 @@ void reserveLists(const Device& device, MesherBuffers& buffers, glm::uvec3 block
     }
     const uint64_t range = device.properties.limits.maxStorageBufferRange;
     reserve(device, buffers.fieldLists, std::min(entries * sizeof all[0], range));
-    reserve(device, buffers.fieldHeads, (1 + MESHER_PLACES * blocks + bricks) * count * sizeof heads[0]);
+    reserve(device, buffers.fieldHeads, std::min(headBytes(blocks, bricks, families), range));
     std::vector<float> tables;
     for (const Family& family : families.all)
         tables.insert(tables.end(), family.table.begin(), family.table.end());
@@ -442,7 +447,11 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     const bool wantColors = config.colors && !config.host;
     if (wantColors) build(device, pipelines, {colors});
     const bool families = config.families && !config.families->empty() && !config.host;
-    if (families && config.pruned) {
+    // On the longest grids the heads cannot be bound: every brick then evaluates all members.
+    const uint64_t blockTotal = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
+    if (families && config.pruned &&
+        headBytes(blockTotal, most.bricks, *config.families) <=
+            device.properties.limits.maxStorageBufferRange) {
         build(device, pipelines, {prune64, prune32, prune16, prune8});
         push.listStart = longestList(*config.families);
     }
