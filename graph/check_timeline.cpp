@@ -1,6 +1,7 @@
 // The part of check() about the timeline and the scene.
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "graph/check_parts.h"
 #include "graph/check_value.h"
@@ -158,7 +159,7 @@ void checkTimeline(const Graph& graph, const Scope& top, Findings& findings) {
                               timeline.error().message);
     const Result<Scene> scene = readScene(graph.scene, graph.scenePlaces);
     if (!scene) findings.error({{scene.error().line, scene.error().column}, {}, {}}, scene.error().message);
-    if (graph.timeline.is_null()) return;
+    if (graph.timeline->is_null()) return;
     const Place start{
         graph.timelinePlaces.list.empty() ? TextPosition{} : graph.timelinePlaces.list[0], {}, {}};
     if (!(timeline->length > 0.0 && timeline->length <= kMostTimelineLength))

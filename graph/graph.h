@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,11 +14,9 @@
 #include <variant>
 #include <vector>
 
-namespace fw {
+#include "graph/kept_json.h"
 
-/// JSON that keeps the order of keys, so that a saved file differs from the loaded one only where it was
-/// edited.
-using Json = nlohmann::ordered_json;
+namespace fw {
 
 inline constexpr int kFormatVersion = 1;
 inline constexpr std::size_t kMaxFileBytes = 16u << 20;
@@ -55,8 +52,8 @@ struct InputValue {
     /// number, boolean, string, numbers (vectors; points as x,y pairs), or link
     std::variant<double, bool, std::string, std::vector<double>, Link> value;
     TextPosition at = {};
-    bool pairs = false;  ///< numbers written as a list of pairs: [[x, y], …]
-    Json extra = {};     ///< of a link
+    bool pairs = false;   ///< numbers written as a list of pairs: [[x, y], …]
+    KeptJson extra = {};  ///< of a link
     bool operator==(const InputValue&) const = default;
 };
 
@@ -68,7 +65,7 @@ struct Node {
     std::string code;   ///< of an expression node
     std::string group;  ///< of a group node: the id of the group it instances
     std::vector<std::pair<std::string, InputValue>> inputs;
-    Json extra;
+    KeptJson extra;
     TextPosition place, codePlace;
     bool operator==(const Node&) const = default;
 
@@ -82,7 +79,7 @@ struct Node {
 struct GroupInput {
     std::string name, type;           ///< type as in files: "float", "vec3", "surface", …
     std::optional<InputValue> value;  ///< default of an instance that gives none
-    Json extra;
+    KeptJson extra;
     TextPosition place;
     bool operator==(const GroupInput&) const = default;
 };
@@ -90,7 +87,7 @@ struct GroupInput {
 /// An output of a group, seen inside as an input of its `group_output` node.
 struct GroupOutput {
     std::string name, type;
-    Json extra;
+    KeptJson extra;
     TextPosition place;
     bool operator==(const GroupOutput&) const = default;
 };
@@ -102,7 +99,7 @@ struct Group {
     std::vector<GroupInput> inputs;
     std::vector<GroupOutput> outputs;
     std::vector<Node> nodes;
-    Json extra;
+    KeptJson extra;
     TextPosition place;
     bool operator==(const Group&) const = default;
 };
@@ -112,7 +109,7 @@ struct ExposedParameter {
     std::string name;
     std::string node, input;
     std::optional<double> min, max;
-    Json extra;
+    KeptJson extra;
     TextPosition place;
     bool operator==(const ExposedParameter&) const = default;
 };
@@ -122,9 +119,9 @@ struct Graph {
     std::vector<Node> nodes;
     std::vector<Group> groups;
     std::vector<ExposedParameter> parameters;
-    Json scene, timeline, frames;  ///< kept as written; null if absent
+    KeptJson scene, timeline, frames;  ///< kept as written; null if absent
     TextPlaces scenePlaces, timelinePlaces;
-    Json extra;        ///< unknown top-level keys
+    KeptJson extra;    ///< unknown top-level keys
     std::string path;  ///< file it was read from; empty if none
     bool operator==(const Graph&) const = default;
 

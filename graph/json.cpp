@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "graph/json_tokens.h"
 #include "graph/node_type.h"
@@ -122,14 +123,14 @@ class Reader {
         return n;
     }
 
-    bool unknown(uint32_t key, Json& extra, const std::vector<std::string>& known) {
+    bool unknown(uint32_t key, KeptJson& extra, const std::vector<std::string>& known) {
         if (++unknownKeys <= kMaxWarnings && warnings) {
             const std::string near = nearestName(list[key].text.substr(0, 64), known);
             warn(key, "unknown key " + inQuotes(list[key].text) + " is kept but has no effect" +
                           (near.empty() ? "" : "; did you mean '" + near + "'?"));
         }
-        if (extra.is_null()) extra = Json::object();
-        extra.get_ref<Json::object_t&>().emplace_back(std::string(list[key].text), toJson(tokens, key + 1));
+        if (extra->is_null()) extra = Json::object();
+        extra->get_ref<Json::object_t&>().emplace_back(std::string(list[key].text), toJson(tokens, key + 1));
         return true;
     }
 
@@ -151,7 +152,7 @@ class Reader {
         return true;
     }
 
-    bool keep(uint32_t value, std::string_view key, Kind kind, Json& to, TextPlaces* places = nullptr) {
+    bool keep(uint32_t value, std::string_view key, Kind kind, KeptJson& to, TextPlaces* places = nullptr) {
         if (list[value].kind != kind) return failKind(value, key, kindName(kind));
         to = toJson(tokens, value);
         for (uint32_t i = value; places && i < list[value].next; ++i)

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -345,10 +346,10 @@ std::string writeGraph(const Graph& graph) {
     layout.section("nodes", jsonOf(graph.nodes));
     if (!graph.groups.empty()) layout.section("groups", jsonOf(graph.groups));
     if (!graph.parameters.empty()) layout.section("parameters", jsonOf(graph.parameters));
-    if (!graph.frames.is_null()) layout.section("frames", graph.frames);
-    if (!graph.scene.is_null()) layout.section("scene", graph.scene);
-    if (!graph.timeline.is_null()) layout.section("timeline", graph.timeline);
-    for (const auto& [key, value] : graph.extra.items()) layout.section(key, value);
+    if (!graph.frames->is_null()) layout.section("frames", graph.frames);
+    if (!graph.scene->is_null()) layout.section("scene", graph.scene);
+    if (!graph.timeline->is_null()) layout.section("timeline", graph.timeline);
+    for (const auto& [key, value] : graph.extra->items()) layout.section(key, value);
     return layout.out + "\n}\n";
 }
 

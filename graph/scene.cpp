@@ -1,6 +1,7 @@
 #include "graph/scene.h"
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "graph/placed_json.h"
 

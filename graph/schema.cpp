@@ -1,6 +1,7 @@
 #include "graph/schema.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "graph/graph.h"

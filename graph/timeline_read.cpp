@@ -1,6 +1,7 @@
 // The reading half of timeline.h.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "graph/node_type.h"
 #include "graph/placed_json.h"
@@ -213,7 +214,7 @@ const std::vector<std::string>& loopNames() {
 }
 
 Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings) {
-    if (graph.timeline.is_null()) return Timeline{};
+    if (graph.timeline->is_null()) return Timeline{};
     Reader reader(graph, warnings);
     if (!reader.read()) return std::move(reader.error);
     return std::move(reader.timeline);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
@@ -33,7 +34,7 @@ std::optional<Error> firstError(const Graph& graph, std::vector<Error>* warnings
 }
 
 bool hasLamps(const Graph& graph) {
-    return graph.scene.is_object() && graph.scene.contains("lights") && !graph.scene["lights"].empty();
+    return graph.scene->is_object() && graph.scene->contains("lights") && !(*graph.scene)["lights"].empty();
 }
 
 /// Times on the timeline at which the solid's bounds are looked for.

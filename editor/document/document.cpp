@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -33,12 +34,12 @@ struct GroupPart {
 struct Rest {
     int version = kFormatVersion;
     std::vector<ExposedParameter> parameters;
-    Json extra;
+    KeptJson extra;
     bool operator==(const Rest&) const = default;
 };
 
-struct KeptJson {
-    Json json;
+struct Section {
+    KeptJson json;
     TextPlaces places;
 };
 
@@ -48,7 +49,7 @@ struct Snapshot {
     Blocks nodes;
     std::vector<GroupPart> groups;
     std::shared_ptr<const Rest> rest;
-    std::shared_ptr<const KeptJson> scene, timeline, frames;
+    std::shared_ptr<const Section> scene, timeline, frames;
 };
 
 namespace {
@@ -104,7 +105,7 @@ bool same(const Group& a, const Group& b) {
 }
 
 bool same(const Rest& a, const Rest& b) { return a == b && same(a.extra, b.extra); }
-bool same(const KeptJson& a, const KeptJson& b) { return same(a.json, b.json); }
+bool same(const Section& a, const Section& b) { return same(a.json, b.json); }
 
 /// `value` as the former snapshot holds it, if it does.
 template <class T>
@@ -166,9 +167,9 @@ std::shared_ptr<const Snapshot> snapshotOf(const Graph& graph, const Snapshot& f
         made->groups.push_back(partOf(group, found == former.groups.end() ? GroupPart{} : *found));
     }
     made->rest = shared(former.rest, Rest{graph.version, graph.parameters, graph.extra});
-    made->scene = shared(former.scene, KeptJson{graph.scene, graph.scenePlaces});
-    made->timeline = shared(former.timeline, KeptJson{graph.timeline, graph.timelinePlaces});
-    made->frames = shared(former.frames, KeptJson{graph.frames, {}});
+    made->scene = shared(former.scene, Section{graph.scene, graph.scenePlaces});
+    made->timeline = shared(former.timeline, Section{graph.timeline, graph.timelinePlaces});
+    made->frames = shared(former.frames, Section{graph.frames, {}});
     return made;
 }
 

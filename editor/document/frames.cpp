@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/layout.h"
 #include "editor/document/wiring.h"
@@ -41,7 +42,7 @@ std::optional<Frame> frameOf(const Json& json) {
     for (const auto& [key, value] : json.items()) {
         const bool known = key == "scope" || key == "at" || key == "size" || key == "text" ||
                            (key == "color" && frame.color);
-        if (!known) frame.extra[key] = value;
+        if (!known) (*frame.extra)[key] = value;
     }
     return frame;
 }
@@ -53,7 +54,7 @@ Json jsonOf(const Frame& frame) {
     json["size"] = frame.size;
     if (!frame.text.empty()) json["text"] = frame.text;
     if (frame.color) json["color"] = *frame.color;
-    for (const auto& [key, value] : frame.extra.items()) json[key] = value;
+    for (const auto& [key, value] : frame.extra->items()) json[key] = value;
     return json;
 }
 
@@ -61,15 +62,15 @@ Json jsonOf(const Frame& frame) {
 
 std::vector<Frame> framesOf(const Graph& graph) {
     std::vector<Frame> frames;
-    if (graph.frames.is_array())
-        for (const Json& json : graph.frames)
+    if (graph.frames->is_array())
+        for (const Json& json : *graph.frames)
             if (auto frame = frameOf(json)) frames.push_back(std::move(*frame));
     return frames;
 }
 
 Graph setFrame(const Graph& graph, std::size_t index, const std::optional<Frame>& frame) {
     Graph result = graph;
-    Json& list = result.frames;
+    Json& list = *result.frames;
     if (!list.is_array()) list = Json::array();
     std::size_t at = 0;
     for (std::size_t before = 0; at < list.size(); ++at)

@@ -12,7 +12,7 @@ struct Frame {
     Position at{}, size{};
     std::string text;
     std::optional<std::array<double, 3>> color;  ///< sRGB, 0 to 1
-    Json extra;                                  ///< unknown keys
+    KeptJson extra;                              ///< unknown keys
 };
 
 /// The document's frames; what is no frame is left out (and kept by the functions below).

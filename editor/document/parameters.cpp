@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/references.h"
 #include "graph/compile.h"
@@ -79,9 +80,9 @@ Graph removeParameter(const Graph& graph, std::size_t index) {
     const ExposedParameter parameter = graph.parameters[index];
     result.parameters.erase(result.parameters.begin() + std::ptrdiff_t(index));
     // Another of its name takes its tracks over.
-    if (isTaken(result, parameter.name) || !result.timeline.is_object()) return result;
-    const auto tracks = result.timeline.find("tracks");
-    if (tracks == result.timeline.end() || !tracks->is_array()) return result;
+    if (isTaken(result, parameter.name) || !result.timeline->is_object()) return result;
+    const auto tracks = result.timeline->find("tracks");
+    if (tracks == result.timeline->end() || !tracks->is_array()) return result;
     for (Json& track : *tracks) {
         if (!track.is_object() || !track.contains("parameter") || !track["parameter"].is_string()) continue;
         const std::string name = track["parameter"];

@@ -1,6 +1,7 @@
 #include "editor/document/references.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 
 #include "editor/document/wiring.h"
@@ -13,9 +14,9 @@ namespace {
 
 /// The timeline's tracks, if it has a list of them.
 Json* tracksOf(Graph& graph) {
-    if (!graph.timeline.is_object()) return nullptr;
-    const auto tracks = graph.timeline.find("tracks");
-    return tracks != graph.timeline.end() && tracks->is_array() ? &*tracks : nullptr;
+    if (!graph.timeline->is_object()) return nullptr;
+    const auto tracks = graph.timeline->find("tracks");
+    return tracks != graph.timeline->end() && tracks->is_array() ? &*tracks : nullptr;
 }
 
 /// The text under this key of a track, const or not; nullptr if there is none.

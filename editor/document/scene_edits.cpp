@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 namespace fw::editor {
 
@@ -62,8 +63,8 @@ constexpr std::string_view kLights = "lights.";
 
 /// Leads tracks of lamps behind the one removed to where these stand now; drops those of that one.
 void followLamps(Graph& graph, std::size_t removed) {
-    if (!graph.timeline.is_object() || !graph.timeline.contains("tracks")) return;
-    Json& tracks = graph.timeline["tracks"];
+    if (!graph.timeline->is_object() || !graph.timeline->contains("tracks")) return;
+    Json& tracks = (*graph.timeline)["tracks"];
     if (!tracks.is_array()) return;
     for (std::size_t i = tracks.size(); i-- > 0;) {
         Json& track = tracks[i];
@@ -85,7 +86,7 @@ void followLamps(Graph& graph, std::size_t removed) {
 
 Graph setSceneValue(const Graph& graph, std::string_view path, Json value) {
     Graph result = withScene(graph);
-    Json* at = reach(result.scene, path);
+    Json* at = reach(*result.scene, path);
     if (!at) return graph;
     *at = std::move(value);
     return result;
@@ -93,13 +94,13 @@ Graph setSceneValue(const Graph& graph, std::string_view path, Json value) {
 
 Graph clearSceneValue(const Graph& graph, std::string_view path) {
     Graph result = withScene(graph);
-    forget(result.scene, path);
+    forget(*result.scene, path);
     return result;
 }
 
 Graph switchScene(const Graph& graph, std::string_view part, bool on) {
-    const bool isOn = graph.scene.is_object() && graph.scene.contains(std::string(part)) &&
-                      graph.scene[std::string(part)].is_object();
+    const bool isOn = graph.scene->is_object() && graph.scene->contains(std::string(part)) &&
+                      (*graph.scene)[std::string(part)].is_object();
     if (on && isOn) return graph;
     return setSceneValue(graph, part, on ? Json::object() : Json(false));
 }
@@ -118,8 +119,8 @@ const std::vector<std::string>& lampTypes() {
 
 Graph addLamp(const Graph& graph, const Lamp& lamp) {
     Graph result = withScene(graph);
-    if (!result.scene.is_object()) result.scene = Json::object();
-    Json& lights = result.scene["lights"];
+    if (!result.scene->is_object()) result.scene = Json::object();
+    Json& lights = (*result.scene)["lights"];
     if (!lights.is_array()) lights = Json::array();
     if (lights.size() >= kMostLights) return graph;
     Json json = {{"type", lampTypes()[std::size_t(lamp.type)]}, {"position", jsonOf(lamp.position)}};
@@ -131,13 +132,13 @@ Graph addLamp(const Graph& graph, const Lamp& lamp) {
 }
 
 Graph removeLamp(const Graph& graph, std::size_t index) {
-    if (!graph.scene.is_object() || !graph.scene.contains("lights")) return graph;
-    const Json& before = graph.scene["lights"];
+    if (!graph.scene->is_object() || !graph.scene->contains("lights")) return graph;
+    const Json& before = (*graph.scene)["lights"];
     if (!before.is_array() || index >= before.size()) return graph;
     Graph result = withScene(graph);
-    Json& lights = result.scene["lights"];
+    Json& lights = (*result.scene)["lights"];
     lights.erase(lights.begin() + std::ptrdiff_t(index));
-    if (lights.empty()) result.scene.erase("lights");
+    if (lights.empty()) result.scene->erase("lights");
     followLamps(result, index);
     return result;
 }

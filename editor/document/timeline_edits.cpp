@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/references.h"
 #include "editor/document/wiring.h"
@@ -28,8 +29,8 @@ Graph edited(const Graph& graph, Change change) {
     const Result<Timeline> timeline = readTimeline(graph);
     if (!timeline) return graph;
     Graph result = graph;
-    if (result.timeline.is_null()) result.timeline = Json::object();
-    change(result.timeline, *timeline);
+    if (result.timeline->is_null()) result.timeline = Json::object();
+    change(*result.timeline, *timeline);
     result.timelinePlaces.list.clear();  // which are counted along the values
     return result;
 }

@@ -1,6 +1,7 @@
 #include "editor/files/arrangement.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "editor/editor.h"
 #include "editor/panels/side.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "runtime/export/output_file.h"
 #include "runtime/user_folder.h"
@@ -81,9 +82,9 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     all["recent"] = preferences.recent;
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
-    if (!preferences.panels.is_null()) all["panels"] = preferences.panels;
-    if (preferences.extra.is_object())
-        for (const auto& [key, value] : preferences.extra.items()) all[key] = value;
+    if (!preferences.panels->is_null()) all["panels"] = preferences.panels;
+    if (preferences.extra->is_object())
+        for (const auto& [key, value] : preferences.extra->items()) all[key] = value;
     std::error_code error;  // shows as the Error of the file
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
     Result<OutputFile> file = OutputFile::open(path, nullptr);

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -41,8 +42,8 @@ std::string absolute(const std::string& path) {
 
 Done writeCopy(Graph graph, const std::string& file) {
     // Not saveGraph: what it refuses is worth keeping all the more, and nobody waits for the disk.
-    if (!graph.extra.is_object()) graph.extra = Json::object();
-    graph.extra[kKey] = Json{{"of", absolute(graph.path)}};
+    if (!graph.extra->is_object()) graph.extra = Json::object();
+    (*graph.extra)[kKey] = Json{{"of", absolute(graph.path)}};
     Result<OutputFile> out = OutputFile::open(file, nullptr);
     if (!out) return out.error();
     out->write(writeGraph(graph));
@@ -156,13 +157,13 @@ Result<Graph> readCopy(const LeftCopy& copy) {
     Result<Graph> graph = readGraph(copy.file, nullptr);
     if (!graph) return graph;
     graph->path.clear();
-    if (!graph->extra.is_object()) return graph;
-    const auto found = graph->extra.find(kKey);
-    if (found == graph->extra.end()) return graph;
+    if (!graph->extra->is_object()) return graph;
+    const auto found = graph->extra->find(kKey);
+    if (found == graph->extra->end()) return graph;
     if (found->is_object() && found->contains("of") && found->at("of").is_string())
         graph->path = found->at("of").get<std::string>();
-    graph->extra.erase(found);
-    if (graph->extra.empty()) graph->extra = nullptr;
+    graph->extra->erase(found);
+    if (graph->extra->empty()) graph->extra = nullptr;
     return graph;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "editor/editor.h"
 #include "editor/panels/properties.h"
@@ -93,7 +94,7 @@ void showSettings(Editor& editor) {
         propertyRow("   greatest corner, m");
         dragNumbers(editor, "greatest", std::span(dialog.region).last(3));
     }
-    if (!editor.graph->timeline.is_null()) {
+    if (!editor.graph->timeline->is_null()) {
         propertyRow("Time, s", "The moment of the timeline that is exported.");
         dragNumbers(editor, "time", std::span(&dialog.seconds, 1), {.min = 0.0});
     }

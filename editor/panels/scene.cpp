@@ -5,6 +5,7 @@
 // taken: the hand's last good one stays.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/scene_edits.h"
 #include "editor/panels/properties.h"

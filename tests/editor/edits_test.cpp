@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/wiring.h"
 #include "tests/editor/graphs.h"
@@ -223,8 +224,8 @@ TEST(RemoveNodes, TakesAlongWhatSetsTheirInputs) {
     const Graph left = removeNodes(graph, "", NodeIds{"hole"}, false);
     EXPECT_TRUE(structuralErrors(left).empty()) << structuralErrors(left)[0];
     EXPECT_TRUE(left.parameters.empty());
-    EXPECT_EQ(left.timeline["tracks"].size(), 2u);
-    EXPECT_EQ(removeNodes(left, "", NodeIds{"moved"}, false).timeline["tracks"].size(), 1u);
+    EXPECT_EQ((*left.timeline)["tracks"].size(), 2u);
+    EXPECT_EQ((*removeNodes(left, "", NodeIds{"moved"}, false).timeline)["tracks"].size(), 1u);
     const Graph broken = graphOf(kTower, R"(, "parameters": [{"name": "n", "node": "gone", "input": "x"}])");
     EXPECT_EQ(removeNodes(broken, "", NodeIds{"hole"}, false).parameters, broken.parameters)
         << "a mistake in the file stays to be seen";
@@ -238,8 +239,8 @@ TEST(RenameNode, LinksParametersAndTracksFollow) {
     EXPECT_EQ(once->parameters[0].node, "window");
     const Result<Graph> renamed = renameNode(*once, "", "moved", "there");
     ASSERT_TRUE(renamed);
-    EXPECT_EQ(renamed->timeline["tracks"][0]["node"], "there");
-    EXPECT_EQ(renamed->timeline["tracks"][0]["input"], "offset.y");
+    EXPECT_EQ((*renamed->timeline)["tracks"][0]["node"], "there");
+    EXPECT_EQ((*renamed->timeline)["tracks"][0]["input"], "offset.y");
     EXPECT_TRUE(structuralErrors(*renamed).empty());
     EXPECT_EQ(renameNode(graph, "", "hole", "Window").error().message,
               "'Window' is no id for a node: use a-z, 0-9 and '_', beginning with a letter");
@@ -287,7 +288,7 @@ TEST(SetInput, TracksFollowTheNameOfAParameter) {
         R"(, "timeline": {"tracks": [{"parameter": "size", "keys": [{"time": 0, "value": 0.5}]}]})");
     ASSERT_TRUE(structuralErrors(graph).empty());
     const Graph named = setInput(graph, "", {"s", "name"}, InputValue{std::string("girth")});
-    EXPECT_EQ(named.timeline["tracks"][0]["parameter"], "girth");
+    EXPECT_EQ((*named.timeline)["tracks"][0]["parameter"], "girth");
     EXPECT_TRUE(structuralErrors(named).empty());
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "editor/document/edits.h"
@@ -122,9 +123,9 @@ TEST(Group, ParametersTracksAndFramesFollow) {
     ASSERT_EQ(grouped.parameters.size(), 1u);
     EXPECT_EQ(grouped.parameters[0].node, "group");
     EXPECT_EQ(grouped.parameters[0].input, "radius");
-    EXPECT_EQ(grouped.timeline["tracks"].size(), 2u);
-    EXPECT_EQ(grouped.timeline["tracks"][0]["node"], "group");
-    EXPECT_EQ(grouped.timeline["tracks"][0]["input"], "offset.y");
+    EXPECT_EQ((*grouped.timeline)["tracks"].size(), 2u);
+    EXPECT_EQ((*grouped.timeline)["tracks"][0]["node"], "group");
+    EXPECT_EQ((*grouped.timeline)["tracks"][0]["input"], "offset.y");
     EXPECT_EQ(framesOf(grouped).at(0).scope, "group");
     EXPECT_TRUE(check(grouped).empty()) << format(check(grouped)[0]);
     for (const double time : {0.0, 0.3, 1.0})
@@ -149,7 +150,7 @@ TEST(Group, AParameterNodeInsideIsExposedByItsName) {
     ASSERT_TRUE(parameter);
     EXPECT_EQ(parameter->node, "group");
     EXPECT_EQ(parameter->max, 2.0);
-    EXPECT_EQ(made->graph.timeline["tracks"].size(), 1u);
+    EXPECT_EQ((*made->graph.timeline)["tracks"].size(), 1u);
     EXPECT_TRUE(check(made->graph).empty()) << format(check(made->graph)[0]);
     EXPECT_TRUE(alike(valuesOf(made->graph), valuesOf(graph)));
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/frames.h"
 #include "editor/document/layers.h"
@@ -213,12 +214,12 @@ TEST(Frames, AreReadAndWrittenWithWhatIsUnknown) {
     Frame moved = frames[1];
     moved.at = {7, 8};
     const Graph second = setFrame(*graph, 1, moved);
-    EXPECT_EQ(second.frames.size(), 3u);
+    EXPECT_EQ(second.frames->size(), 3u);
     EXPECT_EQ(framesOf(second)[1].at, (Position{7, 8}));
-    EXPECT_EQ(second.frames[1], "no frame");
+    EXPECT_EQ((*second.frames)[1], "no frame");
     EXPECT_EQ(framesOf(setFrame(*graph, 0, std::nullopt)).size(), 1u);
     EXPECT_EQ(framesOf(setFrame(*graph, 2, moved)).size(), 3u);
-    EXPECT_TRUE(setFrame(setFrame(Graph{}, 0, moved), 0, std::nullopt).frames.is_null());
+    EXPECT_TRUE(setFrame(setFrame(Graph{}, 0, moved), 0, std::nullopt).frames->is_null());
 }
 
 TEST(Frames, HoldTheNodesTheyArePutAround) {

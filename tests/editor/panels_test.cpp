@@ -1,5 +1,6 @@
 // Edits that the panels make of parameters, expressions and the sockets of groups.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/expression_inputs.h"
 #include "editor/document/group_sockets.h"
@@ -65,11 +66,11 @@ TEST(Parameters, TracksFollowANameAndOutliveTheParameter) {
         Json::parse(R"({"tracks": [{"note": 1, "parameter": "radius", "keys": [{"time": 0, "value": 1}]}]})");
     const Result<Graph> renamed = renameParameter(graph, 0, "size");
     ASSERT_TRUE(renamed);
-    EXPECT_EQ(renamed->timeline["tracks"][0]["parameter"], "size");
+    EXPECT_EQ((*renamed->timeline)["tracks"][0]["parameter"], "size");
     EXPECT_EQ(errorsOf(*renamed), "");
     const Graph without = removeParameter(*renamed, 0);
     EXPECT_TRUE(without.parameters.empty());
-    EXPECT_EQ(without.timeline["tracks"][0].dump(),
+    EXPECT_EQ((*without.timeline)["tracks"][0].dump(),
               R"({"note":1,"node":"ball","input":"radius","keys":[{"time":0,"value":1}]})");
     EXPECT_EQ(errorsOf(without), "");
 }

@@ -338,11 +338,10 @@ TEST(Preview, TheNextWishAfterAFailureBeginsAnew) {
     ASSERT_EQ(setenv("VK_ICD_FILENAMES", "/nowhere.json", 1), 0);
     Previewed previewed;
     previewed.ask({.graph = joined(0.7)});
-    const PreviewResult failed =
-        previewed.until([](const PreviewResult& made) { return !made.failure.empty(); });
+    // It may have failed before the wish came, which then begins it anew in vain.
+    do EXPECT_FALSE(previewed.settled().failure.empty());
+    while (previewed.preview.busy() && !HasFailure());
     ASSERT_EQ(unsetenv("VK_ICD_FILENAMES"), 0);
-    EXPECT_FALSE(failed.failure.empty());
-    EXPECT_FALSE(previewed.preview.busy());
     previewed.latest = {};
     previewed.ask({.graph = joined(0.8)});
     const PreviewResult result = previewed.full();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "graph/node_type.h"
 
@@ -233,7 +234,7 @@ TEST(Json, KeepsItsLimits) {
     const auto withExtra = [](const std::string& value) {
         return "{\"fieldwright\": 1, \"nodes\": [], \"x\": " + value + "}";
     };
-    EXPECT_EQ(parsed(withExtra(nested(kMaxNesting - 1))).extra.size(), 1u);
+    EXPECT_EQ(parsed(withExtra(nested(kMaxNesting - 1))).extra->size(), 1u);
     EXPECT_NE(refusal(withExtra(nested(kMaxNesting))).find("nested deeper than 64"), std::string::npos);
     EXPECT_NE(refusal(std::string(10'000'000, '[')).find("nested deeper than 64"), std::string::npos);
     EXPECT_NE(refusal(std::string(kMaxFileBytes + 1, ' ')).find("larger than 16 MiB"), std::string::npos);
@@ -279,9 +280,23 @@ TEST(Json, KeepsUnknownKeysWithAWarning) {
     std::string many = "\"a\": 1";
     for (int i = 0; i < 500; ++i) many += ", \"a" + std::to_string(i) + "\": 1";
     warnings.clear();
-    EXPECT_EQ(parsed(withNode(many), &warnings).nodes[0].extra.size(), 501u);
+    EXPECT_EQ(parsed(withNode(many), &warnings).nodes[0].extra->size(), 501u);
     EXPECT_EQ(warnings.size(), 101u);
     EXPECT_NE(warnings.back().message.find("401 more"), std::string::npos);
+}
+
+TEST(Json, KeptJsonIsAValue) {
+    KeptJson none, some = Json{{"a", 1}}, copy = some;
+    EXPECT_TRUE(none->is_null());
+    EXPECT_EQ(none, KeptJson(Json()));
+    (*copy)["a"] = 2;
+    EXPECT_EQ(*some, (Json{{"a", 1}}));
+    EXPECT_NE(some, copy);
+    copy = std::move(some);
+    EXPECT_EQ((*copy)["a"], 1);
+    EXPECT_EQ(some, nullptr);
+    copy = *&copy;
+    EXPECT_EQ((*copy)["a"], 1);
 }
 
 TEST(Json, BringsFormerNamesUpToDate) {

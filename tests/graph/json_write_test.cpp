@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <csignal>
@@ -98,7 +99,7 @@ class RandomGraphs {
             if (below(2)) parameter.max = number();
             graph.parameters.push_back(parameter);
         }
-        if (below(2)) graph.scene = {{"camera", {number(), number()}}, {text() + "1", json(3)}};
+        if (below(2)) graph.scene = Json{{"camera", {number(), number()}}, {text() + "1", json(3)}};
         if (below(2)) graph.timeline = Json::object();
         if (below(2)) graph.frames = Json::array({json(4), json(2)});
         graph.extra = extra();

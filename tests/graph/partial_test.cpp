@@ -1,5 +1,6 @@
 // Graph files of which not all can be read: what is left out, what is said of it, what stays.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "graph/json.h"
 
@@ -60,8 +61,8 @@ TEST(Partial, LeavesOutTheLeastThatMakesNoSense) {
     ASSERT_EQ(graph.groups[0].nodes.size(), 1u);
     EXPECT_EQ(graph.groups[0].nodes[0].id, "m");
     ASSERT_EQ(graph.parameters.size(), 1u);
-    EXPECT_TRUE(graph.timeline.is_null());
-    EXPECT_TRUE(graph.scene.is_object());
+    EXPECT_TRUE(graph.timeline->is_null());
+    EXPECT_TRUE(graph.scene->is_object());
     // The place of each, in the text's order; the two nodes without a type are named twice or once.
     const std::string errors = errorsOf(partial);
     for (const char* each : {"2:37 a.;", "2:49 a.;", "2:77 a.radius;", "a.x;", "3:1 .;", "4:1 .;", "5:1 b.;",

@@ -3,6 +3,7 @@
 #include "graph/scene.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "graph/check.h"
 #include "graph/json.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "graph/check.h"
@@ -222,7 +223,7 @@ TEST(Timeline, AtATimeTheDocumentHasTheTracksValues) {
     EXPECT_EQ(inputNumbers(*then.node("moved"), "offset"), (std::vector<double>{0, 2, 0}));
     EXPECT_EQ(inputNumbers(*then.node("box"), "half_extents"), (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(inputNumbers(*then.node("size"), "value"), std::vector<double>{2});
-    EXPECT_EQ(then.scene, Json::parse(R"({"camera": {"position": [1.0, 2.0, 3.0], "fov": 40.0},
+    EXPECT_EQ(*then.scene, Json::parse(R"({"camera": {"position": [1.0, 2.0, 3.0], "fov": 40.0},
         "lights": [{"strength": 1.5}], "sun": {"color": [0.0, 1.0, 0.0]}})"));
     // The curve rises above 0.9 between its keys; the parameter does not.
     EXPECT_GT(evaluate(timeline.tracks[0], 1.5)[0], 0.92);
@@ -322,12 +323,12 @@ TEST(TimelineBad, KeysThatMakeNoCurve) {
         {"the key at 1 s has 2 numbers, the first one has 1"});
     // A NaN cannot be written in a file; a program can put one into a document.
     Graph graph = graphWith(radius(R"({"time": 0, "value": 0.6}, {"time": 1, "value": 0.6})"));
-    graph.timeline["tracks"][0]["keys"][1]["value"] = NAN;
+    (*graph.timeline)["tracks"][0]["keys"][1]["value"] = NAN;
     const std::vector<Error> list = check(graph);
     ASSERT_FALSE(list.empty());
     EXPECT_NE(format(list[0]).find("the value of the key at 1 s is not a number"), std::string::npos)
         << format(list[0]);
-    graph.timeline["tracks"][0]["keys"][1] = {{"time", INFINITY}, {"value", 0.6}};
+    (*graph.timeline)["tracks"][0]["keys"][1] = {{"time", INFINITY}, {"value", 0.6}};
     EXPECT_NE(format(check(graph).at(0)).find("from 0 on, not inf"), std::string::npos);
 }
 
@@ -365,16 +366,16 @@ TEST(TimelineBad, CamerasThatCannotLook) {
                   {"camera.position must be three numbers"});
     Graph graph =
         graphWith(tracks(R"({"scene": "camera.position", "keys": [{"time": 0, "value": [1, 2, 3]}]})"));
-    graph.timeline["tracks"][0]["keys"][0]["value"][1] = NAN;
+    (*graph.timeline)["tracks"][0]["keys"][0]["value"][1] = NAN;
     EXPECT_NE(format(check(graph).at(0)).find("the value of the key at 0 s is not a number"),
               std::string::npos);
     graph = graphWith("{}");
-    graph.scene["camera"]["target"] = {4, 3, 5};
+    (*graph.scene)["camera"]["target"] = {4, 3, 5};
     EXPECT_NE(
         format(check(graph).at(0)).find("a.field.json:11:22: error: the scene's camera stands on its target"),
         std::string::npos)
         << format(check(graph).at(0));
-    graph.scene["camera"] = "wide";
+    (*graph.scene)["camera"] = "wide";
     EXPECT_NE(format(check(graph).at(0)).find("the scene's camera must be an object"), std::string::npos);
 }
 

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
@@ -332,7 +333,7 @@ TEST(Player, AReloadKeepsTimeAndParametersOrEverything) {
     EXPECT_EQ(meshOf(*played.player).positions, before.positions);
 
     Result<Graph> box = parseGraph(risingBall(), "a.field.json", nullptr);
-    box->timeline["tracks"][0]["keys"][1]["value"] = 3;
+    (*box->timeline)["tracks"][0]["keys"][1]["value"] = 3;
     ASSERT_TRUE(played->reload(*box));
     const auto [lo, hi] = boundsOf(meshOf(*played.player));
     EXPECT_NEAR(hi.y, 3.7, 0.02);
