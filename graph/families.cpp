@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 namespace fw {
 
@@ -12,6 +13,7 @@ namespace {
 constexpr std::size_t kLeastMembers = 6, kLeastOperations = 240;
 constexpr std::size_t kLeastSteps = 4;   // of a member: less is not worth a load
 constexpr std::size_t kMostSteps = 400;  // bounds the search as well
+constexpr std::size_t kLinkSteps = 8;    // what a smooth minimum counts as
 
 uint64_t mixed(uint64_t hash, uint64_t word) {
     hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
@@ -42,12 +44,16 @@ class Finder {
         for (IrId id = 0; id <= root; ++id)
             if (needed[id]) shapes[id] = shapeOf(id);
         for (IrId id = 0; id <= root; ++id)
-            if (needed[id] && isFold(ir[id].op)) folds.push_back(id);
+            if (needed[id] && (isFold(ir[id].op) || isLink(id))) folds.push_back(id);
     }
 
     Families run() {
         for (auto fold = folds.rbegin(); fold != folds.rend(); ++fold) {
             if (closed[*fold]) continue;
+            if (isLink(*fold)) {
+                chain(*fold);
+                continue;
+            }
             std::vector<IrId> operands;
             flatten(*fold, ir[*fold].op, operands);
             if (operands.size() >= kLeastMembers) group(*fold, operands);
@@ -82,6 +88,46 @@ class Finder {
             } else {
                 operands.push_back(id);
             }
+        }
+    }
+
+    /// A smooth minimum of two values that vary, with one width everywhere.
+    bool isLink(IrId id) const { return ir[id].op == Op::smoothMinimum && ir.isConstant(ir[id].operands[2]); }
+
+    /// The families in a chain of smooth minima that ends with this one.
+    void chain(IrId last) {
+        std::vector<IrId> links, members;  // in order
+        IrId start = last;
+        while (isLink(start) && (start == last || users[start] == 1)) {
+            const auto goesOn = [&](int i) {
+                const IrId operand = ir[start].operands[i];
+                return isLink(operand) && users[operand] == 1;
+            };
+            const int carried = !goesOn(0) && goesOn(1) ? 1 : 0;
+            closed[start] = true;
+            links.push_back(start);
+            members.push_back(ir[start].operands[1 - carried]);
+            start = ir[start].operands[carried];
+        }
+        std::ranges::reverse(links);
+        std::ranges::reverse(members);
+        for (std::size_t first = 0, end; first < links.size(); first = end) {
+            std::vector<std::pair<IrId, Walk>> run;
+            for (end = first; end < links.size() && shapes[members[end]] == shapes[members[first]]; ++end) {
+                std::optional<Walk> way = walk(members[end]);
+                if (!way || (!run.empty() && way->key != run[0].second.key)) break;
+                run.emplace_back(members[end], std::move(*way));
+            }
+            end = std::max(end, first + 1);
+            if (run.empty()) continue;
+            if (run.size() < kLeastMembers) continue;
+            std::optional<Family> family = familyOf(run, std::span(links).subspan(first, run.size()));
+            if (!family) continue;
+            for (const auto& [id, way] : run) close(id);
+            const IrId before = first == 0 ? start : links[first - 1];
+            found.groups.emplace(links[end - 1],
+                                 FamilyGroup{Op::smoothMinimum, {uint32_t(found.all.size())}, {before}});
+            found.all.push_back(std::move(*family));
         }
     }
 
@@ -157,7 +203,9 @@ class Finder {
         found.groups.emplace(fold, std::move(result));
     }
 
-    std::optional<Family> familyOf(const std::vector<std::pair<IrId, Walk>>& of) const {
+    /// `links` are the smooth minima of a chain, a member each.
+    std::optional<Family> familyOf(const std::vector<std::pair<IrId, Walk>>& of,
+                                   std::span<const IrId> links = {}) const {
         const Walk& first = of.front().second;
         Family family;
         family.members = uint32_t(of.size());
@@ -170,17 +218,27 @@ class Finder {
             own[id] = true;
             family.steps.push_back(id);
         }
-        if (family.steps.size() < kLeastSteps || family.steps.size() * of.size() < kLeastOperations)
+        const std::size_t operations = family.steps.size() + (links.empty() ? 0 : kLinkSteps);
+        if (family.steps.size() < kLeastSteps || operations * of.size() < kLeastOperations)
             return std::nullopt;
         std::vector<std::vector<float>> columns;
+        const auto addColumn = [&](std::pair<IrId, int> operand, std::vector<float> column) {
+            if (std::ranges::all_of(column, [&](float x) { return x == column[0]; })) return;
+            auto same = std::ranges::find(columns, column);
+            family.columns.emplace(operand, uint32_t(same - columns.begin()));
+            if (same == columns.end()) columns.push_back(std::move(column));
+        };
         for (std::size_t i = 0; i < first.constants.size(); ++i) {
             if (!own[first.constantsOf[i].first]) continue;
             std::vector<float> column;
             for (const auto& [id, way] : of) column.push_back(float(way.constants[i]));
-            if (std::ranges::all_of(column, [&](float x) { return x == column[0]; })) continue;
-            auto same = std::ranges::find(columns, column);
-            family.columns.emplace(first.constantsOf[i], uint32_t(same - columns.begin()));
-            if (same == columns.end()) columns.push_back(std::move(column));
+            addColumn(first.constantsOf[i], std::move(column));
+        }
+        if (!links.empty()) {
+            family.link = links[0];
+            std::vector<float> widths;
+            for (IrId link : links) widths.push_back(float(ir.number(ir[link].operands[2])));
+            addColumn({family.link, 2}, std::move(widths));
         }
         while (columns.size() % kTexel > 0) columns.emplace_back(of.size());
         family.width = uint32_t(columns.size());
@@ -213,7 +271,7 @@ class Finder {
     std::vector<uint32_t> users;
     std::vector<uint64_t> shapes;
     std::vector<IrId> folds;
-    std::vector<bool> closed;  // minima that are part of a larger one, and what members need
+    std::vector<bool> closed;  // minima and links that are part of a larger one, and what members need
     Families found;
 };
 

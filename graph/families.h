@@ -1,4 +1,5 @@
-// Families: members of a large minimum or maximum that are the same operations on different numbers.
+// Families: members of a large minimum or maximum, sharp or smooth, that are the same operations on different
+// numbers.
 //
 // A union of a thousand boxes lowers to a thousand copies of one expression. Compiled as such, every sample
 // pays for all of them, and a device that runs the branches it does not take (LLVM's vectors) cannot leave
@@ -12,6 +13,11 @@
 // their roots, the operations agree one for one. Operations that are the same id in every member (a position
 // that all are turned by) are not repeated: they are computed once, ahead of the loop. Numbers that agree in
 // all members fold into the code.
+//
+// Smooth minima are taken one after the other, and a different order is a different surface: of those a run
+// of members that follow one another in a chain is a family. Over a box a member can be left out if the chain
+// up to it is further below than the width of the blend, and all before it if it is that far below them; both
+// change no bit.
 //
 // Lifetime: plain values that refer to an Ir by ids.
 #pragma once
@@ -31,21 +37,26 @@ struct Family {
     /// Which operands of the steps differ between members: (step, operand) to the column of the table.
     std::map<std::pair<IrId, int>, uint32_t> columns;
     std::vector<IrId> inputs;  ///< what the steps use beside each other: values outside the family
+    IrId link = 0;  ///< of a chain, the first smooth minimum: its width of the blend may be a column too
     uint32_t members = 0, width = 0;
     std::vector<float>
         table;  ///< `members` rows of `width` numbers, a multiple of kTexel; what is too much is 0
 };
 
-/// A minimum or maximum of several operands, some of which are members of families.
+/// A minimum or maximum of several operands, some of which are members of families; or a chain of smooth
+/// minima with the members of one family, in order.
 struct FamilyGroup {
     Op op;
     std::vector<uint32_t> families;  ///< places in Families::all
-    std::vector<IrId> others;        ///< operands of no family
+    std::vector<IrId> others;        ///< operands of no family; of a chain what it begins with
+
+    bool chain() const { return op == Op::smoothMinimum; }
 };
 
 struct Families {
     std::vector<Family> all;
-    std::map<IrId, FamilyGroup> groups;  ///< by the id of the minimum or maximum as a whole
+    std::map<IrId, FamilyGroup>
+        groups;  ///< by the id of the minimum or maximum as a whole, or a chain's last
 
     bool empty() const { return all.empty(); }
 };

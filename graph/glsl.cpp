@@ -19,10 +19,12 @@ class Emitter : GlslStatements {
             const Op op = ir[id].op;
             usesNoise |= op == Op::gradientNoise || op == Op::simplexNoise || op == Op::worleyNoise ||
                          op == Op::cellHash;
+            usesSmoothMinimum |= op == Op::smoothMinimum;
         }
         parameters();
         images();
         if (usesNoise) text += "#include \"lib/noise.glsl\"\n";
+        if (usesSmoothMinimum) text += "#include \"lib/smooth_minimum.glsl\"\n";
         text +=
             "float fieldPower(float a, float b) { return a > 0.0 ? pow(a, b) : b > 0.0 ? 0.0 : b < 0.0 ? "
             "1e30 : 1.0; }\n"
@@ -149,7 +151,7 @@ class Emitter : GlslStatements {
 
     const Program& program;
     const Ir& ir;
-    bool usesNoise = false;
+    bool usesNoise = false, usesSmoothMinimum = false;
 };
 
 }  // namespace

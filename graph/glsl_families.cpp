@@ -40,9 +40,24 @@ class FamilyEmitter : GlslStatements {
     static std::string list(uint32_t family) { return "fieldList" + number(family); }
     static bool isLess(const FamilyGroup& group) { return group.op == Op::minimum; }
     static std::string fold(const FamilyGroup& group) { return isLess(group) ? "min" : "max"; }
-    static std::string start(const FamilyGroup& group) {
+    static std::string limit(const FamilyGroup& group) {
         const double infinity = std::numeric_limits<double>::infinity();
         return glslLiteral(isLess(group) ? infinity : -infinity);
+    }
+    /// What a loop over a family begins with: `named` is the name that stands for a value.
+    std::string start(const FamilyGroup& group, std::string (GlslStatements::*named)(IrId) const) const {
+        return group.chain() ? (this->*named)(group.others[0]) : limit(group);
+    }
+    std::string width(const Family& family) const { return operand(family.link, 2); }
+    /// What `all` becomes with one member more. A minimum takes what a lane that is done repeats, a chain
+    /// not.
+    std::string with(const FamilyGroup& group, uint32_t family, const std::string& all,
+                     const std::string& own, bool isInterval = false) const {
+        if (!group.chain()) return fold(group) + "(" + all + ", " + own + ")";
+        const std::string width = this->width(program.families.all[family]);
+        return "i < fieldLength" + number(family) + "() ? " +
+               (isInterval ? "iSmoothMin(" : "fieldSmoothMin(") + all + ", " + own +
+               (isInterval ? ", vec2(" + width + "))" : ", " + width + ")") + " : " + all;
     }
     const FamilyGroup* groupAt(IrId id) const {
         const auto group = program.families.groups.find(id);
@@ -76,8 +91,7 @@ class FamilyEmitter : GlslStatements {
         text += "#endif\n";
     }
 
-    /// A loop over the list of a family. A lane that is done with its own repeats the last, which changes no
-    /// minimum.
+    /// A loop over the list of a family. A lane that is done with its own repeats the last.
     template <class Body>
     void loop(uint32_t number_, Body body) {
         const Family& family = program.families.all[number_];
@@ -101,8 +115,11 @@ class FamilyEmitter : GlslStatements {
                 std::string (GlslStatements::*named)(IrId) const) {
         std::string all;
         for (uint32_t f : group.families)
-            all = all.empty() ? "F" + number(f) : fold(group) + "(" + all + ", F" + number(f) + ")";
-        for (IrId other : group.others) all = fold(group) + "(" + all + ", " + (this->*named)(other) + ")";
+            all = all.empty() ? "F" + number(f) + suffix
+                              : fold(group) + "(" + all + ", F" + number(f) + suffix + ")";
+        if (!group.chain())
+            for (IrId other : group.others)
+                all = fold(group) + "(" + all + ", " + (this->*named)(other) + ")";
         text += std::string("    ") + type + " " + name + " = " + all + ";\n";
     }
 
@@ -123,11 +140,10 @@ class FamilyEmitter : GlslStatements {
     void groupValue(IrId id, const FamilyGroup& group) {
         for (uint32_t f : group.families) {
             const std::string best = "F" + number(f);
-            text += "    float " + best + " = " + start(group) + ";\n";
+            text += "    float " + best + " = " + start(group, &GlslStatements::value) + ";\n";
             loop(f, [&](const Family& family) {
                 for (IrId step : family.steps) valueStatement(step);
-                text += "    " + best + " = " + fold(group) + "(" + best + ", " + value(family.steps.back()) +
-                        ");\n";
+                text += "    " + best + " = " + with(group, f, best, value(family.steps.back())) + ";\n";
             });
         }
         define(group, "float", value(id), &GlslStatements::value);
@@ -158,18 +174,26 @@ class FamilyEmitter : GlslStatements {
     /// Best so far: derivatives and value, of which the first of several equal ones stays.
     void groupGradient(IrId id, const FamilyGroup& group, Derivatives& known) {
         const std::string best = "G" + std::to_string(id), closer = isLess(group) ? " < " : " > ";
-        const auto offer = [&](IrId from) {
-            const std::string of = value(from);
-            text += "    " + best + " = " + of + closer + best + ".w ? vec4(" + slopes(from, known) + ", " +
-                    of + ") : " + best + ";\n";
+        const auto whole = [&](IrId from) {
+            return "vec4(" + slopes(from, known) + ", " + value(from) + ")";
         };
-        text += "    vec4 " + best + " = vec4(0.0, 0.0, 0.0, " + start(group) + ");\n";
+        const auto offer = [&](IrId from) {
+            text += "    " + best + " = " + value(from) + closer + best + ".w ? " + whole(from) + " : " +
+                    best + ";\n";
+        };
+        text += "    vec4 " + best + " = " +
+                (group.chain() ? whole(group.others[0]) : "vec4(0.0, 0.0, 0.0, " + limit(group) + ")") +
+                ";\n";
         for (uint32_t f : group.families)
             loop(f, [&](const Family& family) {
                 for (IrId step : family.steps) gradientStatement(step, known);
-                offer(family.steps.back());
+                if (group.chain())
+                    text += "    " + best + " = " + with(group, f, best, whole(family.steps.back())) + ";\n";
+                else
+                    offer(family.steps.back());
             });
-        for (IrId other : group.others) offer(other);
+        if (!group.chain())
+            for (IrId other : group.others) offer(other);
         text += "    float " + value(id) + " = " + best + ".w;\n";
         for (int axis = 0; axis < 3; ++axis)
             if (ir[id].positions >> axis & 1) known[axis][id] = best + "." + "xyz"[axis];
@@ -187,11 +211,11 @@ class FamilyEmitter : GlslStatements {
             }
             for (uint32_t f : group->families) {
                 const std::string all = "F" + number(f);
-                text += "    vec2 " + all + " = vec2(" + start(*group) + ");\n";
+                text += "    vec2 " + all + " = vec2(" + start(*group, &GlslStatements::interval) + ");\n";
                 loop(f, [&](const Family& family) {
                     for (IrId step : family.steps) intervalStatement(step);
-                    text += "    " + all + " = " + fold(*group) + "(" + all + ", " +
-                            interval(family.steps.back()) + ");\n";
+                    text += "    " + all + " = " + with(*group, f, all, interval(family.steps.back()), true) +
+                            ";\n";
                 });
             }
             define(*group, "vec2", interval(id), &GlslStatements::interval);
@@ -208,7 +232,6 @@ class FamilyEmitter : GlslStatements {
     /// The lists of a place, out of those chosen: empty ones where there is no surface, else of at least one
     /// entry, since loops run at least once.
     void pruneFunction() {
-        const std::string count = std::to_string(program.families.all.size());
         text +=
             "void fieldPrune(vec3 lo, vec3 hi, uint place) {\n"
             "    vec3 far = max(abs(lo), abs(hi));\n    float reach = far.x + far.y + far.z;\n";
@@ -218,6 +241,10 @@ class FamilyEmitter : GlslStatements {
         for (uint32_t f = 0; f < program.families.all.size(); ++f)
             text += "    if (!open) " + list(f) + ".y = 0u;\n";
         for (const auto& [id, group] : program.families.groups) {
+            if (group.chain()) {
+                pruneChain(group);
+                continue;
+            }
             const bool less = isLess(group);
             for (uint32_t f : group.families) {
                 text += "    {\n    float limit = iMargin(" + interval(id) + ", reach)." +
@@ -230,12 +257,40 @@ class FamilyEmitter : GlslStatements {
                             "    if (!apart && at != 0u) fieldLists[at + kept] = fieldEntry" + number(f) +
                             "(i);\n    kept += apart ? 0u : 1u;\n";
                 });
-                text += "    if (kept == 0u && at != 0u) fieldLists[at] = fieldEntry" + number(f) +
-                        "(0u);\n    fieldHeads[place * " + count + "u + " + number(f) +
-                        "u] = at != 0u ? uvec2(at, max(kept, 1u)) : " + list(f) + ";\n    }\n";
+                endList(f);
             }
         }
         text += "}\n";
+    }
+
+    /// Members are left out that the chain up to them is below, and those before one that is below them all;
+    /// the first of a list of none is one of those.
+    void pruneChain(const FamilyGroup& group) {
+        const uint32_t f = group.families[0];
+        text += "    {\n    vec2 start = " + interval(group.others[0]) +
+                ", chain = start;\n    uint at = open ? " + "fieldAllocate(" + list(f) +
+                ".y) : 0u, kept = 0u;\n";
+        loop(f, [&](const Family& family) {
+            for (IrId step : family.steps) intervalStatement(step);
+            text += "    float width = " + width(family) +
+                    ";\n    vec2 own = " + interval(family.steps.back()) +
+                    ", wide = iMargin(own, reach), before = iMargin(chain, reach);\n    bool listed = i < " +
+                    list(f) +
+                    ".y, apart = !listed || before.y + width < wide.x;\n    bool over = listed && wide.y + "
+                    "width < min(before.x, iMargin(start, reach).x);\n    kept = over ? 0u : kept;\n    if "
+                    "(!apart && at != 0u) fieldLists[at + kept] = fieldEntry" +
+                    number(f) +
+                    "(i);\n    kept += apart ? 0u : 1u;\n    chain = apart ? chain : over ? own : "
+                    "iSmoothMin(chain, own, vec2(width));\n";
+        });
+        endList(f);
+    }
+
+    /// The list is what was kept, or the one it was chosen from where there was no place for it.
+    void endList(uint32_t f) {
+        text += "    if (kept == 0u && at != 0u) fieldLists[at] = fieldEntry" + number(f) +
+                "(0u);\n    fieldHeads[place * FIELD_FAMILIES + " + number(f) +
+                "u] = at != 0u ? uvec2(at, max(kept, 1u)) : " + list(f) + ";\n    }\n";
     }
 
     // ---- Rows
@@ -274,51 +329,65 @@ class FamilyEmitter : GlslStatements {
     void columnFunction(GlslStages& stages) {
         std::vector<IrId> inputs;
         std::string members, values;
-        std::vector<std::pair<uint32_t, const FamilyGroup*>> inColumn;
         for (const auto& [id, group] : program.families.groups) {
             if (stageOf(ir[id]) < 2) continue;
+            if (group.chain()) inputs.push_back(group.others[0]);
             for (uint32_t f : group.families) {
-                inColumn.emplace_back(f, &group);
                 const Family& family = program.families.all[f];
                 inputs.insert(inputs.end(), family.inputs.begin(), family.inputs.end());
+                for (int k = 0; k < kSamples; ++k) {
+                    const std::string name = "F" + number(f) + "_" + std::to_string(k);
+                    members += " float " + name + ";";
+                    values += ", " + name;
+                }
             }
         }
-        for (const auto& [f, group] : inColumn)
-            for (int k = 0; k < kSamples; ++k) {
-                const std::string name = "F" + number(f) + "_" + std::to_string(k);
-                members += " float " + name + ";";
-                values += ", " + name;
-            }
         text += "struct FieldColumn { float unused;" + members +
                 " };\nFieldColumn fieldColumn(FieldRow row, float y[9]) {\n";
         stages.unpack(1, "row");
         const std::vector<bool> wanted = neededBy(inputs, true);
-        for (int k = 0; k < kSamples; ++k) {
-            suffix = "_" + std::to_string(k);
-            for (IrId id = 0; id < ir.size(); ++id)
-                if (wanted[id] && stageOf(ir[id]) == 2)
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (stageOf(ir[id]) < 2) continue;
+            const FamilyGroup* group = needed[id] ? groupAt(id) : nullptr;
+            if (group) columnLoops(*group);
+            forSamples([&](int k) {
+                if (wanted[id] && group)
+                    define(*group, "float", value(id), &GlslStatements::value);
+                else if (wanted[id])
                     valueStatement(id, ir[id].op == Op::positionY ? "y[" + std::to_string(k) + "]"
                                                                   : std::string(opInfo(ir[id].op).glsl));
-        }
-        suffix.clear();
-        for (const auto& [f, group] : inColumn) {
-            for (int k = 0; k < kSamples; ++k)
-                text += "    float F" + number(f) + "_" + std::to_string(k) + " = " + start(*group) + ";\n";
-            loop(f, [&, group = group, f = f](const Family& family) {
-                for (IrId step : family.steps)
-                    if (stageOf(ir[step]) < 2) valueStatement(step);
-                for (int k = 0; k < kSamples; ++k) {
-                    suffix = "_" + std::to_string(k);
-                    for (IrId step : family.steps)
-                        if (stageOf(ir[step]) == 2) valueStatement(step);
-                    const std::string best = "F" + number(f) + suffix;
-                    text += "    " + best + " = " + fold(*group) + "(" + best + ", " +
-                            value(family.steps.back()) + ");\n";
-                    suffix.clear();
-                }
             });
         }
         text += "    return FieldColumn(0.0" + values + ");\n}\n";
+    }
+
+    /// `statements` for each sample of a column, in whose names its number stands.
+    template <class Statements>
+    void forSamples(Statements statements) {
+        for (int k = 0; k < kSamples; ++k) {
+            suffix = "_" + std::to_string(k);
+            statements(k);
+        }
+        suffix.clear();
+    }
+
+    void columnLoops(const FamilyGroup& group) {
+        for (uint32_t f : group.families) {
+            const auto all = [&] { return "F" + number(f) + suffix; };
+            forSamples([&](int) {
+                text += "    float " + all() + " = " + start(group, &GlslStatements::value) + ";\n";
+            });
+            loop(f, [&](const Family& family) {
+                for (IrId step : family.steps)
+                    if (stageOf(ir[step]) < 2) valueStatement(step);
+                forSamples([&](int) {
+                    for (IrId step : family.steps)
+                        if (stageOf(ir[step]) == 2) valueStatement(step);
+                    text +=
+                        "    " + all() + " = " + with(group, f, all(), value(family.steps.back())) + ";\n";
+                });
+            });
+        }
     }
 
     const Program& program;

@@ -57,8 +57,10 @@ class GlslStatements {
     /// While set, what varies with y is one of several variables of the name: v12_3.
     std::string suffix;
 
-  private:
+    /// What the operation takes in: a value's name, a literal or a column.
     std::string operand(IrId user, int i) const;
+
+  private:
     std::string intervalOperand(IrId user, int i) const;
     std::string layerNumber(IrId id) const;
     std::string derivative(IrId id, int axis, const std::vector<std::string>& known);

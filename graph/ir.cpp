@@ -156,6 +156,9 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
             if (a == b || is(1, 0.0) || is(0, 1.0)) return a;
             if (is(0, 0.0) || is(1, 1.0)) return b;
             break;
+        case Op::smoothMinimum:
+            if (isConstant(operands[2]) && number(operands[2]) <= 0.0) return add(Op::minimum, a, b);
+            break;
         case Op::select: {
             const IrId c = operands[2];
             if (isConstant(a)) return number(a) != 0.0 ? b : c;

@@ -64,6 +64,24 @@ Interval monotone(double (*f)(double), Interval a, double slack) {
     return outward(lo - std::abs(lo) * slack, hi + std::abs(hi) * slack);
 }
 Interval truth(bool certain, bool impossible) { return {certain ? 1.0 : 0.0, impossible ? 0.0 : 1.0}; }
+/// Quadratic smooth minimum (Quilez): the corner where a = b is filled k / 4 deep, and nothing is changed
+/// where they are k apart.
+double smoothMinimum(double a, double b, double k) {
+    const double h = std::max(k - std::abs(a - b), 0.0);
+    return std::min(a, b) - h * h * (0.25 / std::max(k, 1e-9));
+}
+/// It grows with a and b, and falls with k: so its ends are those of the operands, however wide these are.
+Interval smoothMinimumInterval(I x) {
+    const auto size = [&](double a, double b) { return 1e-15 * (std::abs(a) + std::abs(b) + absolute(x[2]).hi); };
+    return outward(smoothMinimum(x[0].lo, x[1].lo, x[2].hi) - size(x[0].lo, x[1].lo),
+                   smoothMinimum(x[0].hi, x[1].hi, x[2].lo) + size(x[0].hi, x[1].hi));
+}
+double smoothMinimumSlope(V x, D d) {
+    const double share = std::max(x[2] - std::abs(x[0] - x[1]), 0.0) / std::max(x[2], 1e-9);
+    const double nearer = x[0] <= x[1] ? d[0] : d[1], other = x[0] <= x[1] ? d[1] : d[0];
+    if (share == 0.0) return nearer;
+    return nearer + 0.5 * share * (other - nearer) - share * (0.5 - 0.25 * share) * d[2];
+}
 double clampUnit(double x) { return std::clamp(x, -1.0, 1.0); }
 
 /// Interval of a noise from its value at the box's centre and its greatest slope.
@@ -274,6 +292,11 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
                                          : hull(x[1], x[2]); },
         [](V x, double, D d) { return x[0] != 0.0 ? d[1] : d[2]; }, "%a ? %b : %c", "iSelect(%a, %b, %c)",
         "%a ? %B : %C"),
+    row(
+        Op::smoothMinimum, "smoothMin", 3, false, false, [](V x) { return smoothMinimum(x[0], x[1], x[2]); },
+        [](I x) { return smoothMinimumInterval(x); },
+        [](V x, double, D d) { return smoothMinimumSlope(x, d); }, "fieldSmoothMin(%a, %b, %c)",
+        "iSmoothMin(%a, %b, %c)", "fieldSmoothMinSlope(%a, %b, %c, %A, %B, %C)"),
 
     row(
         Op::gradientNoise, "perlin", 4, false, false,

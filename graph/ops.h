@@ -68,8 +68,9 @@ enum class Op : uint8_t {
     equal,
     logicalAnd,
     logicalOr,
-    // three operands: condition, then, else
+    // three operands: condition, then, else; a, b, width of the blend
     select,
+    smoothMinimum,
     // four operands: x, y, z, seed
     gradientNoise,
     simplexNoise,

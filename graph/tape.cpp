@@ -18,6 +18,10 @@ IrId decided(const TapeStep& step, const std::vector<Interval>& intervals) {
             if (a.lo > b.hi) return step.operands[0];
             if (b.lo > a.hi) return step.operands[1];
             break;
+        case Op::smoothMinimum:
+            if (a.hi + intervals[step.operands[2]].hi < b.lo) return step.operands[0];
+            if (b.hi + intervals[step.operands[2]].hi < a.lo) return step.operands[1];
+            break;
         case Op::select:
             if (a.lo == 1.0) return step.operands[1];
             if (a.hi == 0.0) return step.operands[2];

@@ -359,6 +359,10 @@ const std::unordered_map<std::string_view, Entry>& table() {
         {"distance", {distance, 1, 2}}, {"normalize", {normalize, 1, 1}}, {"reflect", {reflect, 2, 2}},
         {"min", {[](S s, A a) -> R { return extreme(s, a, Op::minimum); }, 2, 8}},
         {"max", {[](S s, A a) -> R { return extreme(s, a, Op::maximum); }, 2, 8}},
+        {"smooth_min", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::smoothMinimum, x[0], x[1], x[2]); }); }, 3, 3}},
+        {"smooth_max", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
+            const auto negative = [&](IrId id) { return s.ir.add(Op::negate, id); };
+            return negative(s.ir.add(Op::smoothMinimum, negative(x[0]), negative(x[1]), x[2])); }); }, 3, 3}},
         {"fract", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::modulo, x[0], number(s, 1.0)); }); }, 1, 1}},
         {"frac", {[](S s, A a) -> R { return callBuiltin(s, "fract", a); }, 1, 1}},
         {"inversesqrt", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return reciprocal(s, s.ir.add(Op::squareRoot, x[0])); }); }, 1, 1}},

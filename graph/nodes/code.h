@@ -42,13 +42,9 @@ vec2 sector(vec2 q, int n) {
 }
 )";
 
-/// roundMin, chamferMin, stairsMin: the minimum of a and b with the corner between them filled over a width k
-/// >= 0. Those of the round profile are the quadratic smooth minimum; stairs have n steps.
+/// chamferMin, stairsMin: the minimum of a and b with the corner between them filled over a width k >= 0, as
+/// smooth_min does it for the round profile; stairs have n steps.
 inline constexpr const char* kBlend = R"(
-float roundMin(float a, float b, float k) {
-    float h = max(k - abs(a - b), 0.0);
-    return min(a, b) - h * h * (0.25 / max(k, 1e-9));
-}
 float chamferMin(float a, float b, float k) { return min(a, b, (a + b - k) * sqrt(0.5)); }
 float stairsMin(float a, float b, float k, float n) {
     float s = max(k, 1e-9) / (n + 1.0);

@@ -30,8 +30,8 @@ ExactnessRule blendRule(Exactness (*sharp)(Exactness a, Exactness b)) {
 std::string blendedMin(const std::string& x, const std::string& y) {
     const std::string arguments = "(" + x + ", " + y + ", radius";
     return "float d;\nif (profile == \"chamfer\") d = chamferMin" + arguments +
-           ");\nelse if (profile == \"stairs\") d = stairsMin" + arguments + ", steps);\nelse d = roundMin" +
-           arguments + ");\n";
+           ");\nelse if (profile == \"stairs\") d = stairsMin" + arguments +
+           ", steps);\nelse d = smooth_min" + arguments + ");\n";
 }
 
 NodeType blendNode(std::string id, std::string label, std::string doc, ExactnessRule rule, std::string body,

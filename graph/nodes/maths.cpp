@@ -58,8 +58,8 @@ constexpr Operation kScalarOperations[] = {
     {"clamp", "clamp(a, b, c)"},
     {"step", "a < b ? 0.0 : 1.0"},
     {"smoothstep", "smoothstep(b, c, a)"},
-    {"smooth_min", "min(a, b) - smoothed(a - b, c)"},
-    {"smooth_max", "max(a, b) + smoothed(a - b, c)"},
+    {"smooth_min", "smooth_min(a, b, c)"},
+    {"smooth_max", "smooth_max(a, b, c)"},
 };
 
 /// Those with a vector result.
@@ -104,9 +104,7 @@ constexpr Operation kMeasures[] = {
 };
 
 std::string scalarBody() {
-    std::string body =
-        "float smoothed(float d, float k) { float h = max(k - abs(d), 0.0); return h * h * (0.25 / max(k, "
-        "1e-9)); }\n";
+    std::string body;
     for (const Operation& o : kScalarOperations) {
         body += std::string("if (op == \"") + o.name + "\") return " + o.code + ";\n";
     }

@@ -69,6 +69,21 @@ void expectTablesGiveTheGroups(const Program& program) {
                                  : opInfo(node.op).value(operands, program.ir.layer(node)));
         }
         for (const auto& [root, group] : program.families.groups) {
+            if (group.chain()) {
+                const Family& family = program.families.all[group.families.at(0)];
+                double chain = values[group.others.at(0)];
+                for (uint32_t row = 0; row < family.members; ++row) {
+                    const auto column = family.columns.find({family.link, 2});
+                    const double operands[kMaxArity] = {
+                        chain, memberAt(program.ir, family, row, values),
+                        column != family.columns.end()
+                            ? double(family.table[row * family.width + column->second])
+                            : program.ir.number(program.ir[family.link].operands[2])};
+                    chain = opInfo(group.op).value(operands, nullptr);
+                }
+                EXPECT_NEAR(chain, values[root], 1e-6 * (1 + std::abs(values[root])));
+                continue;
+            }
             const bool less = group.op == Op::minimum;
             double best = less ? HUGE_VAL : -HUGE_VAL;
             const auto offer = [&](double value) {
@@ -131,6 +146,50 @@ TEST(Families, WhatAllShareIsComputedOnce) {
     EXPECT_EQ(program.families.all[0].inputs.size(), 3u);
     EXPECT_EQ(program.families.all[0].width, kTexel);  // three numbers, and one to fill up
     expectTablesGiveTheGroups(program);
+}
+
+std::string blendOf(int count, const std::string& shape, const std::string& before,
+                    const std::string& width) {
+    return before + "for (int i = 0; i < " + std::to_string(count) + "; i++) {\n" + kPlace +
+           "d = smooth_min(d, " + shape + ", " + width + ");\n}\nreturn d;";
+}
+
+TEST(Families, ABlendOfBallsIsAChain) {
+    const Program program = programOf(blendOf(60, "length(p - c) - 0.1", "d = p.y;\n", "0.2"));
+    ASSERT_EQ(program.families.all.size(), 1u);
+    const Family& family = program.families.all[0];
+    EXPECT_EQ(family.members, 60u);
+    EXPECT_EQ(family.width, kTexel);  // a place; the radius and the width are the same in all
+    ASSERT_EQ(program.families.groups.size(), 1u);
+    const auto& [root, group] = *program.families.groups.begin();
+    EXPECT_EQ(root, program.distance());
+    EXPECT_TRUE(group.chain());
+    EXPECT_EQ(group.others, std::vector<IrId>{program.ir.position(1)});
+    expectTablesGiveTheGroups(program);
+    expectTablesGiveTheGroups(programOf(blendOf(60, "length(p - c) - 0.1", "d = p.y;\n", "0.1 + 0.01 * i")));
+}
+
+TEST(Families, AChainIsInOrder) {
+    // Runs of one kind are chains, each of which begins with the one before it.
+    const Program two = programOf(
+        "d = p.y;\nfor (int i = 0; i < 80; i++) {\n" + kPlace +
+        "d = smooth_min(d, i < 40 ? length(p - c) - 0.1 : box(p - c, vec3(0.1), 0.02).distance, 0.2);\n}\n"
+        "return d;");
+    ASSERT_EQ(two.families.all.size(), 2u);
+    EXPECT_EQ(two.families.groups.rbegin()->second.others,
+              std::vector<IrId>{two.families.groups.begin()->first});
+    expectTablesGiveTheGroups(two);
+    // Where kinds take turns there is no run, and the order must not change.
+    EXPECT_TRUE(programOf("d = p.y;\nfor (int i = 0; i < 80; i++) {\n" + kPlace +
+                          "d = smooth_min(d, i % 2 == 0 ? length(p - c) - 0.1 : box(p - c, vec3(0.1), "
+                          "0.02).distance, 0.2);\n}\nreturn d;")
+                    .families.empty());
+    // Holes with round edges: the chain of what is outside.
+    const Program holes = programOf("d = box(p, vec3(3)).distance;\nfor (int i = 0; i < 40; i++) {\n" +
+                                    kPlace + "d = smooth_max(d, -(length(p - c) - 0.2), 0.1);\n}\nreturn d;");
+    ASSERT_EQ(holes.families.all.size(), 1u);
+    EXPECT_EQ(holes.families.all[0].members, 40u);
+    expectTablesGiveTheGroups(holes);
 }
 
 TEST(Families, NoneWhereALoopWouldNotPay) {

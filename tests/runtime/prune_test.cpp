@@ -109,7 +109,22 @@ TEST(Prune, BlocksAreListedOnLongGrids) {
     expectPruningChangesNothing(program, kBox, 530, MeshMethod::marchingCubes);
 }
 
-/// Shapes of several kinds, unions and holes, under a turn, a shell or a displacement.
+TEST(Prune, ThreeHundredBallsBlendedIntoTheGround) {
+    const std::string ball =
+        "c = vec3(hash(vec3(i, 1, 0), 1), 0.5 * hash(vec3(i, 2, 0), 1), hash(vec3(i, 3, 0), 1)) * 2 - 1; ";
+    for (const char* first : {"d = p.y + 0.8; ", "d = length(p) - 0.3; ", "d = 0.02 * p.x + 1000.0; "}) {
+        SCOPED_TRACE(first);
+        const Program program = programOf(first + ("for (int i = 0; i < 300; i++) { " + ball) +
+                                          "d = smooth_min(d, length(p - c) - 0.07, 0.05); } return d;");
+        ASSERT_EQ(program.families.all.size(), 1u);
+        ASSERT_TRUE(program.families.groups.begin()->second.chain());
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring})
+            expectPruningChangesNothing(program, kBox, 60, method);
+        expectStraightCodeAgrees(program, kBox, 60);
+    }
+}
+
+/// Shapes of several kinds, unions and holes, sharp and blended, under a turn, a shell or a displacement.
 std::string randomCode(uint32_t seed) {
     std::mt19937 random(seed);
     const auto number = [&](double lo, double hi) {
@@ -130,7 +145,8 @@ std::string randomCode(uint32_t seed) {
                  "box_max(p - c, vec3(0.06, 0.04 + 0.01 * c.x, 0.05)).distance",
                  "max(sphere(p - c, 0.1).distance, p.y * c.x - 0.05)"});
         const std::string put =
-            one({"d = min(d, e);", "d = min(d, e);", "d = max(d, -e);", "d = max(-e, d);"});
+            one({"d = min(d, e);", "d = max(d, -e);", "d = max(-e, d);", "d = smooth_min(d, e, 0.06);",
+                 "d = smooth_min(e, d, 0.02 + 0.03 * c.x * c.x);", "d = smooth_max(d, -e, 0.05);"});
         code += "for (int i = 0; i < " + std::to_string(16 + random() % 40) +
                 "; i++) { c = vec3(hash(vec3(i, 1, " + k + "), 1), hash(vec3(i, 2, " + k +
                 "), 1), hash(vec3(i, 3, " + k + "), 1)) * 2 - 1; e = " + shape + "; " + put + "} ";
