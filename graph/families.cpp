@@ -119,7 +119,6 @@ class Finder {
                 run.emplace_back(members[end], std::move(*way));
             }
             end = std::max(end, first + 1);
-            if (run.empty()) continue;
             if (run.size() < kLeastMembers) continue;
             std::optional<Family> family = familyOf(run, std::span(links).subspan(first, run.size()));
             if (!family) continue;

@@ -268,8 +268,7 @@ class FamilyEmitter : GlslStatements {
     void pruneChain(const FamilyGroup& group) {
         const uint32_t f = group.families[0];
         text += "    {\n    vec2 start = " + interval(group.others[0]) +
-                ", chain = start;\n    uint at = open ? " + "fieldAllocate(" + list(f) +
-                ".y) : 0u, kept = 0u;\n";
+                ", chain = start;\n    uint at = open ? fieldAllocate(" + list(f) + ".y) : 0u, kept = 0u;\n";
         loop(f, [&](const Family& family) {
             for (IrId step : family.steps) intervalStatement(step);
             text += "    float width = " + width(family) +
