@@ -72,7 +72,9 @@ double smoothMinimum(double a, double b, double k) {
 }
 /// It grows with a and b, and falls with k: so its ends are those of the operands, however wide these are.
 Interval smoothMinimumInterval(I x) {
-    const auto size = [&](double a, double b) { return 1e-15 * (std::abs(a) + std::abs(b) + absolute(x[2]).hi); };
+    const auto size = [&](double a, double b) {
+        return 1e-15 * (std::abs(a) + std::abs(b) + absolute(x[2]).hi);
+    };
     return outward(smoothMinimum(x[0].lo, x[1].lo, x[2].hi) - size(x[0].lo, x[1].lo),
                    smoothMinimum(x[0].hi, x[1].hi, x[2].lo) + size(x[0].hi, x[1].hi));
 }
