@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -30,6 +31,27 @@ void dropUnused(Mesh& mesh) {
     for (uint32_t& index : mesh.indices) index = place[index];
 }
 
+/// Drops triangles that have the same corners as another: what is left of a part that has become flat.
+void dropFlat(std::vector<uint32_t>& indices) {
+    using Corners = std::array<uint32_t, 3>;
+    const auto cornersAt = [&](std::size_t i) {
+        Corners corners{indices[i], indices[i + 1], indices[i + 2]};
+        std::ranges::sort(corners);
+        return corners;
+    };
+    std::vector<Corners> all;
+    for (std::size_t i = 0; i < indices.size(); i += 3) all.push_back(cornersAt(i));
+    std::ranges::sort(all);
+    if (std::ranges::adjacent_find(all) == all.end()) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        if (std::ranges::equal_range(all, cornersAt(i)).size() > 1) continue;
+        std::copy_n(&indices[i], 3, &indices[kept]);
+        kept += 3;
+    }
+    indices.resize(kept);
+}
+
 }  // namespace
 
 double farthest(const Report& report) {
@@ -52,13 +74,14 @@ bool decimate(Mesh& mesh, double error, const MeasureOptions& measure) {
         indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), corners, positions,
                                         mesh.positions.size(), sizeof mesh.positions[0], 0,
                                         float(bound / scale)));
+        dropFlat(indices);
         if (indices.empty()) return false;
         const Report report = reportOnMesh(mesh.positions, indices, measure);
         if (!(farthest(report) <= error) || (sound && !report.closedManifold())) return false;
         if (indices.size() < (best.empty() ? corners : best.size())) best = std::move(indices);
         return true;
     };
-    double good = 0.0, bad = 0.0, bound = error;
+    double good = 0.0, bad = 0.0, bound = std::min(error, scale);
     if (holds(bound)) {
         for (int i = 0; i < kMostDoublings && bad == 0.0; ++i) {
             good = bound;

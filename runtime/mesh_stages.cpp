@@ -17,6 +17,7 @@ namespace {
 
 constexpr uint64_t kMostTriangles = 1u << 24;
 constexpr uint64_t kWholeTexels = 16;  // bytes behind a list that is also read as texels
+constexpr float kStill = 1.0f / 16;    // of a cell; of half a cell after a subdivision, and so on
 
 /// A power of two that is at least as large.
 float powerAbove(float size) { return std::exp2(std::ceil(std::log2(std::max(size, 1e-30f)))); }
@@ -46,8 +47,9 @@ struct Run {
     MesherResult& result;
     const MeshStageConfig& config;
     Most most = mostOf(device);
-    bool sorted = false;  ///< the lists are those of the mesh's triangles
-    bool stale = false;   ///< normals are not those of the mesh as it is
+    float still = kStill * config.cellSize;  ///< MeshPush's
+    bool sorted = false;                     ///< the lists are those of the mesh's triangles
+    bool stale = false;                      ///< normals are not those of the mesh as it is
     bool smoothed = false;
 
     gpu::MeshPush push() const {
@@ -56,6 +58,7 @@ struct Run {
         push.triangles = result.triangles;
         push.lo = config.lo;
         push.hi = config.hi;
+        push.still = still;
         const glm::vec3 reach = glm::max(glm::abs(config.lo), glm::abs(config.hi));
         push.unit = 2.0f * powerAbove(std::max({reach.x, reach.y, reach.z}));
         return push;
@@ -193,6 +196,7 @@ void splitEdges(Commands& commands, Run& run, bool project) {
     run.result.vertices = uint32_t(vertices);
     run.result.triangles = uint32_t(triangles);
     run.sorted = false;
+    run.still *= 0.5f;
     run.stale = run.stale || !project;
 }
 

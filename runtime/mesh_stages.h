@@ -48,6 +48,7 @@ struct MeshStageBuffers {
 struct MeshStageConfig {
     const MeshStagePipelines* pipelines = nullptr;
     glm::vec3 lo{-1.0f}, hi{1.0f};       ///< the region that was meshed
+    float cellSize = 0;                  ///< metres; how small a part may become depends on it
     const Buffer* parameters = nullptr;  ///< as MesherConfig's
     const Buffer* images = nullptr;
     bool project = true;  ///< false: without the field's kernel, new vertices stay on their edges

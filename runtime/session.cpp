@@ -214,6 +214,7 @@ Done Session::runStages(MesherResult& result, const Box& region, bool kernels, b
     MeshStageConfig config{.pipelines = &*stagePipelines,
                            .lo = grid.lo,
                            .hi = grid.hi,
+                           .cellSize = grid.cellSize,
                            .parameters = &parameters,
                            .images = &images,
                            .project = kernels,

@@ -16,7 +16,7 @@
 namespace fw {
 namespace {
 
-static_assert(sizeof(TileHeader) == 112 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 20);
+static_assert(sizeof(TileHeader) == 120 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 20);
 static_assert(sizeof(gpu::MeshVertex) == 16 && std::is_trivially_copyable_v<TileHeader>);
 
 Error damaged(const std::string& path, const char* what) {
@@ -49,6 +49,27 @@ Result<std::vector<T>> readArray(const std::string& path, uint64_t offset, uint6
     return values;
 }
 
+constexpr uint64_t kPiece = 4u << 20;  // bytes read at once where all pass through
+
+/// The checksum goes on over `bytes`, a multiple of four: any one word that is another makes it another.
+uint64_t summed(uint64_t checksum, const void* data, std::size_t bytes) {
+    for (std::size_t at = 0; at < bytes; at += 4) {
+        uint32_t word;
+        std::memcpy(&word, static_cast<const char*>(data) + at, sizeof word);
+        checksum = (checksum ^ word) * 0x9E3779B97F4A7C15u;
+        checksum ^= checksum >> 32;
+    }
+    return checksum;
+}
+uint64_t summed(TileHeader header) {
+    header.checksum = 0;
+    return summed(0, &header, sizeof header);
+}
+template <class T>
+uint64_t summed(uint64_t checksum, const std::vector<T>& values) {
+    return summed(checksum, values.data(), values.size() * sizeof(T));
+}
+
 /// The record at `offset`, which must lie within the file's `size` bytes.
 Result<TileRecord> recordAt(const std::string& path, uint64_t offset, uint64_t size) {
     if (offset > size || size - offset < sizeof(TileHeader)) return damaged(path, "the file is cut short");
@@ -60,7 +81,16 @@ Result<TileRecord> recordAt(const std::string& path, uint64_t offset, uint64_t s
     if (std::memcmp(has.magic, TileHeader().magic, sizeof has.magic) != 0 || has.colors > 1 ||
         has.vertices > 0xffffffffu || has.shared > has.vertices || has.triangles > kMost)
         return damaged(path, "this is no file of tiles, or it is damaged");
-    if (size - offset < layoutOf(has).end) return damaged(path, "the file is cut short");
+    const uint64_t end = layoutOf(has).end;
+    if (size - offset < end) return damaged(path, "the file is cut short");
+    uint64_t checksum = summed(has);
+    for (uint64_t at = sizeof has; at < end; at += kPiece) {
+        const Result<std::vector<char>> bytes =
+            readArray<char>(path, offset + at, std::min(kPiece, end - at));
+        if (!bytes) return bytes.error();
+        checksum = summed(checksum, *bytes);
+    }
+    if (checksum != has.checksum) return damaged(path, "the file is damaged");
     return record;
 }
 
@@ -167,6 +197,8 @@ Done writeTile(TileContent& tile, const std::string& path, const std::atomic<boo
     tile.header.triangles = tile.indices.size() / 3;
     tile.header.shared = tile.shared.size();
     tile.header.colors = tile.colors.empty() ? 0 : 1;
+    tile.header.checksum = summed(
+        summed(summed(summed(summed(tile.header), tile.shared), tile.vertices), tile.colors), tile.indices);
     Result<OutputFile> file = OutputFile::open(path, cancel);
     if (!file) return file.error();
     file->write(&tile.header, sizeof tile.header);
@@ -194,7 +226,6 @@ Done writePart(const PartHeader& part, const std::vector<TileRecord>& tiles, con
     Result<OutputFile> file = OutputFile::open(path, cancel);
     if (!file) return file.error();
     file->write(&part, sizeof part);
-    constexpr uint64_t kPiece = 4u << 20;
     for (const TileRecord& tile : tiles) {
         const uint64_t end = layoutOf(tile.header).end;
         for (uint64_t at = 0; at < end && file->good(); at += kPiece) {

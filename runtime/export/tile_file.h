@@ -9,7 +9,8 @@
 // tile that holds it; what is kept is four bytes for each time a tile has one. A table that is not empty in
 // the end means a hole: tiles that do not belong together, or a field whose bounds are wrong.
 //
-// Nothing read is trusted: sizes are checked against the file's, indices against the sizes.
+// Nothing read is trusted: sizes are checked against the file's, indices against the sizes, bytes against the
+// record's checksum.
 #pragma once
 
 #include <string>
@@ -22,8 +23,9 @@
 namespace fw {
 
 struct TileHeader {
-    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '1', 0};
-    uint64_t key = 0;  ///< equal for tiles of one mesh
+    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '2', 0};
+    uint64_t key = 0;       ///< equal for tiles of one mesh
+    uint64_t checksum = 0;  ///< of the whole record, this taken for 0
     uint32_t tile = 0, tiles = 0;
     uint32_t capped = 0, colors = 0;  ///< 0 or 1
     uint64_t vertices = 0, triangles = 0, shared = 0;
@@ -55,11 +57,11 @@ struct TileRecord {
 };
 
 Done writeTile(TileContent& tile, const std::string& path, const std::atomic<bool>* cancel);
-/// Errors: no file, not a tile, cut short.
+/// Errors: no file, not a tile, cut short, damaged.
 Result<TileRecord> readTile(const std::string& path);
 
 struct PartHeader {
-    char magic[8] = {'F', 'W', 'P', 'A', 'R', 'T', '1', 0};
+    char magic[8] = {'F', 'W', 'P', 'A', 'R', 'T', '2', 0};
     uint64_t key = 0;
     uint32_t share = 0, shares = 0;  ///< from 1
 };

@@ -17,6 +17,7 @@ struct MeshPush {
     uint triangles;
     float unit;   // of what is summed (exact_sum.glsl): a power of two; metres, of normals square metres
     vec3 lo, hi;  // the region, at whose sides the solid is closed
+    float still;  // metres: smoothing leaves a vertex that has all its neighbours within them
 };
 
 #ifdef __cplusplus

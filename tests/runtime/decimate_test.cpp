@@ -99,6 +99,17 @@ TEST(Decimate, LeavesAMeshThatIsFartherAwayThanThat) {
     EXPECT_TRUE(reportOnMesh(mesh.positions, mesh.indices).closedManifold());
 }
 
+TEST(Decimate, ASolidStaysASolidWhateverTheError) {
+    for (const double error : {0.5, 2.0, 10.0, 1000.0}) {
+        Mesh mesh = test::torus(30, 20);
+        ASSERT_TRUE(decimate(mesh, error, {})) << error;
+        const Report report = reportOnMesh(mesh.positions, mesh.indices);
+        EXPECT_TRUE(report.closedManifold());
+        EXPECT_GE(report.triangles, 4u);
+        EXPECT_GT(report.volume, 0.0);
+    }
+}
+
 TEST(Decimate, AnEmptyMeshStaysEmpty) {
     Mesh mesh;
     EXPECT_FALSE(decimate(mesh, 1.0, {}));

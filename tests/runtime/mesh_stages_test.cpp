@@ -37,8 +37,11 @@ Mesh changed(const Mesh& mesh, const std::vector<MeshStage>& stages, MesherResul
     buffers.counts = createBuffer(test::device(), sizeof(gpu::MesherCounts));
     uploadMesh(test::device(), buffers, mesh, result);
     const MeshStagePipelines pipelines = createMeshStagePipelines(test::device());
-    MeshStageConfig config{
-        .pipelines = &pipelines, .lo = glm::vec3(-2), .hi = glm::vec3(2), .project = false};
+    MeshStageConfig config{.pipelines = &pipelines,
+                           .lo = glm::vec3(-2),
+                           .hi = glm::vec3(2),
+                           .cellSize = 0.05f,
+                           .project = false};
     const Done ran = runMeshStages(test::device(), stageBuffers, buffers, result, stages, config);
     if (!ran) throw SystemError(format(ran.error()));
     if (told) *told = result;
@@ -200,6 +203,26 @@ TEST(MeshStages, ABoxKeepsItsTopologyWhateverIsDone) {
     EXPECT_EQ(countsOf(report), (Counts{12 * 64, 1, 2}));
     EXPECT_LT(report.volume, 7.0) << "smoothing rounds it";
     EXPECT_GT(report.volume, 1.0);
+}
+
+TEST(MeshStages, SmallPartsShrinkAndDoNotCollapse) {
+    // Some are a few cells long, and were to become lines.
+    Checked checked;
+    const MeshRequest request{Box{{-0.992, -0.864, -1.344}, {0.369, 0.722, 0.409}}, 4};
+    Node field, output;
+    field.id = "field", field.type = "expression", field.code = "return hash(p * 2, 3) - 0.5;";
+    output.id = "out", output.type = "output";
+    output.set("surface", {Link{"field", ""}});
+    Graph graph;
+    graph.nodes = {field, output};
+    const Program program = programOf(graph);
+    const Counts before = countsOf(reportOf(checked.mesh(program, {}, request)));
+    for (const int iterations : {30, 100, 1000}) {
+        const Report report = reportOf(checked.mesh(program, {smooth(iterations)}, request));
+        expectClosedManifold(report);
+        EXPECT_EQ(countsOf(report), before);
+        EXPECT_EQ(report.degenerateTriangles, 0u);
+    }
 }
 
 TEST(MeshStages, RandomGraphsKeepTheirTopology) {
