@@ -8,19 +8,16 @@
 #include <limits>
 
 #include "graph/glsl.h"
+#include "runtime/gpu/cache_file.h"
 
 namespace fw {
 namespace {
 
 constexpr int kBlock = 64;
 
-/// FNV-1a, 64 bits.
 struct Hash {
-    uint64_t value = 0xcbf29ce484222325u;
-    void add(const void* data, std::size_t size) {
-        for (std::size_t i = 0; i < size; ++i)
-            value = (value ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
-    }
+    uint64_t value = hashBytes(nullptr, 0);
+    void add(const void* data, std::size_t size) { value = hashBytes(data, size, value); }
     template <class T>
     void add(const std::vector<T>& values) {
         const uint64_t count = values.size();

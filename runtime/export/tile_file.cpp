@@ -51,7 +51,8 @@ Result<std::vector<T>> readArray(const std::string& path, uint64_t offset, uint6
 
 constexpr uint64_t kPiece = 4u << 20;  // bytes read at once where all pass through
 
-/// The checksum goes on over `bytes`, a multiple of four: any one word that is another makes it another.
+/// The checksum goes on over `bytes`, a multiple of four: any one word that is another makes it another. By
+/// words and not bytes as hashBytes, for gigabytes pass through.
 uint64_t summed(uint64_t checksum, const void* data, std::size_t bytes) {
     for (std::size_t at = 0; at < bytes; at += 4) {
         uint32_t word;

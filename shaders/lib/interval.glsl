@@ -4,6 +4,8 @@
 // Sums, products and roots are not rounded outwards one by one, which would triple the code and its compile time:
 // values round alike, and whoever culls by an interval adds a margin (see iMargin) and can tell a hole from none.
 
+#include "lib/smooth_minimum.glsl"
+
 vec2 iOut(vec2 a) { return a + abs(a) * vec2(-1.2e-7, 1.2e-7); }
 vec2 iSlack(vec2 a) { return a + (abs(a) * 1e-5 + 1e-5) * vec2(-1.0, 1.0); }
 vec2 iCut(vec2 a) { return clamp(a, -1e30, 1e30); }
@@ -64,13 +66,9 @@ vec2 iSelect(vec2 c, vec2 a, vec2 b) {
     return c.x > 0.5 ? a : c.y < 0.5 ? b : vec2(min(a.x, b.x), max(a.y, b.y));
 }
 // It grows with a and b, and falls with k.
-float iSmoothMinOf(float a, float b, float k) {
-    float h = max(k - abs(a - b), 0.0);
-    return min(a, b) - h * h * (0.25 / max(k, 1e-9));
-}
 vec2 iSmoothMin(vec2 a, vec2 b, vec2 k) {
     vec2 slack = (min(abs(a) + abs(b), 1e30) + iAbs(k).y) * vec2(-2.4e-7, 2.4e-7);
-    return iCut(vec2(iSmoothMinOf(a.x, b.x, k.y), iSmoothMinOf(a.y, b.y, k.x)) + slack);
+    return iCut(vec2(fieldSmoothMin(a.x, b.x, k.y), fieldSmoothMin(a.y, b.y, k.x)) + slack);
 }
 vec3 iCentre(vec2 x, vec2 y, vec2 z) { return 0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y); }
 vec2 iNoise(float centre, vec2 x, vec2 y, vec2 z, float slope, float least, float most) {

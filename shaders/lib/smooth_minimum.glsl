@@ -1,5 +1,7 @@
 // The quadratic smooth minimum, whose corner where a = b is filled k / 4 deep: graph/ops.cpp on the GPU. Operands that
 // are k apart are not changed by one bit.
+#ifndef FW_SMOOTH_MINIMUM_GLSL
+#define FW_SMOOTH_MINIMUM_GLSL
 
 float fieldSmoothMin(float a, float b, float k) {
     float h = max(k - abs(a - b), 0.0);
@@ -16,3 +18,4 @@ vec4 fieldSmoothMin(vec4 a, vec4 b, float k) {
     vec3 nearer = a.w <= b.w ? a.xyz : b.xyz, other = a.w <= b.w ? b.xyz : a.xyz;
     return vec4(share > 0.0 ? nearer + 0.5 * share * (other - nearer) : nearer, fieldSmoothMin(a.w, b.w, k));
 }
+#endif

@@ -8,6 +8,7 @@
 #include "runtime/mesher.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/verify.h"
+#include "tests/support/expression_graph.h"
 
 namespace fw::bench {
 namespace {
@@ -57,15 +58,7 @@ std::optional<Program> unionOf(Bench& bench, const std::vector<Shape>& shapes, W
         code += std::string(way == Way::blended ? "d = smooth_min(d, box(p - " : "d = min(d, box(p - ") +
                 vector(shape.centre) + ", " + vector(shape.half) + ", 0.01).distance" +
                 (way == Way::blended ? ", 0.02);\n" : ");\n");
-    Graph graph;
-    Node field, output;
-    field.id = "field", field.type = "expression", field.code = code + "return d;";
-    output.id = "out", output.type = "output";
-    InputValue link;
-    link.value = Link{"field", ""};
-    output.set("surface", std::move(link));
-    graph.nodes = {field, output};
-    Result<Program> program = compile(graph);
+    Result<Program> program = compile(test::expressionGraph(code + "return d;"));
     if (!program) return bench.fail(format(program.error())), std::nullopt;
     if (way == Way::straight) program->families = {};
     return std::move(*program);

@@ -3,10 +3,10 @@
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "editor/files/browser.h"
 #include "editor/files/preferences.h"

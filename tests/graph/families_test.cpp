@@ -8,21 +8,13 @@
 
 #include "graph/compile.h"
 #include "graph/glsl.h"
-#include "graph/json.h"
+#include "tests/support/expression_graph.h"
 
 namespace fw {
 namespace {
 
 Program programOf(const std::string& code) {
-    Graph graph;
-    Node field, output;
-    field.id = "field", field.type = "expression", field.code = code;
-    output.id = "out", output.type = "output";
-    InputValue link;
-    link.value = Link{"field", ""};
-    output.set("surface", std::move(link));
-    graph.nodes = {field, output};
-    Result<Program> program = compile(graph);
+    Result<Program> program = compile(test::expressionGraph(code));
     if (!program) throw std::runtime_error(format(program.error()));
     return std::move(*program);
 }

@@ -15,6 +15,7 @@
 #include "runtime/mesher_host.h"
 #include "runtime/player.h"
 #include "runtime/session.h"
+#include "tests/support/expression_graph.h"
 #include "tests/support/gpu.h"
 #include "tests/support/meshes.h"
 #include "tests/support/random_graph.h"
@@ -209,13 +210,7 @@ TEST(MeshStages, SmallPartsShrinkAndDoNotCollapse) {
     // Some are a few cells long, and were to become lines.
     Checked checked;
     const MeshRequest request{Box{{-0.992, -0.864, -1.344}, {0.369, 0.722, 0.409}}, 4};
-    Node field, output;
-    field.id = "field", field.type = "expression", field.code = "return hash(p * 2, 3) - 0.5;";
-    output.id = "out", output.type = "output";
-    output.set("surface", {Link{"field", ""}});
-    Graph graph;
-    graph.nodes = {field, output};
-    const Program program = programOf(graph);
+    const Program program = programOf(test::expressionGraph("return hash(p * 2, 3) - 0.5;"));
     const Counts before = countsOf(reportOf(checked.mesh(program, {}, request)));
     for (const int iterations : {30, 100, 1000}) {
         const Report report = reportOf(checked.mesh(program, {smooth(iterations)}, request));

@@ -12,6 +12,7 @@
 #include "runtime/mesher.h"
 #include "runtime/session.h"
 #include "tests/support/device_field.h"
+#include "tests/support/expression_graph.h"
 #include "tests/support/gpu.h"
 
 namespace fw {
@@ -41,12 +42,7 @@ Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod meth
 }
 
 Program programOf(const std::string& code) {
-    const std::string text = R"({"fieldwright": 1, "nodes": [{"id": "f", "type": "expression", "code": ")" +
-                             code +
-                             R"("}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "f"}}}]})";
-    const Result<Graph> graph = parseGraph(text, "code", nullptr);
-    if (!graph) throw SystemError(format(graph.error()));
-    Result<Program> program = compile(*graph);
+    Result<Program> program = compile(test::expressionGraph(code));
     if (!program) throw SystemError(format(program.error()));
     return std::move(*program);
 }
