@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
 
 #include "runtime/marching_cubes_table.h"
 #include "runtime/mesher_host.h"
@@ -110,42 +109,20 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.triangles, uint64_t(buffers.triangleCapacity) * 12);
 }
 
-uint32_t longestList(const Families& families) {
-    uint32_t most = 0;
-    for (const Family& family : families.all) most = std::max(most, family.members);
-    return most;
+/// Places of the families' lists: all of space, boxes, bricks.
+uint64_t placesOf(glm::uvec3 blockCount, uint64_t bricks) {
+    return 1 + MESHER_PLACES * uint64_t(blockCount.x) * blockCount.y * blockCount.z + bricks;
 }
 
-/// What the heads of all places' lists take.
-uint64_t headBytes(uint64_t blocks, uint64_t bricks, const Families& families) {
-    return (1 + MESHER_PLACES * blocks + bricks) * families.all.size() * sizeof(gpu::uvec2);
-}
-
-/// Sizes the lists of the families' members, and writes the tables and the whole lists of place 0.
-void reserveLists(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount,
-                  const Families& families) {
-    constexpr uint64_t kEntriesOfABrick =
-        48;  // a guess; where it is too few, the list of a larger box serves
+/// Sizes the lists of the families' members.
+void reserveBrickLists(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCount,
+                       const Families& families) {
+    constexpr uint64_t kEntriesOfABrick = 48;  // a guess
     const uint64_t blocks = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
-    const uint64_t bricks = buffers.brickCapacity, count = families.all.size();
-    std::vector<uint32_t> all(longestList(families));
-    std::iota(all.begin(), all.end(), 0u);
-    std::vector<gpu::uvec2> heads;
-    uint64_t entries = all.size() + kEntriesOfABrick * bricks * count;
-    for (const Family& family : families.all) {
-        heads.emplace_back(0, family.members);
-        entries += blocks * (3 * family.members + 64 * kEntriesOfABrick);
-    }
-    const uint64_t range = device.properties.limits.maxStorageBufferRange;
-    reserve(device, buffers.fieldLists, std::min(entries * sizeof all[0], range));
-    reserve(device, buffers.fieldHeads, std::min(headBytes(blocks, bricks, families), range));
-    std::vector<float> tables;
+    uint64_t entries = kEntriesOfABrick * buffers.brickCapacity * families.all.size();
     for (const Family& family : families.all)
-        tables.insert(tables.end(), family.table.begin(), family.table.end());
-    reserve(device, buffers.fieldTables, tables.size() * sizeof tables[0]);
-    upload(device, buffers.fieldTables, tables);
-    upload(device, buffers.fieldLists, all);
-    upload(device, buffers.fieldHeads, heads);
+        entries += blocks * (3 * family.members + 64 * kEntriesOfABrick);
+    reserveLists(device, buffers.field, families, placesOf(blockCount, buffers.brickCapacity), entries);
 }
 
 /// What can be numbered and bound.
@@ -212,14 +189,9 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
             const MesherConfig& config, MesherPush push) {
     const Device& device = commands.device;
     std::vector<Descriptor> common = {{0, b.counts}};
-    if (config.parameters) common.push_back({FIELD_PARAMETERS, *config.parameters});
-    if (config.images) common.push_back({FIELD_IMAGES, *config.images});
+    addField(common, {config.parameters, config.images});
     const auto listed = [&](std::vector<Descriptor> list) {
-        if (config.families && !config.families->empty()) {
-            list.push_back({FIELD_TABLES, b.fieldTables});
-            list.push_back({FIELD_LISTS, b.fieldLists});
-            list.push_back({FIELD_HEADS, b.fieldHeads});
-        }
+        if (config.families && !config.families->empty()) addField(list, {.lists = &b.field});
         return list;
     };
     auto with = [&](const std::vector<Descriptor>& more) {
@@ -390,7 +362,7 @@ MesherPipelines createMesherPipelines(const Device& device, std::string field, b
                                       const MesherPipelines& previous, CompileTimes* times, Compile when) {
     MesherPipelines pipelines{previous.all, std::move(field)};
     pipelines.all.resize(kernelCount);
-    const bool pruned = pipelines.field.find("#define FIELD_FAMILIES") != std::string::npos;
+    const bool pruned = hasFamilies(pipelines.field);
     for (Kernel kernel : {prune64, prune32, prune16, blocks, cull, prune8, sample, vertices, colors})
         pipelines.all[kernel] = nullptr;
     build(device, pipelines,
@@ -448,9 +420,8 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     if (wantColors) build(device, pipelines, {colors});
     const bool families = config.families && !config.families->empty() && !config.host;
     // On the longest grids the heads cannot be bound: every brick then evaluates all members.
-    const uint64_t blockTotal = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
     if (families && config.pruned &&
-        headBytes(blockTotal, most.bricks, *config.families) <=
+        headBytes(*config.families, placesOf(blockCount, most.bricks)) <=
             device.properties.limits.maxStorageBufferRange) {
         build(device, pipelines, {prune64, prune32, prune16, prune8});
         push.listStart = longestList(*config.families);
@@ -458,7 +429,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     MesherResult result;
     for (result.runs = 1;; ++result.runs) {
         reserveAll(device, buffers, blockCount, dual, wantColors);
-        if (families) reserveLists(device, buffers, blockCount, *config.families);
+        if (families) reserveBrickLists(device, buffers, blockCount, *config.families);
         push.brickCapacity = buffers.brickCapacity;
         push.vertexCapacity = buffers.vertexCapacity;
         push.triangleCapacity = buffers.triangleCapacity;

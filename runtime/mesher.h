@@ -40,6 +40,7 @@
 #include <string>
 
 #include "graph/compile.h"
+#include "runtime/field_buffers.h"
 #include "runtime/gpu/commands.h"
 #include "runtime/mesh.h"
 #include "shaders/shared.h"
@@ -96,7 +97,7 @@ struct MesherBuffers {
     Buffer triangles;  ///< three uint32 indices each
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
     Buffer points;     ///< of dual contouring: gpu::MeshVertex on each active edge
-    Buffer fieldTables, fieldHeads, fieldLists;  ///< of the field's families
+    FieldLists field;  ///< of its families
     Buffer table, patchTable, patchList, corners, pinched, blockList, blockAlive, blockSums, rows, brickList,
         links, planes, sums, edges, vertexList, stripList;
     uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;

@@ -281,6 +281,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
                             .buffers = {&parameters, &images},
+                            .families = &current.families,
                             .bounds = boundsOf(options.framed),
                             .draft = draft ? std::optional(look) : std::nullopt,
                             .content = content};

@@ -14,11 +14,6 @@ constexpr uint32_t kSlice = 64;
 
 }  // namespace
 
-void addField(std::vector<Descriptor>& bound, const FieldBuffers& field) {
-    if (field.parameters) bound.emplace_back(FIELD_PARAMETERS, *field.parameters);
-    if (field.images) bound.emplace_back(FIELD_IMAGES, *field.images);
-}
-
 uint32_t tilesOf(VkExtent3D extent) {
     return groupsFor(extent.width, RENDER_TILE) * groupsFor(extent.height, RENDER_TILE);
 }

@@ -19,15 +19,6 @@
 
 namespace fw {
 
-/// What a field reads besides the position.
-struct FieldBuffers {
-    const Buffer* parameters = nullptr;  ///< live ones, where it has some
-    const Buffer* images = nullptr;      ///< that it samples, where it does
-};
-
-/// Adds them to what a shader is given.
-void addField(std::vector<Descriptor>& bound, const FieldBuffers& field);
-
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;  ///< of an attachment
 
 /// A depth image. What is drawn is copied into it, for a depth attachment cannot be a storage image, and

@@ -146,6 +146,19 @@ gpu::RenderFrame describe(const Renderer& renderer, const RenderScene& scene, co
     return frame;
 }
 
+/// What the field's kernels read; their lists are made by listPlaces() before.
+FieldBuffers fieldOf(const Renderer& renderer, const RenderScene& scene) {
+    FieldBuffers field = scene.buffers;
+    if (renderer.places.list) field.lists = &renderer.places.lists;
+    return field;
+}
+
+void findPlaces(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    if (scene.draft || !renderer.places.list) return;
+    listPlaces(commands, renderer.places, *scene.families, scene.buffers, scene.grid.lo, scene.grid.hi,
+               scene.content);
+}
+
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
     const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
     const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
@@ -170,7 +183,7 @@ void trace(Commands& commands, Renderer& renderer, const RenderScene& scene, Dep
     rays.stepScale = frame.stepScale;
     rays.close = care.close * rays.pixel;
     rays.steps = care.steps;
-    traceDepth(commands, renderer.depth, target, extent, rays, scene.buffers);
+    traceDepth(commands, renderer.depth, target, extent, rays, fieldOf(renderer, scene));
 }
 
 void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced,
@@ -256,6 +269,7 @@ void measurePrimary(Renderer& renderer, const RenderScene& scene) {
         double took = 0;
         for (int i = 0; i < 2; ++i) {  // the first warms up
             Commands commands(*renderer.device, true);
+            findPlaces(commands, renderer, scene);
             beginStage(commands, "depth");
             findDepth(commands, renderer, scene, traced);
             beginStage(commands, "reading");
@@ -308,7 +322,6 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         {0, renderer.frame},        storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
         {3, gbuffer.tileLists},     storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
         storage(9, renderer.means), storage(10, renderer.pixels)};
-    addField(bound, scene.buffers);
     const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
         dispatchIndirect(commands, pipeline, gbuffer.arguments, argumentsOf(list), nullptr, 0, bound);
     };
@@ -319,8 +332,13 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
                 createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
         resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
         bound.push_back(storage(11, renderer.lampLight));
+        std::vector<Descriptor> read = {{0, renderer.frame},
+                                        storage(2, gbuffer.now()),
+                                        {3, gbuffer.tileLists},
+                                        storage(13, renderer.lampLight)};
+        addField(read, fieldOf(renderer, scene));
         for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND}) {
-            dispatchTiles(commands, renderer.lamps, gbuffer, list, &list, sizeof list, bound);
+            dispatchTiles(commands, renderer.lamps, gbuffer, list, &list, sizeof list, read);
             if (cancelled(commands)) return false;
         }
         barrier(commands);
@@ -355,7 +373,7 @@ void traceReference(Commands& commands, Renderer& renderer, const RenderScene& s
                                      storage(2, gbuffer.now()),
                                      {3, gbuffer.tileLists},
                                      storage(7, renderer.ambient.now())};
-    addField(bound, scene.buffers);
+    addField(bound, fieldOf(renderer, scene));
     dispatchIndirect(commands, renderer.reference, gbuffer.arguments, argumentsOf(RENDER_NEAR),
                      kRaysReference, bound);
     barrier(commands);
@@ -400,7 +418,7 @@ void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) 
             createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});
     std::vector<Descriptor> bound = {
         {0, renderer.frame}, storage(1, renderer.seen.depth), storage(10, renderer.pixels)};
-    addField(bound, scene.buffers);
+    addField(bound, fieldOf(renderer, scene));
     const VkExtent3D extent = renderer.pixels.extent;
     dispatch(commands, renderer.show,
              {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1}, nullptr, 0,
@@ -455,6 +473,7 @@ std::optional<FieldKernels> createFieldKernels(const Device& device, std::string
     add(kernels.surface, "render/surface.comp");
     add(kernels.ambient, "render/ambient.comp");
     add(kernels.ambientHoles, "render/ambient_holes.comp");
+    if (hasFamilies(kernels.field)) add(kernels.places, "render/places.comp");
     if (options.lamps) add(kernels.lamps, "render/lamps.comp");
     if (options.show) add(kernels.show, "render/show.comp");
     const std::size_t step = options.when == Compile::behind ? 1 : shaders.size();
@@ -491,6 +510,8 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.gbuffer.surface = std::move(kernels.surface);
     renderer.ambient.trace = std::move(kernels.ambient);
     renderer.ambient.addRays = std::move(kernels.ambientHoles);
+    renderer.places.list = std::move(kernels.places);
+    renderer.places.content.reset();
     renderer.lamps = std::move(kernels.lamps);
     renderer.show = std::move(kernels.show);
     renderer.reference = {};
@@ -521,6 +542,8 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     if (resizeGBuffer(commands, renderer.gbuffer, extent) || before.groundEnd != frame.groundEnd)
         forgetHistory(renderer.ambient);
 
+    beginStage(commands, "places");
+    findPlaces(commands, renderer, scene);
     const bool traced = wantsTracing(scene, options, renderer);
     if (!renderer.shadowStands) {
         beginStage(commands, "shadow");
@@ -538,7 +561,8 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         fillFromDraft(commands, renderer.draft, renderer.gbuffer, renderer.seen.depth, renderer.frame,
                       *scene.draft);
     else
-        fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame, scene.buffers);
+        fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame,
+                    fieldOf(renderer, scene));
     if (cancelled(commands)) return false;
     beginStage(commands, "ambient");
     if (scene.draft)
@@ -546,7 +570,8 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     else if (options.reference)
         traceReference(commands, renderer, scene);
     else
-        drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame, scene.buffers);
+        drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame,
+                    fieldOf(renderer, scene));
     if (cancelled(commands) || !lightFrame(commands, renderer, scene, still || resting)) return false;
     showView(commands, renderer, scene);
     ++renderer.number;

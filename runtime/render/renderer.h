@@ -27,6 +27,7 @@
 #include "runtime/render/ambient.h"
 #include "runtime/render/draft.h"
 #include "runtime/render/picture.h"
+#include "runtime/render/places.h"
 
 namespace fw {
 
@@ -42,7 +43,8 @@ struct RenderScene {
     uint32_t vertices = 0, triangles = 0;  ///< of the mesh
     MeshGrid grid;                         ///< that it was made on
     float lipschitz = 1.0f;                ///< of the field; infinite if unknown
-    FieldBuffers buffers = {};             ///< of the field
+    FieldBuffers buffers = {};             ///< of the field, without lists
+    const Families* families = nullptr;    ///< of the field, where it has some
     SeenBounds bounds = {};                ///< of RenderOptions::framed
     /// If given, the mesh alone is drawn, in this material or its colours: the renderer need not have the
     /// field's kernels.
@@ -95,6 +97,7 @@ struct Shown {
 struct FieldKernels {
     std::string field;
     Pipeline cones, trace, surface, ambient, ambientHoles;
+    Pipeline places;       ///< only if the field has families
     Pipeline lamps, show;  ///< only if asked for
 };
 
@@ -115,6 +118,7 @@ struct Renderer {
     DepthPipelines depth;
     Draft draft;  ///< made by the first one
     Clusters clusters;
+    Places places;
     GBuffer gbuffer;
     Ambient ambient;
     Pipeline light[3][16];  ///< by list of tiles and what light.comp defines; made when needed

@@ -3,7 +3,7 @@
 #define FIELD_VALUE
 #include "shared.h"
 #include "render/render.h"
-#include "field.glsl"
+#include "render/places.glsl"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
 #include "render/gbuffer.glsl"
@@ -13,7 +13,7 @@ layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
 layout(binding = 2, rgba32ui) readonly uniform uimage2D surfaces;
 layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 layout(push_constant, scalar) uniform Push { uint list; };  // of tiles
-layout(binding = 11, rgba16f) writeonly uniform image2D lamps;
+layout(binding = 13, rgba16f) writeonly uniform image2D lamps;
 
 #include "render/solid.glsl"
 #include "render/shading.glsl"

@@ -3,7 +3,7 @@
 #define FIELD_VALUE
 #include "shared.h"
 #include "render/render.h"
-#include "field.glsl"
+#include "render/places.glsl"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
 #include "render/history.glsl"

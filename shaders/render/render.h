@@ -18,6 +18,9 @@ namespace fw::gpu {
 #define RENDER_NEAR 3    // with surface that ambient occlusion may reach
 #define RENDER_LISTS 4
 
+#define RENDER_PLACES 32       // boxes along each axis of the grid of the families' lists: places.glsl
+#define RENDER_LEAST_PLACES 4  // of the coarsest; each has twice as many as the one before
+
 #define AMBIENT_HOLES 128  // pixels without history that a work group of ambient_holes.comp does at a time,
 #define AMBIENT_LANES 2    // each by so many lanes
 #define AMBIENT_MOST_GROUPS 32768u  // of them; they go on while there are holes
@@ -154,6 +157,12 @@ struct TracePush {
     uvec2 size;
     uint parallel;  // 1: all rays have one direction
     uint steps;     // of a ray, at most
+};
+
+struct PlacesPush {
+    vec3 lo, hi;     // of the region
+    uint side;       // boxes along each axis
+    uint listStart;  // of the lists: entries before are those of place 0
 };
 
 #ifdef __cplusplus

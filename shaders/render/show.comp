@@ -2,7 +2,7 @@
 #define FIELD_GRADIENT
 #include "shared.h"
 #include "render/render.h"
-#include "field.glsl"
+#include "render/places.glsl"
 #include "render/view.glsl"
 
 layout(local_size_x = RENDER_TILE, local_size_y = RENDER_TILE) in;
@@ -24,7 +24,10 @@ float steps(vec3 origin, vec3 ray, float end) {
     float t = frame.now.near, stepScale = frame.stepScale / length(ray), close = frame.now.pixel, f;
     uint i = 0;
     do {
-        f = fieldGradient(origin + ray * t).w;
+        vec3 p = origin + ray * t, at = fromMiddle(p);
+        chooseMembers(at);
+        f = fieldGradient(p).w;
+        f = withinPlaces(at) ? f : regionDistance(p).w;
         t += max(f, 0.0) * stepScale;
     } while (f > close * t && t < end && ++i < kMostSteps);
     return float(i);
@@ -45,6 +48,7 @@ void main() {
     float across = (frame.centre[axis] + frame.sliceAt - frame.now.eye[axis]) / ray[axis];
     vec3 onSlice = frame.now.eye + ray * across;
     bool inSlice = across > 0.0 && all(greaterThan(onSlice, frame.lo)) && all(lessThan(onSlice, frame.hi));
+    chooseMembers(fromMiddle(onSlice));
     vec4 g = fieldGradient(onSlice);
 
     if (frame.show == RENDER_STEPS)

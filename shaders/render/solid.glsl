@@ -1,4 +1,4 @@
-// The solid as it was meshed, cut at the region, and the ground. After view.glsl and field.glsl; `frame` is the RenderFrame.
+// The solid as it was meshed, cut at the region, and the ground. After view.glsl and places.glsl; `frame` is the RenderFrame.
 
 // In w the distance to the region, negative inside; xyz points to its nearest side.
 vec4 regionDistance(vec3 p) {
@@ -22,18 +22,27 @@ float groundAlong(View view, vec3 ray) {
     return ray.y < 0.0 && distance(p.xz, frame.centre.xz) < frame.groundEnd * frame.radius ? along : 0.0;
 }
 
+#ifdef FIELD_PRUNED
+// Of places.glsl.
+vec3 fromMiddle(vec3 p) { return (p - 0.5 * (frame.lo + frame.hi)) * 2.0 / (frame.hi - frame.lo); }
+#endif
+
 #ifdef FIELD_VALUE
 // What the marching of a ray asks for at each step. Read once before the loop: no compiler moves loads of uniforms out of it.
 struct Bounds {
-    vec3 centre, half_;
+    vec3 centre, half_, perHalf;
     float stepScale, ground;
 };
-Bounds solidBounds() { return Bounds(0.5 * (frame.lo + frame.hi), 0.5 * (frame.hi - frame.lo), frame.stepScale, frame.ground); }
+Bounds solidBounds() {
+    vec3 centre = 0.5 * (frame.lo + frame.hi), half_ = 0.5 * (frame.hi - frame.lo);
+    return Bounds(centre, half_, 1.0 / half_, frame.stepScale, frame.ground);
+}
 
 // A distance that a ray may safely go, to the solid or the ground; inside the solid negative.
 float clearance(Bounds bounds, vec3 p) {
-    vec3 q = abs(p - bounds.centre) - bounds.half_;
-    float solid = max(fieldValue(p) * bounds.stepScale, max(q.x, max(q.y, q.z)));
-    return min(solid, p.y - bounds.ground);
+    vec3 from = p - bounds.centre, q = abs(from) - bounds.half_, at = from * bounds.perHalf;
+    chooseMembers(at);
+    float region = max(q.x, max(q.y, q.z)), solid = max(fieldValue(p) * bounds.stepScale, region);
+    return min(withinPlaces(at) ? solid : region, p.y - bounds.ground);
 }
 #endif

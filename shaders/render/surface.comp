@@ -5,7 +5,7 @@
 #define FIELD_MATERIAL
 #include "shared.h"
 #include "render/render.h"
-#include "field.glsl"
+#include "render/places.glsl"
 #include "lib/octahedral.glsl"
 #include "render/view.glsl"
 #include "render/gbuffer.glsl"
@@ -39,6 +39,7 @@ void main() {
     float rise = min(kAbove * frame.cellSize / max(-ray.y, 1e-6), 0.5 * toGround), above = toGround > 0.0 ? toGround - rise : 1e30;
     float first = min(hit ? view.near / depth : above, above);
     vec3 p = view.eye + ray * first;
+    chooseMembers(fromMiddle(p));
     vec4 g = fieldGradient(p), region = regionDistance(p);
     hit = hit || (toGround > 0.0 && max(g.w + min(dot(g.xyz, ray), 0.0) * rise, region.w) < 0.0);
     float slope = max(length(g.xyz), 1e-6), off = g.w / slope;

@@ -4,7 +4,7 @@
 #define FIELD_VALUE
 #include "shared.h"
 #include "render/render.h"
-#include "field.glsl"
+#include "render/places.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { TracePush push; };
@@ -30,16 +30,19 @@ void main() {
     vec3 ray = push.direction + place.x * push.directionX + place.y * push.directionY;
     float scale = length(ray);
     // Read once: no compiler moves loads of push constants out of a loop.
+    vec3 centre = 0.5 * (push.lo + push.hi), perHalf = 2.0 / (push.hi - push.lo);
     float stepScale = push.stepScale / scale, t = parallel ? 0.0 : push.near;
 #ifdef CONES
     // All rays of the cone are within `wide` of its middle, or `wide` times t unless parallel.
-    vec3 centre = 0.5 * (push.lo + push.hi);
     float wide = 1.5 * pixels * push.pixel, end = (distance(origin, centre) + distance(push.hi, centre)) / scale;
     float safe = push.stepScale, back = 1.0 / (scale + (parallel ? 0.0 : wide)), f;
     uint i = 0;
     do {
         float radius = parallel ? wide : wide * t;
-        f = fieldValue(origin + ray * t) * safe - radius;
+        vec3 p = origin + ray * t, at = (p - centre) * perHalf;
+        chooseMembers(at);
+        float solid = fieldValue(p) * safe, region = length(max(abs(at) - 1.0, 0.0) / perHalf);
+        f = (withinPlaces(at) ? max(solid, region) : region) - radius;
         t += max(f, 0.0) * back;
     } while (f > 0.5 * wide * (parallel ? 1.0 : t) && t < end && ++i < kMostConeSteps);
     imageStore(starts, ivec2(pixel), vec4(t));
@@ -56,6 +59,7 @@ void main() {
     // Kept: a ray that has ended goes on beside its neighbours on some drivers, with loads that yield nothing.
     bool hit = false;
     do {
+        chooseMembers((origin + ray * t - centre) * perHalf);
         f = fieldValue(origin + ray * t);
         // Steps of a field without a known constant, of rays or of cones, may be too long and end inside: the surface is behind.
         float least = close * (parallel ? 1.0 : t);
