@@ -71,9 +71,10 @@ struct Rule {
     Reason (*broken)(const Report& report, double number);
 };
 
+constexpr const char kCount[] = "COUNT";
 constexpr Rule kRules[] = {{"closed", nullptr, closed}, {"manifold", nullptr, manifold},
                            {"uncut", nullptr, uncut},   {"nondegenerate", nullptr, nondegenerate},
-                           {"parts", "COUNT", parts},   {"triangles", "COUNT", triangles},
+                           {"parts", kCount, parts},    {"triangles", kCount, triangles},
                            {"angle", "DEGREES", angle}, {"error", "METRES", error}};
 
 std::optional<double> numberIn(std::string_view words) {
@@ -114,6 +115,8 @@ Result<std::vector<Requirement>> parseRequirements(std::string_view list) {
         if (given) {
             const std::optional<double> number = numberIn(word.substr(name.size() + 1));
             if (!number) return refused(word, "needs a number that is not negative");
+            if (rule->number == kCount && *number != std::floor(*number))
+                return refused(word, "needs a whole number");
             required.number = *number;
         }
         requirements.push_back(required);

@@ -64,6 +64,12 @@ CLI::Validator whole(int least, int greatest) {
         range);
 }
 
+/// Accepts anything but nothing.
+CLI::Validator something() {
+    return CLI::Validator(
+        [](const std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
+}
+
 /// Accepts "name=value".
 CLI::Validator assignment() {
     return CLI::Validator(
@@ -154,8 +160,10 @@ int run(int count, char** arguments) {
     exportCommand->add_flag("--manifold", exportOptions.manifold,
                             "Mark the mesh of a .glb or .gltf as a solid (EXT_mesh_manifold), for programs "
                             "that compute with solids; an error if it is none");
-    exportCommand->add_option("--report", exportOptions.report,
-                              "Write what the mesh file holds, measured from it, as JSON to this file");
+    exportCommand
+        ->add_option("--report", exportOptions.report,
+                     "Write what the mesh file holds, measured from it, as JSON to this file")
+        ->check(something());
     exportCommand
         ->add_option_function<std::string>(
             "--require",
@@ -175,9 +183,11 @@ int run(int count, char** arguments) {
                      "an export that was stopped goes on where it was (default: above 1,024 cells and where "
                      "the surface is too much at once)")
         ->check(whole(1, 64));
-    exportCommand->add_option(
-        "--tile", exportOptions.share,
-        "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge");
+    exportCommand
+        ->add_option(
+            "--tile", exportOptions.share,
+            "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge")
+        ->check(something());
 
     MergeOptions mergeOptions;
     CLI::App* mergeCommand =

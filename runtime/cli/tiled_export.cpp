@@ -145,7 +145,7 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     const TilePlan plan = planTiles(*grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
     if (share.shares > plan.tiles.size()) {
         sayWhatIsKept(folder);
-        return print({.message = "there are only " + std::to_string(plan.tiles.size()) + " tiles for " +
+        return print({.message = "too few tiles, " + std::to_string(plan.tiles.size()) + ", for " +
                                  std::to_string(share.shares) + " parts: ask for fewer parts or more --tiles",
                       .file = options.output}),
                kBadUsage;

@@ -6,6 +6,7 @@
 
 #include "graph/glsl.h"
 #include "runtime/mesher.h"
+#include "runtime/session.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/verify.h"
 #include "tests/support/expression_graph.h"
@@ -62,6 +63,39 @@ std::optional<Program> unionOf(Bench& bench, const std::vector<Shape>& shapes, W
     if (!program) return bench.fail(format(program.error())), std::nullopt;
     if (way == Way::straight) program->families = {};
     return std::move(*program);
+}
+
+/// Frames of a picture: what the 1000 cost beside the 50, and those beside straight code for them.
+void picturesTable(Bench& bench, const std::vector<Shape>& all, const std::vector<Shape>& near) {
+    Table table{.title = "Many shapes: a frame, 480 x 270, 16 rays of ambient occlusion a pixel (ms)",
+                .header = {"shapes", "frame"}};
+    const auto time = [&](const char* name, const std::vector<Shape>& shapes, Way way) -> double {
+        std::optional<Program> program = unionOf(bench, shapes, way);
+        if (!program) return 0;
+        Result<Device> device = createDevice({.pick = bench.options.device});
+        if (!device) return bench.fail(format(device.error())), 0;
+        Session session(std::move(*device));
+        session.setProgram(std::move(*program));
+        const Result<MesherResult> mesh = session.polygonise({.region = {}, .resolution = 128});
+        if (!mesh) return bench.fail(format(mesh.error())), 0;
+        const Figure frame = measure(bench.options.repeats, [&] {
+            const auto start = Clock::now();
+            const Result<Picture> picture =
+                session.render(*mesh, {.width = 480, .height = 270, .samples = 1});
+            if (!picture) throw SystemError(picture.error().message);
+            return millisecondsSince(start);
+        });
+        table.rows.push_back({name, text(frame)});
+        return frame.median();
+    };
+    const double straight = time("nearest 50, straight code", near, Way::straight),
+                 few = time("nearest 50", near, Way::sharp), many = time("1000", all, Way::sharp),
+                 blended = time("1000, blended", all, Way::blended);
+    if (straight <= 0 || few <= 0 || many <= 0 || blended <= 0) return;
+    table.notes.push_back("Straight code takes " + number(straight / few) +
+                          " times as long for the 50; the " + "thousand take " + number(many / few) +
+                          " times as long as the 50, blended " + number(blended / few) + " times.");
+    print(table, bench.options.markdown);
 }
 
 }  // namespace
@@ -126,6 +160,7 @@ void pruneTable(Bench& bench) {
                               number(kLeastGain) + " wanted, " + (gain >= kLeastGain ? "met." : "missed."));
     }
     print(table, bench.options.markdown);
+    picturesTable(bench, all, near);
 }
 
 }  // namespace fw::bench

@@ -73,6 +73,8 @@ TEST_F(Command, OutputsThatAreNoMeshFileAreUsage) {
                   {"unknown format '.xyz'", ".glb, .gltf, .obj, .stl, .ply, .3mf and .vdb"});
     expectRefusal(runCommand({"export", graph, "-o", folder.path("ball")}), 2, {"needs an extension"});
     expectRefusal(runCommand({"export", graph, "-o", ""}), 2, {"needs an extension"});
+    expectRefusal(runCommand({"export", graph, "-o", "a.ply", "--report", ""}), 2, {"--report", "is empty"});
+    expectRefusal(runCommand({"export", graph, "-o", "a.ply", "--tile", ""}), 2, {"--tile", "is empty"});
     for (const std::vector<std::string>& asked :
          {std::vector<std::string>{"--require", "closed"}, {"--report", folder.path("report.json")}}) {
         std::vector<std::string> words{"export", graph, "-o", folder.path("ball.vdb")};

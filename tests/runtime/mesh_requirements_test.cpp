@@ -68,7 +68,8 @@ TEST(MeshRequirements, WhatIsNoneIsRefusedWithAllThatAre) {
           std::pair("closed,", "\"\" is no requirement"), std::pair("closed=1", "takes no number"),
           std::pair("error", "needs a number"), std::pair("error=", "needs a number that is not negative"),
           std::pair("error=-1", "not negative"), std::pair("error=nan", "not negative"),
-          std::pair("error=1e999", "not negative"), std::pair("error=0.1m", "not negative")}) {
+          std::pair("error=1e999", "not negative"), std::pair("parts=1.5", "needs a whole number"),
+          std::pair("error=0.1m", "not negative")}) {
         const Result<std::vector<Requirement>> required = parseRequirements(list);
         ASSERT_FALSE(required) << list;
         EXPECT_NE(required.error().message.find(why), std::string::npos) << required.error().message;

@@ -307,7 +307,7 @@ TEST_F(TilesCommand, PartsMergeToTheSameBytes) {
 
     expectRefusal(runCommand(to("a.ply", {"--tile", "1/3"})), 2, {"a.ply: error", ".part"});
     expectRefusal(runCommand(to("a.part", {"--tile", "0/3"})), 2, {"--tile '0/3'", "i/n"});
-    expectRefusal(runCommand(to("a.part", {"--tile", "1/9"})), 2, {"only 8 tiles for 9 parts"});
+    expectRefusal(runCommand(to("a.part", {"--tile", "1/9"})), 2, {"too few tiles, 8, for 9 parts"});
     EXPECT_FALSE(fs::exists(folder.path("a.part.tiles")));
 }
 

@@ -70,6 +70,7 @@ CommandResult runCommand(const std::vector<std::string>& arguments, const Comman
                                static_cast<rlim_t>(options.maxFileBytes)};
             setrlimit(RLIMIT_FSIZE, &limit);
         }
+        signal(SIGINT, SIG_DFL);  // which a shell has its background ignore
         execvpe(argv[0], argv.data(), envp.data());
         _exit(126);
     }
