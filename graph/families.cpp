@@ -11,9 +11,10 @@ namespace {
 // A loop pays, in the device's time and the compiler's, from so many members and operations of all of them
 // on.
 constexpr std::size_t kLeastMembers = 6, kLeastOperations = 240;
-constexpr std::size_t kLeastSteps = 4;   // of a member: less is not worth a load
-constexpr std::size_t kMostSteps = 400;  // bounds the search as well
-constexpr std::size_t kLinkSteps = 8;    // what a smooth minimum counts as
+constexpr std::size_t kLeastSteps = 4;      // of a member: less is not worth a load
+constexpr std::size_t kMostSteps = 400;     // bounds the search as well
+constexpr std::size_t kLinkSteps = 8;       // what a smooth minimum counts as
+constexpr std::size_t kMostFamilies = 256;  // about: each has a list at every place
 
 uint64_t mixed(uint64_t hash, uint64_t word) {
     hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
@@ -49,7 +50,7 @@ class Finder {
 
     Families run() {
         for (auto fold = folds.rbegin(); fold != folds.rend(); ++fold) {
-            if (closed[*fold]) continue;
+            if (closed[*fold] || found.all.size() >= kMostFamilies) continue;
             if (isLink(*fold)) {
                 chain(*fold);
                 continue;

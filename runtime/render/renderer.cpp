@@ -155,6 +155,7 @@ FieldBuffers fieldOf(const Renderer& renderer, const RenderScene& scene) {
 
 void findPlaces(Commands& commands, Renderer& renderer, const RenderScene& scene) {
     if (scene.draft || !renderer.places.list) return;
+    beginStage(commands, "places");
     listPlaces(commands, renderer.places, *scene.families, scene.buffers, scene.grid.lo, scene.grid.hi,
                scene.content);
 }
@@ -275,7 +276,7 @@ void measurePrimary(Renderer& renderer, const RenderScene& scene) {
             beginStage(commands, "reading");
             recordReading(commands, renderer.seen.depth, readback);
             submit(commands);
-            took = commands.stages[0].milliseconds;
+            took = commands.stages.end()[-2].milliseconds;
         }
         depths = download<float>(*renderer.device, readback, pixels);
         return took;
@@ -542,7 +543,6 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     if (resizeGBuffer(commands, renderer.gbuffer, extent) || before.groundEnd != frame.groundEnd)
         forgetHistory(renderer.ambient);
 
-    beginStage(commands, "places");
     findPlaces(commands, renderer, scene);
     const bool traced = wantsTracing(scene, options, renderer);
     if (!renderer.shadowStands) {

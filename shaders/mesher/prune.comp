@@ -17,14 +17,8 @@ uvec3 first;  // sample of the box
 
 bool fieldMayHold(vec2 f) { return kSize == 8 || mayHoldSurface(first, kSize, f); }
 
-#ifdef FIELD_FAMILIES
-/// Place for a list of up to so many entries; 0 where there is none left, and the list above serves.
-uint fieldAllocate(uint entries) {
-    uint most = fieldLists.length(), at = most;
-    if (push.listStart + counts.listed < most) at = push.listStart + atomicAdd(counts.listed, entries);
-    return at < most && entries <= most - at ? at : 0;
-}
-#endif
+#define FIELD_LISTED counts.listed
+#include "lib/field_allocate.glsl"
 
 void main() {
     fieldBegin();

@@ -14,13 +14,8 @@ layout(binding = 0, scalar) buffer Listed { uint listed; };
 
 const float kSlack = 1e-3;  // that boxes overlap by, so that rounding of a place moves no point out of its box
 
-#ifdef FIELD_FAMILIES
-uint fieldAllocate(uint entries) {
-    uint most = fieldLists.length(), at = most;
-    if (push.listStart + listed < most) at = push.listStart + atomicAdd(listed, entries);
-    return at < most && entries <= most - at ? at : 0;
-}
-#endif
+#define FIELD_LISTED listed
+#include "lib/field_allocate.glsl"
 
 void main() {
     fieldBegin();
