@@ -410,6 +410,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     push.cells = cells;
     push.blocks = blockCount;
     push.nudge = nudge;
+    push.margin = config.sparse ? 0 : std::numeric_limits<float>::infinity();
     push.begin = first * 8u;
     push.end = end * 8u;
     if (config.host) build(device, pipelines, {topBricks, compact, link, classify, topGroups, triangles});

@@ -62,7 +62,8 @@ struct MesherConfig {
     const Buffer* parameters = nullptr;  ///< live parameters, where the field has some
     const Buffer* images = nullptr;      ///< that the field samples, where it does
     const Families* families = nullptr;  ///< of the field, where it has some
-    bool pruned = true;  ///< a brick evaluates only the members that can matter in it; the same mesh, sooner
+    bool sparse = true;    ///< bricks that intervals show to be empty are not sampled; the same mesh, sooner
+    bool pruned = true;    ///< a brick evaluates only the members that can matter in it; likewise
     MesherTile tile = {};  ///< of the region, the whole by default; only marching cubes takes another
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;  ///< also the base colour at each vertex

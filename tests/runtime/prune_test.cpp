@@ -14,6 +14,7 @@
 #include "tests/support/device_field.h"
 #include "tests/support/expression_graph.h"
 #include "tests/support/gpu.h"
+#include "tests/support/random_graph.h"
 
 namespace fw {
 namespace {
@@ -23,7 +24,8 @@ struct Meshed {
     MesherResult result;
 };
 
-Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod method, bool pruned) {
+Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod method, bool pruned,
+              bool sparse = true) {
     const std::vector<uint32_t> words = imageWords(program.ir.images());
     const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
     upload(test::device(), images, words);
@@ -32,6 +34,7 @@ Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod meth
                         .cells = glm::ivec3(cells),
                         .images = &images,
                         .families = &program.families,
+                        .sparse = sparse,
                         .pruned = pruned,
                         .method = method};
     MesherPipelines pipelines = createMesherPipelines(test::device(), emitField(program));
@@ -51,13 +54,22 @@ bool sameBytes(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec3)) == 0;
 }
 
+void expectSame(const Meshed& a, const Meshed& b) {
+    EXPECT_EQ(a.mesh.indices, b.mesh.indices);
+    EXPECT_TRUE(sameBytes(a.mesh.positions, b.mesh.positions));
+    EXPECT_TRUE(sameBytes(a.mesh.normals, b.mesh.normals));
+}
+
+/// Sampled in the bricks that intervals leave, and in all.
+void expectSparseIsDense(const Program& program, const Box& box, int cells, MeshMethod method) {
+    expectSame(meshOf(program, box, cells, method, true), meshOf(program, box, cells, method, true, false));
+}
+
 /// Closed, and the same bytes whether pruned or not.
 void expectPruningChangesNothing(const Program& program, const Box& box, int cells, MeshMethod method) {
     const Meshed pruned = meshOf(program, box, cells, method, true),
                  all = meshOf(program, box, cells, method, false);
-    EXPECT_EQ(pruned.mesh.indices, all.mesh.indices);
-    EXPECT_TRUE(sameBytes(pruned.mesh.positions, all.mesh.positions));
-    EXPECT_TRUE(sameBytes(pruned.mesh.normals, all.mesh.normals));
+    expectSame(pruned, all);
     const Report report = reportOnMesh(pruned.mesh.positions, pruned.mesh.indices);
     EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.flippedEdges, 0u);
 }
@@ -256,7 +268,7 @@ TEST(Scatter, IsPrunedWithoutAChange) {
     }
 }
 
-TEST(Prune, EverySampleWithFamilies) {
+TEST(Prune, EverySample) {
     for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples")) {
         if (!entry.path().string().ends_with(".field.json")) continue;
         SCOPED_TRACE(entry.path().filename().string());
@@ -264,12 +276,33 @@ TEST(Prune, EverySampleWithFamilies) {
         ASSERT_TRUE(graph);
         const Result<Program> program = compile(*graph);
         ASSERT_TRUE(program);
-        if (program->families.empty()) continue;
         const Result<Box> box = meshRegion(*program, {std::nullopt, 48});
         ASSERT_TRUE(box);
-        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring})
-            expectPruningChangesNothing(*program, *box, 48, method);
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring}) {
+            if (!program->families.empty()) expectPruningChangesNothing(*program, *box, 48, method);
+            expectSparseIsDense(*program, *box, 48, method);
+        }
     }
+}
+
+TEST(Prune, RandomGraphsSparseAndDense) {
+    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 500 : 10;
+    uint32_t meshed = 0, sparser = 0;
+    for (uint32_t seed = 1; meshed < most; ++seed) {
+        ASSERT_LT(seed, 20 * most);
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Result<Program> program = compile(test::randomGraph(seed, 30));
+        if (!program || !program->ir.images().empty()) continue;
+        const Box box{{-2.03, -1.98, -2.01}, {1.97, 2.02, 1.99}};
+        const MeshMethod method = MeshMethod(seed % 2);
+        const Meshed sparse = meshOf(*program, box, 40, method, true),
+                     dense = meshOf(*program, box, 40, method, true, false);
+        if (dense.result.triangles == 0) continue;
+        expectSame(sparse, dense);
+        ++meshed, sparser += sparse.result.bricks < dense.result.bricks;
+        if (::testing::Test::HasFailure()) break;
+    }
+    EXPECT_GT(sparser, most / 2);
 }
 
 }  // namespace
