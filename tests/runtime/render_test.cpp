@@ -354,6 +354,20 @@ TEST(Render, ASolidThatWasCutIsShadedAtTheCut) {
         EXPECT_NEAR(pixel(*picture, kWidth / 2 + u, kHeight / 2).r, reference, 12) << u;
 }
 
+TEST(Render, LampsLightAllOfTheGround) {
+    // Beside the solid the ground has no edge between tiles that a lamp's light ends at.
+    RenderOptions options{.width = 480, .height = 270, .samples = 2};
+    options.scene.lights = {{.position = {1.5, 1.5, 1.5}, .strength = 20}};
+    const Result<Picture> picture = draw(kBall, {{}, 48}, options);
+    ASSERT_TRUE(picture) << format(picture.error());
+    for (int y = 120; y < options.height; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const int here = brightness(pixel(*picture, x, y));
+            ASSERT_NEAR(brightness(pixel(*picture, x + 1, y)), here, 12) << x << " " << y;
+            ASSERT_NEAR(brightness(pixel(*picture, x, y - 1)), here, 12) << x << " " << y;
+        }
+}
+
 TEST(Render, SizesOutOfRangeAndCancelling) {
     EXPECT_TRUE(checkPictureSize(16, 16));
     EXPECT_TRUE(checkPictureSize(7680, 4320));
