@@ -69,13 +69,13 @@ struct Rule {
     std::string_view name;
     const char* number;  ///< what its number is; null: it takes none
     Reason (*broken)(const Report& report, double number);
+    bool whole = false;  ///< only whole numbers make sense
 };
 
-constexpr const char kCount[] = "COUNT";
-constexpr Rule kRules[] = {{"closed", nullptr, closed}, {"manifold", nullptr, manifold},
-                           {"uncut", nullptr, uncut},   {"nondegenerate", nullptr, nondegenerate},
-                           {"parts", kCount, parts},    {"triangles", kCount, triangles},
-                           {"angle", "DEGREES", angle}, {"error", "METRES", error}};
+constexpr Rule kRules[] = {{"closed", nullptr, closed},     {"manifold", nullptr, manifold},
+                           {"uncut", nullptr, uncut},       {"nondegenerate", nullptr, nondegenerate},
+                           {"parts", "COUNT", parts, true}, {"triangles", "COUNT", triangles, true},
+                           {"angle", "DEGREES", angle},     {"error", "METRES", error}};
 
 std::optional<double> numberIn(std::string_view words) {
     double number = 0.0;
@@ -115,8 +115,7 @@ Result<std::vector<Requirement>> parseRequirements(std::string_view list) {
         if (given) {
             const std::optional<double> number = numberIn(word.substr(name.size() + 1));
             if (!number) return refused(word, "needs a number that is not negative");
-            if (rule->number == kCount && *number != std::floor(*number))
-                return refused(word, "needs a whole number");
+            if (rule->whole && *number != std::floor(*number)) return refused(word, "needs a whole number");
             required.number = *number;
         }
         requirements.push_back(required);

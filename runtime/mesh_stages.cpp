@@ -185,8 +185,7 @@ void splitEdges(Commands& commands, Run& run, bool project) {
         push.first = push.vertices;
         push.vertices = edges;
         bound = {{5, b.vertices, 0, bytes}};
-        if (run.config.parameters) bound.push_back({FIELD_PARAMETERS, *run.config.parameters});
-        if (run.config.images) bound.push_back({FIELD_IMAGES, *run.config.images});
+        addField(bound, {run.config.parameters, run.config.images});
         dispatch(commands, pipelines.project, run.groups(edges), push, bound);
         barrier(commands);
     }
