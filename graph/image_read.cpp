@@ -1,16 +1,12 @@
 // Picture files: where they may lie, and how they become a FieldImage.
-#include <fcntl.h>
 #include <stb/stb_image.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <mutex>
 
+#include "graph/asset_file.h"
 #include "graph/image.h"
 
 namespace fw {
@@ -19,33 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error problem(const std::string& path, const std::string& what) {
-    return {.message = "the picture " + inQuotes(path) + " " + what};
-}
+constexpr AssetKind kPicture = {"picture", kMaxImageFileBytes};
 
-/// The file that the path leads to, symbolic links followed. It may not exist.
-Result<std::string> locate(const std::string& graphPath, const std::string& path) {
-    if (path.find('\0') != std::string::npos) return problem(path, "has a NUL byte in its path: remove it");
-    std::error_code failure;
-    const fs::path folder = fs::path(graphPath).parent_path();
-    const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, failure);
-    if (failure) return problem(path, "cannot be looked up: " + failure.message());
-    const fs::path target = fs::weakly_canonical(root / path, failure);
-    if (failure) return problem(path, "cannot be looked up: " + failure.message());
-    const fs::path inside = target.lexically_relative(root);
-    if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..")
-        return problem(path,
-                       "lies outside the folder of the graph: move it there and write its path from the "
-                       "graph's file");
-    return target.string();
-}
-
-struct OpenFile {
-    int number;
-    ~OpenFile() {
-        if (number >= 0) close(number);
-    }
-};
+Error problem(const std::string& path, const std::string& what) { return assetProblem(path, kPicture, what); }
 
 bool startsWith(const std::string& bytes, std::string_view magic) { return bytes.starts_with(magic); }
 
@@ -91,46 +63,23 @@ struct Known {
 }  // namespace
 
 Result<FieldImagePtr> readImage(const std::string& graphPath, const std::string& path) {
-    const Result<std::string> file = locate(graphPath, path);
-    if (!file) return file.error();
-    // Not waiting for whoever writes to a pipe.
-    const OpenFile open_{::open(file->c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-    struct stat status = {};
-    if (open_.number < 0 || fstat(open_.number, &status) != 0)
-        return problem(path, errno == ENOENT || errno == ENOTDIR ? "does not exist: check the path"
-                             : errno == EACCES                   ? "may not be read: change its permissions"
-                                               : "cannot be opened: " + std::string(std::strerror(errno)));
-    if (S_ISDIR(status.st_mode)) return problem(path, "is a folder: name a picture in it");
-    if (!S_ISREG(status.st_mode)) return problem(path, "is no ordinary file: name a picture");
-    if (status.st_size > static_cast<off_t>(kMaxImageFileBytes))
-        return problem(path, "is a file of more than " + std::to_string(kMaxImageFileBytes >> 20) +
-                                 " MiB: use a smaller one");
-
+    const Result<Asset> asset = openAsset(graphPath, path, kPicture);
+    if (!asset) return asset.error();
     static std::mutex mutex;
     static std::map<std::string, Known> known;
-    const std::array<int64_t, 4> stamp = {int64_t(status.st_ino), int64_t(status.st_size),
-                                          int64_t(status.st_mtim.tv_sec), int64_t(status.st_mtim.tv_nsec)};
     {
         const std::lock_guard lock(mutex);
-        const auto found = known.find(*file);
-        if (found != known.end() && found->second.stamp == stamp)
+        const auto found = known.find(asset->file);
+        if (found != known.end() && found->second.stamp == asset->stamp)
             if (FieldImagePtr held = found->second.image.lock()) return held;
         std::erase_if(known, [](const auto& entry) { return entry.second.image.expired(); });
     }
-    std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
-    std::size_t read = 0;
-    while (read < bytes.size()) {
-        const ssize_t got = ::read(open_.number, bytes.data() + read, bytes.size() - read);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return problem(path, "cannot be read: " + std::string(std::strerror(errno)));
-        if (got == 0) break;  // it has just become shorter
-        read += static_cast<std::size_t>(got);
-    }
-    bytes.resize(read);
-    const Result<FieldImagePtr> image = decode(bytes, path, *file);
+    const Result<std::string> bytes = asset->read();
+    if (!bytes) return problem(path, bytes.error().message);
+    const Result<FieldImagePtr> image = decode(*bytes, path, asset->file);
     if (image) {
         const std::lock_guard lock(mutex);
-        known[*file] = {stamp, *image};
+        known[asset->file] = {asset->stamp, *image};
     }
     return image;
 }

@@ -1,0 +1,46 @@
+// Files that another file refers to: pictures and meshes of a graph, buffers of a glTF file.
+//
+// They must lie in the folder of the file that names them, or in one below it: a graph that was got from
+// somewhere reads nothing else of its user's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "graph/result.h"
+
+namespace fw {
+
+/// What messages call such a file, and how large it may be.
+struct AssetKind {
+    const char* noun;  ///< "picture"
+    std::size_t mostBytes;
+};
+
+/// An open file. Moves, and is closed at its end.
+class Asset {
+  public:
+    Asset(int descriptor, std::string file, std::array<int64_t, 4> stamp);
+    Asset(Asset&& other) noexcept;
+    Asset& operator=(Asset&& other) = delete;
+    ~Asset();
+
+    std::string file;              ///< absolute path, symbolic links followed
+    std::array<int64_t, 4> stamp;  ///< another one if the file was changed
+    /// All of it. Errors: it cannot be read.
+    Result<std::string> read() const;
+
+  private:
+    int descriptor;
+};
+
+/// Opens the file that `path` leads to from the folder of the file `owner` (from the current folder if that
+/// is empty). The Error has a message only: there is no such ordinary file in that folder's tree, it may not
+/// be read or is too large.
+Result<Asset> openAsset(const std::string& owner, const std::string& path, const AssetKind& kind);
+
+/// "the picture 'a.png' " and what is wrong with it.
+Error assetProblem(const std::string& path, const AssetKind& kind, const std::string& what);
+
+}  // namespace fw
