@@ -38,9 +38,16 @@ struct MeshFile {
     const std::string& file;
 };
 
-/// glTF 2.0, text or binary: the default scene's triangles with their nodes' transforms. Errors, with a
-/// message only: what is damaged, missing or of an extension that is not read.
-Result<TriangleMesh> readGltfMesh(const MeshFile& file);
+/// The readers of each format. Errors, with a message only: what is damaged, missing or beyond the limits,
+/// and in a glTF file what is of a version or an extension that is not read.
+Result<TriangleMesh> readGltfMesh(
+    const MeshFile& file);  ///< 2.0: the default scene, with its nodes' transforms
+Result<TriangleMesh> readObjMesh(const MeshFile& file);
+Result<TriangleMesh> readStlMesh(const MeshFile& file);
+Result<TriangleMesh> readPlyMesh(const MeshFile& file);
+
+/// The format's reader, chosen by the path's ending; then without the vertices that no triangle has.
+Result<TriangleMesh> parseTriangleMesh(const MeshFile& file);
 
 /// Reads a glTF, GLB, OBJ, STL or PLY file. `path` is relative to the folder of the file `graphPath`, as
 /// openAsset() has it. The Error has a message only.

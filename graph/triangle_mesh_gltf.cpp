@@ -1,8 +1,4 @@
 // glTF 2.0: tinygltf takes the JSON and the buffers apart, what refers to what is checked and read here.
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NOEXCEPTION
 #include <tiny_gltf.h>
 
 #include <algorithm>

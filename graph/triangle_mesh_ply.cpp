@@ -1,5 +1,5 @@
-// PLY: elements with properties that a header lists, as text or in binary of either byte order. Of the vertices
-// their places and colours are read, of the faces their corners; all else is passed over.
+// PLY: elements with properties that a header lists, as text or in binary of either byte order. Of the
+// vertices their places and colours are read, of the faces their corners; all else is passed over.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -22,10 +22,12 @@ struct Fault {
 
 enum class Kind { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 constexpr std::pair<std::string_view, Kind> kKinds[] = {
-    {"char", Kind::int8},      {"int8", Kind::int8},     {"uchar", Kind::uint8},   {"uint8", Kind::uint8},
-    {"short", Kind::int16},    {"int16", Kind::int16},   {"ushort", Kind::uint16}, {"uint16", Kind::uint16},
-    {"int", Kind::int32},      {"int32", Kind::int32},   {"uint", Kind::uint32},   {"uint32", Kind::uint32},
-    {"float", Kind::float32},  {"float32", Kind::float32}, {"double", Kind::float64}, {"float64", Kind::float64}};
+    {"char", Kind::int8},      {"int8", Kind::int8},       {"uchar", Kind::uint8},
+    {"uint8", Kind::uint8},    {"short", Kind::int16},     {"int16", Kind::int16},
+    {"ushort", Kind::uint16},  {"uint16", Kind::uint16},   {"int", Kind::int32},
+    {"int32", Kind::int32},    {"uint", Kind::uint32},     {"uint32", Kind::uint32},
+    {"float", Kind::float32},  {"float32", Kind::float32}, {"double", Kind::float64},
+    {"float64", Kind::float64}};
 
 Kind kindOf(std::string_view word) {
     for (const auto& [name, kind] : kKinds)
@@ -55,14 +57,16 @@ class Reader {
         header();
         for (const Element& element : elements) {
             // Each takes at least a byte, or a line that may be empty; so many are not read for nothing.
-            if (element.count > scanner.rest.size() && !element.properties.empty()) fail("is cut off: copy it again");
+            if (element.count > scanner.rest.size() && !element.properties.empty())
+                fail("is cut off: copy it again");
             if (element.name == "vertex")
                 vertices(element);
             else if (element.name == "face")
                 faces(element);
             else
                 for (uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
-                    each(element, [](std::size_t, double) {}, [](std::size_t, const std::vector<double>&) {});
+                    each(
+                        element, [](std::size_t, double) {}, [](std::size_t, const std::vector<double>&) {});
         }
         if (mesh.indices.empty()) fail("has no faces");
         return std::move(mesh);
@@ -80,8 +84,9 @@ class Reader {
                 const std::string_view name = words.word();
                 form = name == "ascii"                  ? Form::text
                        : name == "binary_little_endian" ? Form::little
-                       : name == "binary_big_endian"    ? Form::big
-                                                        : (fail("is of a format that PLY does not have"), Form::text);
+                       : name == "binary_big_endian"
+                           ? Form::big
+                           : (fail("is of a format that PLY does not have"), Form::text);
                 formed = true;
             } else if (word == "element") {
                 Element element{words.word(), 0, {}};
@@ -154,7 +159,8 @@ class Reader {
                 continue;
             }
             const double count = number(*property.count);
-            if (!(count >= 0 && count <= double(scanner.rest.size()))) fail("has a list of an impossible length");
+            if (!(count >= 0 && count <= double(scanner.rest.size())))
+                fail("has a list of an impossible length");
             list.clear();
             for (double i = 0; i < count; ++i) list.push_back(number(property.kind));
             many(p, list);
@@ -165,9 +171,13 @@ class Reader {
         if (element.count > kMostMeshVertices) fail("has more vertices than can be read");
         const auto place = [&](std::initializer_list<std::string_view> names) {
             const auto& all = element.properties;
-            return std::size_t(std::ranges::find_if(all, [&](const Property& property) {
-                                   return !property.count && std::ranges::find(names, property.name) != names.end();
-                               }) - all.begin());
+            return std::size_t(std::ranges::find_if(all,
+                                                    [&](const Property& property) {
+                                                        return !property.count &&
+                                                               std::ranges::find(names, property.name) !=
+                                                                   names.end();
+                                                    }) -
+                               all.begin());
         };
         const std::size_t none = element.properties.size();
         const std::array places = {place({"x"}), place({"y"}), place({"z"})};
@@ -177,8 +187,9 @@ class Reader {
         const bool colored = std::ranges::find(colors, none) == colors.end();
         std::vector<double> values(none);
         for (uint64_t i = 0; i < element.count; ++i) {
-            each(element, [&](std::size_t p, double value) { values[p] = value; },
-                 [](std::size_t, const std::vector<double>&) {});
+            each(
+                element, [&](std::size_t p, double value) { values[p] = value; },
+                [](std::size_t, const std::vector<double>&) {});
             glm::vec3 p, color;
             for (int k = 0; k < 3; ++k) {
                 p[k] = float(values[places[std::size_t(k)]]);
@@ -203,19 +214,21 @@ class Reader {
         const auto wanted = std::size_t(corners - all.begin());
         const auto vertex = [&](double index) {
             if (!(index >= 0 && index < double(mesh.positions.size())))
-                fail("has a face with vertex " + std::to_string(int64_t(std::clamp(index, -1e15, 1e15))) + " of " +
-                     std::to_string(mesh.positions.size()));
+                fail("has a face with vertex " + std::to_string(int64_t(std::clamp(index, -1e15, 1e15))) +
+                     " of " + std::to_string(mesh.positions.size()));
             return uint32_t(index);
         };
         for (uint64_t i = 0; i < element.count; ++i)
-            each(element, [](std::size_t, double) {},
-                 [&](std::size_t p, const std::vector<double>& of) {
-                     if (p != wanted) return;
-                     if (mesh.indices.size() / 3 + of.size() > kMostMeshTriangles)
-                         fail("has more triangles than can be read");
-                     for (std::size_t c = 2; c < of.size(); ++c)
-                         mesh.indices.insert(mesh.indices.end(), {vertex(of[0]), vertex(of[c - 1]), vertex(of[c])});
-                 });
+            each(
+                element, [](std::size_t, double) {},
+                [&](std::size_t p, const std::vector<double>& of) {
+                    if (p != wanted) return;
+                    if (mesh.indices.size() / 3 + of.size() > kMostMeshTriangles)
+                        fail("has more triangles than can be read");
+                    for (std::size_t c = 2; c < of.size(); ++c)
+                        mesh.indices.insert(mesh.indices.end(),
+                                            {vertex(of[0]), vertex(of[c - 1]), vertex(of[c])});
+                });
     }
 
     Scanner scanner;
@@ -230,9 +243,7 @@ class Reader {
 Result<TriangleMesh> readPlyMesh(const MeshFile& file) {
     try {
         return Reader(file.bytes).run();
-    } catch (const Fault& fault) {
-        return meshProblem(file.path, fault.what);
-    }
+    } catch (const Fault& fault) { return meshProblem(file.path, fault.what); }
 }
 
 }  // namespace fw

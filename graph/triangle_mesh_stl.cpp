@@ -48,7 +48,8 @@ Fault readText(Scanner scanner, TriangleMesh& mesh) {
             if (corners == 3) return at("has a facet of more than three corners");
             mesh.positions.emplace_back(*x, *y, *z);
         } else if (word == "endfacet") {
-            if (corners != 3) return at("has a facet that ends after " + std::to_string(corners) + " corners,");
+            if (corners != 3)
+                return at("has a facet that ends after " + std::to_string(corners) + " corners,");
             if (mesh.positions.size() / 3 > kMostMeshTriangles) return "has more triangles than can be read";
             first = mesh.positions.size();
         }

@@ -20,7 +20,8 @@ struct Scanner {
         const std::size_t end = rest.find_first_of("\r\n");
         const std::string_view found = rest.substr(0, end);
         rest.remove_prefix(end == rest.npos ? rest.size() : end + 1);
-        if (end != rest.npos && !rest.empty() && rest[0] == '\n' && found.data()[end] == '\r') rest.remove_prefix(1);
+        if (end != rest.npos && !rest.empty() && rest[0] == '\n' && found.data()[end] == '\r')
+            rest.remove_prefix(1);
         return found;
     }
 

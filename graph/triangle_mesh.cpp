@@ -1,0 +1,107 @@
+#include "graph/triangle_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "graph/asset_file.h"
+
+namespace fw {
+
+namespace {
+
+constexpr AssetKind kMesh = {"mesh", kMostMeshFileBytes};
+
+struct Format {
+    std::string_view ending;
+    Result<TriangleMesh> (*read)(const MeshFile& file);
+};
+constexpr Format kFormats[] = {{".glb", readGltfMesh},
+                               {".gltf", readGltfMesh},
+                               {".obj", readObjMesh},
+                               {".stl", readStlMesh},
+                               {".ply", readPlyMesh}};
+
+/// Leaves out vertices that no triangle has.
+void dropUnused(TriangleMesh& mesh) {
+    constexpr uint32_t kUnused = ~0u;
+    std::vector<uint32_t> places(mesh.positions.size(), kUnused);
+    for (uint32_t index : mesh.indices) places[index] = 0;
+    uint32_t used = 0;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (places[v] == kUnused) continue;
+        mesh.positions[used] = mesh.positions[v];
+        if (!mesh.colors.empty()) mesh.colors[used] = mesh.colors[v];
+        places[v] = used++;
+    }
+    mesh.positions.resize(used);
+    if (!mesh.colors.empty()) mesh.colors.resize(used);
+    for (uint32_t& index : mesh.indices) index = places[index];
+}
+
+uint64_t hashOf(const TriangleMesh& mesh) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    const auto mix = [&](uint32_t word) { hash = std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); };
+    mix(uint32_t(mesh.positions.size()));
+    for (const std::vector<glm::vec3>* of : {&mesh.positions, &mesh.colors})
+        for (const glm::vec3& p : *of)
+            for (int k = 0; k < 3; ++k) mix(std::bit_cast<uint32_t>(p[k]));
+    for (uint32_t index : mesh.indices) mix(index);
+    return hash ^ hash >> 32;
+}
+
+/// What was read before and is still held somewhere. By path; `stamp` tells whether the file is the same.
+struct Known {
+    std::array<int64_t, 4> stamp;
+    std::weak_ptr<const TriangleMesh> mesh;
+};
+
+}  // namespace
+
+Error meshProblem(const std::string& path, const std::string& what) {
+    return assetProblem(path, kMesh, what);
+}
+
+Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
+    std::string ending = std::filesystem::path(file.path).extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto format = std::ranges::find(kFormats, ending, &Format::ending);
+    if (format == std::end(kFormats))
+        return meshProblem(file.path,
+                           "is of no format that is read: use a .glb, .gltf, .obj, .stl or .ply file");
+    if (file.bytes.empty()) return meshProblem(file.path, "is an empty file");
+    Result<TriangleMesh> mesh = format->read(file);
+    if (!mesh) return mesh;
+    dropUnused(*mesh);
+    mesh->file = file.file;
+    mesh->hash = hashOf(*mesh);
+    return mesh;
+}
+
+Result<TriangleMeshPtr> readTriangleMesh(const std::string& graphPath, const std::string& path) {
+    const Result<Asset> asset = openAsset(graphPath, path, kMesh);
+    if (!asset) return asset.error();
+    static std::mutex mutex;
+    static std::map<std::string, Known> known;
+    {
+        const std::lock_guard lock(mutex);
+        const auto found = known.find(asset->file);
+        if (found != known.end() && found->second.stamp == asset->stamp)
+            if (TriangleMeshPtr held = found->second.mesh.lock()) return held;
+        std::erase_if(known, [](const auto& entry) { return entry.second.mesh.expired(); });
+    }
+    const Result<std::string> bytes = asset->read();
+    if (!bytes) return meshProblem(path, bytes.error().message);
+    Result<TriangleMesh> mesh = parseTriangleMesh({*bytes, path, asset->file});
+    if (!mesh) return mesh.error();
+    auto shared = std::make_shared<const TriangleMesh>(std::move(*mesh));
+    const std::lock_guard lock(mutex);
+    known[asset->file] = {asset->stamp, shared};
+    return TriangleMeshPtr(shared);
+}
+
+}  // namespace fw
