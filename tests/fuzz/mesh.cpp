@@ -1,5 +1,5 @@
-// libFuzzer: the first byte says the format, the others are read as a mesh file. What is read must be whole; what is
-// refused must be refused with a reason.
+// libFuzzer: the first byte says the format, the others are read as a mesh file. What is read must be whole;
+// what is refused must be refused with a reason.
 //
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_mesh
 //   build/fuzz/fuzz_mesh -max_total_time=60 -max_len=4096 -dict=tests/fuzz/mesh.dict CORPUS tests/fuzz/mesh
@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
         return 0;
     }
     require(!mesh->indices.empty() && mesh->indices.size() % 3 == 0, "there are triangles");
-    require(mesh->colors.empty() || mesh->colors.size() == mesh->positions.size(), "each vertex has a colour");
+    require(mesh->colors.empty() || mesh->colors.size() == mesh->positions.size(),
+            "each vertex has a colour");
     for (uint32_t index : mesh->indices) require(index < mesh->positions.size(), "indices are in range");
     for (const glm::vec3& p : mesh->positions)
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "places are finite");

@@ -71,7 +71,8 @@ std::string stlText() {
     for (const auto& face : kFaces) {
         text << "facet normal 0 0 0\n outer loop\n";
         for (uint32_t v : face)
-            text << "  vertex " << kCorners[v][0] << " " << kCorners[v][1] << " +" << kCorners[v][2] << "e0\r\n";
+            text << "  vertex " << kCorners[v][0] << " " << kCorners[v][1] << " +" << kCorners[v][2]
+                 << "e0\r\n";
         text << " endloop\nendfacet\n";
     }
     return text.str() + "endsolid\n";
@@ -97,13 +98,17 @@ TEST(TriangleMeshFile, Stl) {
     expectTetrahedron(parse("a.stl", stlBinary() + "what some programs put behind"), 12);
     const std::string text = stlText();
     for (const auto& [bytes, why] :
-         {std::pair(stlBinary().substr(0, 200), "is cut off"), {stlBinary().substr(0, 84), "is cut off"},
-          {stlBinary().substr(0, 40), "is no STL file"}, {std::string("solid nothing\nendsolid"), "no triangles"},
-          {text.substr(0, text.rfind("vertex")), "is cut off"}, {std::string(5000, '\0'), "is no STL file"},
+         {std::pair(stlBinary().substr(0, 200), "is cut off"),
+          {stlBinary().substr(0, 84), "is cut off"},
+          {stlBinary().substr(0, 40), "is no STL file"},
+          {std::string("solid nothing\nendsolid"), "no triangles"},
+          {text.substr(0, text.rfind("vertex")), "is cut off"},
+          {std::string(5000, '\0'), "is no STL file"},
           {std::string("solid\nfacet\nvertex 1 2\n"), "no three numbers, in line 3"},
           {std::string("solid\nvertex 1 2 nan\n"), "no three numbers, in line 2"},
           {std::string("solid\nvertex 1 2 3\nendfacet"), "ends after 1 corners, in line 3"}})
-        EXPECT_NE(refusal("a.stl", bytes).find(why), std::string::npos) << refusal("a.stl", bytes) << " / " << why;
+        EXPECT_NE(refusal("a.stl", bytes).find(why), std::string::npos)
+            << refusal("a.stl", bytes) << " / " << why;
 }
 
 // ---- OBJ
@@ -115,19 +120,25 @@ TEST(TriangleMeshFile, Obj) {
     ASSERT_TRUE(quad);
     EXPECT_EQ(quad->indices, (std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
     EXPECT_TRUE(quad->colors.empty());
-    for (const auto& [bytes, why] :
-         {std::pair("v 0 0 0\nf 1 2 3\n", "vertex 2 of 1 in line 2"), {"v 0 0\n", "fewer than three"},
-          {"v 0 zero 0\n", "'zero' where a number should be, in line 1"}, {"v 0 0 0\nf 1 1 0", "'0' for a vertex"},
-          {"v 0 inf 0\n", "'inf'"}, {"v 0 1e39 0\n", "'1e39'"}, {"vn 0 0 1\n", "has no faces"},
-          {"v 0 0 0\nf 1 -2 1", "vertex -2 of 1"}, {"f\n", "has no faces"}})
-        EXPECT_NE(refusal("a.obj", bytes).find(why), std::string::npos) << refusal("a.obj", bytes) << " / " << why;
+    for (const auto& [bytes, why] : {std::pair("v 0 0 0\nf 1 2 3\n", "vertex 2 of 1 in line 2"),
+                                     {"v 0 0\n", "fewer than three"},
+                                     {"v 0 zero 0\n", "'zero' where a number should be, in line 1"},
+                                     {"v 0 0 0\nf 1 1 0", "'0' for a vertex"},
+                                     {"v 0 inf 0\n", "'inf'"},
+                                     {"v 0 1e39 0\n", "'1e39'"},
+                                     {"vn 0 0 1\n", "has no faces"},
+                                     {"v 0 0 0\nf 1 -2 1", "vertex -2 of 1"},
+                                     {"f\n", "has no faces"}})
+        EXPECT_NE(refusal("a.obj", bytes).find(why), std::string::npos)
+            << refusal("a.obj", bytes) << " / " << why;
 }
 
 TEST(TriangleMeshFile, ObjColors) {
     const TempDir folder;
     writeText(folder.path("a.mtl"), "newmtl deep red\nKd 0.5 0 0\nnewmtl blue\r\nKd 0 0 1\nKd x\n");
-    const std::string text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0 1 0.5 0.25\nv 0 0 1\n"
-                             "usemtl deep red\nf 1 3 2\nf 1 2 4\nusemtl blue\nf 1 4 3\n";
+    const std::string text =
+        "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0 1 0.5 0.25\nv 0 0 1\n"
+        "usemtl deep red\nf 1 3 2\nf 1 2 4\nusemtl blue\nf 1 4 3\n";
     const std::string path = folder.path("a.obj");
     const Result<TriangleMesh> mesh = parseTriangleMesh({text, "a.obj", path});
     ASSERT_TRUE(mesh) << mesh.error().message;
@@ -142,8 +153,8 @@ TEST(TriangleMeshFile, ObjColors) {
     writeText(folder.path("other.mtl"), "newmtl blue\nKd 0 1 0\n");
     std::filesystem::create_directory(folder.path("in"));
     const Result<TriangleMesh> plain = parseTriangleMesh(
-        {"mtllib ../other.mtl\nmtllib none.mtl\nusemtl blue\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "in/a.obj",
-         folder.path("in/a.obj")});
+        {"mtllib ../other.mtl\nmtllib none.mtl\nusemtl blue\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+         "in/a.obj", folder.path("in/a.obj")});
     ASSERT_TRUE(plain);
     EXPECT_TRUE(plain->colors.empty());
 }
@@ -151,8 +162,9 @@ TEST(TriangleMeshFile, ObjColors) {
 // ---- PLY
 
 std::string plyHeader(const std::string& form, const std::string& more = "") {
-    return "ply\nformat " + form + " 1.0\ncomment by hand\nelement vertex 4\nproperty double x\nproperty float y\n" +
-           more + "property int z\nelement edge 1\nproperty list uchar short ends\nelement face 4\n" +
+    return "ply\nformat " + form +
+           " 1.0\ncomment by hand\nelement vertex 4\nproperty double x\nproperty float y\n" + more +
+           "property int z\nelement edge 1\nproperty list uchar short ends\nelement face 4\n" +
            "property uchar flag\nproperty list uchar uint vertex_indices\nend_header\n";
 }
 
@@ -179,7 +191,8 @@ std::string plyBinary(bool big) {
 
 std::string plyText(bool colored) {
     std::ostringstream text;
-    text << plyHeader("ascii", colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
+    text << plyHeader("ascii",
+                      colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
     for (const auto& corner : kCorners)
         text << corner[0] << " " << corner[1] << (colored ? " 255 0 188 " : " ") << corner[2] << "\n";
     text << "2 0 1\n";
@@ -201,21 +214,28 @@ TEST(TriangleMeshFile, Ply) {
         std::string other = text;
         return other.replace(other.find(from), from.size(), to);
     };
-    for (const auto& [bytes, why] :
-         {std::pair(text.substr(0, text.size() - 4), "is cut off"), {binary.substr(0, binary.size() - 1), "is cut off"},
-          {text.substr(0, text.find("element edge")), "ends within its header"}, {std::string("plx\n"), "is no PLY file"},
-          {with("ascii", "utf8"), "a format"}, {with("double x", "double q"), "without x, y and z"},
-          {with("vertex_indices", "corners"), "without corners"}, {with("vertex 4", "vertex 4000000000"), "is cut off"},
-          {with("vertex 4", "vertex four"), "without a count"}, {with("7 3 0 2 1", "7 3 0 2 4"), "vertex 4 of 4"},
-          {with("7 3 0 2 1", "7 3 0 2 -1"), "vertex -1"}, {with("7 3 0 2 1", "7 3 0 nan 1"), "vertex"},
-          {with("7 3 0 2 1", "7 3e9 0 2 1"), "impossible length"}, {with("7 3 0 2 1", "7 x 0 2 1"), "'x'"}})
-        EXPECT_NE(refusal("a.ply", bytes).find(why), std::string::npos) << refusal("a.ply", bytes) << " / " << why;
+    for (const auto& [bytes, why] : {std::pair(text.substr(0, text.size() - 4), "is cut off"),
+                                     {binary.substr(0, binary.size() - 1), "is cut off"},
+                                     {text.substr(0, text.find("element edge")), "ends within its header"},
+                                     {std::string("plx\n"), "is no PLY file"},
+                                     {with("ascii", "utf8"), "a format"},
+                                     {with("double x", "double q"), "without x, y and z"},
+                                     {with("vertex_indices", "corners"), "without corners"},
+                                     {with("vertex 4", "vertex 4000000000"), "is cut off"},
+                                     {with("vertex 4", "vertex four"), "without a count"},
+                                     {with("7 3 0 2 1", "7 3 0 2 4"), "vertex 4 of 4"},
+                                     {with("7 3 0 2 1", "7 3 0 2 -1"), "vertex -1"},
+                                     {with("7 3 0 2 1", "7 3 0 nan 1"), "vertex"},
+                                     {with("7 3 0 2 1", "7 3e9 0 2 1"), "impossible length"},
+                                     {with("7 3 0 2 1", "7 x 0 2 1"), "'x'"}})
+        EXPECT_NE(refusal("a.ply", bytes).find(why), std::string::npos)
+            << refusal("a.ply", bytes) << " / " << why;
 }
 
 // ---- glTF
 
-/// One file with everything that is read: interleaved, sparse and quantised numbers, strips and fans, no indices,
-/// a mirrored node and a mesh in two nodes.
+/// One file with everything that is read: interleaved, sparse and quantised numbers, strips and fans, no
+/// indices, a mirrored node and a mesh in two nodes.
 std::string gltfText(const std::string& head = "", const std::string& version = "2.0") {
     return R"({"asset": {"version": ")" + version + R"("}, )" + head + R"(
         "buffers": [{"byteLength": 100, "uri": "a.bin"}],
@@ -272,7 +292,8 @@ TEST(TriangleMeshFile, Gltf) {
     ASSERT_TRUE(strips) << strips.error().message;
     EXPECT_EQ(strips->indices.size(), 3u * (2 + 2 + 1));
     for (std::size_t t = 0; t < 2; ++t) {  // a strip turns every other of its triangles: both face +z
-        const glm::vec3 a = strips->positions[strips->indices[3 * t]], b = strips->positions[strips->indices[3 * t + 1]],
+        const glm::vec3 a = strips->positions[strips->indices[3 * t]],
+                        b = strips->positions[strips->indices[3 * t + 1]],
                         c = strips->positions[strips->indices[3 * t + 2]];
         EXPECT_GT(glm::cross(b - a, c - a).z, 0.9f) << t;
     }
@@ -284,7 +305,9 @@ TEST(TriangleMeshFile, GltfRefused) {
         std::string text = gltfText();
         return text.replace(text.find(from), from.size(), to);
     };
-    const auto needing = [](const std::string& name) { return gltfText(R"("extensionsRequired": [")" + name + R"("],)"); };
+    const auto needing = [](const std::string& name) {
+        return gltfText(R"("extensionsRequired": [")" + name + R"("],)");
+    };
     EXPECT_TRUE(parseGltf(needing("KHR_mesh_quantization")));
     EXPECT_TRUE(parseGltf(needing("KHR_materials_sheen")));
     for (const auto& [text, why] :
@@ -302,7 +325,9 @@ TEST(TriangleMeshFile, GltfRefused) {
           {with("\"indices\": 2,", "\"indices\": 4,"), "fit its use"},
           {with("\"children\": [1]", "\"children\": [0]"), "below itself"},
           {with("\"children\": [1]", "\"children\": [7]"), "node 7"},
-          {with("\"mode\": 5}, ", "\"mode\": 8}, ").replace(with("\"mode\": 5}, ", "\"mode\": 8}, ").find("\"scene\": 1"), 10, "\"scene\": 0"), "mode 8"},
+          {with("\"mode\": 5}, ", "\"mode\": 8}, ")
+               .replace(with("\"mode\": 5}, ", "\"mode\": 8}, ").find("\"scene\": 1"), 10, "\"scene\": 0"),
+           "mode 8"},
           {with("\"nodes\": [0]}]", "\"nodes\": []}]"), "no triangles"}}) {
         const Result<TriangleMesh> mesh = parseGltf(text);
         ASSERT_FALSE(mesh) << why;
@@ -311,7 +336,8 @@ TEST(TriangleMeshFile, GltfRefused) {
     }
     std::string buffer = gltfBuffer();
     buffer[64] = 9;
-    EXPECT_NE(parseGltf(gltfText(), buffer).error().message.find("index 9 with 4 vertices"), std::string::npos);
+    EXPECT_NE(parseGltf(gltfText(), buffer).error().message.find("index 9 with 4 vertices"),
+              std::string::npos);
     buffer = gltfBuffer();
     const float inf = INFINITY;
     std::memcpy(buffer.data(), &inf, 4);
@@ -336,7 +362,8 @@ TEST(TriangleMeshFile, IsReadOnceUntilItChanges) {
     EXPECT_EQ((*second)->hash, (*first)->hash);
     EXPECT_EQ(readTriangleMesh(graph, "../a.stl").error().message.substr(0, 20), "the mesh '../a.stl' ");
     writeText(folder.path("a.fbx"), "x");
-    EXPECT_NE(readTriangleMesh(graph, "a.fbx").error().message.find("of no format that is read"), std::string::npos);
+    EXPECT_NE(readTriangleMesh(graph, "a.fbx").error().message.find("of no format that is read"),
+              std::string::npos);
 }
 
 // ---- Real files, where they are
@@ -371,7 +398,8 @@ TEST(TriangleMeshCorpus, MeshesAreWhatTheManifestSays) {
         EXPECT_NEAR(double(triangles), std::stod(cells[3]), 2.0) << cells[1];
         const double volume = std::stod(cells[10]), area = std::stod(cells[11]);
         EXPECT_NEAR(areaOf(**mesh), area, 1e-4 * area + 1e-12) << cells[1];
-        EXPECT_NEAR(volumeOf(**mesh), volume, 1e-3 * std::abs(volume) + 1e-3 * std::pow(area, 1.5)) << cells[1];
+        EXPECT_NEAR(volumeOf(**mesh), volume, 1e-3 * std::abs(volume) + 1e-3 * std::pow(area, 1.5))
+            << cells[1];
     }
     EXPECT_GT(read, 40);
 }
