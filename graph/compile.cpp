@@ -94,20 +94,23 @@ class Compiler {
     }
 
     const Ir& ir() const { return state.ir; }
-    std::vector<Error> errors;
+    std::vector<Error> errors, notes;
     std::vector<LiveParameter> live;
     std::map<std::string, NodeExactness, std::less<>> exactness;
     std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
 
   private:
     void report(const Node& node, const std::string& prefix, const std::string& input, Error error) {
+        errors.push_back(located(node, prefix, input, std::move(error)));
+    }
+    Error located(const Node& node, const std::string& prefix, const std::string& input, Error error) const {
         error.file = graph.path;
         error.node = prefix + node.id;
         error.input = input;
         const InputValue* value = input.empty() ? nullptr : node.input(input);
         const TextPosition at = error.codeLine > 0 ? node.codePlace : value ? value->at : node.place;
         error.line = at.line, error.column = at.column;
-        errors.push_back(std::move(error));
+        return error;
     }
 
     Lowered failure(std::vector<OutputSpec> outputs) {
@@ -285,11 +288,15 @@ class Compiler {
             else if (inputsExact || result.spoiler.empty())
                 result.spoiler = prefix + node.id;
         }
+        if (type->id == "mesh_file") return meshFile(node, prefix, *type, inputs);
+        if (type->id == "mesh_to_field") return meshToField(node, prefix, *type, inputs);
         if (type->body.empty()) {  // stages
             result.outputs = {{type->outputs.empty() ? "surface" : type->outputs[0].name, Type::surface}};
             result.values = {inputs.empty() ? language::emptySurface(state) : inputs[shown]};
             if (!inputs.empty() && classes.contains(type->inputs[shown].name))
                 result.exactness = classes[type->inputs[shown].name];
+            if (type->outputs.empty() && result.values[0].mesh && result.values[0].mesh->read)
+                reportNoField(node, prefix, type->inputs[shown].name);
             if (type->outputs.empty() || type->outputs[0].type != Type::mesh) return result;
             std::optional<MeshRecipe> recipe = meshRecipe(node, prefix, *type, inputs, result.values[0]);
             if (!recipe) return failure(type->outputs);
@@ -307,28 +314,122 @@ class Compiler {
         return result;
     }
 
+    const Value& inputOf(const NodeType& type, const std::vector<Value>& inputs, std::string_view name) const {
+        return inputs[static_cast<std::size_t>(inputIndex(type, name))];
+    }
+    /// A number that must be known when the graph is compiled. Reported, and none, if it is not.
+    std::optional<double> knownNumber(const Node& node, const std::string& prefix, const NodeType& type,
+                                      const std::vector<Value>& inputs, std::string_view name,
+                                      int component = 0) {
+        const IrId id = inputOf(type, inputs, name).ids[static_cast<std::size_t>(component)];
+        if (state.ir.isConstant(id)) return state.ir.number(id);
+        report(node, prefix, std::string(name),
+               {.message = "a mesh is made with one number, known when the graph is compiled: it cannot "
+                           "depend on the place, nor be live"});
+        return std::nullopt;
+    }
+
+    /// A mesh from a file where one of a field is wanted.
+    void reportNoField(const Node& node, const std::string& prefix, const std::string& input) {
+        report(node, prefix, input,
+               {.message = "takes a mesh that was made of a field: put mesh_to_field and polygonize behind the "
+                           "mesh_file"});
+    }
+
+    Lowered meshFile(const Node& node, const std::string& prefix, const NodeType& type,
+                     const std::vector<Value>& inputs) {
+        const std::string& path = inputOf(type, inputs, "path").text;
+        const Result<TriangleMeshPtr> mesh =
+            path.empty() ? Error{.message = "no file is named: write the path of a .glb, .gltf, .obj, .stl or .ply file"}
+                         : readTriangleMesh(state.graphPath, path);
+        if (!mesh) {
+            report(node, prefix, "path", mesh.error());
+            return failure({{"mesh", Type::surface}});
+        }
+        Lowered result;
+        result.outputs = {{"mesh", Type::surface}};
+        result.values = {language::emptySurface(state)};
+        result.values[0].mesh = std::make_shared<const MeshRecipe>(MeshRecipe{.read = *mesh});
+        return result;
+    }
+
+    Lowered meshToField(const Node& node, const std::string& prefix, const NodeType& type,
+                        const std::vector<Value>& inputs) {
+        Lowered result;
+        result.outputs = type.outputs;
+        result.values = {language::emptySurface(state)};
+        if (!node.input("mesh")) return result;  // a field of nothing yet
+        const std::shared_ptr<const MeshRecipe>& mesh = inputOf(type, inputs, "mesh").mesh;
+        if (!mesh || !mesh->read) {
+            report(node, prefix, "mesh",
+                   {.message = "takes a mesh from a file: connect a mesh_file node (what polygonize makes has a "
+                               "field already: use that)"});
+            return failure(type.outputs);
+        }
+        const auto resolution = knownNumber(node, prefix, type, inputs, "resolution");
+        const auto margin = knownNumber(node, prefix, type, inputs, "margin");
+        if (!resolution || !margin) return failure(type.outputs);
+        const auto inside = std::ranges::find(kMeshInsideNames, inputOf(type, inputs, "inside").text);
+        const MeshFieldRecipe recipe{.mesh = mesh->read,
+                                     .resolution = static_cast<int>(*resolution),
+                                     .margin = *margin,
+                                     .inside = MeshInside(inside - kMeshInsideNames)};
+        const Result<FieldVolumePtr> volume = meshField(recipe, options.bake);
+        if (!volume) {
+            report(node, prefix, "mesh", volume.error());
+            return failure(type.outputs);
+        }
+        std::size_t bytes = 16 * texelCount(**volume);
+        for (const FieldVolumePtr& held : state.ir.volumes())
+            if (held != *volume) bytes += 16 * texelCount(*held);
+        if (bytes > kMostVolumeBytes) {
+            report(node, prefix, "resolution",
+                   {.message = "the graph's meshes would take more than " +
+                               std::to_string(kMostVolumeBytes >> 20) +
+                               " MiB as fields: lower a resolution or take fewer"});
+            return failure(type.outputs);
+        }
+        for (const std::string& what : (*volume)->notes) {
+            Error& note = notes.emplace_back();
+            note = located(node, prefix, "mesh", {.message = what, .severity = Error::Severity::warning});
+        }
+        const uint32_t number = state.ir.addVolume(*volume);
+        const Value& p = inputOf(type, inputs, "p");
+        const std::array<IrId, 3> place{p.ids[0], p.ids[1], p.ids[2]};
+        const bool flat = inputOf(type, inputs, "sampling").text == "trilinear";
+        const VolumeChannel distance = flat ? trilinearChannel : tricubicChannel;
+        Value& surface = result.values[0];
+        surface = *language::convert(state, language::constantValue(state, Type::scalar, {}), Type::surface);
+        surface.ids[distanceComponent] = state.ir.sample(number, distance, place);
+        if ((*volume)->colored())
+            for (int i = 0; i < 3; ++i)
+                surface.ids[static_cast<std::size_t>(baseColorComponent + i)] =
+                    state.ir.sample(number, VolumeChannel(redChannel + i), place);
+        const bool here = place == std::array<IrId, 3>{0, 1, 2};
+        result.exactness = here ? distorted(kSampledLipschitz) : distorted();
+        result.spoiler = prefix + node.id;
+        return result;
+    }
+
     /// How the mesh is made that a node gives which takes `from` and other `inputs`. Reported, and none, if a
     /// number is not known when the graph is compiled.
     std::optional<MeshRecipe> meshRecipe(const Node& node, const std::string& prefix, const NodeType& type,
                                          const std::vector<Value>& inputs, const Value& from) {
         bool known = true;
-        const auto input = [&](std::string_view name) -> const Value& {
-            return inputs[static_cast<std::size_t>(inputIndex(type, name))];
-        };
         const auto number = [&](std::string_view name, int component = 0) {
-            const IrId id = input(name).ids[static_cast<std::size_t>(component)];
-            if (state.ir.isConstant(id)) return state.ir.number(id);
-            known = false;
-            report(node, prefix, std::string(name),
-                   {.message = "a mesh is made with one number, known when the graph is compiled: it cannot "
-                               "depend on the place, nor be live"});
-            return 0.0;
+            const std::optional<double> found = knownNumber(node, prefix, type, inputs, name, component);
+            known &= found.has_value();
+            return found.value_or(0.0);
         };
+        if (from.mesh && from.mesh->read && type.id != "polygonize") {
+            reportNoField(node, prefix, type.inputs[0].name);
+            return std::nullopt;
+        }
         MeshRecipe recipe = from.mesh ? *from.mesh : MeshRecipe{};
         if (type.id == "polygonize") {
             recipe = MeshRecipe{};
             recipe.resolution = static_cast<int>(number("resolution"));
-            recipe.method = meshMethod(input("method").text);
+            recipe.method = meshMethod(inputOf(type, inputs, "method").text);
             if (node.input("region_min") && node.input("region_max")) {
                 Box& box = recipe.region.emplace();
                 for (int i = 0; i < 3; ++i)
@@ -564,7 +665,8 @@ std::optional<Type> compiledType(const Graph& graph, std::string_view group, con
     const std::vector<Node>& nodes = inside ? inside->nodes : graph.nodes;
     const Node* node = findNode(nodes, link.node);
     if (!node) return {};
-    const CompileOptions options;
+    CompileOptions options;
+    options.bake = boxInPlace;
     Compiler compiler(graph, options);
     const Lowered inputs = inside ? compiler.defaultsOf(*inside) : Lowered{};
     const LoweredNodes lowered = compiler.lowerAll(nodes, "", inside ? &inputs : nullptr, {node});
@@ -653,12 +755,15 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     program.exactness = result.exactness;
     program.spoiledBy = result.spoiler;
     program.nodeExactness = std::move(compiler.exactness);
+    program.notes = std::move(compiler.notes);
     readSettings(*output, result.values[0].mesh ? *result.values[0].mesh : MeshRecipe{}, program);
     return program;
 }
 
 std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& options) {
-    Compiler compiler(graph, options);
+    CompileOptions unmeasured = options;
+    unmeasured.bake = boxInPlace;  // what it would be is of no matter
+    Compiler compiler(graph, unmeasured);
     std::vector<const Node*> all;
     for (const Node& node : graph.nodes) all.push_back(&node);
     compiler.lowerAll(graph.nodes, "", nullptr, all);
@@ -667,7 +772,8 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
 
 Done checkLive(const Graph& graph, const CompileOptions& options) {
     std::vector<std::string> names;
-    const CompileOptions folded;
+    CompileOptions folded;
+    folded.bake = boxInPlace;
     Compiler compiler(graph, folded);
     compiler.canBeLive = &names;
     std::vector<const Node*> all;

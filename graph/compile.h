@@ -22,6 +22,7 @@
 #include "graph/families.h"
 #include "graph/graph.h"
 #include "graph/ir.h"
+#include "graph/mesh_field.h"
 #include "graph/mesh_recipe.h"
 #include "graph/result.h"
 #include "graph/types.h"
@@ -45,6 +46,7 @@ struct CompileOptions {
     /// Keep every exposed parameter live, under its own name.
     bool liveExposed = false;
     double time = 0.0;  ///< seconds, folded unless live
+    MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
 };
 
 /// Of the surface that a node gives.
@@ -68,6 +70,7 @@ struct Program {
     MeshMethod method = MeshMethod::marchingCubes;
     std::optional<Box> region;      ///< given by a polygonize node
     std::vector<MeshStage> stages;  ///< what is done to the mesh, in order; not part of structureHash
+    std::vector<Error> notes;       ///< warnings: what its user should know of meshes that were made fields
 
     IrId distance() const { return surface[distanceComponent]; }
     /// Some point's material differs from another's or from the default.

@@ -67,7 +67,7 @@ class Finder {
     uint64_t shapeOf(IrId id) const {
         const IrNode& node = ir[id];
         uint64_t hash = mixed(0, uint64_t(node.op));
-        if (node.op == Op::parameter || node.op == Op::image) hash = mixed(hash, uint64_t(node.number));
+        if (ownsNumber(node.op) && node.op != Op::constant) hash = mixed(hash, uint64_t(node.number));
         uint64_t of[kMaxArity] = {};
         const int arity = opInfo(node.op).arity;
         for (int i = 0; i < arity; ++i) of[i] = shapes[node.operands[i]];
@@ -158,7 +158,7 @@ class Finder {
             }
             if (result.steps.size() == kMostSteps) return std::nullopt;
             result.key.push_back(uint64_t(node.op));
-            if (node.op == Op::parameter || node.op == Op::image) result.key.push_back(uint64_t(node.number));
+            if (ownsNumber(node.op) && node.op != Op::constant) result.key.push_back(uint64_t(node.number));
             for (int i = 0; i < arity; ++i) {
                 const IrId operand = node.operands[order[i]];
                 if (ir.isConstant(operand)) {

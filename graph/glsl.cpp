@@ -23,6 +23,7 @@ class Emitter : GlslStatements {
         }
         parameters();
         images();
+        volumes();
         if (usesNoise) text += "#include \"lib/noise.glsl\"\n";
         if (usesSmoothMinimum) text += "#include \"lib/smooth_minimum.glsl\"\n";
         text +=
@@ -62,18 +63,12 @@ class Emitter : GlslStatements {
     /// Two functions for each layer that is sampled, its place, size and bounds folded in.
     void images() {
         if (ir.images().empty()) return;
-        // A shader that samples none must not declare the buffer, so that nothing need be bound there.
-        const IrId distance = program.distance();
-        const std::vector<bool> needed = neededBy(std::span(&distance, 1));
-        bool paintOnly = true;
-        for (IrId id = 0; id < ir.size(); ++id) paintOnly &= !(needed[id] && ir[id].op == Op::image);
-        if (paintOnly) text += "#ifdef FIELD_MATERIAL\n";
+        const bool paint = paintOnly(Op::image);
+        if (paint) text += "#ifdef FIELD_MATERIAL\n";
         text += "layout(set = 0, binding = " + std::to_string(kFieldImagesBinding) +
                 ", std430) readonly buffer FieldImages { uint fieldImages[]; };\n"
                 "#include \"lib/image.glsl\"\n";
-        std::vector<bool> sampled(ir.images().size() * kImageLayers, false);
-        for (IrId id = 0; id < ir.size(); ++id)
-            if (ir[id].op == Op::image) sampled[static_cast<std::size_t>(ir[id].number)] = true;
+        const std::vector<bool> sampled = layersOf(Op::image, ir.images().size() * kImageLayers);
         std::size_t first = 0;
         for (std::size_t number = 0; number < sampled.size(); ++number) {
             const FieldImage& image = *ir.images()[number / kImageLayers];
@@ -82,9 +77,6 @@ class Emitter : GlslStatements {
                 const std::string where = std::to_string(first) + "u, ivec2(" + std::to_string(image.width) +
                                           ", " + std::to_string(image.height) + "), ";
                 const std::string channel = std::to_string(layer.channel);
-                const auto pair = [](double a, double b) {
-                    return "vec2(" + glslLiteral(a) + ", " + glslLiteral(b) + ")";
-                };
                 text += "vec3 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
                         where + "uv, " + channel + "); }\n" + "vec2 fieldImageRange" +
                         std::to_string(number) + "(vec2 u, vec2 v) { return imageRange(" + where + "u, v, " +
@@ -93,7 +85,68 @@ class Emitter : GlslStatements {
             }
             if (layer.channel + 1 == kImageLayers) first += image.texels.size();
         }
-        if (paintOnly) text += "#endif\n";
+        if (paint) text += "#endif\n";
+    }
+    /// The same for volumes; of a colour, only the value is asked for in shaders.
+    void volumes() {
+        if (ir.volumes().empty()) return;
+        const bool paint = paintOnly(Op::volume);
+        if (paint) text += "#ifdef FIELD_MATERIAL\n";
+        text += "layout(set = 0, binding = " + std::to_string(kFieldVolumesBinding) +
+                ", rgba32ui) restrict readonly uniform uimageBuffer fieldVolumes;\n"
+                "#include \"lib/volume.glsl\"\n";
+        const std::vector<bool> sampled = layersOf(Op::volume, ir.volumes().size() * kVolumeLayers);
+        std::size_t first = 0;
+        for (std::size_t v = 0; v < ir.volumes().size(); ++v) {
+            const FieldVolume& volume = *ir.volumes()[v];
+            const VolumeGrid& grid = volume.grid;
+            const std::string gridName = "fieldVolumeGrid" + std::to_string(v);
+            const auto list = [&](const auto& of, auto literal) {
+                return "(" + literal(of[0]) + ", " + literal(of[1]) + ", " + literal(of[2]) + ")";
+            };
+            text += "const VolumeGrid " + gridName + " = VolumeGrid(" + std::to_string(first) + ", ivec3" +
+                    list(grid.size, [](int n) { return std::to_string(n); }) + ", vec3" +
+                    list(grid.origin, [](double x) { return glslLiteral(x); }) + ", " + glslLiteral(grid.cell) +
+                    ");\n";
+            for (const VolumeLayer& layer : volume.layers) {
+                const std::size_t number = v * kVolumeLayers + std::size_t(layer.channel);
+                if (!sampled[number]) continue;
+                const std::string name = std::to_string(number);
+                const bool color = layer.channel >= redChannel;
+                text += "vec4 fieldVolume" + name + "(vec3 p) { return " +
+                        (layer.channel == tricubicChannel    ? "volumeTricubic(" + gridName + ", p"
+                         : layer.channel == trilinearChannel ? "volumeTrilinear(" + gridName + ", p"
+                                                             : "volumeColor(" + gridName + ", p, " +
+                                                                   std::to_string(layer.channel - redChannel)) +
+                        "); }\nvec2 fieldVolumeRange" + name + "(vec2 x, vec2 y, vec2 z) { return " +
+                        (color ? "vec2(-1e-5, 1.00001)"
+                               : "volumeRange(" + gridName + ", fieldVolume" + name +
+                                     "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " +
+                                     pair(layer.slope, layer.slack) + ", " + pair(layer.least, layer.most) + ")") +
+                        "; }\n";
+            }
+            first += texelCount(volume);
+        }
+        if (paint) text += "#endif\n";
+    }
+    static std::string pair(double a, double b) {
+        return "vec2(" + glslLiteral(a) + ", " + glslLiteral(b) + ")";
+    }
+    /// Whether the distance has no such operation. A shader that samples nothing must not declare the buffer, so
+    /// that nothing need be bound there.
+    bool paintOnly(Op op) {
+        const IrId distance = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&distance, 1));
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (needed[id] && ir[id].op == op) return false;
+        return true;
+    }
+    /// Which of the layers that `op` can sample are.
+    std::vector<bool> layersOf(Op op, std::size_t count) const {
+        std::vector<bool> sampled(count, false);
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (ir[id].op == op) sampled[static_cast<std::size_t>(ir[id].number)] = true;
+        return sampled;
     }
 
     void valueFunction() {

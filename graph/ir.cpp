@@ -173,26 +173,43 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
     return kNone;
 }
 
-uint32_t Ir::addImage(const FieldImagePtr& image) {
-    const auto found = std::ranges::find(pictures, image);
-    if (found != pictures.end()) return static_cast<uint32_t>(found - pictures.begin());
-    pictures.push_back(image);
-    return static_cast<uint32_t>(pictures.size() - 1);
+namespace {
+
+/// The number of `item` in the list, which it joins if it is new.
+template <class Item>
+uint32_t placeIn(std::vector<Item>& list, const Item& item) {
+    const auto found = std::ranges::find(list, item);
+    if (found != list.end()) return static_cast<uint32_t>(found - list.begin());
+    list.push_back(item);
+    return static_cast<uint32_t>(list.size() - 1);
 }
+
+}  // namespace
+
+uint32_t Ir::addImage(const FieldImagePtr& image) { return placeIn(pictures, image); }
 
 IrId Ir::sample(uint32_t image, int channel, IrId u, IrId v) {
     assert(image < pictures.size() && channel >= 0 && channel < kImageLayers);
     return make(Op::image, double(image) * kImageLayers + channel, std::array{u, v});
 }
 
-const ImageLayer* Ir::layer(const IrNode& node) const {
-    if (node.op != Op::image) return nullptr;
+uint32_t Ir::addVolume(const FieldVolumePtr& volume) { return placeIn(grids, volume); }
+
+IrId Ir::sample(uint32_t volume, VolumeChannel channel, std::array<IrId, 3> place) {
+    assert(volume < grids.size());
+    return make(Op::volume, double(volume * kVolumeLayers + uint32_t(channel)), place);
+}
+
+SampledLayer Ir::layer(const IrNode& node) const {
     const auto number = static_cast<std::size_t>(node.number);
-    return &pictures[number / kImageLayers]->layers[number % kImageLayers];
+    SampledLayer layer;
+    if (node.op == Op::image) layer.image = &pictures[number / kImageLayers]->layers[number % kImageLayers];
+    if (node.op == Op::volume) layer.volume = &grids[number / kVolumeLayers]->layers[number % kVolumeLayers];
+    return layer;
 }
 
 IrId Ir::add(Op op, std::span<const IrId> operands) {
-    assert(op != Op::image);  // sample() knows of which
+    assert(op != Op::image && op != Op::volume);  // sample() knows of which
     return make(op, 0.0, operands);
 }
 
@@ -269,6 +286,11 @@ Ir Ir::compact(std::span<IrId> roots) const {
             const uint32_t image = result.addImage(pictures[number_ / kImageLayers]);
             node.number = double(image) * kImageLayers + double(number_ % kImageLayers);
         }
+        if (node.op == Op::volume) {
+            const auto number_ = static_cast<std::size_t>(node.number);
+            const uint32_t volume = result.addVolume(grids[number_ / kVolumeLayers]);
+            node.number = double(volume) * kVolumeLayers + double(number_ % kVolumeLayers);
+        }
         for (int i = 0; i < opInfo(node.op).arity; ++i) node.operands[i] = renumbered[node.operands[i]];
         renumbered[id] = result.intern(node);
     }
@@ -283,6 +305,7 @@ uint64_t Ir::hash(std::span<const IrId> roots) const {
         for (int i = 0; i < opInfo(node.op).arity; ++i) hash = mix(hash, node.operands[i]);
     }
     for (const FieldImagePtr& image : pictures) hash = mix(hash, image->hash);
+    for (const FieldVolumePtr& volume : grids) hash = mix(hash, volume->hash);
     for (IrId root : roots) hash = mix(hash, root);
     return hash;
 }
@@ -293,7 +316,7 @@ std::string Ir::text(std::span<const IrId> roots) const {
     for (IrId id = 0; id < nodes.size(); ++id) {
         const IrNode& node = nodes[id];
         text += "%" + std::to_string(id) + " = " + opInfo(node.op).name;
-        if (node.op == Op::constant || node.op == Op::parameter || node.op == Op::image) {
+        if (ownsNumber(node.op)) {
             std::snprintf(number, sizeof number, " %.17g", node.number);
             text += number;
         }

@@ -38,6 +38,11 @@ struct IrNode {
     double number = 0.0;  ///< of a constant; the slot of a parameter; the layer of a sample (Ir::layer)
 };
 
+/// Whether a node's own number is part of what it is.
+constexpr bool ownsNumber(Op op) {
+    return op == Op::constant || op == Op::parameter || op == Op::image || op == Op::volume;
+}
+
 class Ir {
   public:
     Ir();
@@ -52,8 +57,13 @@ class Ir {
     const std::vector<FieldImagePtr>& images() const { return pictures; }
     /// A channel of an image of images() at (u, v); see image.h.
     IrId sample(uint32_t image, int channel, IrId u, IrId v);
-    /// What a node of Op::image samples; null for any other.
-    const ImageLayer* layer(const IrNode& node) const;
+    /// The number of the volume among volumes(), which it joins if it is new.
+    uint32_t addVolume(const FieldVolumePtr& volume);
+    const std::vector<FieldVolumePtr>& volumes() const { return grids; }
+    /// A channel of a volume of volumes() at (x, y, z); see volume.h.
+    IrId sample(uint32_t volume, VolumeChannel channel, std::array<IrId, 3> place);
+    /// What a node samples.
+    SampledLayer layer(const IrNode& node) const;
 
     /// The id of op(operands), folded where possible.
     IrId add(Op op, std::span<const IrId> operands);
@@ -73,11 +83,11 @@ class Ir {
     /// Operations visited by all substitutions so far: their cost.
     std::size_t substituted() const { return visited; }
 
-    /// A copy with only what `roots` need, images included, in a stable order; `roots` are renumbered. The
+    /// A copy with only what `roots` need, images and volumes included, in a stable order; `roots` are renumbered. The
     /// three position leaves stay ids 0, 1, 2.
     Ir compact(std::span<IrId> roots) const;
 
-    /// Hash of operations, constants, slots, images and roots: equal for equal code, whatever the parameters'
+    /// Hash of operations, constants, slots, images, volumes and roots: equal for equal code, whatever the parameters'
     /// values.
     uint64_t hash(std::span<const IrId> roots) const;
 
@@ -103,6 +113,7 @@ class Ir {
 
     std::vector<IrNode> nodes;
     std::vector<FieldImagePtr> pictures;
+    std::vector<FieldVolumePtr> grids;
     std::unordered_map<Key, IrId, KeyHash> known;
     std::unordered_map<Key, std::unordered_map<IrId, IrId>, KeyHash> substitutions;
     std::size_t remembered = 0;  ///< entries in `substitutions`

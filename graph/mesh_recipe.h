@@ -1,7 +1,8 @@
-// How a mesh is made of a field: what polygonize says, and the stages behind it. Plain values; none of them
+// Where a mesh comes from: a file, or a field by what polygonize says and the stages behind it. Plain values; none of them
 // is part of a program's code.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,11 +26,15 @@ inline bool projectsVertices(const MeshStage& stage) {
     return stage.kind == MeshStage::Kind::subdivide && stage.project && stage.times > 0;
 }
 
+struct TriangleMesh;
+
 struct MeshRecipe {
+    /// The mesh itself, where a file has it: the rest then says nothing.
+    std::shared_ptr<const TriangleMesh> read = {};
     int resolution = 0;  ///< cells along the longest side; 0: the output's, and so with method and region
     MeshMethod method = MeshMethod::marchingCubes;
-    std::optional<Box> region;
-    std::vector<MeshStage> stages;  ///< in order
+    std::optional<Box> region = {};
+    std::vector<MeshStage> stages = {};  ///< in order
 };
 
 }  // namespace fw

@@ -12,7 +12,7 @@ namespace {
 std::vector<NodeType> gatherNodeTypes() {
     std::vector<NodeType> all;
     for (auto family : {shapeNodes, shape2dNodes, combineNodes, domainNodes, fieldNodes, mathsNodes,
-                        materialNodes, stageNodes}) {
+                        materialNodes, meshNodes, stageNodes}) {
         std::vector<NodeType> nodes = family();
         std::move(nodes.begin(), nodes.end(), std::back_inserter(all));
     }

@@ -114,6 +114,7 @@ std::vector<NodeType> domainNodes();
 std::vector<NodeType> fieldNodes();
 std::vector<NodeType> mathsNodes();
 std::vector<NodeType> materialNodes();
+std::vector<NodeType> meshNodes();
 std::vector<NodeType> stageNodes();
 
 }  // namespace fw

@@ -14,7 +14,7 @@ namespace {
 using V = const double*;    // operands' values
 using D = const double*;    // operands' derivatives
 using I = const Interval*;  // operands' intervals
-using L = const ImageLayer*;
+using L = SampledLayer;
 
 constexpr double kTiny = 1e-30;  // least argument of a logarithm
 
@@ -337,14 +337,25 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
 
     row(
         Op::image, "image", 2, false, false,
-        [](V x, L layer) { return sampleImage(*layer, x[0], x[1]).value; },
-        [](I x, L layer) { return sampleImage(*layer, x[0], x[1]); },
+        [](V x, L layer) { return sampleImage(*layer.image, x[0], x[1]).value; },
+        [](I x, L layer) { return sampleImage(*layer.image, x[0], x[1]); },
         [](V x, double, D d, L layer) {
-            const ImageSample sample = sampleImage(*layer, x[0], x[1]);
+            const ImageSample sample = sampleImage(*layer.image, x[0], x[1]);
             return sample.du * d[0] + sample.dv * d[1];
         },
         "fieldImage%i(vec2(%a, %b)).x", "fieldImageRange%i(%a, %b)",
         "dot(fieldImage%i(vec2(%a, %b)).yz, vec2(%A, %B))"),
+
+    row(
+        Op::volume, "volume", 3, false, false,
+        [](V x, L layer) { return sampleVolume(*layer.volume, {x[0], x[1], x[2]}).value; },
+        [](I x, L layer) { return sampleVolume(*layer.volume, x); },
+        [](V x, double, D d, L layer) {
+            const VolumeSample sample = sampleVolume(*layer.volume, {x[0], x[1], x[2]});
+            return sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2];
+        },
+        "fieldVolume%i(vec3(%a, %b, %c)).w", "fieldVolumeRange%i(%a, %b, %c)",
+        "dot(fieldVolume%i(vec3(%a, %b, %c)).xyz, vec3(%A, %B, %C))"),
 }};
 
 constexpr bool inOrder() {

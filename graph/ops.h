@@ -10,7 +10,7 @@
 // constants, the CPU evaluators, the GLSL emitters and the tests, is driven by the row.
 //
 // In the GLSL templates %a %b %c %d are the operands, %v is the result's value, %A %B %C %D are the
-// operands' derivatives along a direction, and %i is the number of the image layer that the operation
+// operands' derivatives along a direction, and %i is the number of the layer that the operation
 // samples. Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals
 // are vec2(0|1, 0|1). Sums and roots round in GLSL intervals as they do in values; see lib/interval.glsl.
 #pragma once
@@ -22,6 +22,7 @@
 
 #include "graph/image.h"
 #include "graph/interval.h"
+#include "graph/volume.h"
 
 namespace fw {
 
@@ -78,10 +79,18 @@ enum class Op : uint8_t {
     cellHash,
     // two operands: u, v; which layer of which image is part of the node
     image,
+    // three operands: x, y, z; which layer of which volume is part of the node
+    volume,
     count
 };
 
 inline constexpr int kMaxArity = 4;
+
+/// What an operation samples: nothing, but for `image` and `volume`.
+struct SampledLayer {
+    const ImageLayer* image = nullptr;
+    const VolumeLayer* volume = nullptr;
+};
 
 struct OpInfo {
     Op op;
@@ -89,15 +98,15 @@ struct OpInfo {
     int arity;
     bool boolean;      ///< the result is a truth value
     bool commutative;  ///< operands may be swapped
-    // The last argument of each is what Ir::layer() gives for the node: null unless the operation is `image`.
-    double (*value)(const double* operands, const ImageLayer* layer);
-    Interval (*interval)(const Interval* operands, const ImageLayer* layer);
+    // The last argument of each is what Ir::layer() gives for the node.
+    double (*value)(const double* operands, SampledLayer layer);
+    Interval (*interval)(const Interval* operands, SampledLayer layer);
     /// value and one component of the result's derivative over arrays: `operands[i]` and `derivatives[i]`
     /// hold `count` numbers each.
     void (*values)(const double* const* operands, double* results, std::size_t count,
-                   const ImageLayer* layer);
+                   SampledLayer layer);
     void (*gradients)(const double* const* operands, const double* results, const double* const* derivatives,
-                      double* slopes, std::size_t count, const ImageLayer* layer);
+                      double* slopes, std::size_t count, SampledLayer layer);
     const char* glsl;
     const char* glslInterval;
     const char* glslGradient;  ///< "" where the derivative is zero everywhere

@@ -23,7 +23,7 @@ struct TapeStep {
     uint8_t positions;  ///< PositionMask
     IrId result;
     std::array<IrId, kMaxArity> operands;  ///< all valid; those beyond the arity repeat the first
-    const ImageLayer* layer;               ///< of Op::image
+    SampledLayer layer;
 };
 
 /// Steps in the order in which they are computed. Leaves have none: a machine holds them.

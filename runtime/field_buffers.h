@@ -35,6 +35,7 @@ void reserveLists(const Device& device, FieldLists& lists, const Families& famil
 struct FieldBuffers {
     const Buffer* parameters = nullptr;  ///< live ones, where it has some
     const Buffer* images = nullptr;      ///< that it samples, where it does
+    const Buffer* volumes = nullptr;     ///< likewise
     const FieldLists* lists = nullptr;   ///< for kernels with FIELD_PRUNED, where it has families
 };
 

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "graph/tape.h"
-#include "runtime/parallel.h"
+#include "graph/parallel.h"
 
 namespace fw {
 

@@ -13,8 +13,8 @@
 
 #include "runtime/corners.h"
 #include "runtime/export/read_back.h"
-#include "runtime/parallel.h"
-#include "runtime/triangle_tree.h"
+#include "graph/parallel.h"
+#include "graph/triangle_tree.h"
 
 namespace fw {
 namespace {

@@ -185,7 +185,7 @@ void splitEdges(Commands& commands, Run& run, bool project) {
         push.first = push.vertices;
         push.vertices = edges;
         bound = {{5, b.vertices, 0, bytes}};
-        addField(bound, {run.config.parameters, run.config.images});
+        addField(bound, run.config.field);
         dispatch(commands, pipelines.project, run.groups(edges), push, bound);
         barrier(commands);
     }

@@ -189,7 +189,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
             const MesherConfig& config, MesherPush push) {
     const Device& device = commands.device;
     std::vector<Descriptor> common = {{0, b.counts}};
-    addField(common, {config.parameters, config.images});
+    addField(common, config.field);
     const auto listed = [&](std::vector<Descriptor> list) {
         if (config.families && !config.families->empty()) addField(list, {.lists = &b.field});
         return list;

@@ -86,11 +86,17 @@ Session::~Session() {
 
 void Session::take(Program program) {
     const bool sameImages = images && program.ir.images() == current.ir.images();
+    const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes();
     current = std::move(program);
     if (!sameImages) {
         const std::vector<uint32_t> words = imageWords(current.ir.images());
         reserve(*gpu, images, words.size() * sizeof(uint32_t));
         upload(*gpu, images, words);
+    }
+    if (!sameVolumes) {
+        const std::vector<uint32_t> texels = volumeTexels(current.ir.volumes());
+        reserve(*gpu, volumes, texels.size() * sizeof(uint32_t));
+        upload(*gpu, volumes, texels);
     }
     const std::vector<float> values = current.numbers();
     reserve(*gpu, parameters, values.size() * sizeof(float), Memory::upload);
@@ -194,8 +200,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
     grid.cellSize = static_cast<float>(longestSide(*region) / resolution);
     ++content;
-    config.parameters = &parameters;
-    config.images = &images;
+    config.field = fieldBuffers();
     config.families = &current.families;
     config.colors = current.hasMaterial();
     config.tile = request.tile;
@@ -215,8 +220,7 @@ Done Session::runStages(MesherResult& result, const Box& region, bool kernels, b
                            .lo = grid.lo,
                            .hi = grid.hi,
                            .cellSize = grid.cellSize,
-                           .parameters = &parameters,
-                           .images = &images,
+                           .field = fieldBuffers(),
                            .project = kernels,
                            .timed = timed};
     const bool projects = std::ranges::any_of(current.stages, &projectsVertices);
@@ -280,7 +284,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .triangles = result.triangles,
                             .grid = grid,
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
-                            .buffers = {&parameters, &images},
+                            .buffers = fieldBuffers(),
                             .families = &current.families,
                             .bounds = boundsOf(options.framed),
                             .draft = draft ? std::optional(look) : std::nullopt,

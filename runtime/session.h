@@ -1,8 +1,8 @@
 // The one orchestrator: owns the device objects of a program and runs its stages.
 //
 // Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
-// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images of the field
-// per program that samples others, the renderer's images per size of a picture.
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images and volumes of the
+// field per program that samples others, the renderer's images per size of a picture.
 #pragma once
 
 #include <future>
@@ -88,6 +88,7 @@ class Session {
 
   private:
     void take(Program program);
+    FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
     /// What the program does to the mesh that was made in `region`; `kernels` tells whether by its kernels.
     Done runStages(MesherResult& result, const Box& region, bool kernels, bool timed);
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
@@ -106,7 +107,7 @@ class Session {
     MeshGrid grid;
     std::optional<Renderer> renderer;  ///< made by the first picture
     uint64_t content = 0;              ///< counts changes of mesh and parameters
-    Buffer parameters, images;
+    Buffer parameters, images, volumes;
     std::future<MesherPipelines> next;  ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;
     /// Of the renderer: compiled behind, those there are, and those being compiled.

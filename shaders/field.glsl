@@ -17,7 +17,7 @@
 // float fieldAt(FieldRow row, FieldColumn column, uint k, float y), where y is y[k].
 // A shader, with any of them, calls fieldBegin() first in main: it loads the live parameters once per invocation.
 // Live parameters stand in the storage buffer at binding FIELD_PARAMETERS (15), images in the one at
-// FIELD_IMAGES (14), each only if the field has some; the families' tables follow the live parameters. With FIELD_PRUNED and families the tables are also at FIELD_TABLES (9), the lists
+// FIELD_IMAGES (14), those of volumes at FIELD_VOLUMES (16), each only if the field has some; the families' tables follow the live parameters. With FIELD_PRUNED and families the tables are also at FIELD_TABLES (9), the lists
 // at FIELD_LISTS (11), and where each place has its own at FIELD_HEADS (12).
 
 struct FieldMaterial {

@@ -24,6 +24,8 @@ using vec4 = glm::vec4;
 #define FIELD_IMAGES \
     14  // binding of the images that the field samples, likewise; no shader has another there
 
+#define FIELD_VOLUMES 16  // and of its volumes
+
 #define FIELD_HEADS 12  // bindings of the lists of members that matter at a place, in shaders that prune
 #define FIELD_LISTS 11
 #define FIELD_TABLES 9  // binding of the members' numbers

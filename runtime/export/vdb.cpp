@@ -13,7 +13,7 @@
 #include "runtime/export/fingerprint.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/vdb/level_set.h"
-#include "runtime/triangle_tree.h"
+#include "graph/triangle_tree.h"
 
 namespace fw {
 namespace {

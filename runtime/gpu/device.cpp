@@ -252,11 +252,13 @@ void createLogicalDevice(Device& device, const DeviceOptions& options) {
     wanted.v12.scalarBlockLayout = VK_TRUE;
     wanted.v12.bufferDeviceAddress = has.v12.bufferDeviceAddress;
     wanted.v12.shaderOutputLayer = has.v12.shaderOutputLayer;
+    wanted.v12.shaderBufferInt64Atomics = has.v12.shaderBufferInt64Atomics;
     wanted.v12.hostQueryReset = has.v12.hostQueryReset;
     wanted.v13.synchronization2 = VK_TRUE;
     wanted.v13.dynamicRendering = VK_TRUE;
     wanted.v13.maintenance4 = has.v13.maintenance4;
     device.geometryShader = has.core.features.geometryShader;
+    device.int64Atomics = has.core.features.shaderInt64 && has.v12.shaderBufferInt64Atomics;
     device.deviceAddresses = has.v12.bufferDeviceAddress;
 
     float priority = 1.0f;

@@ -70,6 +70,7 @@ struct DeviceState {
     bool software = false;       ///< a CPU device: its timestamps lie, and copies to it are wasted
     bool unifiedMemory = false;  ///< device-local memory is host-visible: every buffer is mapped
     bool geometryShader = false;
+    bool int64Atomics = false;  ///< on words of storage buffers
     bool deviceAddresses = false;
     bool timestamps = false;               ///< usable ones
     std::shared_ptr<DeviceRecord> record;  ///< address stays put when the device moves

@@ -100,7 +100,7 @@ void liveTable(Bench& bench) {
     const MesherConfig config{.origin = glm::vec3(-half),
                               .cellSize = glm::vec3(2 * half / kCells),
                               .cells = glm::ivec3(kCells),
-                              .parameters = &parameters};
+                              .field = {.parameters = &parameters}};
     MesherResult results[2];
     int turn = 0;
     const Figure figure = measure(bench.options.repeats, [&] {

@@ -71,7 +71,7 @@ void expectTablesGiveTheGroups(const Program& program) {
                         column != family.columns.end()
                             ? double(family.table[row * family.width + column->second])
                             : program.ir.number(program.ir[family.link].operands[2])};
-                    chain = opInfo(group.op).value(operands, nullptr);
+                    chain = opInfo(group.op).value(operands, {});
                 }
                 EXPECT_NEAR(chain, values[root], 1e-6 * (1 + std::abs(values[root])));
                 continue;

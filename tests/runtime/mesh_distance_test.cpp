@@ -11,7 +11,7 @@
 
 #include "graph/json.h"
 #include "runtime/field_measure.h"
-#include "runtime/triangle_tree.h"
+#include "graph/triangle_tree.h"
 #include "tests/support/meshes.h"
 
 namespace fw {

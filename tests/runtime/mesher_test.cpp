@@ -119,7 +119,7 @@ struct SignField {
         MesherConfig config{.origin = glm::vec3(0),
                             .cellSize = glm::vec3(1),
                             .cells = glm::ivec3(n - 1),
-                            .parameters = &buffer,
+                            .field = {.parameters = &buffer},
                             .method = method};
         return fw::polygonise(text, config);
     }

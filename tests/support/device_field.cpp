@@ -17,6 +17,9 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
     const std::vector<uint32_t> words = imageWords(program.ir.images());
     const Buffer images = createBuffer(gpu, words.size() * sizeof(uint32_t), Memory::upload);
     upload(gpu, images, words);
+    const std::vector<uint32_t> texels = volumeTexels(program.ir.volumes());
+    const Buffer volumes = createBuffer(gpu, texels.size() * sizeof(uint32_t), Memory::upload);
+    upload(gpu, volumes, texels);
     uploadBytes(gpu, in, points.data(), points.size_bytes());
     upload(gpu, parameters, live);
 
@@ -25,8 +28,11 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
         uint32_t count;
         float halfSize;
     } push{static_cast<uint32_t>(points.size()), halfSize};
-    const Descriptor descriptors[] = {
-        {0, in}, {1, out}, {kFieldParametersBinding, parameters}, {kFieldImagesBinding, images}};
+    const Descriptor descriptors[] = {{0, in},
+                                      {1, out},
+                                      {kFieldParametersBinding, parameters},
+                                      {kFieldImagesBinding, images},
+                                      {kFieldVolumesBinding, volumes}};
     dispatch(commands, pipeline, {groupsFor(points.size(), 64), 1, 1}, push, descriptors);
     submit(commands);
     return download<FieldSample>(gpu, out, points.size());

@@ -1,4 +1,4 @@
-#include "runtime/triangle_tree.h"
+#include "graph/triangle_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-
-#include "runtime/corners.h"
+#include <numbers>
 
 namespace fw {
 
@@ -38,41 +37,63 @@ bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& tri
     return (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
 }
 
-/// Squared distance from the point to the triangle, by the region of its plane that the point is over
-/// (Ericson, Real-Time Collision Detection, 5.1.5).
-double squaredDistance(const glm::dvec3& p, const Triangle& triangle) {
-    const auto& [a, b, c] = triangle;
-    const auto squared = [](const glm::dvec3& v) { return glm::dot(v, v); };
-    const auto toSegment = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        const glm::dvec3 along = to - from;
-        const double t = std::clamp(glm::dot(p - from, along) / squared(along), 0.0, 1.0);
-        return squared(p - from - t * along);
-    };
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const auto inside = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        return glm::dot(glm::cross(to - from, p - from), normal) >= 0.0;
-    };
-    const double size = squared(normal);
-    if (size > 0.0 && inside(a, b) && inside(b, c) && inside(c, a)) {
-        const double height = glm::dot(p - a, normal);
-        return height * height / size;
-    }
-    return std::min({toSegment(a, b), toSegment(b, c), toSegment(c, a)});
-}
-
 double squaredDistance(const glm::dvec3& p, const glm::vec3& lo, const glm::vec3& hi) {
     const glm::dvec3 off = glm::max(glm::max(glm::dvec3(lo) - p, p - glm::dvec3(hi)), glm::dvec3(0.0));
     return glm::dot(off, off);
 }
 
+/// Beyond so many radii a node is a dipole.
+constexpr double kFar = 3.0;
+
 }  // namespace
+
+double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
+    const double above = glm::dot(a, glm::cross(b, c));
+    const double below = x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y;
+    return std::atan2(above, below) / (2.0 * std::numbers::pi);
+}
+
+NearestPoint nearestOnTriangle(const glm::dvec3& p, const Triangle& triangle) {
+    // By the region of its plane that the point is over (Ericson, Real-Time Collision Detection, 5.1.5).
+    const auto& [a, b, c] = triangle;
+    const auto at = [&](const glm::dvec3& weights, int feature) {
+        const glm::dvec3 point = weights.x * a + weights.y * b + weights.z * c;
+        const glm::dvec3 off = p - point;
+        return NearestPoint{glm::dot(off, off), point, weights, feature};
+    };
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double size = glm::dot(normal, normal);
+    if (size > 0.0) {
+        const glm::dvec3 weights = glm::dvec3(glm::dot(glm::cross(c - b, p - b), normal),
+                                              glm::dot(glm::cross(a - c, p - c), normal),
+                                              glm::dot(glm::cross(b - a, p - a), normal)) /
+                                   size;
+        if (weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0) return at(weights, 0);
+    }
+    NearestPoint least{std::numeric_limits<double>::infinity(), {}, {}, 0};
+    for (int side = 0; side < 3; ++side) {
+        const std::size_t first = std::size_t(side), second = (first + 1) % 3;
+        const glm::dvec3 along = triangle[second] - triangle[first];
+        const double length = glm::dot(along, along);
+        const double t = length > 0.0 ? glm::dot(p - triangle[first], along) / length : 0.0;
+        glm::dvec3 weights(0.0);
+        weights[int(second)] = std::clamp(t, 0.0, 1.0);
+        weights[int(first)] = 1.0 - weights[int(second)];
+        const NearestPoint on = at(weights, t <= 0.0   ? 4 + int(first)
+                                            : t >= 1.0 ? 4 + int(second)
+                                                       : 1 + side);
+        if (on.squared < least.squared) least = on;
+    }
+    return least;
+}
 
 TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<const uint32_t> indices_)
     : positions(positions_), indices(indices_) {
     std::vector<Box> boxes(indices.size() / 3);
     for (std::size_t t = 0; t < boxes.size(); ++t) {
         const uint32_t* corner = &indices[3 * t];
-        if (collapsed(corner)) continue;
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
         const glm::vec3 &a = positions[corner[0]], &b = positions[corner[1]], &c = positions[corner[2]];
         boxes[t] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
         order.push_back(uint32_t(t));
@@ -80,6 +101,28 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<cons
     if (order.empty()) return;
     nodes.reserve(order.size());
     build(0, uint32_t(order.size()), boxes);
+    dipoles.resize(nodes.size());
+    for (std::size_t i = nodes.size(); i-- > 0;) {  // children stand behind their parents
+        const Node& node = nodes[i];
+        Dipole& dipole = dipoles[i];
+        double size = 0.0;
+        const auto add = [&](const glm::dvec3& area, const glm::dvec3& middle, double weight) {
+            dipole.area += area;
+            dipole.middle += weight * middle;
+            size += weight;
+        };
+        for (uint32_t k = node.first; k < node.first + node.count; ++k) {
+            const Triangle t = corners(order[k]);
+            const glm::dvec3 area = 0.5 * glm::cross(t[1] - t[0], t[2] - t[0]);
+            add(area, (t[0] + t[1] + t[2]) / 3.0, glm::length(area));
+        }
+        if (node.count == 0)
+            for (const std::size_t child : {i + 1, std::size_t(node.right)})
+                add(dipoles[child].area, dipoles[child].middle, glm::length(dipoles[child].area));
+        const glm::dvec3 lo(node.box.lo), hi(node.box.hi);
+        dipole.middle = size > 0.0 ? dipole.middle / size : 0.5 * (lo + hi);
+        dipole.radius = glm::length(glm::max(hi - dipole.middle, dipole.middle - lo));
+    }
 }
 
 uint32_t TriangleTree::build(uint32_t first, uint32_t count, std::vector<Box>& boxes) {
@@ -111,7 +154,14 @@ std::array<glm::dvec3, 3> TriangleTree::corners(uint32_t triangle) const {
 
 double TriangleTree::distance(const glm::dvec3& point) const {
     if (empty()) return std::numeric_limits<double>::infinity();
-    double least = std::numeric_limits<double>::infinity();
+    NearestPoint on;
+    nearest(point, order[0], on);
+    return std::sqrt(on.squared);
+}
+
+uint32_t TriangleTree::nearest(const glm::dvec3& point, uint32_t guess, NearestPoint& on) const {
+    uint32_t found = guess;
+    on = nearestOnTriangle(point, corners(guess));
     struct Open {
         uint32_t node;
         double squared;
@@ -121,10 +171,12 @@ double TriangleTree::distance(const glm::dvec3& point) const {
     open[count++] = {0, 0.0};
     while (count > 0) {
         const Open next = open[--count];
-        if (next.squared >= least) continue;
+        if (next.squared >= on.squared) continue;
         const Node& node = nodes[next.node];
-        for (uint32_t i = node.first; i < node.first + node.count; ++i)
-            least = std::min(least, squaredDistance(point, corners(order[i])));
+        for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const NearestPoint candidate = nearestOnTriangle(point, corners(order[i]));
+            if (candidate.squared < on.squared) on = candidate, found = order[i];
+        }
         if (node.count > 0) continue;
         const auto far = [&](uint32_t child) {
             return Open{child, squaredDistance(point, nodes[child].box.lo, nodes[child].box.hi)};
@@ -134,7 +186,34 @@ double TriangleTree::distance(const glm::dvec3& point) const {
         open[count++] = other;
         open[count++] = near;
     }
-    return std::sqrt(least);
+    return found;
+}
+
+double TriangleTree::windingNumber(const glm::dvec3& point) const {
+    if (empty()) return 0.0;
+    double sum = 0.0;
+    std::array<uint32_t, 64> open;
+    std::size_t count = 0;
+    open[count++] = 0;
+    while (count > 0) {
+        const uint32_t index = open[--count];
+        const Node& node = nodes[index];
+        const Dipole& dipole = dipoles[index];
+        const glm::dvec3 off = dipole.middle - point;
+        const double squared = glm::dot(off, off);
+        if (squared > kFar * kFar * dipole.radius * dipole.radius) {
+            sum += glm::dot(dipole.area, off) / (4.0 * std::numbers::pi * squared * std::sqrt(squared));
+            continue;
+        }
+        for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Triangle t = corners(order[i]);
+            sum += solidAngle(t[0] - point, t[1] - point, t[2] - point);
+        }
+        if (node.count > 0) continue;
+        open[count++] = index + 1;
+        open[count++] = node.right;
+    }
+    return sum;
 }
 
 bool TriangleTree::cut(uint32_t a, uint32_t b) const {

@@ -1,0 +1,100 @@
+// Triangle meshes as fields: distances to a mesh, measured on a grid.
+//
+// Theory. The talk ("Advanced Procedural Rendering in DirectX 11", mesh to signed distance field) rasterises triangles
+// into the slices of a grid that they can affect, keeps the nearest one at each sample with its sign, and fills the
+// rest by fast sweeping. Here too, in three steps:
+//   1. the *band*, samples within kBand cells of the surface: each triangle is measured against those around it;
+//   2. inside or outside, for the band alone;
+//   3. *sweeps* along the rows, forwards and backwards, each axis in turn: a sample tries the triangle that is nearest
+//      to the one before it. So it is a triangle that is handed on, and not a distance to which a step is added:
+//      that would be far from Euclidean. A sample that nothing has reached takes the sign along, for between
+//      neighbours outside of the band there is no surface.
+// The sign is that of the nearest feature's normal where the mesh is closed and oriented. That fails where its parts
+// overlap, which shows: then neighbours have unlike signs though neither is as near to the surface as it should be.
+// There, and where the mesh is open, has edges of more than two faces or faces that cannot agree, the generalized
+// winding number decides (triangle_tree.h): a sample is inside where it exceeds one half. Triangles with the inside, or
+// the outside, on both sides then bound nothing, and holes are closed where the winding number is one half, by
+// *membrane* points.
+//
+// Everything is in the grid's units: a cell is 1, the first sample at the origin.
+//
+// The steps on the host are here: the reference, and what serves where there is no device. The device's are
+// runtime/mesh_field_baker.h.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "graph/solid_mesh.h"
+#include "graph/triangle_tree.h"
+#include "graph/volume.h"
+
+namespace fw {
+
+/// How the inside of a mesh is found.
+enum class MeshInside : unsigned char {
+    automatic,  ///< by normals, else by the winding number, as above
+    winding,    ///< by the winding number
+    none,       ///< nothing is inside: the distance to the triangles, for sheets that an offset makes thick
+};
+inline constexpr const char* kMeshInsideNames[] = {"automatic", "winding", "none"};
+
+struct MeshFieldRecipe {
+    TriangleMeshPtr mesh;
+    int resolution = 64;  ///< samples along the grid's longest side
+    double margin = 0.0;  ///< metres of grid around the mesh, beyond the two cells that there are anyway
+    MeshInside inside = MeshInside::automatic;
+    /// Equal for equal fields.
+    uint64_t key() const;
+};
+inline constexpr int kLeastFieldResolution = 8, kMostFieldResolution = 512;
+
+/// Makes a recipe's volume, with its mesh and notes. Errors, with a message only: the mesh has no extent, or encloses
+/// nothing.
+using MeshFieldBaker = std::function<Result<FieldVolumePtr>(const MeshFieldRecipe&)>;
+
+/// By what was made before and is held somewhere, else by `baker`.
+Result<FieldVolumePtr> meshField(const MeshFieldRecipe& recipe, const MeshFieldBaker& baker);
+
+/// On the host: in a mesh whose normals decide, every distance is exact.
+Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe);
+
+/// A stand-in of few samples: the mesh's box. For whoever wants a program but not its field.
+Result<FieldVolumePtr> boxInPlace(const MeshFieldRecipe& recipe);
+
+// ---- The steps
+
+inline constexpr float kBand = 2.0f;  ///< cells from the surface
+
+/// A recipe's mesh in its grid.
+struct MeshInGrid {
+    VolumeGrid grid;
+    SolidMesh solid;           ///< positions in cells
+    std::vector<std::array<glm::vec3, 3>> elements;  ///< what can be nearest: the triangles, then membrane points
+    bool byNormals = true;     ///< whether normals decide
+};
+
+/// The nearest element of each sample, of those tried, and the distance to it, negative inside; kUnreached where none
+/// was.
+struct NearestElements {
+    std::vector<float> distance;
+    std::vector<uint32_t> element;
+};
+inline constexpr float kUnreached = 1e30f;
+
+Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe);
+
+/// Whether two neighbours have unlike signs though the surface is not between them.
+bool signsContradict(const VolumeGrid& grid, const NearestElements& nearest);
+
+/// Finds the inside by the winding number. Of the band, which is given, only samples at the solid's surface are left;
+/// membrane points are added to the elements. False if nothing is inside.
+bool signByWinding(MeshInGrid& mesh, NearestElements& nearest);
+
+/// The volume of a recipe whose samples are all known, with its notes.
+FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, std::vector<uint32_t> words);
+
+/// "the mesh 'a.obj' encloses nothing …".
+Error nothingInside(const MeshFieldRecipe& recipe);
+
+}  // namespace fw

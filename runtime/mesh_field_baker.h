@@ -1,0 +1,32 @@
+// Triangle meshes to fields on the device, and what was made before from the disk.
+//
+// The steps are those of graph/mesh_field.h; which triangles go through which rows is listed by the host. Where normals
+// do not decide what is inside, the band is read back and the host's winding numbers do.
+//
+// Lifetime: a baker keeps its kernels, which are compiled at its first use, and its buffers while it works; it must not
+// outlive its device.
+#pragma once
+
+#include <functional>
+
+#include "graph/mesh_field.h"
+#include "runtime/gpu/commands.h"
+
+namespace fw {
+
+struct BakeOptions {
+    std::vector<StageTime>* stages = nullptr;          ///< gets the time of each stage
+    bool timed = false;                                ///< of each kernel, as in commands.h
+    std::function<void(double share)> progress = {};   ///< called with what is done, from 0 to 1
+};
+
+/// Makes fields on the device; on the host where the device lacks 64-bit atomics, or cannot bind so large a grid.
+/// Throws SystemError.
+MeshFieldBaker deviceBaker(const Device& device, const BakeOptions& options = {});
+
+/// Looks in the user's cache folder first (cache_file.h), and keeps there what `baker` makes; the least recently used
+/// go when all take more than kMostCachedBytes.
+MeshFieldBaker cachedBaker(MeshFieldBaker baker);
+inline constexpr std::size_t kMostCachedBytes = std::size_t(2) << 30;
+
+}  // namespace fw
