@@ -358,7 +358,6 @@ class Compiler {
         Lowered result;
         result.outputs = type.outputs;
         result.values = {language::emptySurface(state)};
-        if (!node.input("mesh")) return result;  // a field of nothing yet
         const std::shared_ptr<const MeshRecipe>& mesh = inputOf(type, inputs, "mesh").mesh;
         if (!mesh || !mesh->read) {
             report(node, prefix, "mesh",

@@ -42,7 +42,7 @@ struct LiveParameter {
 /// What compile() is asked for beyond the graph.
 struct CompileOptions {
     /// Inputs to keep live, as "node.input"; "time" keeps the seconds live.
-    std::set<std::string> live;
+    std::set<std::string> live = {};
     /// Keep every exposed parameter live, under its own name.
     bool liveExposed = false;
     double time = 0.0;  ///< seconds, folded unless live

@@ -19,9 +19,15 @@ namespace fw {
 
 namespace {
 
-constexpr int kPadding = 2;      // cells between the mesh's box and the grid's end
+// Cells between the mesh's box and the grid's end. No whole number, so that the sides of a box do not go through samples,
+// where the edges between them would have no gradient.
+constexpr double kPadding = 2.37;
+constexpr double kThin = 2.5;    // cells: what is thinner loses parts
 constexpr int kCoarse = 4;       // cells between the samples from which membranes are looked for
-constexpr int kSweepRounds = 2;  // each of three axes, both ways
+constexpr int kDraftResolution = 32;
+constexpr float kCrossing = 1.05f;  // cells: two neighbours are no farther from what is between them, taken together
+constexpr double kFlat = 0.99;      // cosine between the normals of a face and of an edge that is none
+constexpr float kInside = 0.55f;    // a sheet alone has winding numbers up to one half on one of its sides
 
 std::string nameOf(const TriangleMesh& mesh) {
     return inQuotes(std::filesystem::path(mesh.file).filename().string());
@@ -44,7 +50,7 @@ Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
         return Error{.message = "the mesh " + nameOf(*recipe.mesh) + " is " +
                                 (grid.cell < 1.0 ? "a single point, or nearly" : "too large") + ": scale it"};
     for (int axis = 0; axis < 3; ++axis) {
-        const int cells = std::max(1, int(std::ceil(size[axis] / grid.cell - 1e-9))) + 2 * kPadding;
+        const int cells = int(std::ceil(size[axis] / grid.cell + 2.0 * kPadding - 1e-9));
         grid.size[axis] = std::min(cells + 1, recipe.resolution);
         grid.origin[axis] = 0.5 * (lo[axis] + hi[axis]) - 0.5 * grid.cell * (grid.size[axis] - 1);
     }
@@ -65,62 +71,85 @@ std::array<std::size_t, 3> strides(const VolumeGrid& grid) {
     return {1, std::size_t(grid.size.x), std::size_t(grid.size.x) * std::size_t(grid.size.y)};
 }
 
-std::array<glm::dvec3, 3> cornersOf(const MeshInGrid& mesh, uint32_t element) {
-    const auto& [a, b, c] = mesh.elements[element];
+std::array<glm::dvec3, 3> cornersOf(const MeshInGrid& mesh, uint32_t triangle) {
+    const auto [a, b, c] = mesh.corners(triangle);
     return {glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)};
 }
 
+/// The point as a sample at `p` keeps it, off by kLeastDistance at least or not at all.
+glm::vec3 keptPoint(const glm::dvec3& p, const NearestPoint& on, const glm::dvec3& normal, bool flat, bool inside) {
+    if (on.squared >= double(kLeastDistance) * kLeastDistance) return glm::vec3(on.point);
+    if (!flat) return glm::vec3(p);
+    return glm::vec3(p + normal * (inside ? double(kLeastDistance) : -double(kLeastDistance)));
+}
+
+NearestPoints unknown(const VolumeGrid& grid) {
+    return {std::vector<float>(grid.samples(), kUnreached), std::vector<glm::vec3>(grid.samples()),
+            std::vector<uint32_t>(grid.samples(), 0)};
+}
+
 /// Measures every sample against the triangles, with the sign of the nearest feature's normal.
-NearestElements nearestByTree(const MeshInGrid& mesh, bool bandOnly) {
+NearestPoints nearestByTree(const MeshInGrid& mesh) {
     const TriangleTree tree(mesh.solid.positions, mesh.solid.indices);
-    std::vector<FeatureNormals> normals;
-    if (mesh.byNormals) normals = featureNormals(mesh.solid);
-    NearestElements nearest;
-    nearest.distance.assign(mesh.grid.samples(), kUnreached);
-    nearest.element.assign(mesh.grid.samples(), 0);
+    const std::vector<FeatureNormals> normals = featureNormals(mesh.solid);
+    NearestPoints nearest = unknown(mesh.grid);
     forSamples(mesh.grid, [&](int x, int y, int z, std::size_t index) {
         const glm::dvec3 p(x, y, z);
         NearestPoint on;
-        const uint32_t t = tree.nearest(p, x > 0 ? nearest.element[index - 1] : 0, on);
-        const double distance = std::sqrt(on.squared);
-        nearest.element[index] = t;
-        if (bandOnly && distance > kBand) return;
-        const bool inside =
-            mesh.byNormals && glm::dot(p - on.point, glm::dvec3(normals[t][std::size_t(on.feature)])) < 0.0;
-        nearest.distance[index] = float(inside ? -distance : distance);
+        const uint32_t t = tree.nearest(p, x > 0 ? nearest.triangle[index - 1] : 0, on);
+        const glm::dvec3 normal(normals[t][std::size_t(on.feature)]);
+        const bool inside = mesh.byNormals && glm::dot(p - on.point, normal) < 0.0;
+        nearest.triangle[index] = t;
+        const bool flat = glm::dot(normal, glm::dvec3(normals[t][0])) > kFlat;
+        nearest.point[index] = keptPoint(p, on, normal, flat, inside);
+        nearest.distance[index] = float(inside ? -std::sqrt(on.squared) : std::sqrt(on.squared));
     });
     return nearest;
 }
 
-/// Hands nearest elements on along one axis, both ways.
-void sweepAxis(const MeshInGrid& mesh, NearestElements& nearest, int axis) {
-    const VolumeGrid& grid = mesh.grid;
+/// Whether two neighbours have unlike signs though the surface is not between them.
+bool signsContradict(const VolumeGrid& grid, const NearestPoints& nearest) {
     const auto stride = strides(grid);
+    std::atomic<bool> found = false;
+    forSamples(grid, [&](int x, int y, int z, std::size_t index) {
+        const int at[3] = {x, y, z};
+        const float here = nearest.distance[index];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (at[axis] + 1 == grid.size[axis]) continue;
+            const float there = nearest.distance[index + stride[std::size_t(axis)]];
+            if (std::signbit(here) != std::signbit(there) && std::abs(here) + std::abs(there) > kCrossing)
+                found = true;
+        }
+    });
+    return found;
+}
+
+/// Hands nearest points on from slice to slice along one axis, both ways.
+void sweepAxis(const VolumeGrid& grid, NearestPoints& nearest, int axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    forBlocks(std::size_t(grid.size[v]), 1, [&](std::size_t at, std::size_t, std::size_t) {
-        for (int b = 0; b < grid.size[u]; ++b)
-            for (const bool forward : {true, false}) {
-                uint32_t held = 0;
-                float heldDistance = kUnreached;
-                for (int i = 0; i < grid.size[axis]; ++i) {
-                    glm::ivec3 place;
-                    place[axis] = forward ? i : grid.size[axis] - 1 - i;
-                    place[u] = b, place[v] = int(at);
-                    const std::size_t index = std::size_t(place.x) * stride[0] + std::size_t(place.y) * stride[1] +
-                                              std::size_t(place.z) * stride[2];
-                    float& own = nearest.distance[index];
-                    if (heldDistance != kUnreached && (own == kUnreached || nearest.element[index] != held)) {
-                        const auto tried = float(
-                            std::sqrt(nearestOnTriangle(glm::dvec3(place), cornersOf(mesh, held)).squared));
-                        if (tried < std::abs(own)) {
-                            own = std::copysign(tried, own == kUnreached ? heldDistance : own);
-                            nearest.element[index] = held;
+    for (const int step : {1, -1})
+        for (int i = 1; i < grid.size[axis]; ++i)
+            forBlocks(std::size_t(grid.size[v]), 16, [&](std::size_t, std::size_t first, std::size_t last) {
+                glm::ivec3 at, before;
+                at[axis] = step > 0 ? i : grid.size[axis] - 1 - i;
+                before[axis] = at[axis] - step;
+                for (at[v] = int(first); at[v] < int(last); ++at[v])
+                    for (at[u] = 0; at[u] < grid.size[u]; ++at[u]) {
+                        const std::size_t index = grid.index(at.x, at.y, at.z);
+                        float& own = nearest.distance[index];
+                        for (int n = 0; n < 9; ++n) {
+                            before[u] = std::clamp(at[u] + n % 3 - 1, 0, grid.size[u] - 1);
+                            before[v] = std::clamp(at[v] + n / 3 - 1, 0, grid.size[v] - 1);
+                            const std::size_t from = grid.index(before.x, before.y, before.z);
+                            if (nearest.distance[from] == kUnreached) continue;
+                            const float tried = glm::length(glm::vec3(at) - nearest.point[from]);
+                            if (tried >= std::abs(own)) continue;
+                            own = std::copysign(tried, own == kUnreached ? nearest.distance[from] : own);
+                            nearest.point[index] = nearest.point[from];
+                            nearest.triangle[index] = nearest.triangle[from];
                         }
                     }
-                    held = nearest.element[index], heldDistance = own;
-                }
-            }
-    });
+            });
 }
 
 /// The winding numbers of some samples.
@@ -134,7 +163,8 @@ class Windings {
     float above(std::size_t index) const { return values[index] - 0.5f; }
     bool inside(std::size_t index) const { return above(index) > 0.0f; }
     void find(const glm::ivec3& at, std::size_t index) {
-        values[index] = float(tree.windingNumber(glm::dvec3(at)));
+        // Never in a triangle's plane, where its solid angle jumps.
+        values[index] = float(tree.windingNumber(glm::dvec3(at) + glm::dvec3(1.1e-5, 1.7e-5, 2.3e-5)));
     }
     /// Those of a list, without twins.
     void find(const std::vector<std::size_t>& list) {
@@ -224,29 +254,20 @@ uint32_t srgbWord(const glm::dvec3& linear) {
     return word;
 }
 
-/// Distance, gradient and colour of each sample from the element that is nearest to it.
-std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh,
-                              const NearestElements& nearest) {
+/// Distance, gradient and colour of each sample from the point that is nearest to it.
+std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, const NearestPoints& nearest) {
     const TriangleMesh& source = *recipe.mesh;
     const std::size_t samples = mesh.grid.samples();
     std::vector<uint32_t> words(2 * samples + (source.colors.empty() ? 0 : samples + samples % 2));
     forSamples(mesh.grid, [&](int x, int y, int z, std::size_t index) {
         const glm::dvec3 p(x, y, z);
-        const uint32_t element = nearest.element[index];
-        const auto corners = cornersOf(mesh, element);
-        const NearestPoint on = nearestOnTriangle(p, corners);
-        const double distance = std::sqrt(on.squared);
-        glm::dvec3 away = p - on.point;
-        if (distance > 1e-6)
-            away /= std::signbit(nearest.distance[index]) ? -distance : distance;
-        else
-            away = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double length = glm::length(away);
-        const double value = std::signbit(nearest.distance[index]) ? -distance : distance;
-        words[2 * index] = std::bit_cast<uint32_t>(float(value * mesh.grid.cell));
-        words[2 * index + 1] = packGradient(length > 0.0 ? glm::vec3(away / length) : glm::vec3(0.0f));
+        const glm::dvec3 off = p - glm::dvec3(nearest.point[index]);
+        const double sign = std::signbit(nearest.distance[index]) ? -1.0 : 1.0;
+        const double distance = glm::length(off), length = sign * distance;
+        words[2 * index] = std::bit_cast<uint32_t>(float(sign * distance * mesh.grid.cell));
+        words[2 * index + 1] = packGradient(distance > 0.0 ? glm::vec3(off / length) : glm::vec3(0.0f));
         if (source.colors.empty()) return;
-        const uint32_t triangle = element < mesh.solid.source.size() ? mesh.solid.source[element] : 0;
+        const uint32_t triangle = mesh.solid.source[nearest.triangle[index]];
         std::array<glm::dvec3, 3> own, colors;
         for (std::size_t k = 0; k < 3; ++k) {
             const uint32_t vertex = source.indices[3 * std::size_t(triangle) + k];
@@ -274,36 +295,17 @@ uint64_t MeshFieldRecipe::key() const {
 Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe) {
     const Result<VolumeGrid> grid = gridOf(recipe);
     if (!grid) return grid.error();
-    MeshInGrid mesh{.grid = *grid, .solid = solidMesh(*recipe.mesh), .elements = {}, .byNormals = true};
+    MeshInGrid mesh{.grid = *grid, .solid = solidMesh(*recipe.mesh)};
     for (glm::vec3& p : mesh.solid.positions) p = glm::vec3((glm::dvec3(p) - grid->origin) / grid->cell);
     mesh.solid.volume /= grid->cell * grid->cell * grid->cell;
-    const std::vector<uint32_t>& indices = mesh.solid.indices;
-    if (indices.empty())
+    if (mesh.solid.indices.empty())
         return Error{.message = "the mesh " + nameOf(*recipe.mesh) +
                                 " has no triangle with three different corners: nothing of it can be seen"};
-    for (std::size_t i = 0; i < indices.size(); i += 3)
-        mesh.elements.push_back({mesh.solid.positions[indices[i]], mesh.solid.positions[indices[i + 1]],
-                                 mesh.solid.positions[indices[i + 2]]});
     mesh.byNormals = recipe.inside == MeshInside::automatic && mesh.solid.found.oriented();
     return mesh;
 }
 
-bool signsContradict(const VolumeGrid& grid, const NearestElements& nearest) {
-    const auto stride = strides(grid);
-    std::atomic<bool> found = false;
-    forSamples(grid, [&](int x, int y, int z, std::size_t index) {
-        const int at[3] = {x, y, z};
-        const float here = nearest.distance[index];
-        for (int axis = 0; axis < 3; ++axis) {
-            if (at[axis] + 1 == grid.size[axis]) continue;
-            const float there = nearest.distance[index + stride[std::size_t(axis)]];
-            if (std::signbit(here) != std::signbit(there) && std::abs(here) + std::abs(there) > 1.05f) found = true;
-        }
-    });
-    return found;
-}
-
-bool signByWinding(MeshInGrid& mesh, NearestElements& nearest) {
+bool signByWinding(const MeshInGrid& mesh, NearestPoints& nearest) {
     const VolumeGrid& grid = mesh.grid;
     const TriangleTree tree(mesh.solid.positions, mesh.solid.indices);
     Windings windings(mesh, tree);
@@ -314,44 +316,52 @@ bool signByWinding(MeshInGrid& mesh, NearestElements& nearest) {
     if (!mesh.solid.found.oriented()) traceMembranes(grid, windings);
 
     // What is at the surface: samples with a neighbour, also a diagonal one, on the other side.
+    const auto stride = strides(grid);
     std::vector<uint8_t> atSurface(grid.samples(), 0);
     forSamples(grid, [&](int x, int y, int z, std::size_t index) {
         if (!windings.known(index)) return;
-        if (windings.inside(index)) inside = true;
+        if (windings.above(index) > kInside - 0.5f) inside = true;
         for (int k = std::max(z - 1, 0); k <= std::min(z + 1, grid.size.z - 1); ++k)
             for (int j = std::max(y - 1, 0); j <= std::min(y + 1, grid.size.y - 1); ++j)
                 for (int i = std::max(x - 1, 0); i <= std::min(x + 1, grid.size.x - 1); ++i) {
-                    const std::size_t other = index + std::size_t(i - x) +
-                                              std::size_t(j - y) * std::size_t(grid.size.x) +
-                                              std::size_t(k - z) * std::size_t(grid.size.x) * std::size_t(grid.size.y);
+                    const std::size_t other = grid.index(i, j, k);
                     if (windings.known(other) && windings.inside(other) != windings.inside(index))
                         atSurface[index] = 1;
                 }
     });
-    forSamples(grid, [&](int, int, int, std::size_t index) {
+    forSamples(grid, [&](int x, int y, int z, std::size_t index) {
         float& distance = nearest.distance[index];
-        if (!atSurface[index] && distance != kUnreached) distance = kUnreached;
-        if (atSurface[index]) distance = std::copysign(distance, -windings.above(index));
+        if (!atSurface[index]) distance = kUnreached;
+        if (distance == kUnreached) return;
+        const auto corners = cornersOf(mesh, nearest.triangle[index]);
+        const glm::dvec3 p(x, y, z), normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double size = glm::length(normal);
+        const NearestPoint on = nearestOnTriangle(p, corners);
+        nearest.point[index] =
+            keptPoint(p, on, normal / std::max(size, 1e-30), on.feature == 0, windings.inside(index));
+        distance = std::copysign(distance, -windings.above(index));
     });
 
     // Holes: neighbours on unlike sides, no triangle between them.
-    const auto stride = strides(grid);
     for (std::size_t index = 0; index < grid.samples(); ++index) {
         if (!atSurface[index]) continue;
         const glm::ivec3 at = windings.placeOf(index);
         for (int axis = 0; axis < 3; ++axis) {
             const std::size_t other = index + stride[std::size_t(axis)];
-            if (at[axis] + 1 >= grid.size[axis] || !atSurface[other]) continue;
-            float &here = nearest.distance[index], &there = nearest.distance[other];
-            if (std::signbit(here) == std::signbit(there) || std::abs(here) + std::abs(there) <= 1.05f) continue;
-            const float t =
-                std::clamp(windings.above(index) / (windings.above(index) - windings.above(other)), 0.0f, 1.0f);
+            if (at[axis] + 1 >= grid.size[axis] || !atSurface[other] ||
+                windings.inside(index) == windings.inside(other) ||
+                std::abs(nearest.distance[index]) + std::abs(nearest.distance[other]) <= kCrossing)
+                continue;
+            const float t = windings.above(index) / (windings.above(index) - windings.above(other));
             glm::vec3 point(at);
-            point[axis] += t;
-            const auto element = uint32_t(mesh.elements.size());
-            mesh.elements.push_back({point, point, point});
-            if (t < std::abs(here)) here = std::copysign(t, here), nearest.element[index] = element;
-            if (1.0f - t < std::abs(there)) there = std::copysign(1.0f - t, there), nearest.element[other] = element;
+            point[axis] += std::clamp(t, kLeastDistance, 1.0f - kLeastDistance);
+            for (const std::size_t end : {index, other}) {
+                const float distance = std::abs(float(windings.placeOf(end)[axis]) - point[axis]);
+                if (distance >= std::abs(nearest.distance[end])) continue;
+                if (nearest.distance[end] == kUnreached) nearest.triangle[end] = 0;
+                nearest.distance[end] = std::copysign(distance, -windings.above(end));
+                nearest.point[end] = point;
+            }
         }
     }
     return inside;
@@ -378,10 +388,13 @@ FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, s
         note("lies so far from the origin that its corners are only known to a part of a cell: move it there before it "
              "is exported");
     if (mesh.byNormals && recipe.inside == MeshInside::automatic) {
-        double filled = 0.0;
-        for (std::size_t i = 0; i < mesh.grid.samples(); ++i)
-            filled += std::clamp(0.5 - double(std::bit_cast<float>(volume->words[2 * i])) / mesh.grid.cell, 0.0, 1.0);
-        if (std::abs(filled - mesh.solid.volume) > 0.02 * mesh.solid.volume)
+        // The mean thickness of a plate with this volume and area.
+        double area = 0.0;
+        for (std::size_t t = 0; t < mesh.solid.source.size(); ++t) {
+            const auto [a, b, c] = mesh.corners(uint32_t(t));
+            area += 0.5 * double(glm::length(glm::cross(b - a, c - a)));
+        }
+        if (2.0 * mesh.solid.volume < kThin * area)
             note("is thinner in places than the cells of its field: raise the resolution, now " +
                  std::to_string(recipe.resolution));
     }
@@ -397,17 +410,13 @@ Error nothingInside(const MeshFieldRecipe& recipe) {
 Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe) {
     Result<MeshInGrid> mesh = meshInGrid(recipe);
     if (!mesh) return mesh.error();
-    const bool signs = recipe.inside != MeshInside::none;
-    NearestElements nearest = nearestByTree(*mesh, signs && !mesh->byNormals);
-    if (mesh->byNormals && signsContradict(mesh->grid, nearest)) {
-        mesh->byNormals = false;
+    NearestPoints nearest = nearestByTree(*mesh);
+    if (mesh->byNormals && signsContradict(mesh->grid, nearest)) mesh->byNormals = false;
+    if (!mesh->byNormals && recipe.inside != MeshInside::none) {
         for (float& distance : nearest.distance)
             distance = std::abs(distance) <= kBand ? std::abs(distance) : kUnreached;
-    }
-    if (signs && !mesh->byNormals) {
         if (!signByWinding(*mesh, nearest)) return nothingInside(recipe);
-        for (int round = 0; round < kSweepRounds; ++round)
-            for (int axis = 0; axis < 3; ++axis) sweepAxis(*mesh, nearest, axis);
+        for (int axis = 0; axis < 3; ++axis) sweepAxis(mesh->grid, nearest, axis);
     }
     return volumeOf(recipe, *mesh, wordsOf(recipe, *mesh, nearest));
 }
@@ -430,6 +439,18 @@ Result<FieldVolumePtr> boxInPlace(const MeshFieldRecipe& recipe) {
             }
     auto volume = std::make_shared<FieldVolume>(*grid, distances, gradients, colors);
     volume->mesh = recipe.mesh;
+    volume->standIn = true;
+    return FieldVolumePtr(volume);
+}
+
+Result<FieldVolumePtr> draftInPlace(const MeshFieldRecipe& recipe) {
+    MeshFieldRecipe coarse = recipe;
+    coarse.resolution = std::min(recipe.resolution, kDraftResolution);
+    const Result<FieldVolumePtr> made = bakeOnHost(coarse);
+    if (!made) return made.error();
+    auto volume = std::make_shared<FieldVolume>((*made)->grid, (*made)->words);
+    volume->mesh = recipe.mesh;
+    volume->standIn = true;
     return FieldVolumePtr(volume);
 }
 
@@ -444,7 +465,7 @@ Result<FieldVolumePtr> meshField(const MeshFieldRecipe& recipe, const MeshFieldB
         std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
     }
     Result<FieldVolumePtr> volume = baker(recipe);
-    if (!volume) return volume.error();
+    if (!volume || (*volume)->standIn) return volume;
     const std::lock_guard lock(mutex);
     known[key] = *volume;
     return *volume;

@@ -5,9 +5,10 @@
 // rest by fast sweeping. Here too, in three steps:
 //   1. the *band*, samples within kBand cells of the surface: each triangle is measured against those around it;
 //   2. inside or outside, for the band alone;
-//   3. *sweeps* along the rows, forwards and backwards, each axis in turn: a sample tries the triangle that is nearest
-//      to the one before it. So it is a triangle that is handed on, and not a distance to which a step is added:
-//      that would be far from Euclidean. A sample that nothing has reached takes the sign along, for between
+//   3. *sweeps* from slice to slice, forwards and backwards, each axis in turn: a sample tries the points that are nearest
+//      to the nine samples before it. The talk adds a step to the distance of the sample before in a row, which is far
+//      from Euclidean; handing on points along rows is still off by five cells for a ball of 64, since a point gets
+//      nowhere along a diagonal. A sample that nothing has reached takes the sign along, for between
 //      neighbours outside of the band there is no surface.
 // The sign is that of the nearest feature's normal where the mesh is closed and oriented. That fails where its parts
 // overlap, which shows: then neighbours have unlike signs though neither is as near to the surface as it should be.
@@ -53,7 +54,7 @@ inline constexpr int kLeastFieldResolution = 8, kMostFieldResolution = 512;
 /// nothing.
 using MeshFieldBaker = std::function<Result<FieldVolumePtr>(const MeshFieldRecipe&)>;
 
-/// By what was made before and is held somewhere, else by `baker`.
+/// By what was made before and is held somewhere, else by `baker`. Stand-ins are not remembered.
 Result<FieldVolumePtr> meshField(const MeshFieldRecipe& recipe, const MeshFieldBaker& baker);
 
 /// On the host: in a mesh whose normals decide, every distance is exact.
@@ -61,6 +62,8 @@ Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe);
 
 /// A stand-in of few samples: the mesh's box. For whoever wants a program but not its field.
 Result<FieldVolumePtr> boxInPlace(const MeshFieldRecipe& recipe);
+/// A stand-in at a low resolution, made on the host.
+Result<FieldVolumePtr> draftInPlace(const MeshFieldRecipe& recipe);
 
 // ---- The steps
 
@@ -69,27 +72,32 @@ inline constexpr float kBand = 2.0f;  ///< cells from the surface
 /// A recipe's mesh in its grid.
 struct MeshInGrid {
     VolumeGrid grid;
-    SolidMesh solid;           ///< positions in cells
-    std::vector<std::array<glm::vec3, 3>> elements;  ///< what can be nearest: the triangles, then membrane points
-    bool byNormals = true;     ///< whether normals decide
+    SolidMesh solid;        ///< positions in cells
+    bool byNormals = true;  ///< whether normals decide
+
+    std::array<glm::vec3, 3> corners(uint32_t triangle) const {
+        const uint32_t* corner = &solid.indices[3 * std::size_t(triangle)];
+        return {solid.positions[corner[0]], solid.positions[corner[1]], solid.positions[corner[2]]};
+    }
 };
 
-/// The nearest element of each sample, of those tried, and the distance to it, negative inside; kUnreached where none
-/// was.
-struct NearestElements {
+/// Of each sample, as far as it is known: the nearest point of the surface, the triangle that it is on, or near for a
+/// membrane, and the distance, negative inside; kUnreached where nothing is known.
+struct NearestPoints {
     std::vector<float> distance;
-    std::vector<uint32_t> element;
+    std::vector<glm::vec3> point;
+    std::vector<uint32_t> triangle;
 };
 inline constexpr float kUnreached = 1e30f;
+/// A sample on a face is taken for one so many cells away from it, so that its gradient is known. On an edge, or a
+/// corner, there is none.
+inline constexpr float kLeastDistance = 1e-4f;
 
 Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe);
 
-/// Whether two neighbours have unlike signs though the surface is not between them.
-bool signsContradict(const VolumeGrid& grid, const NearestElements& nearest);
-
-/// Finds the inside by the winding number. Of the band, which is given, only samples at the solid's surface are left;
-/// membrane points are added to the elements. False if nothing is inside.
-bool signByWinding(MeshInGrid& mesh, NearestElements& nearest);
+/// Finds the inside by the winding number. Of the band, whose triangles and distances are given, only samples at the
+/// solid's surface are left, with their points; those at membranes are added. False if nothing is inside.
+bool signByWinding(const MeshInGrid& mesh, NearestPoints& nearest);
 
 /// The volume of a recipe whose samples are all known, with its notes.
 FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, std::vector<uint32_t> words);

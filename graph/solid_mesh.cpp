@@ -7,13 +7,14 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "graph/parallel.h"
 #include "graph/triangle_tree.h"
 
 namespace fw {
 
 namespace {
 
-constexpr uint32_t kNone = ~0u, kMany = ~0u - 1;
+constexpr uint32_t kNone = ~0u;
 
 uint64_t mixed(uint64_t hash, uint64_t word) {
     return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29);
@@ -72,10 +73,9 @@ void takeTriangles(const TriangleMesh& mesh, SolidMesh& solid) {
     }
 }
 
-/// For each side of a triangle, 3 t + k from corner k to the next: the other triangle's side on the same edge; kNone
-/// where there is none, kMany where there are more.
+/// SolidMesh::mates.
 std::vector<uint32_t> matesOf(const std::vector<uint32_t>& indices) {
-    std::vector<uint32_t> table = emptyTable(indices.size()), mates(indices.size(), kNone);
+    std::vector<uint32_t> table = emptyTable(indices.size()), mates(indices.size(), kNoMate);
     const auto ends = [&](uint32_t side) {
         const uint32_t a = indices[side], b = indices[side % 3 == 2 ? side - 2 : side + 1];
         return std::pair(std::min(a, b), std::max(a, b));
@@ -86,11 +86,11 @@ std::vector<uint32_t> matesOf(const std::vector<uint32_t>& indices) {
         uint32_t& entry = table[find(table, hash, [&](uint32_t other) { return ends(other) == edge; })];
         if (entry == kNone) {
             entry = side;
-        } else if (mates[entry] == kNone) {
+        } else if (mates[entry] == kNoMate) {
             mates[entry] = side, mates[side] = entry;
         } else {
-            if (mates[entry] != kMany) mates[mates[entry]] = kMany;
-            mates[entry] = mates[side] = kMany;
+            if (mates[entry] != kManyMates) mates[mates[entry]] = kManyMates;
+            mates[entry] = mates[side] = kManyMates;
         }
     }
     return mates;
@@ -105,7 +105,13 @@ struct Part {
 };
 
 void turn(SolidMesh& solid, uint32_t triangle) {
-    std::swap(solid.indices[3 * std::size_t(triangle) + 1], solid.indices[3 * std::size_t(triangle) + 2]);
+    const std::size_t first = 3 * std::size_t(triangle);
+    std::swap(solid.indices[first + 1], solid.indices[first + 2]);
+    // Its first and last side change places.
+    std::swap(solid.mates[first], solid.mates[first + 2]);
+    for (const std::size_t side : {first, first + 2})
+        if (const uint32_t mate = solid.mates[side]; mate != kNoMate && mate != kManyMates)
+            solid.mates[mate] = uint32_t(side);
 }
 void turn(SolidMesh& solid, Part& part) {
     for (uint32_t triangle : part.triangles) turn(solid, triangle);
@@ -120,7 +126,7 @@ std::array<glm::dvec3, 3> cornersOf(const SolidMesh& solid, uint32_t triangle) {
 
 /// Finds the parts and turns the triangles of each alike.
 std::vector<Part> findParts(SolidMesh& solid, const glm::dvec3& middle) {
-    const std::vector<uint32_t> mates = matesOf(solid.indices);
+    const std::vector<uint32_t>& mates = solid.mates;
     std::vector<uint8_t> reached(solid.source.size(), 0), against(solid.source.size(), 0);
     std::vector<Part> parts;
     for (uint32_t first = 0; first < solid.source.size(); ++first) {
@@ -133,9 +139,9 @@ std::vector<Part> findParts(SolidMesh& solid, const glm::dvec3& middle) {
             const uint32_t t = part.triangles[i];
             for (uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
                 const uint32_t mate = mates[side];
-                if (mate == kNone || mate == kMany) {
+                if (mate == kNoMate || mate == kManyMates) {
                     part.closed = false;
-                    ++(mate == kNone ? solid.found.openEdges : solid.found.crowded);
+                    ++(mate == kNoMate ? solid.found.openEdges : solid.found.crowded);
                     continue;
                 }
                 const uint32_t other = mate / 3;
@@ -226,6 +232,7 @@ std::string MeshFindings::text() const {
 SolidMesh solidMesh(const TriangleMesh& mesh) {
     SolidMesh solid;
     takeTriangles(mesh, solid);
+    solid.mates = matesOf(solid.indices);
     glm::vec3 lo(std::numeric_limits<float>::infinity()), hi(-lo);
     for (const glm::vec3& p : solid.positions) lo = glm::min(lo, p), hi = glm::max(hi, p);
     std::vector<Part> parts = findParts(solid, 0.5 * (glm::dvec3(lo) + glm::dvec3(hi)));
@@ -236,32 +243,38 @@ SolidMesh solidMesh(const TriangleMesh& mesh) {
 }
 
 std::vector<FeatureNormals> featureNormals(const SolidMesh& solid) {
-    const std::vector<uint32_t> mates = matesOf(solid.indices);
+    constexpr std::size_t kBlock = 4096;  // triangles
     const std::size_t count = solid.source.size();
-    std::vector<glm::dvec3> faces(count), vertices(solid.positions.size(), glm::dvec3(0.0));
     const auto unit = [](const glm::dvec3& v) {
         const double length = glm::length(v);
         return length > 0.0 ? v / length : glm::dvec3(0.0);
     };
-    for (uint32_t t = 0; t < count; ++t) {
-        const auto corners = cornersOf(solid, t);
-        faces[t] = unit(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec3 a = unit(corners[(k + 1) % 3] - corners[k]), b = unit(corners[(k + 2) % 3] - corners[k]);
-            vertices[solid.indices[3 * std::size_t(t) + k]] +=
-                std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)) * faces[t];
+    std::vector<glm::dvec3> faces(count), angles(count), vertices(solid.positions.size(), glm::dvec3(0.0));
+    forBlocks(count, kBlock, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            const auto [a, b, c] = cornersOf(solid, uint32_t(t));
+            const glm::dvec3 ab = unit(b - a), bc = unit(c - b), ca = unit(a - c);
+            const auto angle = [](const glm::dvec3& in, const glm::dvec3& out) {
+                return std::acos(std::clamp(-glm::dot(in, out), -1.0, 1.0));
+            };
+            faces[t] = unit(glm::cross(b - a, c - a));
+            angles[t] = {angle(ca, ab), angle(ab, bc), angle(bc, ca)};
         }
-    }
+    });
+    for (std::size_t i = 0; i < solid.indices.size(); ++i)
+        vertices[solid.indices[i]] += angles[i / 3][int(i % 3)] * faces[i / 3];
     std::vector<FeatureNormals> normals(count);
-    for (uint32_t t = 0; t < count; ++t) {
-        normals[t][0] = faces[t];
-        for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t mate = mates[3 * t + k];
-            const bool paired = mate != kNone && mate != kMany;
-            normals[t][1 + k] = unit(faces[t] + (paired ? faces[mate / 3] : glm::dvec3(0.0)));
-            normals[t][4 + k] = unit(vertices[solid.indices[3 * t + k]]);
+    forBlocks(count, kBlock, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            normals[t][0] = faces[t];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const uint32_t mate = solid.mates[3 * t + k];
+                const bool paired = mate != kNoMate && mate != kManyMates;
+                normals[t][1 + k] = unit(faces[t] + (paired ? faces[mate / 3] : glm::dvec3(0.0)));
+                normals[t][4 + k] = unit(vertices[solid.indices[3 * t + k]]);
+            }
         }
-    }
+    });
     return normals;
 }
 

@@ -36,10 +36,15 @@ struct MeshFindings {
     std::string text() const;
 };
 
+inline constexpr uint32_t kNoMate = ~0u, kManyMates = ~0u - 1;
+
 struct SolidMesh {
     std::vector<glm::vec3> positions;
     std::vector<uint32_t> indices;  ///< three a triangle
     std::vector<uint32_t> source;   ///< of each triangle: the one of the file's mesh that it is
+    /// Of each side of a triangle, 3 t + k from corner k to the next: the other triangle's side on the same edge;
+    /// kNoMate where there is none, kManyMates where there are more.
+    std::vector<uint32_t> mates;
     double volume = 0.0;            ///< of closed meshes, cubic metres
     MeshFindings found;
 };

@@ -88,6 +88,7 @@ struct FieldVolume {
 
     std::shared_ptr<const TriangleMesh> mesh = {};  ///< that it was made of, if of one
     std::vector<std::string> notes = {};            ///< what its user should know about how it was made
+    bool standIn = false;                           ///< something coarser, for whoever need not wait
 };
 using FieldVolumePtr = std::shared_ptr<const FieldVolume>;
 

@@ -1,14 +1,17 @@
 #include "runtime/mesh_field_baker.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
 #include <glm/common.hpp>
-#include <mutex>
 #include <optional>
 
-#include "graph/parallel.h"
 #include "runtime/clock.h"
+#include "runtime/gpu/cache_file.h"
 #include "shaders/shared.h"
 
 #include "shaders/bake/bake.h"
@@ -17,9 +20,8 @@ namespace fw {
 
 namespace {
 
-static_assert(float(BAKE_BAND) == kBand);
+static_assert(float(BAKE_BAND) == kBand && float(BAKE_LEAST) == kLeastDistance);
 
-constexpr int kSweepRounds = 2;
 constexpr uint32_t kGroupsAlong = 32768;  // x, of a dispatch
 
 struct Kernels {
@@ -29,8 +31,7 @@ struct Kernels {
 Kernels createKernels(const Device& device) {
     const ShaderOptions shaders[] = {{.name = "bake/scatter.comp"}, {.name = "bake/list.comp"},
                                      {.name = "bake/sign.comp"},    {.name = "bake/sweep.comp"},
-                                     {.name = "bake/pack.comp"},    {.name = "bake/pack.comp", .defines = {"COLORS"}},
-                                     {.name = "bake/bounds.comp"}};
+                                     {.name = "bake/pack.comp"},    {.name = "bake/pack.comp", .defines = {"COLORS"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
     return {std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3]),
             std::move(made[4]), std::move(made[5])};
@@ -44,9 +45,9 @@ glm::uvec3 groupsOf(std::size_t items) {
 /// The rows that each triangle is measured in.
 std::vector<gpu::BakeItem> itemsOf(const MeshInGrid& mesh) {
     std::vector<gpu::BakeItem> items;
-    items.reserve(2 * mesh.elements.size());
-    for (uint32_t t = 0; t < mesh.elements.size(); ++t) {
-        const auto& [a, b, c] = mesh.elements[t];
+    items.reserve(2 * mesh.solid.source.size());
+    for (uint32_t t = 0; t < mesh.solid.source.size(); ++t) {
+        const auto [a, b, c] = mesh.corners(t);
         const glm::ivec3 lo = glm::max(glm::ivec3(glm::ceil(glm::min(a, glm::min(b, c)) - kBand)), glm::ivec3(0));
         const glm::ivec3 hi =
             glm::min(glm::ivec3(glm::floor(glm::max(a, glm::max(b, c)) + kBand)), mesh.grid.size - 1);
@@ -57,15 +58,14 @@ std::vector<gpu::BakeItem> itemsOf(const MeshInGrid& mesh) {
     return items;
 }
 
-std::vector<glm::vec4> cornerTexels(const std::vector<std::array<glm::vec3, 3>>& elements) {
+std::vector<glm::vec4> cornerTexels(const SolidMesh& solid) {
     std::vector<glm::vec4> texels;
-    texels.reserve(3 * elements.size());
-    for (const auto& element : elements)
-        for (const glm::vec3& corner : element) texels.emplace_back(corner, 0.0f);
+    texels.reserve(solid.indices.size());
+    for (const uint32_t index : solid.indices) texels.emplace_back(solid.positions[index], 0.0f);
     return texels;
 }
 
-/// Linear light at the corners of each triangle, in the order of the elements' corners.
+/// Linear light at the corners of each triangle, in the order of its corners.
 std::vector<glm::vec4> colorTexels(const TriangleMesh& source, const SolidMesh& solid, const VolumeGrid& grid) {
     std::vector<glm::vec4> texels;
     texels.reserve(solid.indices.size());
@@ -126,7 +126,6 @@ class Bake {
         all.size = mesh.grid.size;
         all.cell = float(mesh.grid.cell);
         all.signs = mesh.byNormals;
-        all.triangles = uint32_t(mesh.solid.source.size());
         return all;
     }
     void progress(double share) const {
@@ -140,18 +139,14 @@ class Bake {
             options.stages->insert(options.stages->end(), commands.stages.begin(), commands.stages.end());
     }
 
-    void uploadElements() {
-        const std::vector<glm::vec4> texels = cornerTexels(mesh.elements);
-        reserve(device, corners, texels.size() * sizeof texels[0]);
-        upload(device, corners, texels);
-    }
-
     void measureBand() {
         auto start = Clock::now();
         const std::vector<gpu::BakeItem> list = itemsOf(mesh);
         items = createBuffer(device, list.size() * sizeof list[0]);
         upload(device, items, list);
-        uploadElements();
+        const std::vector<glm::vec4> texels = cornerTexels(mesh.solid);
+        corners = createBuffer(device, texels.size() * sizeof texels[0]);
+        upload(device, corners, texels);
         std::vector<FeatureNormals> of;
         if (mesh.byNormals) of = featureNormals(mesh.solid);
         of.resize(mesh.solid.source.size());
@@ -184,30 +179,20 @@ class Bake {
     /// Lets winding numbers decide what is inside.
     bool wind() {
         const auto start = Clock::now();
-        NearestElements found;
-        found.distance.resize(mesh.grid.samples());
-        found.element.resize(mesh.grid.samples());
-        const std::vector<glm::uvec2> pairs = download<glm::uvec2>(device, nearest, mesh.grid.samples());
-        for (std::size_t i = 0; i < pairs.size(); ++i) {
-            const bool known = pairs[i].y != ~0u;
-            found.distance[i] = known ? std::sqrt(std::bit_cast<float>(pairs[i].y)) : kUnreached;
-            found.element[i] = known ? pairs[i].x : 0;
-        }
+        const std::size_t samples = mesh.grid.samples();
+        const std::vector<glm::uvec2> pairs = download<glm::uvec2>(device, nearest, samples);
+        NearestPoints found{std::vector<float>(samples, kUnreached), std::vector<glm::vec3>(samples),
+                            std::vector<uint32_t>(samples)};
+        for (std::size_t i = 0; i < samples; ++i)
+            if (pairs[i].y != ~0u)
+                found.distance[i] = std::sqrt(std::bit_cast<float>(pairs[i].y)), found.triangle[i] = pairs[i].x;
         if (!signByWinding(mesh, found)) return false;
-        std::vector<glm::uvec4> texels(pairs.size());
-        forBlocks(std::size_t(mesh.grid.size.z), 1, [&](std::size_t z, std::size_t, std::size_t) {
-            std::size_t i = mesh.grid.index(0, 0, int(z));
-            for (int y = 0; y < mesh.grid.size.y; ++y)
-                for (int x = 0; x < mesh.grid.size.x; ++x, ++i) {
-                    texels[i] = {std::bit_cast<uint32_t>(float(BAKE_UNREACHED)), 0, 0, 0};
-                    if (std::abs(found.distance[i]) >= kUnreached) continue;
-                    const auto& [a, b, c] = mesh.elements[found.element[i]];
-                    const glm::vec3 point(
-                        nearestOnTriangle({x, y, double(z)}, {glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)}).point);
-                    for (int axis = 0; axis < 3; ++axis) texels[i][axis] = std::bit_cast<uint32_t>(point[axis]);
-                    texels[i].w = found.element[i] | (std::signbit(found.distance[i]) ? BAKE_INSIDE : 0u);
-                }
-        });
+        std::vector<glm::uvec4> texels(samples, {std::bit_cast<uint32_t>(float(BAKE_UNREACHED)), 0, 0, 0});
+        for (std::size_t i = 0; i < samples; ++i) {
+            if (found.distance[i] == kUnreached) continue;
+            for (int axis = 0; axis < 3; ++axis) texels[i][axis] = std::bit_cast<uint32_t>(found.point[i][axis]);
+            texels[i].w = found.triangle[i] | (std::signbit(found.distance[i]) ? BAKE_INSIDE : 0u);
+        }
         upload(device, state, texels);
         stage("winding", start);
         progress(0.6);
@@ -228,13 +213,16 @@ class Bake {
         std::vector<Descriptor> bound = {{0, corners}, {4, state}, {6, counts}, {8, words}};
         if (colored) bound.push_back({10, colors}), bound.push_back({11, colorWords});
         beginStage(commands, "sweep");
-        for (int round = 0; round < kSweepRounds; ++round)
-            for (all.axis = 0; all.axis < 3; ++all.axis) {
-                const glm::ivec3& size = mesh.grid.size;
-                const auto rows = std::size_t(size[(all.axis + 1) % 3]) * std::size_t(size[(all.axis + 2) % 3]);
-                dispatch(commands, kernels.sweep, groupsOf(rows), all, bound);
-                barrier(commands);
-            }
+        for (all.axis = 0; all.axis < 3; ++all.axis) {
+            const glm::ivec3& size = mesh.grid.size;
+            const auto slice = std::size_t(size[(all.axis + 1) % 3]) * std::size_t(size[(all.axis + 2) % 3]);
+            for (all.step = 1; all.step >= -1; all.step -= 2)
+                for (int i = 1; i < size[all.axis]; ++i) {
+                    all.slice = all.step > 0 ? i : size[all.axis] - 1 - i;
+                    dispatch(commands, kernels.sweep, groupsOf(slice), all, bound);
+                    barrier(commands);
+                }
+        }
         beginStage(commands, "pack");
         fill(commands, counts, 0);
         barrier(commands);
@@ -259,7 +247,7 @@ class Bake {
     MeshInGrid& mesh;
     Buffer corners, items, normals;
     Buffer nearest;       // of each sample: the triangle, and the bits of the squared distance; all ones: none
-    Buffer state;         // the nearest point, its element and the side
+    Buffer state;         // the nearest point, its triangle and the side
     Buffer band;          // samples of it
     Buffer counts, words;
     Buffer colors, colorWords;
@@ -269,25 +257,136 @@ bool fits(const Device& device, const MeshInGrid& mesh) {
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
     return device.int64Atomics && 8 * mesh.grid.samples() <= limits.maxStorageBufferRange &&
            mesh.grid.samples() <= limits.maxTexelBufferElements &&
-           3 * mesh.elements.size() <= limits.maxTexelBufferElements &&
-           sizeof(FeatureNormals) * mesh.elements.size() <= limits.maxStorageBufferRange;
+           mesh.solid.indices.size() <= limits.maxTexelBufferElements &&
+           sizeof(FeatureNormals) * mesh.solid.source.size() <= limits.maxStorageBufferRange;
+}
+
+// ---- What was made before
+
+constexpr uint32_t kVersion = 1;  // of the file's words and of how they are found
+
+std::string pathOf(const MeshFieldRecipe& recipe) {
+    char name[24];
+    std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(recipe.key()));
+    return cachePath("fields", name);
+}
+
+template <class T>
+void put(std::vector<uint32_t>& to, const T& value) {
+    static_assert(sizeof value % 4 == 0);
+    const auto words = std::bit_cast<std::array<uint32_t, sizeof value / 4>>(value);
+    to.insert(to.end(), words.begin(), words.end());
+}
+
+void put(std::vector<uint32_t>& to, const std::string& text) {
+    put(to, uint32_t(text.size()));
+    const std::size_t at = to.size();
+    to.resize(at + (text.size() + 3) / 4);
+    std::memcpy(&to[at], text.data(), text.size());
+}
+
+/// Reads what put() wrote; the file's checksum was right.
+class Taken {
+  public:
+    explicit Taken(std::span<const uint32_t> words_) : words(words_) {}
+    template <class T>
+    T take() {
+        std::array<uint32_t, sizeof(T) / 4> own;
+        std::copy_n(words.begin(), own.size(), own.begin());
+        words = words.subspan(own.size());
+        return std::bit_cast<T>(own);
+    }
+    std::string text() {
+        const auto size = take<uint32_t>();
+        std::string text(reinterpret_cast<const char*>(words.data()), size);
+        words = words.subspan((size + 3) / 4);
+        return text;
+    }
+    std::span<const uint32_t> words;
+};
+
+FieldVolumePtr readMade(const MeshFieldRecipe& recipe) {
+    const std::string path = pathOf(recipe);
+    const std::vector<uint32_t> words = readCacheFile(path, recipe.key() + kVersion);
+    if (words.empty()) return nullptr;
+    std::error_code ignored;
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
+    Taken file(words);
+    VolumeGrid grid;
+    for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = file.take<double>();
+    grid.cell = file.take<double>();
+    for (int axis = 0; axis < 3; ++axis) grid.size[axis] = file.take<int32_t>();
+    std::vector<std::string> notes(file.take<uint32_t>());
+    for (std::string& note : notes) note = file.text();
+    auto volume =
+        std::make_shared<FieldVolume>(grid, std::vector<uint32_t>(file.words.begin(), file.words.end()));
+    volume->mesh = recipe.mesh;
+    volume->notes = std::move(notes);
+    return volume;
+}
+
+/// Removes the files that were not used for longest while all take too much.
+void tidy(const std::filesystem::path& folder) {
+    struct File {
+        std::filesystem::file_time_type used;
+        std::uintmax_t size;
+        std::filesystem::path path;
+    };
+    std::vector<File> files;
+    std::error_code error;
+    std::uintmax_t all = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        File file{entry.last_write_time(error), entry.file_size(error), entry.path()};
+        if (error) continue;  // it has just gone
+        all += file.size;
+        files.push_back(std::move(file));
+    }
+    std::ranges::sort(files, {}, &File::used);
+    for (const File& file : files) {
+        if (all <= kMostCachedBytes) return;
+        std::filesystem::remove(file.path, error);
+        all -= file.size;
+    }
+}
+
+void keepMade(const MeshFieldRecipe& recipe, const FieldVolume& volume) {
+    const std::string path = pathOf(recipe);
+    if (path.empty()) return;
+    std::vector<uint32_t> words;
+    words.reserve(volume.words.size() + 256);
+    for (int axis = 0; axis < 3; ++axis) put(words, volume.grid.origin[axis]);
+    put(words, volume.grid.cell);
+    for (int axis = 0; axis < 3; ++axis) put(words, int32_t(volume.grid.size[axis]));
+    put(words, uint32_t(volume.notes.size()));
+    for (const std::string& note : volume.notes) put(words, note);
+    words.insert(words.end(), volume.words.begin(), volume.words.end());
+    writeCacheFile(path, recipe.key() + kVersion, words);
+    tidy(std::filesystem::path(path).parent_path());
+}
+
+Result<FieldVolumePtr> bake(const Device* device, std::optional<Kernels>& kernels, const BakeOptions& options,
+                            const MeshFieldRecipe& recipe) {
+    if (!device) return bakeOnHost(recipe);
+    const auto start = Clock::now();
+    Result<MeshInGrid> mesh = meshInGrid(recipe);
+    if (!mesh) return mesh.error();
+    if (options.stages) options.stages->push_back({"topology", millisecondsSince(start)});
+    if (!fits(*device, *mesh)) return bakeOnHost(recipe);
+    if (!kernels) kernels = createKernels(*device);
+    return Bake(*device, *kernels, options, recipe, *mesh).run();
 }
 
 }  // namespace
 
-MeshFieldBaker deviceBaker(const Device& device, const BakeOptions& options) {
-    struct Made {
-        std::once_flag once;
-        std::optional<Kernels> kernels;
-    };
-    return [&device, options, made = std::make_shared<Made>()](const MeshFieldRecipe& recipe) -> Result<FieldVolumePtr> {
-        const auto start = Clock::now();
-        Result<MeshInGrid> mesh = meshInGrid(recipe);
-        if (!mesh) return mesh.error();
-        if (options.stages) options.stages->push_back({"topology", millisecondsSince(start)});
-        if (!fits(device, *mesh)) return bakeOnHost(recipe);
-        std::call_once(made->once, [&] { made->kernels = createKernels(device); });
-        return Bake(device, *made->kernels, options, recipe, *mesh).run();
+MeshFieldBaker meshFieldBaker(std::function<const Device*()> device, const BakeOptions& options) {
+    return [device = std::move(device), options,
+            kernels = std::make_shared<std::optional<Kernels>>()](
+               const MeshFieldRecipe& recipe) -> Result<FieldVolumePtr> {
+        if (options.cached)
+            if (FieldVolumePtr made = readMade(recipe)) return made;
+        Result<FieldVolumePtr> made = bake(device(), *kernels, options, recipe);
+        if (made && options.cached) keepMade(recipe, **made);
+        return made;
     };
 }
 

@@ -15,18 +15,17 @@
 namespace fw {
 
 struct BakeOptions {
-    std::vector<StageTime>* stages = nullptr;          ///< gets the time of each stage
-    bool timed = false;                                ///< of each kernel, as in commands.h
-    std::function<void(double share)> progress = {};   ///< called with what is done, from 0 to 1
+    /// Looks in the user's cache folder first (cache_file.h), and keeps there what was made; the least recently used
+    /// go when all take more than kMostCachedBytes.
+    bool cached = true;
+    std::vector<StageTime>* stages = nullptr;         ///< gets the time of each stage
+    bool timed = false;                               ///< of each kernel, as in commands.h
+    std::function<void(double share)> progress = {};  ///< called with what is done, from 0 to 1
 };
-
-/// Makes fields on the device; on the host where the device lacks 64-bit atomics, or cannot bind so large a grid.
-/// Throws SystemError.
-MeshFieldBaker deviceBaker(const Device& device, const BakeOptions& options = {});
-
-/// Looks in the user's cache folder first (cache_file.h), and keeps there what `baker` makes; the least recently used
-/// go when all take more than kMostCachedBytes.
-MeshFieldBaker cachedBaker(MeshFieldBaker baker);
 inline constexpr std::size_t kMostCachedBytes = std::size_t(2) << 30;
+
+/// Makes fields on what `device` gives when it is called; on the host if that is null, and where the device lacks 64-bit
+/// atomics or cannot bind so large a grid. Throws SystemError.
+MeshFieldBaker meshFieldBaker(std::function<const Device*()> device, const BakeOptions& options = {});
 
 }  // namespace fw

@@ -68,11 +68,11 @@ Result<Player> Player::open(const std::string& path, const PlayerOptions& option
     Result<Graph> graph = readGraph(path, warnings);
     if (!graph) return graph.error();
     if (std::optional<Error> error = firstError(*graph, warnings)) return std::move(*error);
-    Result<Prepared> prepared = prepare(std::move(*graph), options);
-    if (!prepared) return prepared.error();
     Result<Device> device = opening.get();
     if (!device) return device.error();
     Player player(std::move(*device), options);
+    Result<Prepared> prepared = player.prepare(std::move(*graph), options);
+    if (!prepared) return prepared.error();
     player.adopt(std::move(*prepared));
     return player;
 }
@@ -80,25 +80,31 @@ Result<Player> Player::open(const std::string& path, const PlayerOptions& option
 Result<Player> Player::create(Graph graph, Device&& device, const PlayerOptions& options) {
     if (!options.checked)
         if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
-    Result<Prepared> prepared = prepare(std::move(graph), options);
-    if (!prepared) return prepared.error();
     Player player(std::move(device), options);
+    Result<Prepared> prepared = player.prepare(std::move(graph), options);
+    if (!prepared) return prepared.error();
     player.adopt(std::move(*prepared));
     return player;
 }
 
-Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& options) {
+Player::Player(Device device, PlayerOptions options_)
+    : session(std::move(device)),
+      bake(meshFieldBaker([gpu = &session.device()] { return gpu; })),
+      options(std::move(options_)) {}
+
+Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishes) const {
     Prepared made;
     Result<Timeline> timeline = readTimeline(graph);
     if (!timeline) return timeline.error();
     made.timeline = std::move(*timeline);
 
     CompileOptions compileOptions;
+    compileOptions.bake = bake;
     compileOptions.live = animatedInputs(graph, made.timeline);
     compileOptions.live.insert("time");
     const std::set<std::string> moving = compileOptions.live;
-    compileOptions.live.insert(options.live.begin(), options.live.end());
-    if (options.liveParameters)
+    compileOptions.live.insert(wishes.live.begin(), wishes.live.end());
+    if (wishes.liveParameters)
         for (const NamedParameter& parameter : namedParameters(graph))
             compileOptions.live.insert(parameter.node + "." + parameter.input);
     Result<Program> program = compile(graph, compileOptions);
@@ -136,7 +142,7 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& optio
             made.fieldMoves = made.fieldMoves || (slot >= 0 && made.read[static_cast<std::size_t>(slot)]);
     }
     made.graph = std::move(graph);
-    if (const Done found = findSharedRegion(made, options); !found) return found.error();
+    if (const Done found = findSharedRegion(made, wishes); !found) return found.error();
     return made;
 }
 

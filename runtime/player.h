@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "graph/timeline.h"
+#include "runtime/mesh_field_baker.h"
 #include "runtime/session.h"
 
 namespace fw {
@@ -127,6 +128,8 @@ class Player {
 
     const Device& device() const { return session.device(); }
     /// Pipelines that the device has built so far: what a seek leaves as it is.
+    /// Warnings: what its user should know of the graph's meshes.
+    const std::vector<Error>& notes() const { return now.program.notes; }
     uint64_t pipelinesBuilt() const { return session.device().record->pipelines; }
 
   private:
@@ -152,9 +155,8 @@ class Player {
         bool regionFound = false;   ///< rather than given
     };
 
-    Player(Device device, PlayerOptions options_)
-        : session(std::move(device)), options(std::move(options_)) {}
-    static Result<Prepared> prepare(Graph graph, const PlayerOptions& options);
+    Player(Device device, PlayerOptions options_);
+    Result<Prepared> prepare(Graph graph, const PlayerOptions& wishes) const;
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
     static std::vector<double> valuesAt(const Prepared& prepared, double seconds);
     void adopt(Prepared prepared);
@@ -165,6 +167,7 @@ class Player {
     auto look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes));
 
     Session session;
+    MeshFieldBaker bake;  ///< on the session's device
     PlayerOptions options;
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given

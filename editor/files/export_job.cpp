@@ -10,6 +10,7 @@
 #include "graph/check.h"
 #include "graph/glsl.h"
 #include "runtime/clock.h"
+#include "runtime/mesh_field_baker.h"
 #include "runtime/mesh_program.h"
 
 namespace fw::editor {
@@ -79,17 +80,24 @@ Result<ExportState> ExportJob::Shared::make() {
     std::erase_if(findings, [](const Error& each) { return each.severity != Error::Severity::error; });
     if (!findings.empty()) return findings.front();
     if (!start("compile")) return stopped;
-    Result<Program> program = compileAtTime(*wish.graph, wish.seconds);
+    std::optional<Result<Device>> device;  // there when it is first asked for
+    const auto awaited = [&]() -> const Device* {
+        if (!device) device.emplace(opening.get());
+        return *device ? &**device : nullptr;
+    };
+    CompileOptions options;
+    options.bake = meshFieldBaker(awaited);
+    Result<Program> program = compileAtTime(*wish.graph, wish.seconds, std::move(options));
     if (!program) return program.error();
     if (!start("region")) return stopped;
     const Result<Box> region = meshRegion(*program, wish.mesh);
     if (!region) return region.error();
     prepareMesher(emitField(*program));
     if (!start("device")) return stopped;
-    Result<Device> device = opening.get();
-    if (!device) return device.error();
+    awaited();
+    if (!*device) return device->error();
     const Result<MeshedProgram> meshed =
-        meshProgram(std::move(*device), std::move(*program), wish.mesh, *region,
+        meshProgram(std::move(**device), std::move(*program), wish.mesh, *region,
                     [this](const char* stage) { return start(stage); });
     if (!meshed) return meshed.error();
     if (!start("download")) return stopped;

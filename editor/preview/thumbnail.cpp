@@ -158,7 +158,7 @@ Picture draw(Field& field, const Box& box) {
 Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path, uint64_t made) {
     const auto [scope, id] = placeOf(graph, path);
     if (!findNode(nodesOf(graph, scope), id)) return Error{.message = "there is no such node"};
-    const Result<Program> program = compile(showingNode(graph, path));
+    const Result<Program> program = compile(showingNode(graph, path), {.bake = draftInPlace});
     if (!program) return program.error();
     if (program->structureHash == made) return Thumbnail{made};
     const std::vector<double> parameters = program->parameters();

@@ -223,6 +223,7 @@ std::string pick(const Seen& seen, double x, double y) {
     CompileOptions options;
     options.live = probes.live();
     options.time = seconds;
+    options.bake = boxInPlace;  // what is seen was measured, and is remembered
     const Result<Program> program = compile(probes.graph(), options);
     if (!program) return {};
     const Ray ray = rayThrough(seen, x, y);
@@ -241,7 +242,7 @@ std::string pick(const Seen& seen, double x, double y) {
 }
 
 std::optional<Box> solidOf(const Graph& graph, const std::string& node, double seconds) {
-    const Result<Program> program = compile(shownAt(graph, node, seconds), {.live = {}, .time = seconds});
+    const Result<Program> program = compile(shownAt(graph, node, seconds), {.time = seconds, .bake = boxInPlace});
     if (!program) return std::nullopt;
     const Region region = findRegion(program->ir, program->distance(), program->parameters());
     return region.extent == Extent::bounded ? std::optional(region.box) : std::nullopt;

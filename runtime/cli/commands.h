@@ -35,7 +35,7 @@ struct GraphOptions {
 /// Reads and checks the graph, applies the assignments; warnings and errors go to standard error.
 std::optional<Graph> openGraph(const GraphOptions& options);
 /// Compiles what the graph is that many seconds after its start; errors go to standard error.
-std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions options = {});
+std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions options);
 void print(const Error& error);
 
 /// What every command that meshes a graph takes.

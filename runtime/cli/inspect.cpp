@@ -10,6 +10,7 @@
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
 #include "runtime/gpu/shader.h"
+#include "runtime/mesh_field_baker.h"
 #include "runtime/mesh_program.h"
 
 namespace fw::cli {
@@ -43,7 +44,10 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
 
 std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions compileOptions) {
     Result<Program> program = compileAtTime(graph, seconds, std::move(compileOptions));
-    if (program) return std::move(*program);
+    if (program) {
+        for (const Error& note : program->notes) print(note);
+        return std::move(*program);
+    }
     print(program.error());
     return std::nullopt;
 }
@@ -66,6 +70,24 @@ int runCheck(const std::vector<std::string>& paths) {
     return sound ? kDone : kBadInput;
 }
 
+namespace {
+
+/// A device that is opened only if the graph has a mesh to measure.
+class OpenedDevice {
+  public:
+    MeshFieldBaker baker() {
+        return meshFieldBaker([this]() -> const Device* {
+            if (!device) device.emplace(createDevice({}));
+            return *device ? &**device : nullptr;
+        });
+    }
+
+  private:
+    std::optional<Result<Device>> device;
+};
+
+}  // namespace
+
 int runEval(const EvalOptions& options) {
     if (options.at.empty() && options.interval.empty()) {
         std::fprintf(stderr,
@@ -84,7 +106,10 @@ int runEval(const EvalOptions& options) {
         }
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;
-    const std::optional<Program> program = openProgram(*graph, options.graph.time);
+    OpenedDevice device;
+    CompileOptions compileOptions;
+    compileOptions.bake = device.baker();
+    const std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return kBadInput;
     if (!options.at.empty()) {
         const Point point{options.at[0], options.at[1], options.at[2]};
@@ -105,7 +130,9 @@ int runEval(const EvalOptions& options) {
 }
 
 int runCompile(const CompileCommandOptions& options) {
+    OpenedDevice device;
     CompileOptions compileOptions;
+    compileOptions.bake = device.baker();
     compileOptions.live.insert(options.live.begin(), options.live.end());
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;

@@ -8,6 +8,7 @@
 #include <future>
 
 #include "graph/glsl.h"
+#include "runtime/mesh_field_baker.h"
 
 namespace fw::cli {
 
@@ -81,7 +82,17 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return fail(kBadInput);
     progress.start("compile", 5);
-    std::optional<Program> program = openProgram(*graph, options.graph.time);
+    std::optional<Result<Device>> device;  // there when it is first asked for
+    const auto awaited = [&]() -> const Device* {
+        if (!device) device.emplace(opening.get());
+        return *device ? &**device : nullptr;
+    };
+    CompileOptions compileOptions;
+    compileOptions.bake = meshFieldBaker(awaited, {.progress = [&](double share) {
+                                             progress.start("mesh fields", 5 + int(5 * share),
+                                                            "measuring distances to the mesh");
+                                         }});
+    std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return fail(kBadInput);
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution),
@@ -90,11 +101,11 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     if (!box) return fail(badInput(options, box.error()));
     prepareMesher(emitField(*program));
     progress.start("device", 15);
-    Result<Device> device = opening.get();
-    if (!device) return print(device.error()), fail(kBadUsage);
+    awaited();
+    if (!*device) return print(device->error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
 
-    return OpenedGraph{std::move(*device), std::move(*program), request, *box};
+    return OpenedGraph{std::move(**device), std::move(*program), request, *box};
 }
 
 Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed) {
@@ -144,6 +155,7 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     progress.start("pipelines", 20, kCompiling);
     Result<Player> player = Player::create(std::move(*graph), std::move(*device), playerOptions);
     if (!player) return fail(badInput(options, player.error()));
+    for (const Error& note : player->notes()) print(note);
     if (interrupted) return fail(stopped());
     player->seek(options.graph.time);
     return std::move(*player);

@@ -9,8 +9,8 @@ namespace fw::gpu {
 #define BAKE_ROWS 8         // slices, and rows of each, that one item of scatter.comp goes through at most
 #define BAKE_BAND 2.0       // cells from the surface: kBand
 #define BAKE_UNREACHED 1e30 // the first coordinate of a nearest point that is not known
-#define BAKE_INSIDE 0x80000000u  // with an element's number: the sample is inside
-#define BAKE_LEAST 1e-4     // cells that a sample is off the surface at least, so that it has a gradient
+#define BAKE_INSIDE 0x80000000u  // with a triangle's number: the sample is inside
+#define BAKE_LEAST 1e-4     // kLeastDistance
 
 // A triangle, and the rows that one lane measures it in.
 struct BakeItem {
@@ -22,9 +22,10 @@ struct BakePush {
     ivec3 size;  // samples
     uint items;
     float cell;  // metres
-    int axis;    // of a sweep
+    int axis;    // of a sweep,
+    int slice;   // where it is,
+    int step;    // and its way: 1 or -1
     uint signs;  // 1: normals tell what is inside
-    uint triangles;
 };
 
 // What the kernels find, beside the samples.

@@ -35,11 +35,10 @@ void main() {
     ivec3 gradient = ivec3(round(511.0 * off / (here == 0.0 ? 1.0 : here))) & 1023;
     words[index] = uvec2(floatBitsToUint(here * push.cell), uint(gradient.x | gradient.y << 10 | gradient.z << 20));
 #ifdef COLORS
-    uint feature, element = imageLoad(state, int(index)).w & ~BAKE_INSIDE;
-    element = element < push.triangles ? element : 0;  // a membrane has no colour of its own
-    vec3 w = nearestWeights(triangleAt(element), vec3(at), feature);
+    uint feature, triangle = imageLoad(state, int(index)).w & ~BAKE_INSIDE;
+    vec3 w = nearestWeights(triangleAt(triangle), vec3(at), feature);
     vec3 c = vec3(0.0);
-    for (int k = 0; k < 3; ++k) c += w[k] * uintBitsToFloat(imageLoad(colors, 3 * int(element) + k).xyz);
+    for (int k = 0; k < 3; ++k) c += w[k] * uintBitsToFloat(imageLoad(colors, 3 * int(triangle) + k).xyz);
     c = clamp(c, 0.0, 1.0);
     c = mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
     uvec3 codes = uvec3(round(255.0 * c));

@@ -13,14 +13,16 @@ layout(binding = 7, scalar) readonly buffer Normals { vec3 normals[]; };  // sev
 void main() {
     uint place = item();
     if (place >= counts.listed) return;
-    uint index = band[place], element = nearestWords[2 * index], feature;
-    Triangle t = triangleAt(element);
+    uint index = band[place], triangle = nearestWords[2 * index], feature;
+    Triangle t = triangleAt(triangle);
     vec3 p = vec3(placeOf(index));
     vec3 w = nearestWeights(t, p, feature);
     vec3 nearest = w.x * t.a + w.y * t.b + w.z * t.c, off = p - nearest;
-    vec3 normal = normals[7 * element + feature];
+    vec3 normal = normals[7 * triangle + feature];
     bool inside = push.signs != 0 && dot(off, normal) < 0.0;
     float distance = length(off);
-    if (distance < BAKE_LEAST) nearest = p - normal * (inside ? -BAKE_LEAST : BAKE_LEAST);
-    imageStore(state, int(index), uvec4(floatBitsToUint(nearest), element | (inside ? BAKE_INSIDE : 0)));
+    // On a face the gradient is its normal; on an edge there is none.
+    bool smooth_ = dot(normal, normals[7 * triangle]) > 0.99;
+    if (distance < BAKE_LEAST) nearest = smooth_ ? p - normal * (inside ? -BAKE_LEAST : BAKE_LEAST) : p;
+    imageStore(state, int(index), uvec4(floatBitsToUint(nearest), triangle | (inside ? BAKE_INSIDE : 0)));
 }

@@ -61,7 +61,7 @@ TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
         const std::vector<uint32_t> words = imageWords(program.ir.images());
         const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
         upload(test::device(), images, words);
-        config.images = &images;
+        config.field.images = &images;
         config.families = &program.families;
         const Meshed kernels =
             run(createMesherPipelines(test::device(), emitField(program)), config, nullptr);

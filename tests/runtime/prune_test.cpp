@@ -32,7 +32,7 @@ Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod meth
     MesherConfig config{.origin = {box.lo[0], box.lo[1], box.lo[2]},
                         .cellSize = glm::vec3(float((box.hi[0] - box.lo[0]) / cells)),
                         .cells = glm::ivec3(cells),
-                        .images = &images,
+                        .field = {.images = &images},
                         .families = &program.families,
                         .sparse = sparse,
                         .pruned = pruned,
