@@ -106,8 +106,9 @@ class Emitter : GlslStatements {
             };
             text += "const VolumeGrid " + gridName + " = VolumeGrid(" + std::to_string(first) + ", ivec3" +
                     list(grid.size, [](int n) { return std::to_string(n); }) + ", vec3" +
-                    list(grid.origin, [](double x) { return glslLiteral(x); }) + ", " + glslLiteral(grid.cell) +
-                    ");\n";
+                    list(grid.origin, glslLiteral) + ", vec3" + list(grid.inset, glslLiteral) + ", " +
+                    glslLiteral(grid.cell) +
+                    ", " + glslLiteral(1.0 / grid.cell) + ");\n";
             for (const VolumeLayer& layer : volume.layers) {
                 const std::size_t number = v * kVolumeLayers + std::size_t(layer.channel);
                 if (!sampled[number]) continue;

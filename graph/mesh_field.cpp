@@ -53,6 +53,7 @@ Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
         const int cells = int(std::ceil(size[axis] / grid.cell + 2.0 * kPadding - 1e-9));
         grid.size[axis] = std::min(cells + 1, recipe.resolution);
         grid.origin[axis] = 0.5 * (lo[axis] + hi[axis]) - 0.5 * grid.cell * (grid.size[axis] - 1);
+        grid.inset[axis] = 0.5 * (grid.cell * (grid.size[axis] - 1) - (hi[axis] - lo[axis]));
     }
     return grid;
 }

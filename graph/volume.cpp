@@ -144,6 +144,7 @@ FieldVolume::FieldVolume(const VolumeGrid& grid_, std::vector<uint32_t> words_)
     hash = 0xcbf29ce484222325u;
     const auto mix = [&](uint64_t word) { hash = std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); };
     for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<uint64_t>(grid.origin[axis]));
+    for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<uint64_t>(grid.inset[axis]));
     for (int axis = 0; axis < 3; ++axis) mix(uint64_t(grid.size[axis]));
     mix(std::bit_cast<uint64_t>(grid.cell));
     for (std::size_t i = 0; i < words.size(); i += 2) mix(uint64_t(words[i + 1]) << 32 | words[i]);
@@ -177,6 +178,10 @@ VolumeSample sampleVolume(const VolumeLayer& layer, const glm::dvec3& place) {
     if (layer.channel >= redChannel) return sample;
     const double distance = std::max(sample.value, 0.0);
     const double value = std::hypot(glm::length(beyond), distance);
+    const VolumeGrid& grid = volume.grid;
+    const glm::dvec3 half = 0.5 * grid.cell * glm::dvec3(grid.size - 1), off = place - (grid.origin + half);
+    const glm::dvec3 fromBox = glm::sign(off) * glm::max(glm::abs(off) - (half - grid.inset), 0.0);
+    if (glm::length(fromBox) > value) return {glm::length(fromBox), glm::normalize(fromBox)};
     return {value, (beyond + distance * sample.gradient) / value};
 }
 

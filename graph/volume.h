@@ -7,9 +7,9 @@
 // plane. Eight loads are an eighth of what a Catmull-Rom spline needs, and slopes that were measured follow edges
 // better than differences of samples. The *trilinear* layer ignores the gradients.
 //
-// Beyond the grid, at a point p, the value is sqrt(|p - q|^2 + d(q)^2), q being the nearest point of the grid. The
-// solid lies within the grid, whose box is convex, so that the angle at q is not acute: the value is never more than
-// the distance. It is continuous and, as is the distance, 1-Lipschitz.
+// Beyond the grid, at a point p, the value is sqrt(|p - q|^2 + d(q)^2), q being the nearest point of the grid, or the
+// distance to the solid's box if that is more. The solid lies within the grid, whose box is convex, so that the angle at
+// q is not acute: the value is never more than the distance. It is continuous and, as is the distance, 1-Lipschitz.
 //
 // The double functions here are the reference of shaders/lib/volume.glsl, which reads the same words.
 //
@@ -32,7 +32,8 @@ namespace fw {
 struct VolumeGrid {
     glm::dvec3 origin{0.0};
     double cell = 1.0;
-    glm::ivec3 size{2};  ///< samples along each axis, at least 2
+    glm::ivec3 size{2};     ///< samples along each axis, at least 2
+    glm::dvec3 inset{0.0};  ///< metres between each end of the grid and the solid's box
 
     std::size_t samples() const { return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z); }
     glm::dvec3 place(const glm::ivec3& at) const { return origin + cell * glm::dvec3(at); }

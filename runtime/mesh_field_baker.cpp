@@ -263,7 +263,7 @@ bool fits(const Device& device, const MeshInGrid& mesh) {
 
 // ---- What was made before
 
-constexpr uint32_t kVersion = 1;  // of the file's words and of how they are found
+constexpr uint32_t kVersion = 2;  // of the file's words and of how they are found
 
 std::string pathOf(const MeshFieldRecipe& recipe) {
     char name[24];
@@ -313,7 +313,8 @@ FieldVolumePtr readMade(const MeshFieldRecipe& recipe) {
     std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
     Taken file(words);
     VolumeGrid grid;
-    for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = file.take<double>();
+    for (glm::dvec3* of : {&grid.origin, &grid.inset})
+        for (int axis = 0; axis < 3; ++axis) (*of)[axis] = file.take<double>();
     grid.cell = file.take<double>();
     for (int axis = 0; axis < 3; ++axis) grid.size[axis] = file.take<int32_t>();
     std::vector<std::string> notes(file.take<uint32_t>());
@@ -354,7 +355,8 @@ void keepMade(const MeshFieldRecipe& recipe, const FieldVolume& volume) {
     if (path.empty()) return;
     std::vector<uint32_t> words;
     words.reserve(volume.words.size() + 256);
-    for (int axis = 0; axis < 3; ++axis) put(words, volume.grid.origin[axis]);
+    for (const glm::dvec3* of : {&volume.grid.origin, &volume.grid.inset})
+        for (int axis = 0; axis < 3; ++axis) put(words, (*of)[axis]);
     put(words, volume.grid.cell);
     for (int axis = 0; axis < 3; ++axis) put(words, int32_t(volume.grid.size[axis]));
     put(words, uint32_t(volume.notes.size()));

@@ -4,8 +4,8 @@
 struct VolumeGrid {
     int first;  // texel
     ivec3 size;
-    vec3 origin;
-    float cell;
+    vec3 origin, inset;
+    float cell, perCell;  // metres, and its inverse
 };
 
 struct VolumePlace {
@@ -16,23 +16,27 @@ struct VolumePlace {
 
 VolumePlace volumePlace(VolumeGrid grid, vec3 p) {
     vec3 most = vec3(grid.size - 1);
-    vec3 at = (p - grid.origin) / grid.cell, within = clamp(at, vec3(0.0), most);
+    vec3 at = (p - grid.origin) * grid.perCell, within = clamp(at, vec3(0.0), most);
     ivec3 cell = min(ivec3(within), grid.size - 2);
     int texel = grid.first + (cell.z * grid.size.y + cell.y) * grid.size.x + cell.x;
     return VolumePlace(texel, within - vec3(cell), mix((at - within) * grid.cell, vec3(0.0), equal(at, within)));
 }
 
+// A sample's gradient, in units of 1 / 511.
 vec3 volumeGradient(uint word) {
     int bits = int(word);
-    return vec3(ivec3(bitfieldExtract(bits, 0, 10), bitfieldExtract(bits, 10, 10), bitfieldExtract(bits, 20, 10))) *
-           (1.0 / 511.0);
+    return vec3(bits << 22 >> 22, bits << 12 >> 22, bits << 2 >> 22);
 }
 
 // What the value is beyond the grid, from the sample at its border: the gradient, and the value.
-vec4 volumeBeyond(vec4 inside, vec3 beyond) {
+vec4 volumeBeyond(VolumeGrid grid, vec3 p, vec4 inside, vec3 beyond) {
     float distance = max(inside.w, 0.0), value = sqrt(dot(beyond, beyond) + distance * distance);
     vec3 slope = mix(distance * inside.xyz, beyond, notEqual(beyond, vec3(0.0)));
-    return any(notEqual(beyond, vec3(0.0))) ? vec4(slope / max(value, 1e-30), value) : inside;
+    vec3 half_ = 0.5 * grid.cell * vec3(grid.size - 1), off = p - (grid.origin + half_);
+    vec3 fromBox = sign(off) * max(abs(off) - (half_ - grid.inset), 0.0);
+    float toBox = length(fromBox);
+    vec4 outside = toBox > value ? vec4(fromBox / toBox, toBox) : vec4(slope / max(value, 1e-30), value);
+    return any(notEqual(beyond, vec3(0.0))) ? outside : inside;
 }
 
 // The gradient, and the value.
@@ -40,8 +44,9 @@ vec4 volumeTricubic(VolumeGrid grid, vec3 p) {
     VolumePlace place = volumePlace(grid, p);
     vec3 t = place.t, s = 1.0 - t;
     vec3 h1 = t * t * (3.0 - 2.0 * t), h0 = 1.0 - h1, dh = 6.0 * t * s;  // of the values; dh is h1's derivative
-    vec3 m0 = t * s * s * grid.cell, m1 = -t * t * s * grid.cell;         // of the slopes
-    vec3 d0 = s * (1.0 - 3.0 * t) * grid.cell, d1 = t * (3.0 * t - 2.0) * grid.cell;
+    const float unit = grid.cell * (1.0 / 511.0);
+    vec3 ts = t * s * unit, m0 = ts * s, m1 = -ts * t;                  // of the slopes
+    vec3 d0 = s * (1.0 - 3.0 * t) * unit, d1 = t * (3.0 * t - 2.0) * unit;
     float value = 0.0;
     vec3 gradient = vec3(0.0);
     for (int k = 0; k < 2; ++k)
@@ -64,7 +69,7 @@ vec4 volumeTricubic(VolumeGrid grid, vec3 p) {
             gradient.y += f * dy * hz + g.x * ey * hz + g.y * dy * mz;
             gradient.z += f * hy * dz + g.x * my * dz + g.y * hy * ez;
         }
-    return volumeBeyond(vec4(gradient / grid.cell, value), place.beyond);
+    return volumeBeyond(grid, p, vec4(gradient * grid.perCell, value), place.beyond);
 }
 
 vec4 volumeLinear(float f[8], vec3 t, float cell) {
@@ -81,7 +86,7 @@ vec4 volumeTrilinear(VolumeGrid grid, vec3 p) {
         uvec4 words = imageLoad(fieldVolumes, place.texel + ((i >> 2) * grid.size.y + (i >> 1 & 1)) * grid.size.x);
         f[i] = uintBitsToFloat(words.x), f[i + 1] = uintBitsToFloat(words.z);
     }
-    return volumeBeyond(volumeLinear(f, place.t, grid.cell), place.beyond);
+    return volumeBeyond(grid, p, volumeLinear(f, place.t, grid.cell), place.beyond);
 }
 
 vec4 volumeColor(VolumeGrid grid, vec3 p, int channel) {

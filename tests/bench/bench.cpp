@@ -18,7 +18,7 @@ struct NamedTable {
 // The process table comes first: the system counts this process's memory at a spawn towards that of the new
 // one.
 const NamedTable kTables[] = {{"process", processTable}, {"mesher", mesherTable},
-                              {"prune", pruneTable},     {"talk", talkTable},
+                              {"prune", pruneTable},     {"mesh-to-field", meshFieldTable}, {"talk", talkTable},
                               {"live", liveTable},       {"compile", compileTable},
                               {"editor", editorTable},   {"interface", interfaceTable},
                               {"light", lightTable},     {"peaks", peaksTable}};

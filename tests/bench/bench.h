@@ -18,7 +18,7 @@ struct BenchOptions {
     int repeats = 7;              ///< runs that count, at least 1
 };
 
-/// The tables there are, in the order of the page: "process", "mesher", "prune", "talk", "live", "compile",
+/// The tables there are, in the order of the page: "process", "mesher", "prune", "mesh-to-field", "talk", "live", "compile",
 /// "editor", "interface", "light", "peaks".
 std::span<const std::string> benchNames();
 

@@ -48,6 +48,10 @@ TEST(MeshField, DistancesToACubeAreExact) {
                 ASSERT_NEAR(std::bit_cast<float>(volume->words[2 * grid.index(x, y, z)]), box(grid.place({x, y, z})),
                             1e-5);
     EXPECT_TRUE(volume->notes.empty()) << notesOf(*volume);
+    // Beyond the grid it is exact where the box around the mesh is nearest, and never more than the distance.
+    EXPECT_NEAR(at(*volume, {2.5, 0.3, -0.2}), 1.5, 1e-9);
+    EXPECT_NEAR(at(*volume, {2.5, -3.0, -0.2}), std::hypot(1.5, 2.0), 1e-9);
+    EXPECT_GT(sampleVolume(volume->layers[tricubicChannel], {2.5, -3.0, -0.2}).gradient.x, 0.5);
 }
 
 TEST(MeshField, TheGridHoldsTheMeshAndItsMargin) {
