@@ -266,7 +266,21 @@ std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& m
         const double sign = std::signbit(nearest.distance[index]) ? -1.0 : 1.0;
         const double distance = glm::length(off), length = sign * distance;
         words[2 * index] = std::bit_cast<uint32_t>(float(sign * distance * mesh.grid.cell));
-        words[2 * index + 1] = packGradient(distance > 0.0 ? glm::vec3(off / length) : glm::vec3(0.0f));
+        glm::dvec3 away = distance > 0.0 ? off / length : glm::dvec3(0.0);
+        if (distance > kBand) {
+            // A point that was handed on is as far as the nearest, or nearly, but not in the same direction.
+            const glm::ivec3 at(x, y, z);
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::ivec3 before = at, next = at;
+                before[axis] = std::max(before[axis] - 1, 0);
+                next[axis] = std::min(next[axis] + 1, mesh.grid.size[axis] - 1);
+                away[axis] = double(nearest.distance[mesh.grid.index(next.x, next.y, next.z)] -
+                                    nearest.distance[mesh.grid.index(before.x, before.y, before.z)]) /
+                             (next[axis] - before[axis]);
+            }
+            away /= std::max(glm::length(away), 1.0);
+        }
+        words[2 * index + 1] = packGradient(glm::vec3(away));
         if (source.colors.empty()) return;
         const uint32_t triangle = mesh.solid.source[nearest.triangle[index]];
         std::array<glm::dvec3, 3> own, colors;

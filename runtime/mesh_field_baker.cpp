@@ -263,7 +263,7 @@ bool fits(const Device& device, const MeshInGrid& mesh) {
 
 // ---- What was made before
 
-constexpr uint32_t kVersion = 2;  // of the file's words and of how they are found
+constexpr uint32_t kVersion = 3;  // of the file's words and of how they are found
 
 std::string pathOf(const MeshFieldRecipe& recipe) {
     char name[24];

@@ -22,17 +22,22 @@ void main() {
     uint index = item();
     if (index >= sampleCount()) return;
     ivec3 at = placeOf(index);
-    vec3 off, unused;
+    vec3 off, unused, slope;
     float here = distanceAt(at, off);
     bool contradicts = false;
     for (int axis = 0; axis < 3; ++axis) {
-        ivec3 next = at;
+        ivec3 before = at, next = at;
+        before[axis] = max(before[axis] - 1, 0);
         next[axis] = min(next[axis] + 1, push.size[axis] - 1);
         float there = distanceAt(next, unused);
+        slope[axis] = (there - distanceAt(before, unused)) / float(next[axis] - before[axis]);
         contradicts = contradicts || (here < 0.0 != there < 0.0 && abs(here) + abs(there) > 1.05);
     }
     if (contradicts) atomicOr(counts.contradictions, 1);
-    ivec3 gradient = ivec3(round(511.0 * off / (here == 0.0 ? 1.0 : here))) & 1023;
+    // A point that was handed on is as far as the nearest, or nearly, but not in the same direction: beyond the band
+    // differences are better.
+    vec3 away = abs(here) > BAKE_BAND ? slope / max(length(slope), 1.0) : off / (here == 0.0 ? 1.0 : here);
+    ivec3 gradient = ivec3(round(511.0 * away)) & 1023;
     words[index] = uvec2(floatBitsToUint(here * push.cell), uint(gradient.x | gradient.y << 10 | gradient.z << 20));
 #ifdef COLORS
     uint feature, triangle = imageLoad(state, int(index)).w & ~BAKE_INSIDE;
