@@ -75,7 +75,8 @@ Done keepBeside(const std::string& path) {
                  .file = path};
 }
 
-/// The pictures and meshes that the graph reads, to the folder of its new file, unless files of these names are there.
+/// The pictures and meshes that the graph reads, to the folder of its new file, unless files of these names
+/// are there.
 void bringAssets(const Graph& graph, const std::string& path) {
     const fs::path from = fs::path(absolute(graph.path)).parent_path(),
                    to = fs::path(absolute(path)).parent_path();
