@@ -33,6 +33,18 @@ std::optional<Error> firstError(const Graph& graph, std::vector<Error>* warnings
     return std::nullopt;
 }
 
+/// Tells `baking`, which may be empty, of all that the baker does.
+MeshFieldBaker toldBaker(const Device& device, const std::function<void(double)>& baking) {
+    MeshFieldBaker bake = meshFieldBaker([gpu = &device] { return gpu; }, {.progress = baking});
+    if (!baking) return bake;
+    return [bake = std::move(bake), baking](const MeshFieldRecipe& recipe) {
+        baking(0.0);
+        Result<FieldVolumePtr> volume = bake(recipe);
+        baking(1.0);  // also of what was on the disk, or failed
+        return volume;
+    };
+}
+
 bool hasLamps(const Graph& graph) {
     return graph.scene->is_object() && graph.scene->contains("lights") && !(*graph.scene)["lights"].empty();
 }
@@ -89,7 +101,7 @@ Result<Player> Player::create(Graph graph, Device&& device, const PlayerOptions&
 
 Player::Player(Device device, PlayerOptions options_)
     : session(std::move(device)),
-      bake(meshFieldBaker([gpu = &session.device()] { return gpu; })),
+      bake(toldBaker(session.device(), options_.baking)),
       options(std::move(options_)) {}
 
 Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishes) const {

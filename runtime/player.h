@@ -22,6 +22,7 @@
 // thrown as SystemError; every other is a returned Error, after which the player is as it was before.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -47,6 +48,9 @@ struct PlayerOptions {
     bool compileBehind = false;
     bool checked = false;     ///< check() was called: only what the output needs must be free of errors
     bool fieldViews = false;  ///< pictures will be of the views from RENDER_STEPS on
+    /// Called while a mesh is made a field, with what is done of it: from 0 to 1. That of a player's creation
+    /// stays; reload() takes no other.
+    std::function<void(double share)> baking = {};
     DeviceOptions deviceOptions = {};  ///< further wishes, for a device that presents
 };
 
@@ -127,9 +131,9 @@ class Player {
     bool compiling();
 
     const Device& device() const { return session.device(); }
-    /// Pipelines that the device has built so far: what a seek leaves as it is.
     /// Warnings: what its user should know of the graph's meshes.
     const std::vector<Error>& notes() const { return now.program.notes; }
+    /// Pipelines that the device has built so far: what a seek leaves as it is.
     uint64_t pipelinesBuilt() const { return session.device().record->pipelines; }
 
   private:

@@ -75,8 +75,9 @@ Done keepBeside(const std::string& path) {
                  .file = path};
 }
 
-/// The pictures that the graph reads, to the folder of its new file, unless files of these names are there.
-void bringPictures(const Graph& graph, const std::string& path) {
+/// The pictures and meshes that the graph reads, to the folder of its new file, unless files of these names
+/// are there.
+void bringAssets(const Graph& graph, const std::string& path) {
     const fs::path from = fs::path(absolute(graph.path)).parent_path(),
                    to = fs::path(absolute(path)).parent_path();
     if (graph.path.empty() || sameFile(from, to)) return;
@@ -86,9 +87,9 @@ void bringPictures(const Graph& graph, const std::string& path) {
             for (const auto& [name, input] : node.inputs) {
                 const int index = type ? inputIndex(*type, name) : -1;
                 const auto* file = std::get_if<std::string>(&input.value);
-                if (index < 0 || type->inputs[std::size_t(index)].type != Type::image || !file ||
-                    fs::path(*file).is_absolute())
-                    continue;
+                const bool names = index >= 0 && (type->inputs[std::size_t(index)].type == Type::image ||
+                                                  (type->id == "mesh_file" && name == "path"));
+                if (!names || !file || fs::path(*file).is_absolute()) continue;
                 std::error_code error;  // what cannot be brought is found missing by check()
                 const fs::path target = (to / *file).lexically_normal();
                 if (!target.string().starts_with(to.string()) || fs::exists(target, error)) continue;
@@ -184,6 +185,7 @@ void doNext(Editor& editor) {
             break;
         }
         case Next::open: openFile(editor, files.nextPath); break;
+        case Next::drop: addDropped(editor, std::exchange(files.dropped, {})); break;
         case Next::samples: files.samples.opening = true; break;
         case Next::quit: (exports(editor) ? files.asksExport : editor.quit) = true; break;
     }
@@ -196,7 +198,7 @@ bool writeFile(Editor& editor, const std::string& path) {
     if (files.origin == Origin::partly && sameFile(path, graph.path))
         if (const Done kept = keepBeside(path); !kept) return fail(kept.error());
     if (const Done saved = saveGraph(graph, path); !saved) return fail(saved.error());
-    bringPictures(graph, path);
+    bringAssets(graph, path);
     editor.document.setPath(path);
     editor.document.markSaved();
     files.origin = Origin::own;
@@ -272,9 +274,10 @@ void showFiles(Editor& editor) {
             doNext(editor);
     }
     if (const auto path = show(files.samples, editor.shell)) openFile(editor, *path);
-    const std::vector<std::string> dropped = editor.shell.takeDropped();
-    if (!dropped.empty() && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
-        proceed(editor, Next::open, dropped.front());
+    // Not into what a hand is doing: it waits for that to end.
+    if (!editor.document.inGesture())
+        if (const std::vector<std::string> dropped = editor.shell.takeDropped(); !dropped.empty())
+            drop(editor, dropped);
     const std::string& failure = editor.viewport.shown.failure;
     if (!failure.empty() && std::exchange(files.failureTold, failure) != failure) {
         const std::string kept = keepForNextTime(editor);

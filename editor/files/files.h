@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "editor/files/browser.h"
+#include "editor/files/drop.h"
 #include "editor/files/preferences.h"
 #include "editor/files/recovery.h"
 #include "editor/files/samples.h"
@@ -28,9 +29,10 @@ struct Message {
 
 struct Files {
     /// What is to happen once the changes are saved or given up.
-    enum class Next : unsigned char { none, fresh, browse, open, samples, quit } next = Next::none;
-    std::string nextPath;  ///< of Next::open
-    bool asks = false;     ///< the question about changes is to be opened
+    enum class Next : unsigned char { none, fresh, browse, open, drop, samples, quit } next = Next::none;
+    std::string nextPath;   ///< of Next::open
+    DroppedMeshes dropped;  ///< of Next::drop
+    bool asks = false;      ///< the question about changes is to be opened
     /// What saving does to the file that the document was read from.
     enum class Origin : unsigned char {
         own,     ///< replaces it

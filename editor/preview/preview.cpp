@@ -48,6 +48,7 @@ struct Preview::Shared {
     /// A newer wish waits; one of another graph that no hand is moving, so that a draft will come before this
     /// picture is done.
     std::atomic<bool> overtaken = false, replaced = false;
+    std::atomic<double> baked = 1.0;  ///< of a mesh that is being made a field; 1: none is
     bool stop = false, working = true;
     std::thread thread;
 
@@ -63,6 +64,10 @@ struct Preview::Shared {
         }
         if (changed) changed();
     }
+    void bake(double share) {
+        baked = share;
+        if (changed) changed();
+    }
     /// What the thread does: work(), and again with another device after a failure, when something is asked.
     void run();
     void work();
@@ -74,9 +79,10 @@ namespace {
 class Maker {
   public:
     Maker(Device opened, std::function<void(PreviewResult)> publish_, const std::atomic<bool>& overtaken_,
-          const std::atomic<bool>& replaced_)
+          const std::atomic<bool>& replaced_, std::function<void(double)> baking_)
         : device(std::move(opened)),
           publish(std::move(publish_)),
+          baking(std::move(baking_)),
           overtaken(overtaken_),
           replaced(replaced_) {}
 
@@ -98,6 +104,7 @@ class Maker {
 
     std::optional<Device> device;  ///< until the player has it
     std::function<void(PreviewResult)> publish;
+    std::function<void(double)> baking;
     const std::atomic<bool>&overtaken, &replaced;
     std::optional<Player> player;
     PreviewWish wish;
@@ -123,6 +130,7 @@ PlayerOptions Maker::playerOptions() const {
     options.liveParameters = false;
     options.live = {live.begin(), live.end()};
     options.compileBehind = options.checked = true;
+    options.baking = baking;
     options.fieldViews = wish.view >= RENDER_STEPS && wish.view != RENDER_WIREFRAME;
     return options;
 }
@@ -176,6 +184,7 @@ void Maker::load() {
         result.spoiledBy = player->program().spoiledBy;
         result.region = player->region();
         result.exactness = player->program().nodeExactness;
+        checked.insert(checked.end(), player->notes().begin(), player->notes().end());
     }
     result.findings = checked;
     loading = millisecondsSince(start);
@@ -307,8 +316,8 @@ void Preview::Shared::work() {
     Result<Device> device = createDevice(deviceOptions);
     if (!device) throw SystemError(device.error().message);
     Maker maker(
-        std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken,
-        replaced);
+        std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken, replaced,
+        [this](double share) { bake(share); });
     bool more = false;
     for (;;) {
         const bool waits = maker.waits();
@@ -342,6 +351,7 @@ void Preview::Shared::run() {
             ready->failure = error.what();
             ready->current = false;
             next.reset();  // it may be what failed
+            baked = 1.0;
             working = false;
         }
         if (changed) changed();
@@ -380,6 +390,11 @@ void Preview::ask(PreviewWish wish) {
 std::optional<PreviewResult> Preview::take() {
     std::lock_guard lock(shared->mutex);
     return std::exchange(shared->ready, std::nullopt);
+}
+
+std::optional<double> Preview::baking() const {
+    const double share = shared->baked;
+    return share < 1.0 ? std::optional(share) : std::nullopt;
 }
 
 bool Preview::busy() const {

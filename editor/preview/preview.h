@@ -69,6 +69,8 @@ class Preview {
     std::optional<PreviewResult> take();
     /// Whether something is under way that will give a result.
     bool busy() const;
+    /// How much is done, from 0 to 1, of the field that is being made of a mesh; nothing if none is.
+    std::optional<double> baking() const;
 
   private:
     struct Shared;

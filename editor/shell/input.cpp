@@ -72,7 +72,7 @@ Input::Input(GLFWwindow* window_) : window(window_) {
         window, [](GLFWwindow* w, int focused) { of(w).add({.kind = Kind::focus, .code = focused}); });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         of(w).anything = true;
-        of(w).dropped.assign(paths, paths + count);
+        of(w).dropped.insert(of(w).dropped.end(), paths, paths + count);
     });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).anything = true; });
     glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).anything = true; });

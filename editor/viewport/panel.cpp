@@ -103,7 +103,11 @@ void showViewport(Editor& editor) {
         list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     showGizmo(editor);
     const float scale = editor.shell.scale();
-    if (view.texture && !view.shown.current)
+    if (const std::optional<double> share = editor.preview.baking())
+        caption(place,
+                ("measuring distances to the mesh, " + std::to_string(int(100.0 * *share)) + " %").c_str(),
+                themeColor(ThemeColor::text), scale);
+    else if (view.texture && !view.shown.current)
         caption(place, "showing the last valid version", themeColor(ThemeColor::warning), scale);
     else if (!view.texture)
         caption(place,

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -15,6 +16,8 @@
 #include "runtime/player.h"
 #include "tests/editor/graphs.h"
 #include "tests/support/gpu.h"
+#include "tests/support/temp_dir.h"
+#include "tests/support/triangle_meshes.h"
 
 namespace fw::editor {
 namespace {
@@ -332,6 +335,51 @@ TEST(Preview, NothingOfAnotherDocumentIsShown) {
     EXPECT_EQ(other.document, 2u);
     EXPECT_TRUE(other.picture.pixels.empty());
     EXPECT_FALSE(other.findings.empty());
+}
+
+TEST(Preview, TellsHowMuchOfAMeshsFieldIsMade) {
+    const fw::test::TempDir folder;
+    const TriangleMesh cube = fw::test::cubeFile();
+    // Another one at every run: none is kept on the disk.
+    std::random_device seed;
+    const double size = std::uniform_real_distribution(0.8, 1.0)(seed);
+    std::string text;
+    for (const glm::vec3& p : cube.positions)
+        text +=
+            "v " + std::to_string(size * p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+    for (std::size_t i = 0; i < cube.indices.size(); i += 3) {
+        text += "f";
+        for (std::size_t k = 0; k < 3; ++k) text += " " + std::to_string(cube.indices[i + k] + 1);
+        text += "\n";
+    }
+    fw::test::writeText(folder.path("cube.obj"), text);
+    Graph graph = test::graphOf(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "cube.obj"}},
+        {"id": "field", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 24}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}})");
+    graph.path = folder.path("g.field.json");
+
+    std::mutex mutex;
+    std::vector<double> shares;
+    std::optional<Preview> preview;
+    preview.emplace(DeviceOptions{.validation = true}, [&] {
+        std::lock_guard lock(mutex);
+        shares.push_back(preview->baking().value_or(1.0));
+    });
+    EXPECT_FALSE(preview->baking());
+    preview->ask({.graph = std::make_shared<const Graph>(graph), .revision = 1, .width = 160, .height = 120});
+    std::optional<PreviewResult> result;
+    for (int i = 0; i < 6000 && !(result && result->current); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (auto newer = preview->take()) result = std::move(newer);
+    }
+    ASSERT_TRUE(result && result->current);
+    EXPECT_TRUE(result->findings.empty());
+    EXPECT_FALSE(preview->baking());
+    std::lock_guard lock(mutex);
+    ASSERT_GT(shares.size(), 3u);
+    EXPECT_EQ(shares.front(), 0.0);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_GT(std::ranges::count_if(shares, [](double share) { return share > 0.0 && share < 1.0; }), 0);
 }
 
 TEST(Preview, TheNextWishAfterAFailureBeginsAnew) {
