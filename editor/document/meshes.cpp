@@ -23,9 +23,10 @@ Graph shownAtFreeOutput(const Graph& graph, const Plug& surface) {
 
 }  // namespace
 
-Position sizeOfMeshPair() {
-    const std::size_t rows = findNodeType("mesh_to_field")->inputs.size() + 3;  // p has three, and an output
-    return {2 * kNodeWidth + kBetween, kTitleHeight + double(rows) * kRowHeight + kFoot};
+Position sizeOfMeshPairs(std::size_t count) {
+    const std::size_t rows = findNodeType("mesh_to_field")->inputs.size() + 1;  // of the higher node
+    const double high = kTitleHeight + double(rows) * kRowHeight + kFoot;
+    return {2 * kNodeWidth + kBetween, double(count) * (high + kBelow) - kBelow};
 }
 
 Edited addMeshes(const Graph& graph, std::string_view scope, std::span<const std::string> paths,
@@ -41,7 +42,7 @@ Edited addMeshes(const Graph& graph, std::string_view scope, std::span<const std
                             {from, "mesh"}, {to, "mesh"});
         if (scope.empty() && all.nodes.empty()) all.graph = shownAtFreeOutput(all.graph, {to, "surface"});
         all.nodes.insert(all.nodes.end(), {from, to});
-        at[1] += sizeOfMeshPair()[1] + kBelow;
+        at[1] += sizeOfMeshPairs(2)[1] - sizeOfMeshPairs(1)[1];
     }
     return all;
 }

@@ -10,7 +10,7 @@ namespace fw::editor {
 /// graph.h).
 Edited addMeshes(const Graph& graph, std::string_view scope, std::span<const std::string> paths, Position at);
 
-/// Width and height that a pair has on the canvas, about.
-Position sizeOfMeshPair();
+/// Width and height that so many pairs have on the canvas, about.
+Position sizeOfMeshPairs(std::size_t count);
 
 }  // namespace fw::editor

@@ -97,12 +97,30 @@ Result<std::string> bring(const fs::path& folder, const std::string& file, std::
     return copied(folder, file, told);
 }
 
-/// Where nodes of `count` meshes go: to the mouse over the canvas, else into the middle of what is seen.
-Position placeFor(const CanvasView& view, ImVec2 mouse, std::size_t count) {
+/// Where nodes of `count` meshes go: to the mouse over the canvas, else into the middle of what is seen, or
+/// beside the nodes that are seen there if these would be covered and there is room.
+Position placeFor(const Editor& editor, ImVec2 mouse, std::size_t count) {
+    const CanvasView& view = editor.canvas.view;
     if (view.panel.contains(mouse)) return position(view.toCanvas(mouse));
-    const Position size = sizeOfMeshPair();
-    const ImVec2 middle = view.seen().centre();
-    return position({middle.x - 0.5f * float(size[0]), middle.y - 0.5f * float(size[1]) * float(count)});
+    constexpr float kAside = 40.0f;
+    const Position size = sizeOfMeshPairs(count);
+    const float wide = float(size[0]), high = float(size[1]);
+    const Area seen = view.seen();
+    const ImVec2 centre = seen.centre(), middle(centre.x - 0.5f * wide, centre.y - 0.5f * high);
+    const auto covered = [&](ImVec2 at) { return Area{at, {at.x + wide, at.y + high}}; };
+    std::optional<Area> nodes;
+    bool free = true;
+    for (const NodeBox& box : editor.boxes->nodes) {
+        if (!box.area.overlaps(seen)) continue;
+        nodes ? nodes->add(box.area) : void(nodes = box.area);
+        free = free && !box.area.overlaps(covered(middle));
+    }
+    if (free) return position(middle);
+    for (const ImVec2 at :
+         {ImVec2(nodes->lo.x - kAside - wide, middle.y), ImVec2(middle.x, nodes->hi.y + kAside),
+          ImVec2(middle.x, nodes->lo.y - kAside - high), ImVec2(nodes->hi.x + kAside, middle.y)})
+        if (seen.contains(at) && seen.contains(covered(at).hi)) return position(at);
+    return position(middle);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -129,7 +147,7 @@ void drop(Editor& editor, const std::vector<std::string>& files) {
                                      ".stl, .ply) and a graph (.field.json)");
     if (meshes.files.empty()) return;
     // The window system moves the mouse while it drags.
-    meshes.at = placeFor(editor.canvas.view, ImGui::GetMousePos(), meshes.files.size());
+    meshes.at = placeFor(editor, ImGui::GetMousePos(), meshes.files.size());
     if (!editor.document.graph().path.empty() && editor.files.origin != Files::Origin::sample)
         return addDropped(editor, meshes);
     say(editor, "save the document first: a graph reads meshes from its own folder");
