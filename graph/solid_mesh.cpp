@@ -190,7 +190,7 @@ int depthOf(const SolidMesh& solid, const std::vector<Part>& parts, const Part& 
 }
 
 /// Beyond so many tests of a triangle each part is taken for one by itself.
-constexpr std::size_t kMostTests = 50'000'000;
+constexpr std::size_t kMostTests = 10'000'000;
 
 /// Turns closed parts outwards, and the walls of cavities into these.
 void turnOutwards(SolidMesh& solid, std::vector<Part>& parts) {

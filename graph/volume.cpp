@@ -14,15 +14,12 @@ namespace fw {
 
 namespace {
 
-/// Of the samples of distances, gradients of length 1 among them: the greatest length that a sample's gradient can
-/// have. Trilinear: differences are at most 1 along each axis. Tricubic: where a cell's corners have seven nearest points
-/// 2.38 was found by search; meshes of all kinds have up to 1.7.
-constexpr double kFlatSlope = std::numbers::sqrt3, kCubicSlope = 2.5;
-/// Gradients of length 1 add at most so many cells to a mean of the values around: the weights of a slope's two ends
-/// along an axis, t (1 - t)^2 and t^2 (1 - t), sum up to at most 1/4.
-constexpr double kSlopesShare = 0.25 * std::numbers::sqrt3;
-/// A sample is a mean of values half a diagonal away from it at most.
-constexpr double kMeanOffset = 0.5 * std::numbers::sqrt3;
+/// Of the samples of distances: the greatest length that a gradient between them can have, and by how many cells a
+/// value there can be off the distance. Trilinear: differences are at most 1 along each axis, and a value is a mean of
+/// others that are half a diagonal away at most. Tricubic: by search, 2.38 and 0.98, where each corner of a cell has a
+/// nearest point of its own; meshes of all kinds have up to 1.7.
+constexpr double kFlatSlope = std::numbers::sqrt3, kFlatOff = 0.5 * std::numbers::sqrt3;
+constexpr double kCubicSlope = 2.5, kCubicOff = 1.0;
 
 glm::dvec3 unpackGradient(uint32_t word) {
     const auto part = [&](int shift) { return (int32_t(word << (22 - shift)) >> 22) / 511.0; };
@@ -154,9 +151,9 @@ FieldVolume::FieldVolume(const VolumeGrid& grid_, std::vector<uint32_t> words_)
         const double f = std::bit_cast<float>(words[2 * i]);
         least = std::min(least, f), most = std::max(most, f);
     }
-    const double share = kSlopesShare * grid.cell, mean = 2.0 * kMeanOffset * grid.cell;
-    layers = {{{this, tricubicChannel, least - share, most + share, kCubicSlope, mean + 2.0 * share},
-               {this, trilinearChannel, least, most, kFlatSlope, mean},
+    const double off = kCubicOff * grid.cell;
+    layers = {{{this, tricubicChannel, least - off, most + off, kCubicSlope, 2.0 * off},
+               {this, trilinearChannel, least, most, kFlatSlope, 2.0 * kFlatOff * grid.cell},
                {this, redChannel},
                {this, greenChannel},
                {this, blueChannel}}};

@@ -88,10 +88,8 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
         return *device ? &**device : nullptr;
     };
     CompileOptions compileOptions;
-    compileOptions.bake = meshFieldBaker(awaited, {.progress = [&](double share) {
-                                             progress.start("mesh fields", 5 + int(5 * share),
-                                                            "measuring distances to the mesh");
-                                         }});
+    compileOptions.bake =
+        meshFieldBaker(awaited, {.progress = [&](double share) { progress.show(5 + int(5 * share)); }});
     std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return fail(kBadInput);
     progress.start("region", 10);

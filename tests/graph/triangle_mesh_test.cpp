@@ -322,7 +322,7 @@ TEST(TriangleMeshFile, GltfRefused) {
           {with("\"a.bin\"", "\"b.bin\""), "'b.bin' does not exist"},
           {with("\"byteLength\": 12}", "\"byteLength\": 11}"), "beyond the end of buffer view 1"},
           {with("\"byteLength\": 12}", "\"byteLength\": 37}"), "beyond the end of its buffer"},
-          {with("\"indices\": 2,", "\"indices\": 4,"), "fit its use"},
+          {with("\"indices\": 2,", "\"indices\": 4,"), "invalid bufferView"},
           {with("\"children\": [1]", "\"children\": [0]"), "below itself"},
           {with("\"children\": [1]", "\"children\": [7]"), "node 7"},
           {with("\"mode\": 5}, ", "\"mode\": 8}, ")
