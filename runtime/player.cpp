@@ -94,7 +94,10 @@ Result<Player> Player::create(Graph graph, Device&& device, const PlayerOptions&
         if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
     Player player(std::move(device), options);
     Result<Prepared> prepared = player.prepare(std::move(graph), options);
-    if (!prepared) return prepared.error();
+    if (!prepared) {
+        device = player.session.release();
+        return prepared.error();
+    }
     player.adopt(std::move(*prepared));
     return player;
 }

@@ -44,6 +44,8 @@ class Session {
     explicit Session(Device device);
 
     const Device& device() const { return *gpu; }
+    /// The device again, of a session that has had no program. It is at its end.
+    Device release() { return std::move(*gpu); }
 
     /// Makes `program` the one that is meshed. Builds pipelines only if the structure changed; returns
     /// whether it did. Stage times go to `stages`.
