@@ -314,7 +314,8 @@ class Compiler {
         return result;
     }
 
-    const Value& inputOf(const NodeType& type, const std::vector<Value>& inputs, std::string_view name) const {
+    const Value& inputOf(const NodeType& type, const std::vector<Value>& inputs,
+                         std::string_view name) const {
         return inputs[static_cast<std::size_t>(inputIndex(type, name))];
     }
     /// A number that must be known when the graph is compiled. Reported, and none, if it is not.
@@ -331,17 +332,20 @@ class Compiler {
 
     /// A mesh from a file where one of a field is wanted.
     void reportNoField(const Node& node, const std::string& prefix, const std::string& input) {
-        report(node, prefix, input,
-               {.message = "takes a mesh that was made of a field: put mesh_to_field and polygonize behind the "
-                           "mesh_file"});
+        report(
+            node, prefix, input,
+            {.message = "takes a mesh that was made of a field: put mesh_to_field and polygonize behind the "
+                        "mesh_file"});
     }
 
     Lowered meshFile(const Node& node, const std::string& prefix, const NodeType& type,
                      const std::vector<Value>& inputs) {
         const std::string& path = inputOf(type, inputs, "path").text;
         const Result<TriangleMeshPtr> mesh =
-            path.empty() ? Error{.message = "no file is named: write the path of a .glb, .gltf, .obj, .stl or .ply file"}
-                         : readTriangleMesh(state.graphPath, path);
+            path.empty()
+                ? Error{.message =
+                            "no file is named: write the path of a .glb, .gltf, .obj, .stl or .ply file"}
+                : readTriangleMesh(state.graphPath, path);
         if (!mesh) {
             report(node, prefix, "path", mesh.error());
             return failure({{"mesh", Type::surface}});
@@ -360,9 +364,10 @@ class Compiler {
         result.values = {language::emptySurface(state)};
         const std::shared_ptr<const MeshRecipe>& mesh = inputOf(type, inputs, "mesh").mesh;
         if (!mesh || !mesh->read) {
-            report(node, prefix, "mesh",
-                   {.message = "takes a mesh from a file: connect a mesh_file node (what polygonize makes has a "
-                               "field already: use that)"});
+            report(
+                node, prefix, "mesh",
+                {.message = "takes a mesh from a file: connect a mesh_file node (what polygonize makes has a "
+                            "field already: use that)"});
             return failure(type.outputs);
         }
         const auto resolution = knownNumber(node, prefix, type, inputs, "resolution");

@@ -45,7 +45,7 @@ struct CompileOptions {
     std::set<std::string> live = {};
     /// Keep every exposed parameter live, under its own name.
     bool liveExposed = false;
-    double time = 0.0;  ///< seconds, folded unless live
+    double time = 0.0;                 ///< seconds, folded unless live
     MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
 };
 

@@ -107,24 +107,25 @@ class Emitter : GlslStatements {
             text += "const VolumeGrid " + gridName + " = VolumeGrid(" + std::to_string(first) + ", ivec3" +
                     list(grid.size, [](int n) { return std::to_string(n); }) + ", vec3" +
                     list(grid.origin, glslLiteral) + ", vec3" + list(grid.inset, glslLiteral) + ", " +
-                    glslLiteral(grid.cell) +
-                    ", " + glslLiteral(1.0 / grid.cell) + ");\n";
+                    glslLiteral(grid.cell) + ", " + glslLiteral(1.0 / grid.cell) + ");\n";
             for (const VolumeLayer& layer : volume.layers) {
                 const std::size_t number = v * kVolumeLayers + std::size_t(layer.channel);
                 if (!sampled[number]) continue;
                 const std::string name = std::to_string(number);
                 const bool color = layer.channel >= redChannel;
-                text += "vec4 fieldVolume" + name + "(vec3 p) { return " +
-                        (layer.channel == tricubicChannel    ? "volumeTricubic(" + gridName + ", p"
-                         : layer.channel == trilinearChannel ? "volumeTrilinear(" + gridName + ", p"
-                                                             : "volumeColor(" + gridName + ", p, " +
-                                                                   std::to_string(layer.channel - redChannel)) +
-                        "); }\nvec2 fieldVolumeRange" + name + "(vec2 x, vec2 y, vec2 z) { return " +
-                        (color ? "vec2(-1e-5, 1.00001)"
-                               : "volumeRange(" + gridName + ", fieldVolume" + name +
-                                     "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " +
-                                     pair(layer.slope, layer.slack) + ", " + pair(layer.least, layer.most) + ")") +
-                        "; }\n";
+                text +=
+                    "vec4 fieldVolume" + name + "(vec3 p) { return " +
+                    (layer.channel == tricubicChannel ? "volumeTricubic(" + gridName + ", p"
+                     : layer.channel == trilinearChannel
+                         ? "volumeTrilinear(" + gridName + ", p"
+                         : "volumeColor(" + gridName + ", p, " + std::to_string(layer.channel - redChannel)) +
+                    "); }\nvec2 fieldVolumeRange" + name + "(vec2 x, vec2 y, vec2 z) { return " +
+                    (color
+                         ? "vec2(-1e-5, 1.00001)"
+                         : "volumeRange(" + gridName + ", fieldVolume" + name +
+                               "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " +
+                               pair(layer.slope, layer.slack) + ", " + pair(layer.least, layer.most) + ")") +
+                    "; }\n";
             }
             first += texelCount(volume);
         }
@@ -133,8 +134,8 @@ class Emitter : GlslStatements {
     static std::string pair(double a, double b) {
         return "vec2(" + glslLiteral(a) + ", " + glslLiteral(b) + ")";
     }
-    /// Whether the distance has no such operation. A shader that samples nothing must not declare the buffer, so
-    /// that nothing need be bound there.
+    /// Whether the distance has no such operation. A shader that samples nothing must not declare the buffer,
+    /// so that nothing need be bound there.
     bool paintOnly(Op op) {
         const IrId distance = program.distance();
         const std::vector<bool> needed = neededBy(std::span(&distance, 1));

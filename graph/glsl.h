@@ -17,7 +17,8 @@ inline constexpr int kFieldParametersBinding = 15;
 /// Binding of the storage buffer with the words of all images, one image after the other in the order of
 /// Ir::images().
 inline constexpr int kFieldImagesBinding = 14;
-/// Binding of the texel buffer with the texels of all volumes, one after the other in the order of Ir::volumes().
+/// Binding of the texel buffer with the texels of all volumes, one after the other in the order of
+/// Ir::volumes().
 inline constexpr int kFieldVolumesBinding = 16;
 
 /// The field's text. Equal programs (by structureHash) give equal text.

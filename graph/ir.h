@@ -83,12 +83,12 @@ class Ir {
     /// Operations visited by all substitutions so far: their cost.
     std::size_t substituted() const { return visited; }
 
-    /// A copy with only what `roots` need, images and volumes included, in a stable order; `roots` are renumbered. The
-    /// three position leaves stay ids 0, 1, 2.
+    /// A copy with only what `roots` need, images and volumes included, in a stable order; `roots` are
+    /// renumbered. The three position leaves stay ids 0, 1, 2.
     Ir compact(std::span<IrId> roots) const;
 
-    /// Hash of operations, constants, slots, images, volumes and roots: equal for equal code, whatever the parameters'
-    /// values.
+    /// Hash of operations, constants, slots, images, volumes and roots: equal for equal code, whatever the
+    /// parameters' values.
     uint64_t hash(std::span<const IrId> roots) const;
 
     /// One line an operation: "%12 = add %3 %7".

@@ -19,15 +19,16 @@ namespace fw {
 
 namespace {
 
-// Cells between the mesh's box and the grid's end. No whole number, so that the sides of a box do not go through samples,
-// where the edges between them would have no gradient.
+// Cells between the mesh's box and the grid's end. No whole number, so that the sides of a box do not go
+// through samples, where the edges between them would have no gradient.
 constexpr double kPadding = 2.37;
-constexpr double kThin = 2.5;    // cells: what is thinner loses parts
-constexpr int kCoarse = 4;       // cells between the samples from which membranes are looked for
+constexpr double kThin = 2.5;  // cells: what is thinner loses parts
+constexpr int kCoarse = 4;     // cells between the samples from which membranes are looked for
 constexpr int kDraftResolution = 32;
-constexpr float kCrossing = 1.05f;  // cells: two neighbours are no farther from what is between them, taken together
-constexpr double kFlat = 0.99;      // cosine between the normals of a face and of an edge that is none
-constexpr float kInside = 0.55f;    // a sheet alone has winding numbers up to one half on one of its sides
+constexpr float kCrossing =
+    1.05f;  // cells: two neighbours are no farther from what is between them, taken together
+constexpr double kFlat = 0.99;    // cosine between the normals of a face and of an edge that is none
+constexpr float kInside = 0.55f;  // a sheet alone has winding numbers up to one half on one of its sides
 
 std::string nameOf(const TriangleMesh& mesh) {
     return inQuotes(std::filesystem::path(mesh.file).filename().string());
@@ -35,7 +36,8 @@ std::string nameOf(const TriangleMesh& mesh) {
 
 void boundsOf(const TriangleMesh& mesh, glm::dvec3& lo, glm::dvec3& hi) {
     lo = glm::dvec3(std::numeric_limits<double>::infinity()), hi = -lo;
-    for (const glm::vec3& p : mesh.positions) lo = glm::min(lo, glm::dvec3(p)), hi = glm::max(hi, glm::dvec3(p));
+    for (const glm::vec3& p : mesh.positions)
+        lo = glm::min(lo, glm::dvec3(p)), hi = glm::max(hi, glm::dvec3(p));
 }
 
 Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
@@ -78,7 +80,8 @@ std::array<glm::dvec3, 3> cornersOf(const MeshInGrid& mesh, uint32_t triangle) {
 }
 
 /// The point as a sample at `p` keeps it, off by kLeastDistance at least or not at all.
-glm::vec3 keptPoint(const glm::dvec3& p, const NearestPoint& on, const glm::dvec3& normal, bool flat, bool inside) {
+glm::vec3 keptPoint(const glm::dvec3& p, const NearestPoint& on, const glm::dvec3& normal, bool flat,
+                    bool inside) {
     if (on.squared >= double(kLeastDistance) * kLeastDistance) return glm::vec3(on.point);
     if (!flat) return glm::vec3(p);
     return glm::vec3(p + normal * (inside ? double(kLeastDistance) : -double(kLeastDistance)));
@@ -184,8 +187,8 @@ class Windings {
     std::vector<float> values;
 };
 
-/// Finds the winding numbers on both sides of every membrane: from samples `kCoarse` cells apart, and from the band,
-/// along the surface where the number passes one half.
+/// Finds the winding numbers on both sides of every membrane: from samples `kCoarse` cells apart, and from
+/// the band, along the surface where the number passes one half.
 void traceMembranes(const VolumeGrid& grid, Windings& windings) {
     const auto stride = strides(grid);
     std::vector<std::size_t> wanted;
@@ -237,7 +240,8 @@ void traceMembranes(const VolumeGrid& grid, Windings& windings) {
             for (int axis = 0; axis < 3; ++axis)
                 for (const int way : {-1, 1}) {
                     if (at[axis] + way < 0 || at[axis] + way >= grid.size[axis]) continue;
-                    const std::size_t other = way < 0 ? i - stride[std::size_t(axis)] : i + stride[std::size_t(axis)];
+                    const std::size_t other =
+                        way < 0 ? i - stride[std::size_t(axis)] : i + stride[std::size_t(axis)];
                     if (windings.known(other) && windings.inside(i) != windings.inside(other))
                         around(i), around(other);
                 }
@@ -256,7 +260,8 @@ uint32_t srgbWord(const glm::dvec3& linear) {
 }
 
 /// Distance, gradient and colour of each sample from the point that is nearest to it.
-std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, const NearestPoints& nearest) {
+std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh,
+                              const NearestPoints& nearest) {
     const TriangleMesh& source = *recipe.mesh;
     const std::size_t samples = mesh.grid.samples();
     std::vector<uint32_t> words(2 * samples + (source.colors.empty() ? 0 : samples + samples % 2));
@@ -400,8 +405,10 @@ FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, s
     for (const glm::vec3& p : recipe.mesh->positions)
         farthest = std::max({farthest, double(std::abs(p.x)), double(std::abs(p.y)), double(std::abs(p.z))});
     if (farthest * 0x1p-24 > 0.01 * mesh.grid.cell)
-        note("lies so far from the origin that its corners are only known to a part of a cell: move it there before it "
-             "is exported");
+        note(
+            "lies so far from the origin that its corners are only known to a part of a cell: move it there "
+            "before it "
+            "is exported");
     if (mesh.byNormals && recipe.inside == MeshInside::automatic) {
         // The mean thickness of a plate with this volume and area.
         double area = 0.0;
@@ -417,9 +424,11 @@ FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, s
 }
 
 Error nothingInside(const MeshFieldRecipe& recipe) {
-    return {.message = "the mesh " + nameOf(*recipe.mesh) +
-                       " encloses nothing: close its holes, or set inside to none and give the sheet a thickness with "
-                       "an offset node"};
+    return {
+        .message =
+            "the mesh " + nameOf(*recipe.mesh) +
+            " encloses nothing: close its holes, or set inside to none and give the sheet a thickness with "
+            "an offset node"};
 }
 
 Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe) {

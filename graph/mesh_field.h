@@ -1,21 +1,23 @@
 // Triangle meshes as fields: distances to a mesh, measured on a grid.
 //
-// Theory. The talk ("Advanced Procedural Rendering in DirectX 11", mesh to signed distance field) rasterises triangles
-// into the slices of a grid that they can affect, keeps the nearest one at each sample with its sign, and fills the
-// rest by fast sweeping. Here too, in three steps:
-//   1. the *band*, samples within kBand cells of the surface: each triangle is measured against those around it;
+// Theory. The talk ("Advanced Procedural Rendering in DirectX 11", mesh to signed distance field) rasterises
+// triangles into the slices of a grid that they can affect, keeps the nearest one at each sample with its
+// sign, and fills the rest by fast sweeping. Here too, in three steps:
+//   1. the *band*, samples within kBand cells of the surface: each triangle is measured against those around
+//   it;
 //   2. inside or outside, for the band alone;
-//   3. *sweeps* from slice to slice, forwards and backwards, each axis in turn: a sample tries the points that are nearest
-//      to the nine samples before it. The talk adds a step to the distance of the sample before in a row, which is far
-//      from Euclidean; handing on points along rows is still off by five cells for a ball of 64, since a point gets
-//      nowhere along a diagonal. A sample that nothing has reached takes the sign along, for between
-//      neighbours outside of the band there is no surface.
-// The sign is that of the nearest feature's normal where the mesh is closed and oriented. That fails where its parts
-// overlap, which shows: then neighbours have unlike signs though neither is as near to the surface as it should be.
-// There, and where the mesh is open, has edges of more than two faces or faces that cannot agree, the generalized
-// winding number decides (triangle_tree.h): a sample is inside where it exceeds one half. Triangles with the inside, or
-// the outside, on both sides then bound nothing, and holes are closed where the winding number is one half, by
-// *membrane* points.
+//   3. *sweeps* from slice to slice, forwards and backwards, each axis in turn: a sample tries the points
+//   that are nearest
+//      to the nine samples before it. The talk adds a step to the distance of the sample before in a row,
+//      which is far from Euclidean; handing on points along rows is still off by five cells for a ball of 64,
+//      since a point gets nowhere along a diagonal. A sample that nothing has reached takes the sign along,
+//      for between neighbours outside of the band there is no surface.
+// The sign is that of the nearest feature's normal where the mesh is closed and oriented. That fails where
+// its parts overlap, which shows: then neighbours have unlike signs though neither is as near to the surface
+// as it should be. There, and where the mesh is open, has edges of more than two faces or faces that cannot
+// agree, the generalized winding number decides (triangle_tree.h): a sample is inside where it exceeds one
+// half. Triangles with the inside, or the outside, on both sides then bound nothing, and holes are closed
+// where the winding number is one half, by *membrane* points.
 //
 // Everything is in the grid's units: a cell is 1, the first sample at the origin.
 //
@@ -50,8 +52,8 @@ struct MeshFieldRecipe {
 };
 inline constexpr int kLeastFieldResolution = 8, kMostFieldResolution = 512;
 
-/// Makes a recipe's volume, with its mesh and notes. Errors, with a message only: the mesh has no extent, or encloses
-/// nothing.
+/// Makes a recipe's volume, with its mesh and notes. Errors, with a message only: the mesh has no extent, or
+/// encloses nothing.
 using MeshFieldBaker = std::function<Result<FieldVolumePtr>(const MeshFieldRecipe&)>;
 
 /// By what was made before and is held somewhere, else by `baker`. Stand-ins are not remembered.
@@ -81,22 +83,23 @@ struct MeshInGrid {
     }
 };
 
-/// Of each sample, as far as it is known: the nearest point of the surface, the triangle that it is on, or near for a
-/// membrane, and the distance, negative inside; kUnreached where nothing is known.
+/// Of each sample, as far as it is known: the nearest point of the surface, the triangle that it is on, or
+/// near for a membrane, and the distance, negative inside; kUnreached where nothing is known.
 struct NearestPoints {
     std::vector<float> distance;
     std::vector<glm::vec3> point;
     std::vector<uint32_t> triangle;
 };
 inline constexpr float kUnreached = 1e30f;
-/// A sample on a face is taken for one so many cells away from it, so that its gradient is known. On an edge, or a
-/// corner, there is none.
+/// A sample on a face is taken for one so many cells away from it, so that its gradient is known. On an edge,
+/// or a corner, there is none.
 inline constexpr float kLeastDistance = 1e-4f;
 
 Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe);
 
-/// Finds the inside by the winding number. Of the band, whose triangles and distances are given, only samples at the
-/// solid's surface are left, with their points; those at membranes are added. False if nothing is inside.
+/// Finds the inside by the winding number. Of the band, whose triangles and distances are given, only samples
+/// at the solid's surface are left, with their points; those at membranes are added. False if nothing is
+/// inside.
 bool signByWinding(const MeshInGrid& mesh, NearestPoints& nearest);
 
 /// The volume of a recipe whose samples are all known, with its notes.

@@ -1,5 +1,5 @@
-// Where a mesh comes from: a file, or a field by what polygonize says and the stages behind it. Plain values; none of them
-// is part of a program's code.
+// Where a mesh comes from: a file, or a field by what polygonize says and the stages behind it. Plain values;
+// none of them is part of a program's code.
 #pragma once
 
 #include <memory>

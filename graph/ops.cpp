@@ -348,7 +348,9 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
 
     row(
         Op::volume, "volume", 3, false, false,
-        [](V x, L layer) { return sampleVolume(*layer.volume, {x[0], x[1], x[2]}).value; },
+        [](V x, L layer) {
+            return sampleVolume(*layer.volume, {x[0], x[1], x[2]}).value;
+        },
         [](I x, L layer) { return sampleVolume(*layer.volume, x); },
         [](V x, double, D d, L layer) {
             const VolumeSample sample = sampleVolume(*layer.volume, {x[0], x[1], x[2]});

@@ -103,8 +103,7 @@ struct OpInfo {
     Interval (*interval)(const Interval* operands, SampledLayer layer);
     /// value and one component of the result's derivative over arrays: `operands[i]` and `derivatives[i]`
     /// hold `count` numbers each.
-    void (*values)(const double* const* operands, double* results, std::size_t count,
-                   SampledLayer layer);
+    void (*values)(const double* const* operands, double* results, std::size_t count, SampledLayer layer);
     void (*gradients)(const double* const* operands, const double* results, const double* const* derivatives,
                       double* slopes, std::size_t count, SampledLayer layer);
     const char* glsl;

@@ -16,9 +16,7 @@ namespace {
 
 constexpr uint32_t kNone = ~0u;
 
-uint64_t mixed(uint64_t hash, uint64_t word) {
-    return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29);
-}
+uint64_t mixed(uint64_t hash, uint64_t word) { return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); }
 
 /// Places in a table that is searched from a hash on: at least twice as many as there will be entries.
 std::vector<uint32_t> emptyTable(std::size_t entries) {

@@ -65,10 +65,10 @@ NearestPoint nearestOnTriangle(const glm::dvec3& p, const Triangle& triangle) {
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double size = glm::dot(normal, normal);
     if (size > 0.0) {
-        const glm::dvec3 weights = glm::dvec3(glm::dot(glm::cross(c - b, p - b), normal),
-                                              glm::dot(glm::cross(a - c, p - c), normal),
-                                              glm::dot(glm::cross(b - a, p - a), normal)) /
-                                   size;
+        const glm::dvec3 weights =
+            glm::dvec3(glm::dot(glm::cross(c - b, p - b), normal), glm::dot(glm::cross(a - c, p - c), normal),
+                       glm::dot(glm::cross(b - a, p - a), normal)) /
+            size;
         if (weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0) return at(weights, 0);
     }
     NearestPoint least{std::numeric_limits<double>::infinity(), {}, {}, 0};

@@ -3,10 +3,11 @@
 // A binary tree over the triangles' middles, halved along the longest side of their box until four are left;
 // the nodes stand in one array, a left child right behind its parent. Building sorts in place, O(n log n).
 //
-// The generalized winding number of a point (Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation
-// using Generalized Winding Numbers", 2013) is the sum of the signed solid angles of all triangles, over 4 pi: 1
-// within a closed mesh, 0 outside, and something between near its holes. Far triangles are taken together as one
-// dipole for each node (Barill et al., "Fast Winding Numbers for Soups and Clouds", 2018, first order).
+// The generalized winding number of a point (Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside
+// Segmentation using Generalized Winding Numbers", 2013) is the sum of the signed solid angles of all
+// triangles, over 4 pi: 1 within a closed mesh, 0 outside, and something between near its holes. Far
+// triangles are taken together as one dipole for each node (Barill et al., "Fast Winding Numbers for Soups
+// and Clouds", 2018, first order).
 //
 // Whether two triangles cut each other is decided by the signs of determinants of their corners in double.
 // The corners are floats; a determinant within its own rounding error counts as zero, and zero as not
@@ -25,7 +26,7 @@ namespace fw {
 
 /// The nearest point of a triangle.
 struct NearestPoint {
-    double squared;      ///< its squared distance
+    double squared;  ///< its squared distance
     glm::dvec3 point;
     glm::dvec3 weights;  ///< of the corners: the point's barycentric coordinates
     int feature;         ///< 0: within the triangle; 1, 2, 3: on the side ab, bc, ca; 4, 5, 6: at a, b, c
@@ -33,8 +34,8 @@ struct NearestPoint {
 /// Of a triangle that may be a segment or a point.
 NearestPoint nearestOnTriangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& triangle);
 
-/// The signed solid angle of the triangle as seen from the origin, of which 1 is all around: positive if it winds
-/// clockwise from there, as a closed mesh's faces do from inside (van Oosterom and Strackee 1983).
+/// The signed solid angle of the triangle as seen from the origin, of which 1 is all around: positive if it
+/// winds clockwise from there, as a closed mesh's faces do from inside (van Oosterom and Strackee 1983).
 double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 class TriangleTree {
@@ -46,8 +47,8 @@ class TriangleTree {
     bool empty() const { return order.empty(); }
     /// The distance from the point to the nearest triangle, in metres; infinite if there is none.
     double distance(const glm::dvec3& point) const;
-    /// The triangle that is nearest to the point; of those equally near, any. `guess` is one that may be near. Only
-    /// for a tree that is not empty.
+    /// The triangle that is nearest to the point; of those equally near, any. `guess` is one that may be
+    /// near. Only for a tree that is not empty.
     uint32_t nearest(const glm::dvec3& point, uint32_t guess, NearestPoint& on) const;
     /// The generalized winding number, to some 0.02.
     double windingNumber(const glm::dvec3& point) const;
@@ -66,8 +67,8 @@ class TriangleTree {
         uint32_t first, count;  ///< triangles of `order`; none in an inner node
         uint32_t right;         ///< child of an inner node
     };
-    /// What a node's triangles are from afar: their area vectors' sum, at the middle of their areas, all of them
-    /// within `radius` of it.
+    /// What a node's triangles are from afar: their area vectors' sum, at the middle of their areas, all of
+    /// them within `radius` of it.
     struct Dipole {
         glm::dvec3 area{0.0}, middle{0.0};
         double radius = 0.0;

@@ -14,10 +14,10 @@ namespace fw {
 
 namespace {
 
-/// Of the samples of distances: the greatest length that a gradient between them can have, and by how many cells a
-/// value there can be off the distance. Trilinear: differences are at most 1 along each axis, and a value is a mean of
-/// others that are half a diagonal away at most. Tricubic: by search, 2.38 and 0.98, where each corner of a cell has a
-/// nearest point of its own; meshes of all kinds have up to 1.7.
+/// Of the samples of distances: the greatest length that a gradient between them can have, and by how many
+/// cells a value there can be off the distance. Trilinear: differences are at most 1 along each axis, and a
+/// value is a mean of others that are half a diagonal away at most. Tricubic: by search, 2.38 and 0.98, where
+/// each corner of a cell has a nearest point of its own; meshes of all kinds have up to 1.7.
 constexpr double kFlatSlope = std::numbers::sqrt3, kFlatOff = 0.5 * std::numbers::sqrt3;
 constexpr double kCubicSlope = 2.5, kCubicOff = 1.0;
 
@@ -44,8 +44,8 @@ Axis along(double place, double origin, double cell, int size) {
     return {first, at - first, u == at || std::isnan(u) ? 0.0 : (u - at) * cell};
 }
 
-/// Cubic Hermite polynomials on the unit interval at t, and their derivatives: of the values at both ends, and of
-/// the slopes.
+/// Cubic Hermite polynomials on the unit interval at t, and their derivatives: of the values at both ends,
+/// and of the slopes.
 struct Hermite {
     double value[2], slope[2], valueDerivative[2], slopeDerivative[2];
     explicit Hermite(double t)
@@ -63,13 +63,13 @@ VolumeSample tricubic(const FieldVolume& volume, const Axis* axes) {
         for (int j = 0; j < 2; ++j)
             for (int i = 0; i < 2; ++i) {
                 const uint32_t* words =
-                    &volume.words[2 * volume.grid.index(axes[0].cell + i, axes[1].cell + j, axes[2].cell + k)];
+                    &volume
+                         .words[2 * volume.grid.index(axes[0].cell + i, axes[1].cell + j, axes[2].cell + k)];
                 const double f = std::bit_cast<float>(words[0]);
                 const glm::dvec3 g = cell * unpackGradient(words[1]);
-                sum.value += f * x.value[i] * y.value[j] * z.value[k] +
-                             g.x * x.slope[i] * y.value[j] * z.value[k] +
-                             g.y * x.value[i] * y.slope[j] * z.value[k] +
-                             g.z * x.value[i] * y.value[j] * z.slope[k];
+                sum.value +=
+                    f * x.value[i] * y.value[j] * z.value[k] + g.x * x.slope[i] * y.value[j] * z.value[k] +
+                    g.y * x.value[i] * y.slope[j] * z.value[k] + g.z * x.value[i] * y.value[j] * z.slope[k];
                 sum.gradient.x += f * x.valueDerivative[i] * y.value[j] * z.value[k] +
                                   g.x * x.slopeDerivative[i] * y.value[j] * z.value[k] +
                                   g.y * x.valueDerivative[i] * y.slope[j] * z.value[k] +
@@ -167,8 +167,8 @@ VolumeSample sampleVolume(const VolumeLayer& layer, const glm::dvec3& place) {
         axes[axis] = along(place[axis], volume.grid.origin[axis], volume.grid.cell, volume.grid.size[axis]);
         beyond[axis] = axes[axis].beyond;
     }
-    VolumeSample sample = layer.channel == tricubicChannel ? tricubic(volume, axes)
-                                                           : trilinear(volume, axes, layer.channel);
+    VolumeSample sample =
+        layer.channel == tricubicChannel ? tricubic(volume, axes) : trilinear(volume, axes, layer.channel);
     if (beyond == glm::dvec3(0.0)) return sample;
     for (int axis = 0; axis < 3; ++axis)
         if (beyond[axis] != 0.0) sample.gradient[axis] = 0.0;
@@ -198,8 +198,8 @@ Interval sampleVolume(const VolumeLayer& layer, const Interval* place) {
     // A coordinate is known up to its rounding.
     const double radius = glm::length(half) + 1e-15 * (1.0 + far);
     const double reach = std::min(layer.slope * radius, radius + layer.slack);
-    const Interval around =
-        lipschitzRange(sampleVolume(layer, centre).value, 1.0, reach, layer.least, within ? layer.most : kHuge);
+    const Interval around = lipschitzRange(sampleVolume(layer, centre).value, 1.0, reach, layer.least,
+                                           within ? layer.most : kHuge);
     return outward(around.lo - 1e-12 * (1.0 + grid.cell), around.hi + 1e-12 * (1.0 + grid.cell));
 }
 

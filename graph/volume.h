@@ -1,15 +1,17 @@
 // Distances on a grid: a field that was measured once, read as a function of (x, y, z).
 //
-// A field volume has samples at the corners of cubic cells. Each sample has a distance and the distance's gradient,
-// the direction away from the nearest point of the surface. Between samples the distance is *tricubic*: the product
-// of cubic Hermite polynomials along the axes through the eight samples around, their slopes being the stored
-// gradients and their mixed derivatives zero. It is smooth (C1), passes through every sample and is exact for a
-// plane. Eight loads are an eighth of what a Catmull-Rom spline needs, and slopes that were measured follow edges
-// better than differences of samples. The *trilinear* layer ignores the gradients.
+// A field volume has samples at the corners of cubic cells. Each sample has a distance and the distance's
+// gradient, the direction away from the nearest point of the surface. Between samples the distance is
+// *tricubic*: the product of cubic Hermite polynomials along the axes through the eight samples around, their
+// slopes being the stored gradients and their mixed derivatives zero. It is smooth (C1), passes through every
+// sample and is exact for a plane. Eight loads are an eighth of what a Catmull-Rom spline needs, and slopes
+// that were measured follow edges better than differences of samples. The *trilinear* layer ignores the
+// gradients.
 //
-// Beyond the grid, at a point p, the value is sqrt(|p - q|^2 + d(q)^2), q being the nearest point of the grid, or the
-// distance to the solid's box if that is more. The solid lies within the grid, whose box is convex, so that the angle at
-// q is not acute: the value is never more than the distance. It is continuous and, as is the distance, 1-Lipschitz.
+// Beyond the grid, at a point p, the value is sqrt(|p - q|^2 + d(q)^2), q being the nearest point of the
+// grid, or the distance to the solid's box if that is more. The solid lies within the grid, whose box is
+// convex, so that the angle at q is not acute: the value is never more than the distance. It is continuous
+// and, as is the distance, 1-Lipschitz.
 //
 // The double functions here are the reference of shaders/lib/volume.glsl, which reads the same words.
 //
@@ -42,12 +44,12 @@ struct VolumeGrid {
     }
 };
 
-/// What the sampled distance to a mesh is taken for by whoever steps through it: the greatest length of the gradient
-/// that was measured, 1.7, and some.
+/// What the sampled distance to a mesh is taken for by whoever steps through it: the greatest length of the
+/// gradient that was measured, 1.7, and some.
 inline constexpr double kSampledLipschitz = 1.75;
 
-/// What can be read of a volume. Colours, linear light from 0 to 1, are trilinear, and those of the grid's border
-/// beyond it.
+/// What can be read of a volume. Colours, linear light from 0 to 1, are trilinear, and those of the grid's
+/// border beyond it.
 enum VolumeChannel { tricubicChannel, trilinearChannel, redChannel, greenChannel, blueChannel };
 inline constexpr int kVolumeLayers = 5;
 
@@ -59,8 +61,8 @@ struct VolumeLayer {
     const FieldVolume* volume = nullptr;
     int channel = tricubicChannel;
     double least = 0.0, most = 1.0;  ///< within the grid
-    // How far two values can be apart: by `slope` times the distance of their places, and by `slack` more than that
-    // distance. Of distances only, metres.
+    // How far two values can be apart: by `slope` times the distance of their places, and by `slack` more
+    // than that distance. Of distances only, metres.
     double slope = 0.0, slack = 0.0;
 };
 
@@ -70,10 +72,11 @@ struct VolumeSample {
 };
 
 struct FieldVolume {
-    /// `distances` and `gradients` (of length 1, or zero where there is none) in the order of VolumeGrid::index();
-    /// `colors` one for each sample, 8 bits each of red, green and blue as sRGB, or none.
-    FieldVolume(const VolumeGrid& grid, std::span<const float> distances, std::span<const glm::vec3> gradients,
-                std::span<const uint32_t> colors = {});
+    /// `distances` and `gradients` (of length 1, or zero where there is none) in the order of
+    /// VolumeGrid::index(); `colors` one for each sample, 8 bits each of red, green and blue as sRGB, or
+    /// none.
+    FieldVolume(const VolumeGrid& grid, std::span<const float> distances,
+                std::span<const glm::vec3> gradients, std::span<const uint32_t> colors = {});
     FieldVolume(const VolumeGrid& grid, std::vector<uint32_t> words);
     FieldVolume(const FieldVolume&) = delete;  // layers point here
     FieldVolume& operator=(const FieldVolume&) = delete;
@@ -81,8 +84,8 @@ struct FieldVolume {
     bool colored() const { return words.size() > 2 * grid.samples(); }
 
     VolumeGrid grid;
-    /// Two words a sample, along x, then y, then z: the distance's bits, and the gradient as three whole numbers of
-    /// ten bits, 511 for 1. Then, if there are colours, one word a sample; an even number in all.
+    /// Two words a sample, along x, then y, then z: the distance's bits, and the gradient as three whole
+    /// numbers of ten bits, 511 for 1. Then, if there are colours, one word a sample; an even number in all.
     std::vector<uint32_t> words;
     uint64_t hash;  ///< of grid and words
     std::array<VolumeLayer, kVolumeLayers> layers;
@@ -100,13 +103,14 @@ Interval sampleVolume(const VolumeLayer& layer, const Interval* place);
 /// The second word of a sample: a vector of length at most 1.
 uint32_t packGradient(const glm::vec3& gradient);
 
-/// What the device reads: texels of four words. A volume has one for each sample, of that sample and the next one in
-/// their order, so that four loads get a cell; then one for each four colours. All volumes, one after the other; never
-/// empty.
+/// What the device reads: texels of four words. A volume has one for each sample, of that sample and the next
+/// one in their order, so that four loads get a cell; then one for each four colours. All volumes, one after
+/// the other; never empty.
 std::vector<uint32_t> volumeTexels(const std::vector<FieldVolumePtr>& volumes);
 /// The texels of one.
 std::size_t texelCount(const FieldVolume& volume);
 
-inline constexpr std::size_t kMostVolumeBytes = 1024u << 20;  ///< the texels of all volumes of a graph take less
+inline constexpr std::size_t kMostVolumeBytes = 1024u
+                                                << 20;  ///< the texels of all volumes of a graph take less
 
 }  // namespace fw

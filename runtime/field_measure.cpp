@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "graph/tape.h"
 #include "graph/parallel.h"
+#include "graph/tape.h"
 
 namespace fw {
 

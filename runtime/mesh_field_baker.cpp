@@ -29,12 +29,13 @@ struct Kernels {
 };
 
 Kernels createKernels(const Device& device) {
-    const ShaderOptions shaders[] = {{.name = "bake/scatter.comp"}, {.name = "bake/list.comp"},
-                                     {.name = "bake/sign.comp"},    {.name = "bake/sweep.comp"},
-                                     {.name = "bake/pack.comp"},    {.name = "bake/pack.comp", .defines = {"COLORS"}}};
+    const ShaderOptions shaders[] = {
+        {.name = "bake/scatter.comp"}, {.name = "bake/list.comp"},
+        {.name = "bake/sign.comp"},    {.name = "bake/sweep.comp"},
+        {.name = "bake/pack.comp"},    {.name = "bake/pack.comp", .defines = {"COLORS"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3]),
-            std::move(made[4]), std::move(made[5])};
+    return {std::move(made[0]), std::move(made[1]), std::move(made[2]),
+            std::move(made[3]), std::move(made[4]), std::move(made[5])};
 }
 
 glm::uvec3 groupsOf(std::size_t items) {
@@ -48,7 +49,8 @@ std::vector<gpu::BakeItem> itemsOf(const MeshInGrid& mesh) {
     items.reserve(2 * mesh.solid.source.size());
     for (uint32_t t = 0; t < mesh.solid.source.size(); ++t) {
         const auto [a, b, c] = mesh.corners(t);
-        const glm::ivec3 lo = glm::max(glm::ivec3(glm::ceil(glm::min(a, glm::min(b, c)) - kBand)), glm::ivec3(0));
+        const glm::ivec3 lo =
+            glm::max(glm::ivec3(glm::ceil(glm::min(a, glm::min(b, c)) - kBand)), glm::ivec3(0));
         const glm::ivec3 hi =
             glm::min(glm::ivec3(glm::floor(glm::max(a, glm::max(b, c)) + kBand)), mesh.grid.size - 1);
         for (int z = lo.z; z <= hi.z; z += BAKE_ROWS)
@@ -66,7 +68,8 @@ std::vector<glm::vec4> cornerTexels(const SolidMesh& solid) {
 }
 
 /// Linear light at the corners of each triangle, in the order of its corners.
-std::vector<glm::vec4> colorTexels(const TriangleMesh& source, const SolidMesh& solid, const VolumeGrid& grid) {
+std::vector<glm::vec4> colorTexels(const TriangleMesh& source, const SolidMesh& solid,
+                                   const VolumeGrid& grid) {
     std::vector<glm::vec4> texels;
     texels.reserve(solid.indices.size());
     for (std::size_t t = 0; t < solid.source.size(); ++t) {
@@ -91,8 +94,8 @@ std::vector<glm::vec4> colorTexels(const TriangleMesh& source, const SolidMesh& 
 /// One field being made.
 class Bake {
   public:
-    Bake(const Device& device_, const Kernels& kernels_, const BakeOptions& options_, const MeshFieldRecipe& recipe_,
-         MeshInGrid& mesh_)
+    Bake(const Device& device_, const Kernels& kernels_, const BakeOptions& options_,
+         const MeshFieldRecipe& recipe_, MeshInGrid& mesh_)
         : device(device_), kernels(kernels_), options(options_), recipe(recipe_), mesh(mesh_) {
         const std::size_t samples = mesh.grid.samples();
         nearest = createBuffer(device, 8 * samples);
@@ -185,12 +188,14 @@ class Bake {
                             std::vector<uint32_t>(samples)};
         for (std::size_t i = 0; i < samples; ++i)
             if (pairs[i].y != ~0u)
-                found.distance[i] = std::sqrt(std::bit_cast<float>(pairs[i].y)), found.triangle[i] = pairs[i].x;
+                found.distance[i] = std::sqrt(std::bit_cast<float>(pairs[i].y)),
+                found.triangle[i] = pairs[i].x;
         if (!signByWinding(mesh, found)) return false;
         std::vector<glm::uvec4> texels(samples, {std::bit_cast<uint32_t>(float(BAKE_UNREACHED)), 0, 0, 0});
         for (std::size_t i = 0; i < samples; ++i) {
             if (found.distance[i] == kUnreached) continue;
-            for (int axis = 0; axis < 3; ++axis) texels[i][axis] = std::bit_cast<uint32_t>(found.point[i][axis]);
+            for (int axis = 0; axis < 3; ++axis)
+                texels[i][axis] = std::bit_cast<uint32_t>(found.point[i][axis]);
             texels[i].w = found.triangle[i] | (std::signbit(found.distance[i]) ? BAKE_INSIDE : 0u);
         }
         upload(device, state, texels);
@@ -226,7 +231,8 @@ class Bake {
         beginStage(commands, "pack");
         fill(commands, counts, 0);
         barrier(commands);
-        dispatch(commands, colored ? kernels.packColors : kernels.pack, groupsOf(mesh.grid.samples()), all, bound);
+        dispatch(commands, colored ? kernels.packColors : kernels.pack, groupsOf(mesh.grid.samples()), all,
+                 bound);
         submit(commands);
         finishStages(commands);
         progress(0.9);
@@ -246,9 +252,9 @@ class Bake {
     const MeshFieldRecipe& recipe;
     MeshInGrid& mesh;
     Buffer corners, items, normals;
-    Buffer nearest;       // of each sample: the triangle, and the bits of the squared distance; all ones: none
-    Buffer state;         // the nearest point, its triangle and the side
-    Buffer band;          // samples of it
+    Buffer nearest;  // of each sample: the triangle, and the bits of the squared distance; all ones: none
+    Buffer state;    // the nearest point, its triangle and the side
+    Buffer band;     // samples of it
     Buffer counts, words;
     Buffer colors, colorWords;
 };
@@ -381,8 +387,7 @@ Result<FieldVolumePtr> bake(const Device* device, std::optional<Kernels>& kernel
 }  // namespace
 
 MeshFieldBaker meshFieldBaker(std::function<const Device*()> device, const BakeOptions& options) {
-    return [device = std::move(device), options,
-            kernels = std::make_shared<std::optional<Kernels>>()](
+    return [device = std::move(device), options, kernels = std::make_shared<std::optional<Kernels>>()](
                const MeshFieldRecipe& recipe) -> Result<FieldVolumePtr> {
         if (options.cached)
             if (FieldVolumePtr made = readMade(recipe)) return made;

@@ -11,10 +11,10 @@
 #include <numeric>
 #include <random>
 
-#include "runtime/corners.h"
-#include "runtime/export/read_back.h"
 #include "graph/parallel.h"
 #include "graph/triangle_tree.h"
+#include "runtime/corners.h"
+#include "runtime/export/read_back.h"
 
 namespace fw {
 namespace {

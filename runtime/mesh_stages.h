@@ -47,10 +47,10 @@ struct MeshStageBuffers {
 
 struct MeshStageConfig {
     const MeshStagePipelines* pipelines = nullptr;
-    glm::vec3 lo{-1.0f}, hi{1.0f};       ///< the region that was meshed
-    float cellSize = 0;                  ///< metres; how small a part may become depends on it
-    FieldBuffers field = {};             ///< as MesherConfig's
-    bool project = true;  ///< false: without the field's kernel, new vertices stay on their edges
+    glm::vec3 lo{-1.0f}, hi{1.0f};  ///< the region that was meshed
+    float cellSize = 0;             ///< metres; how small a part may become depends on it
+    FieldBuffers field = {};        ///< as MesherConfig's
+    bool project = true;            ///< false: without the field's kernel, new vertices stay on their edges
     /// Does decimation on the host: whether it changed the mesh, which lies closer than that many metres.
     std::function<bool(Mesh& mesh, double error)> decimate = {};
     bool timed = false;

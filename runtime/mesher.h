@@ -59,7 +59,7 @@ struct MesherConfig {
     glm::vec3 origin{-1.0f};         ///< least corner of the region, metres
     glm::vec3 cellSize{2.0f / 128};  ///< metres along each axis
     glm::ivec3 cells{128};           ///< of the region along each axis, any number from 1 to kMostMesherCells
-    FieldBuffers field = {};             ///< but for its lists, which the mesher makes
+    FieldBuffers field = {};         ///< but for its lists, which the mesher makes
     const Families* families = nullptr;  ///< of the field, where it has some
     bool sparse = true;    ///< bricks that intervals show to be empty are not sampled; the same mesh, sooner
     bool pruned = true;    ///< a brick evaluates only the members that can matter in it; likewise

@@ -1,8 +1,8 @@
 // The one orchestrator: owns the device objects of a program and runs its stages.
 //
 // Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
-// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images and volumes of the
-// field per program that samples others, the renderer's images per size of a picture.
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images and volumes
+// of the field per program that samples others, the renderer's images per size of a picture.
 #pragma once
 
 #include <future>

@@ -242,7 +242,8 @@ std::string pick(const Seen& seen, double x, double y) {
 }
 
 std::optional<Box> solidOf(const Graph& graph, const std::string& node, double seconds) {
-    const Result<Program> program = compile(shownAt(graph, node, seconds), {.time = seconds, .bake = boxInPlace});
+    const Result<Program> program =
+        compile(shownAt(graph, node, seconds), {.time = seconds, .bake = boxInPlace});
     if (!program) return std::nullopt;
     const Region region = findRegion(program->ir, program->distance(), program->parameters());
     return region.extent == Extent::bounded ? std::optional(region.box) : std::nullopt;

@@ -9,7 +9,8 @@ std::vector<NodeType> meshNodes() {
         {.id = "mesh_file",
          .label = "Mesh file",
          .category = Category::mesh,
-         .doc = "Reads a triangle mesh: a glTF (.glb, .gltf), OBJ, STL or PLY file in the folder of the graph's file or "
+         .doc = "Reads a triangle mesh: a glTF (.glb, .gltf), OBJ, STL or PLY file in the folder of the "
+                "graph's file or "
                 "in one below it. A changed file is read again.",
          .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
          .outputs = {{"mesh", Type::mesh}},
@@ -17,22 +18,27 @@ std::vector<NodeType> meshNodes() {
         {.id = "mesh_to_field",
          .label = "Mesh to field",
          .category = Category::mesh,
-         .doc = "Makes a solid of a triangle mesh, for booleans and everything else that works on surfaces. Distances to "
-                "the mesh are measured on a grid, once. The mesh's colours, if it has some, become the material's.",
-         .inputs = {positionInput(),
-                    {.name = "mesh", .type = Type::mesh, .value = {}, .doc = "The mesh: that of a mesh_file."},
-                    integer("resolution", 64, kLeastFieldResolution, kMostFieldResolution,
-                            "Samples along the grid's longest side. What is thinner than two or three of its cells gets "
-                            "holes."),
-                    length("margin", 0.0,
-                           "How far around the mesh distances are measured. Beyond, they are bounds: right at the "
-                           "grid, and then rather too small."),
-                    choice("sampling", {"tricubic", "trilinear"},
-                           "How values between samples are found. Tricubic is smooth."),
-                    choice("inside", {std::begin(kMeshInsideNames), std::end(kMeshInsideNames)},
-                           "How the inside is found. Automatic goes by normals where the mesh is closed, and else by "
-                           "the winding number, which also closes holes. With none there is only the distance to the "
-                           "triangles: for sheets that an offset makes thick.")},
+         .doc = "Makes a solid of a triangle mesh, for booleans and everything else that works on surfaces. "
+                "Distances to "
+                "the mesh are measured on a grid, once. The mesh's colours, if it has some, become the "
+                "material's.",
+         .inputs =
+             {positionInput(),
+              {.name = "mesh", .type = Type::mesh, .value = {}, .doc = "The mesh: that of a mesh_file."},
+              integer("resolution", 64, kLeastFieldResolution, kMostFieldResolution,
+                      "Samples along the grid's longest side. What is thinner than two or three of its cells "
+                      "gets "
+                      "holes."),
+              length("margin", 0.0,
+                     "How far around the mesh distances are measured. Beyond, they are bounds: right at the "
+                     "grid, and then rather too small."),
+              choice("sampling", {"tricubic", "trilinear"},
+                     "How values between samples are found. Tricubic is smooth."),
+              choice(
+                  "inside", {std::begin(kMeshInsideNames), std::end(kMeshInsideNames)},
+                  "How the inside is found. Automatic goes by normals where the mesh is closed, and else by "
+                  "the winding number, which also closes holes. With none there is only the distance to the "
+                  "triangles: for sheets that an offset makes thick.")},
          .outputs = {{"surface", Type::surface}},
          .aliases = {"voxelize", "bake"}},
     };

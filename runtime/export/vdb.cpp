@@ -10,10 +10,10 @@
 #include <cassert>
 #include <filesystem>
 
+#include "graph/triangle_tree.h"
 #include "runtime/export/fingerprint.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/vdb/level_set.h"
-#include "graph/triangle_tree.h"
 
 namespace fw {
 namespace {

@@ -5,12 +5,12 @@
 namespace fw::gpu {
 #endif
 
-#define BAKE_GROUP 64       // items of a work group
-#define BAKE_ROWS 8         // slices, and rows of each, that one item of scatter.comp goes through at most
-#define BAKE_BAND 2.0       // cells from the surface: kBand
-#define BAKE_UNREACHED 1e30 // the first coordinate of a nearest point that is not known
+#define BAKE_GROUP 64        // items of a work group
+#define BAKE_ROWS 8          // slices, and rows of each, that one item of scatter.comp goes through at most
+#define BAKE_BAND 2.0        // cells from the surface: kBand
+#define BAKE_UNREACHED 1e30  // the first coordinate of a nearest point that is not known
 #define BAKE_INSIDE 0x80000000u  // with a triangle's number: the sample is inside
-#define BAKE_LEAST 1e-4     // kLeastDistance
+#define BAKE_LEAST 1e-4          // kLeastDistance
 
 // A triangle, and the rows that one lane measures it in.
 struct BakeItem {
@@ -30,9 +30,9 @@ struct BakePush {
 
 // What the kernels find, beside the samples.
 struct BakeCounts {
-    uint listed;            // samples of the band
-    uint groups[3];         // work groups for them
-    uint contradictions;    // not 0 where neighbours have unlike signs without the surface between them
+    uint listed;          // samples of the band
+    uint groups[3];       // work groups for them
+    uint contradictions;  // not 0 where neighbours have unlike signs without the surface between them
 };
 
 #ifdef __cplusplus

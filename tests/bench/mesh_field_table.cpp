@@ -1,5 +1,5 @@
-// Triangle meshes to fields: ours beside OpenVDB, beside every sample against every triangle, and beside the slide's
-// sweeps; and what meshing such a field costs.
+// Triangle meshes to fields: ours beside OpenVDB, beside every sample against every triangle, and beside the
+// slide's sweeps; and what meshing such a field costs.
 //
 // Meshes: a torus of 100,000 triangles, and every mesh file in the folder that FIELDWRIGHT_MESHES names.
 #include <dlfcn.h>
@@ -14,18 +14,18 @@
 #include "graph/triangle_tree.h"
 #include "runtime/mesh_field_baker.h"
 #include "runtime/session.h"
+#include "shaders/shared.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/vdb/mesh_to_volume.h"
-#include "shaders/shared.h"
 
 #include "shaders/bake/bake.h"
 
 namespace fw::bench {
 namespace {
 
-constexpr int kThreads = 2;             // of OpenVDB
-constexpr int kNaiveChunk = 50'000;     // triangles: some drivers end a loop after 65,535 turns
-constexpr int kNaiveShare = 16;         // one sample in so many is measured naively
+constexpr int kThreads = 2;          // of OpenVDB
+constexpr int kNaiveChunk = 50'000;  // triangles: some drivers end a loop after 65,535 turns
+constexpr int kNaiveShare = 16;      // one sample in so many is measured naively
 constexpr double kLeastOverNaive = 100, kMostOverBox = 3;
 
 struct Input {
@@ -111,8 +111,8 @@ double naive(Bench& bench, const MeshInGrid& mesh) {
     return run(1) * kNaiveShare;
 }
 
-/// The slide's sweeps from distances that are known within `band` cells, rounded to nothing if `voxels`: their time,
-/// and how far from ours they end, in cells.
+/// The slide's sweeps from distances that are known within `band` cells, rounded to nothing if `voxels`:
+/// their time, and how far from ours they end, in cells.
 std::pair<double, double> slideSweeps(Bench& bench, const FieldVolume& volume, double band, bool voxels) {
     const Device& device = bench.device();
     const Pipeline kernel = createComputePipeline(device, {.name = "bench/slide_sweep.comp"});
@@ -122,7 +122,9 @@ std::pair<double, double> slideSweeps(Bench& bench, const FieldVolume& volume, d
         return std::bit_cast<float>(volume.words[2 * i]) / float(volume.grid.cell);
     };
     for (std::size_t i = 0; i < samples; ++i)
-        seeds[i] = std::abs(distance(i)) > band ? 1e9f : voxels ? std::copysign(1e-3f, distance(i)) : distance(i);
+        seeds[i] = std::abs(distance(i)) > band ? 1e9f
+                   : voxels                     ? std::copysign(1e-3f, distance(i))
+                                                : distance(i);
     const Buffer cells = createBuffer(device, 4 * samples);
     gpu::BakePush push = pushFor(volume.grid);
     const auto run = [&] {
@@ -148,9 +150,10 @@ std::pair<double, double> slideSweeps(Bench& bench, const FieldVolume& volume, d
 }
 
 void bakeTable(Bench& bench) {
-    Table table{.title = "Meshes to fields, all of the grid (ms)",
-                .header = {"mesh", "triangles", "resolution", "samples", "all", "topology", "prepare", "scatter", "list",
-                           "sign", "sweep", "pack", "finish", "OpenVDB", "its band of 3", "naive"}};
+    Table table{
+        .title = "Meshes to fields, all of the grid (ms)",
+        .header = {"mesh", "triangles", "resolution", "samples", "all", "topology", "prepare", "scatter",
+                   "list", "sign", "sweep", "pack", "finish", "OpenVDB", "its band of 3", "naive"}};
     Table slide{.title = "The slide's ways to fill the grid (ms; cells off at most)",
                 .header = {"mesh", "resolution", "our sweeps", "rows, from exact distances", "off",
                            "rows, from voxels", "off"}};
@@ -159,8 +162,8 @@ void bakeTable(Bench& bench) {
             const MeshFieldRecipe recipe{.mesh = input.mesh, .resolution = resolution};
             std::vector<StageTime> stages;
             const MeshFieldBaker plain = meshFieldBaker([&] { return &bench.device(); }, {.cached = false});
-            const MeshFieldBaker timed =
-                meshFieldBaker([&] { return &bench.device(); }, {.cached = false, .stages = &stages, .timed = true});
+            const MeshFieldBaker timed = meshFieldBaker([&] { return &bench.device(); },
+                                                        {.cached = false, .stages = &stages, .timed = true});
             Result<FieldVolumePtr> made = plain(recipe);
             if (!made) {
                 bench.fail(made.error().message);
@@ -176,10 +179,11 @@ void bakeTable(Bench& bench) {
             (void)timed(recipe);
             const FieldVolume& volume = **made;
             const Result<MeshInGrid> mesh = meshInGrid(recipe);
-            std::vector<std::string> row{input.name, count(mesh->solid.source.size()), std::to_string(resolution),
-                                         count(volume.grid.samples()), text(all)};
+            std::vector<std::string> row{input.name, count(mesh->solid.source.size()),
+                                         std::to_string(resolution), count(volume.grid.samples()), text(all)};
             double sweep = 0.0;
-            for (const char* name : {"topology", "prepare", "scatter", "list", "sign", "sweep", "pack", "finish"}) {
+            for (const char* name :
+                 {"topology", "prepare", "scatter", "list", "sign", "sweep", "pack", "finish"}) {
                 double sum = 0.0;
                 for (const StageTime& stage : stages)
                     if (stage.name == name) sum += stage.milliseconds;
@@ -211,11 +215,12 @@ void bakeTable(Bench& bench) {
             slide.rows.push_back({input.name, std::to_string(resolution), number(sweep), number(exact),
                                   number(exactOff), number(voxels), number(voxelsOff)});
         }
-    table.notes.push_back("OpenVDB: meshToVolume with " + std::to_string(kThreads) +
-                          " threads, distances as far as the grid is long; once. It finds no topology. Naive: one "
-                          "sample in " +
-                          std::to_string(kNaiveShare) + " was measured. At least " + number(kLeastOverNaive) +
-                          " times as fast as that is wanted at 64.");
+    table.notes.push_back(
+        "OpenVDB: meshToVolume with " + std::to_string(kThreads) +
+        " threads, distances as far as the grid is long; once. It finds no topology. Naive: one "
+        "sample in " +
+        std::to_string(kNaiveShare) + " was measured. At least " + number(kLeastOverNaive) +
+        " times as fast as that is wanted at 64.");
     print(table, bench.options.markdown);
     print(slide, bench.options.markdown);
 }
@@ -250,8 +255,8 @@ void meshingTable(Bench& bench) {
         table.rows.push_back(row);
     };
     for (const Input& input : inputs(bench)) {
-        const Result<FieldVolumePtr> volume = meshFieldBaker([&] { return &bench.device(); }, {.cached = false})(
-            {.mesh = input.mesh, .resolution = 128});
+        const Result<FieldVolumePtr> volume = meshFieldBaker(
+            [&] { return &bench.device(); }, {.cached = false})({.mesh = input.mesh, .resolution = 128});
         if (!volume) continue;
         const VolumeGrid& grid = (*volume)->grid;
         const glm::dvec3 hi = grid.place(grid.size - 1), middle = 0.5 * (grid.origin + hi);
@@ -265,14 +270,15 @@ void meshingTable(Bench& bench) {
                 // The exact box around the mesh.
                 std::array<IrId, 3> q;
                 for (int axis = 0; axis < 3; ++axis)
-                    q[std::size_t(axis)] = ir.add(
-                        Op::subtract,
-                        ir.add(Op::absolute,
-                               ir.add(Op::subtract, ir.position(axis), ir.constant(middle[axis]))),
-                        ir.constant(0.5 * (hi[axis] - grid.origin[axis]) - 3.0 * grid.cell));
+                    q[std::size_t(axis)] =
+                        ir.add(Op::subtract,
+                               ir.add(Op::absolute,
+                                      ir.add(Op::subtract, ir.position(axis), ir.constant(middle[axis]))),
+                               ir.constant(0.5 * (hi[axis] - grid.origin[axis]) - 3.0 * grid.cell));
                 IrId sum = ir.constant(0.0), inside = q[0];
                 for (const IrId each : q) {
-                    sum = ir.add(Op::add, sum, ir.add(Op::square, ir.add(Op::maximum, each, ir.constant(0.0))));
+                    sum =
+                        ir.add(Op::add, sum, ir.add(Op::square, ir.add(Op::maximum, each, ir.constant(0.0))));
                     inside = ir.add(Op::maximum, inside, each);
                 }
                 program.surface[0] = ir.add(Op::add, ir.add(Op::squareRoot, sum),
@@ -282,7 +288,8 @@ void meshingTable(Bench& bench) {
             }
             program.ir = ir.compact(program.surface);
             program.structureHash = program.ir.hash(program.surface);
-            time(boxed ? "box around the " + input.name : input.name + ", 128, tricubic", std::move(program), region);
+            time(boxed ? "box around the " + input.name : input.name + ", 128, tricubic", std::move(program),
+                 region);
         }
     }
     table.notes.push_back("At most " + number(kMostOverBox) + " times the box's time is wanted.");

@@ -216,7 +216,8 @@ TEST(ImageRefused, OutsideTheFolder) {
           std::string("outside.png"), std::string("/dev/zero"), std::string("..")}) {
         const Result<FieldImagePtr> image = readImage(graph, path);
         ASSERT_FALSE(image) << path;
-        EXPECT_NE(image.error().message.find("lies outside the folder of the file that names it"), std::string::npos)
+        EXPECT_NE(image.error().message.find("lies outside the folder of the file that names it"),
+                  std::string::npos)
             << image.error().message;
     }
     EXPECT_FALSE(readImage(graph, std::string("six.png\0.png", 12)));

@@ -45,8 +45,8 @@ TEST(MeshField, DistancesToACubeAreExact) {
     for (int z = 0; z < 40; ++z)
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x)
-                ASSERT_NEAR(std::bit_cast<float>(volume->words[2 * grid.index(x, y, z)]), box(grid.place({x, y, z})),
-                            1e-5);
+                ASSERT_NEAR(std::bit_cast<float>(volume->words[2 * grid.index(x, y, z)]),
+                            box(grid.place({x, y, z})), 1e-5);
     EXPECT_TRUE(volume->notes.empty()) << notesOf(*volume);
     // Beyond the grid it is exact where the box around the mesh is nearest, and never more than the distance.
     EXPECT_NEAR(at(*volume, {2.5, 0.3, -0.2}), 1.5, 1e-9);
@@ -55,8 +55,8 @@ TEST(MeshField, DistancesToACubeAreExact) {
 }
 
 TEST(MeshField, TheGridHoldsTheMeshAndItsMargin) {
-    const FieldVolumePtr volume =
-        bake({.mesh = shared(movedFile(torusFile(24, 12), {5.0f, 0.0f, 0.0f})), .resolution = 50, .margin = 0.7});
+    const FieldVolumePtr volume = bake(
+        {.mesh = shared(movedFile(torusFile(24, 12), {5.0f, 0.0f, 0.0f})), .resolution = 50, .margin = 0.7});
     const VolumeGrid& grid = volume->grid;
     EXPECT_EQ(std::max({grid.size.x, grid.size.y, grid.size.z}), 50);
     const glm::dvec3 hi = grid.place(grid.size - 1);
@@ -73,7 +73,9 @@ TEST(MeshField, OverlappingPartsAreOneSolid) {
     const TriangleMesh both = joinedFile(cubeFile(), movedFile(cubeFile(), {0.9f, 0.8f, 0.7f}));
     const FieldVolumePtr volume = bake({.mesh = shared(both), .resolution = 48});
     EXPECT_NE(notesOf(*volume).find("overlap"), std::string::npos) << notesOf(*volume);
-    const auto wanted = [](const glm::dvec3& p) { return std::min(box(p), box(p - glm::dvec3(0.9, 0.8, 0.7))); };
+    const auto wanted = [](const glm::dvec3& p) {
+        return std::min(box(p), box(p - glm::dvec3(0.9, 0.8, 0.7)));
+    };
     const double cell = volume->grid.cell;
     double deepest = 0.0;
     for (int z = 0; z < volume->grid.size.z; ++z)
@@ -82,8 +84,10 @@ TEST(MeshField, OverlappingPartsAreOneSolid) {
                 const glm::dvec3 p = volume->grid.place({x, y, z});
                 const double value = at(*volume, p);
                 const double exact = wanted(p);
-                ASSERT_TRUE((value < 0.0) == (exact < 0.0) || std::abs(exact) <= 0.1 * cell) << p.x << " " << p.y;
-                ASSERT_TRUE(exact <= 0.0 || std::abs(value - exact) < 0.05 * cell) << value << " for " << exact;
+                ASSERT_TRUE((value < 0.0) == (exact < 0.0) || std::abs(exact) <= 0.1 * cell)
+                    << p.x << " " << p.y;
+                ASSERT_TRUE(exact <= 0.0 || std::abs(value - exact) < 0.05 * cell)
+                    << value << " for " << exact;
                 deepest = std::min(deepest, value);
             }
     // No wall is left within: the deepest point is as deep as that of the union.
@@ -126,7 +130,8 @@ TEST(MeshField, ThinAndFarMeshesAreTold) {
     for (glm::vec3& p : plate.positions) p.y *= 0.01f;
     EXPECT_NE(notesOf(*bake({.mesh = shared(plate), .resolution = 32})).find("raise the resolution, now 32"),
               std::string::npos);
-    const FieldVolumePtr far = bake({.mesh = shared(movedFile(cubeFile(), {1e6f, 0.0f, 0.0f})), .resolution = 32});
+    const FieldVolumePtr far =
+        bake({.mesh = shared(movedFile(cubeFile(), {1e6f, 0.0f, 0.0f})), .resolution = 32});
     EXPECT_NE(notesOf(*far).find("far from the origin"), std::string::npos) << notesOf(*far);
     EXPECT_LT(at(*far, {1e6, 0.0, 0.0}), -0.9);
 }
@@ -170,8 +175,9 @@ struct Folder {
         for (const glm::vec3& p : mesh.positions)
             text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-            text += "f " + std::to_string(mesh.indices[i] + 1) + " " + std::to_string(mesh.indices[i + 1] + 1) + " " +
-                    std::to_string(mesh.indices[i + 2] + 1) + "\n";
+            text += "f " + std::to_string(mesh.indices[i] + 1) + " " +
+                    std::to_string(mesh.indices[i + 1] + 1) + " " + std::to_string(mesh.indices[i + 2] + 1) +
+                    "\n";
         writeText(dir.path("cube.obj"), text);
     }
     Result<Program> compile(const std::string& nodes, const CompileOptions& options = {}) const {
@@ -191,10 +197,12 @@ const std::string kOut = R"({"id": "out", "type": "output", "inputs": {"surface"
 TEST(MeshFieldNodes, AMeshIsASolidThatCanBeMovedAndCut) {
     const Folder folder;
     const Result<Program> program = folder.compile(
-        kFile + R"({"id": "f", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 24}},
+        kFile +
+        R"({"id": "f", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 24}},
         {"id": "m", "type": "translate", "inputs": {"surface": {"from": "f"}, "offset": [3, 0, 0]}},
         {"id": "s", "type": "sphere", "inputs": {"p": [3, 0, 0], "radius": 0.5}},
-        {"id": "it", "type": "subtract", "inputs": {"a": {"from": "m"}, "b": {"from": "s"}}},)" + kOut);
+        {"id": "it", "type": "subtract", "inputs": {"a": {"from": "m"}, "b": {"from": "s"}}},)" +
+        kOut);
     ASSERT_TRUE(program) << format(program.error());
     ASSERT_EQ(program->ir.volumes().size(), 1u);
     const auto value = [&](const Point& p) { return evaluate(program->ir, program->distance(), {}, p); };
@@ -211,32 +219,46 @@ TEST(MeshFieldNodes, WhatDoesNotFitIsRefusedWithARemedy) {
     };
     const std::string mesh = R"("mesh": {"from": "file"})";
     EXPECT_NE(folder.refusal(field("")).find("not connected"), std::string::npos);
-    EXPECT_NE(folder.refusal(R"({"id": "file", "type": "mesh_file"},)" + field(mesh)).find("no file is named"),
-              std::string::npos);
-    EXPECT_NE(folder.refusal(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "no.obj"}},)" + field(mesh))
-                  .find("does not exist"),
-              std::string::npos);
-    EXPECT_NE(folder.refusal(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "../x.obj"}},)" + field(mesh))
-                  .find("outside the folder"),
-              std::string::npos);
-    EXPECT_NE(folder.refusal(R"({"id": "s", "type": "sphere"}, {"id": "file", "type": "polygonize", "inputs": {"surface": {"from": "s"}}},)" +
-                             field(mesh))
-                  .find("takes a mesh from a file"),
-              std::string::npos);
+    EXPECT_NE(
+        folder.refusal(R"({"id": "file", "type": "mesh_file"},)" + field(mesh)).find("no file is named"),
+        std::string::npos);
+    EXPECT_NE(
+        folder.refusal(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "no.obj"}},)" + field(mesh))
+            .find("does not exist"),
+        std::string::npos);
+    EXPECT_NE(
+        folder
+            .refusal(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "../x.obj"}},)" + field(mesh))
+            .find("outside the folder"),
+        std::string::npos);
+    EXPECT_NE(
+        folder
+            .refusal(
+                R"({"id": "s", "type": "sphere"}, {"id": "file", "type": "polygonize", "inputs": {"surface": {"from": "s"}}},)" +
+                field(mesh))
+            .find("takes a mesh from a file"),
+        std::string::npos);
     for (const std::string stage : {"smooth", "subdivide", "decimate"})
-        EXPECT_NE(folder
-                      .refusal(kFile + R"({"id": "it", "type": ")" + stage +
-                               R"(", "inputs": {"mesh": {"from": "file"}}}, {"id": "out", "type": "output", "inputs": {"mesh": {"from": "it"}}})")
-                      .find("put mesh_to_field and polygonize"),
-                  std::string::npos)
+        EXPECT_NE(
+            folder
+                .refusal(
+                    kFile + R"({"id": "it", "type": ")" + stage +
+                    R"(", "inputs": {"mesh": {"from": "file"}}}, {"id": "out", "type": "output", "inputs": {"mesh": {"from": "it"}}})")
+                .find("put mesh_to_field and polygonize"),
+            std::string::npos)
             << stage;
-    EXPECT_NE(folder.refusal(kFile + R"({"id": "out", "type": "output", "inputs": {"mesh": {"from": "file"}}})")
-                  .find("put mesh_to_field and polygonize"),
-              std::string::npos);
-    EXPECT_NE(folder.refusal(kFile + R"({"id": "s", "type": "sphere"}, {"id": "d", "type": "distance", "inputs": {"surface": {"from": "s"}}},)" +
-                             field(mesh + R"(, "margin": {"from": "d"})"))
-                  .find("one number"),
-              std::string::npos);
+    EXPECT_NE(
+        folder.refusal(kFile + R"({"id": "out", "type": "output", "inputs": {"mesh": {"from": "file"}}})")
+            .find("put mesh_to_field and polygonize"),
+        std::string::npos);
+    EXPECT_NE(
+        folder
+            .refusal(
+                kFile +
+                R"({"id": "s", "type": "sphere"}, {"id": "d", "type": "distance", "inputs": {"surface": {"from": "s"}}},)" +
+                field(mesh + R"(, "margin": {"from": "d"})"))
+            .find("one number"),
+        std::string::npos);
 }
 
 TEST(MeshFieldNodes, FindingsAreNotesOfTheProgram) {
@@ -244,7 +266,9 @@ TEST(MeshFieldNodes, FindingsAreNotesOfTheProgram) {
     std::string text = readText(folder.dir.path("cube.obj"));
     writeText(folder.dir.path("cube.obj"), text.substr(0, text.rfind("f ")));
     const Result<Program> program = folder.compile(
-        kFile + R"({"id": "it", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 24}},)" + kOut);
+        kFile +
+        R"({"id": "it", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 24}},)" +
+        kOut);
     ASSERT_TRUE(program) << format(program.error());
     ASSERT_EQ(program->notes.size(), 1u);
     EXPECT_EQ(program->notes[0].severity, Error::Severity::warning);

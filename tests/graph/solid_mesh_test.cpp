@@ -83,7 +83,8 @@ TEST(SolidMesh, HolesCrowdedEdgesAndCopiesAreCounted) {
     EXPECT_TRUE(solid.found.oriented());
 
     // Two cubes with an edge in common.
-    const SolidMesh touching = solidMesh(joinedFile(cubeFile(), movedFile(cubeFile(), {2.0f, 2.0f, 0.0f}, 1.0f)));
+    const SolidMesh touching =
+        solidMesh(joinedFile(cubeFile(), movedFile(cubeFile(), {2.0f, 2.0f, 0.0f}, 1.0f)));
     EXPECT_EQ(touching.found.crowded, 4u);
     EXPECT_FALSE(touching.found.closed());
 }

@@ -58,7 +58,8 @@ TEST(Volume, ItPassesThroughItsSamples) {
 TEST(Volume, APlaneIsExact) {
     const glm::dvec3 n = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
     const FieldVolumePtr volume = volumeOf(
-        kGrid, [&](const glm::dvec3& p) { return glm::dot(n, p) - 0.3; }, [&](const glm::dvec3&) { return n; });
+        kGrid, [&](const glm::dvec3& p) { return glm::dot(n, p) - 0.3; },
+        [&](const glm::dvec3&) { return n; });
     for (const glm::dvec3& p : randomPlaces(2'000, 1.2))
         for (const int channel : {tricubicChannel, trilinearChannel}) {
             const VolumeSample sample = sampleVolume(volume->layers[std::size_t(channel)], p);
@@ -132,7 +133,8 @@ TEST(Volume, IntervalsContainEverySample) {
             const Interval range = sampleVolume(layer, box);
             narrowest = std::min(narrowest, range.hi - range.lo);
             for (int i = 0; i < 40; ++i) {
-                const glm::dvec3 p = centre + half * (2.0 * glm::dvec3(unit(random), unit(random), unit(random)) - 1.0);
+                const glm::dvec3 p =
+                    centre + half * (2.0 * glm::dvec3(unit(random), unit(random), unit(random)) - 1.0);
                 const double value = sampleVolume(layer, p).value;
                 ASSERT_GE(value, range.lo);
                 ASSERT_LE(value, range.hi);
@@ -146,13 +148,16 @@ TEST(Volume, ColorsAreLinearLightBetweenSamples) {
     const std::vector<float> distances(12, 1.0f);
     const std::vector<glm::vec3> gradients(12, glm::vec3(0.0f));
     std::vector<uint32_t> colors(12, 0x000000);
-    for (std::size_t i = 0; i < 12; i += 2) colors[i + 1] = 0x4080FF;  // at x = 1: red 255, green 128, blue 64
+    for (std::size_t i = 0; i < 12; i += 2)
+        colors[i + 1] = 0x4080FF;  // at x = 1: red 255, green 128, blue 64
     const FieldVolume volume(grid, distances, gradients, colors);
     ASSERT_TRUE(volume.colored());
     EXPECT_NEAR(sampleVolume(volume.layers[redChannel], {1.0, 0.5, 1.5}).value, 1.0, 1e-12);
     EXPECT_NEAR(sampleVolume(volume.layers[redChannel], {0.25, 0.5, 1.5}).value, 0.25, 1e-12);
-    EXPECT_NEAR(sampleVolume(volume.layers[greenChannel], {1.0, 0.0, 2.0}).value, decodeSrgb(128 / 255.0), 1e-12);
-    EXPECT_NEAR(sampleVolume(volume.layers[blueChannel], {9.0, 0.0, 2.0}).value, decodeSrgb(64 / 255.0), 1e-12);
+    EXPECT_NEAR(sampleVolume(volume.layers[greenChannel], {1.0, 0.0, 2.0}).value, decodeSrgb(128 / 255.0),
+                1e-12);
+    EXPECT_NEAR(sampleVolume(volume.layers[blueChannel], {9.0, 0.0, 2.0}).value, decodeSrgb(64 / 255.0),
+                1e-12);
     EXPECT_EQ(sampleVolume(volume.layers[blueChannel], {9.0, 0.0, 2.0}).gradient.x, 0.0);
 }
 
@@ -162,7 +167,8 @@ TEST(Volume, TheDevicesTexelsHoldEachSampleWithTheNext) {
     ASSERT_EQ(texels.size(), 8 * texelCount(*volume));
     const std::size_t at = volume->grid.index(4, 5, 6);
     for (const std::size_t first : {std::size_t(0), texelCount(*volume)})
-        for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(texels[4 * (first + at) + k], volume->words[2 * at + k]);
+        for (std::size_t k = 0; k < 4; ++k)
+            EXPECT_EQ(texels[4 * (first + at) + k], volume->words[2 * at + k]);
     EXPECT_EQ(volumeTexels({}).size(), 4u);
 }
 

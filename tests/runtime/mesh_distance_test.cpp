@@ -10,8 +10,8 @@
 #include <random>
 
 #include "graph/json.h"
-#include "runtime/field_measure.h"
 #include "graph/triangle_tree.h"
+#include "runtime/field_measure.h"
 #include "tests/support/meshes.h"
 
 namespace fw {

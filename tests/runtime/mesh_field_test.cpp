@@ -1,5 +1,5 @@
-// Meshes as fields on the device: distances and signs against the exact ones, samples against the reference, solids
-// that come back out, and what is kept on the disk.
+// Meshes as fields on the device: distances and signs against the exact ones, samples against the reference,
+// solids that come back out, and what is kept on the disk.
 #include "graph/mesh_field.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,8 @@ Worst worstOf(const FieldVolume& volume, const TriangleMesh& mesh) {
                 NearestPoint on;
                 guess = tree.nearest(p, guess, on);
                 const double exact = std::sqrt(on.squared) / grid.cell;
-                const double found = std::bit_cast<float>(volume.words[2 * grid.index(x, y, int(z))]) / grid.cell;
+                const double found =
+                    std::bit_cast<float>(volume.words[2 * grid.index(x, y, int(z))]) / grid.cell;
                 const double error = std::abs(std::abs(found) - exact);
                 if (exact <= 2.0) worst.band = std::max(worst.band, error);
                 worst.beyond = std::max(worst.beyond, error / std::max(0.5, 0.02 * exact));
@@ -89,8 +90,9 @@ Worst worstOf(const FieldVolume& volume, const TriangleMesh& mesh) {
 
 void expectRight(const std::string& name, const FieldVolume& volume, const TriangleMesh& mesh) {
     const Worst worst = worstOf(volume, mesh);
-    std::printf("%-32s %3dx%3dx%3d  band %.4f cells, beyond %.3f of what is allowed, %zu signs\n", name.c_str(),
-                volume.grid.size.x, volume.grid.size.y, volume.grid.size.z, worst.band, worst.beyond, worst.signs);
+    std::printf("%-32s %3dx%3dx%3d  band %.4f cells, beyond %.3f of what is allowed, %zu signs\n",
+                name.c_str(), volume.grid.size.x, volume.grid.size.y, volume.grid.size.z, worst.band,
+                worst.beyond, worst.signs);
     EXPECT_LE(worst.band, 0.02) << name;
     EXPECT_LE(worst.beyond, 1.0) << name;
     EXPECT_EQ(worst.signs, 0u) << name;
@@ -115,22 +117,25 @@ TEST_F(MeshFieldDevice, DistancesAreExactInTheBandAndNearlyBeyond) {
 TEST_F(MeshFieldDevice, DistancesToRealMeshes) {
     if (!kCorpus) GTEST_SKIP() << "FIELDWRIGHT_CORPUS names no folder of meshes";
     for (const char* name :
-         {"closed/spot_low_resolution.obj", "closed/fish.obj", "closed/scorpion_low_resolution.obj", "closed/koala.obj",
-          "closed/wingnut.obj", "closed/plane.obj", "closed/hammer.obj", "closed/cube.obj", "closed/sphere.obj",
-          "closed/1002_tray_bottom.STL", "closed/fixed_top.ply", "closed/7_8ths_cube.stl", "closed/mengerSponge3.glb",
-          "closed/Cray_left.obj"}) {
+         {"closed/spot_low_resolution.obj", "closed/fish.obj", "closed/scorpion_low_resolution.obj",
+          "closed/koala.obj", "closed/wingnut.obj", "closed/plane.obj", "closed/hammer.obj",
+          "closed/cube.obj", "closed/sphere.obj", "closed/1002_tray_bottom.STL", "closed/fixed_top.ply",
+          "closed/7_8ths_cube.stl", "closed/mengerSponge3.glb", "closed/Cray_left.obj"}) {
         const TriangleMeshPtr mesh = corpusMesh(name);
-        for (const int resolution : {64, 128}) expectRight(name, *bake({.mesh = mesh, .resolution = resolution}), *mesh);
+        for (const int resolution : {64, 128})
+            expectRight(name, *bake({.mesh = mesh, .resolution = resolution}), *mesh);
     }
 }
 
 TEST_F(MeshFieldDevice, TheHostAgrees) {
     TriangleMesh turned = torusFile(60, 30);
-    for (std::size_t t = 0; t < turned.indices.size(); t += 21) std::swap(turned.indices[t], turned.indices[t + 1]);
+    for (std::size_t t = 0; t < turned.indices.size(); t += 21)
+        std::swap(turned.indices[t], turned.indices[t + 1]);
     TriangleMesh open = torusFile(40, 20);
     open.indices.resize(open.indices.size() - 60);
     for (const TriangleMesh& mesh :
-         {turned, open, joinedFile(cubeFile(), movedFile(torusFile(30, 20), {0.9f, 0.7f, 0.3f})), unsharedFile(cubeFile())}) {
+         {turned, open, joinedFile(cubeFile(), movedFile(torusFile(30, 20), {0.9f, 0.7f, 0.3f})),
+          unsharedFile(cubeFile())}) {
         const MeshFieldRecipe recipe{.mesh = shared(mesh), .resolution = 40};
         const FieldVolumePtr here = *bakeOnHost(recipe), there = bake(recipe);
         ASSERT_EQ(here->grid.size, there->grid.size);
@@ -156,15 +161,19 @@ TEST_F(MeshFieldDevice, TheSameBytesEachTime) {
 
 TEST_F(MeshFieldDevice, ColorsComeFromTheNearestTriangle) {
     TriangleMesh mesh = cubeFile();
-    for (const glm::vec3& p : mesh.positions) mesh.colors.push_back(glm::vec3(0.5f + 0.5f * p.x, 0.25f, 0.5f - 0.4f * p.z));
+    for (const glm::vec3& p : mesh.positions)
+        mesh.colors.push_back(glm::vec3(0.5f + 0.5f * p.x, 0.25f, 0.5f - 0.4f * p.z));
     const FieldVolumePtr volume = bake({.mesh = shared(mesh), .resolution = 32}),
                          host = *bakeOnHost({.mesh = shared(mesh), .resolution = 32});
     ASSERT_TRUE(volume->colored());
-    for (const glm::dvec3 p : {glm::dvec3(0.5, 1.0, 0.25), glm::dvec3(1.05, 0.2, -0.7), glm::dvec3(-0.3, -0.4, 1.0)})
+    for (const glm::dvec3 p :
+         {glm::dvec3(0.5, 1.0, 0.25), glm::dvec3(1.05, 0.2, -0.7), glm::dvec3(-0.3, -0.4, 1.0)})
         for (const FieldVolume* each : {volume.get(), host.get()}) {
-            const glm::dvec3 wanted(0.5 + 0.5 * std::clamp(p.x, -1.0, 1.0), 0.25, 0.5 - 0.4 * std::clamp(p.z, -1.0, 1.0));
+            const glm::dvec3 wanted(0.5 + 0.5 * std::clamp(p.x, -1.0, 1.0), 0.25,
+                                    0.5 - 0.4 * std::clamp(p.z, -1.0, 1.0));
             for (int k = 0; k < 3; ++k)
-                EXPECT_NEAR(sampleVolume(each->layers[std::size_t(redChannel + k)], p).value, wanted[k], 0.03);
+                EXPECT_NEAR(sampleVolume(each->layers[std::size_t(redChannel + k)], p).value, wanted[k],
+                            0.03);
         }
 }
 
@@ -173,10 +182,12 @@ struct Folder {
     TempDir dir;
     explicit Folder(const TriangleMesh& mesh, const std::string& more = "") {
         write(mesh);
-        writeText(dir.path("g.field.json"),
-                  R"({"fieldwright": 1, "nodes": [{"id": "file", "type": "mesh_file", "inputs": {"path": "m.ply"}},
+        writeText(
+            dir.path("g.field.json"),
+            R"({"fieldwright": 1, "nodes": [{"id": "file", "type": "mesh_file", "inputs": {"path": "m.ply"}},
                       {"id": "it", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 48)" +
-                      more + R"(}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "it"}, "resolution": 64}}]})");
+                more +
+                R"(}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "it"}, "resolution": 64}}]})");
     }
     void write(const TriangleMesh& mesh) const {
         std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
@@ -209,7 +220,8 @@ struct Folder {
 
 TEST_F(MeshFieldDevice, SamplesEqualTheReference) {
     TriangleMesh colored = torusFile(40, 20);
-    for (const glm::vec3& p : colored.positions) colored.colors.push_back(glm::vec3(0.5f + 0.3f * p.x, 0.4f, 0.5f));
+    for (const glm::vec3& p : colored.positions)
+        colored.colors.push_back(glm::vec3(0.5f + 0.3f * p.x, 0.4f, 0.5f));
     for (const std::string more : {"", R"(, "sampling": "trilinear")"}) {
         const Program program = Folder(colored, more).program();
         std::mt19937 random(3);
@@ -232,7 +244,8 @@ TEST_F(MeshFieldDevice, SamplesEqualTheReference) {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 oblique += std::abs(samples[i].gradient[axis] - wanted.gradient[axis]) > 1e-3;
             for (std::size_t k = 0; k < 3; ++k)
-                ASSERT_NEAR(samples[i].baseColor[k], evaluate(program.ir, program.surface[1 + k], {}, p), 1e-4);
+                ASSERT_NEAR(samples[i].baseColor[k], evaluate(program.ir, program.surface[1 + k], {}, p),
+                            1e-4);
         }
         EXPECT_LT(oblique, more.empty() ? 1 : 100);  // a trilinear gradient jumps at the cells' faces
     }
@@ -282,13 +295,20 @@ TEST_F(MeshFieldDevice, RealSolidsComeBackOut) {
         const char* name;
         long parts, euler;
         bool thin = false;
-    } solids[] = {{"closed/spot_low_resolution.obj", 1, 2}, {"closed/koala.obj", 1, 2},
-                  {"closed/wingnut.obj", 1, 2},             {"closed/hammer.obj", 1, 2, true},
-                  {"closed/cube.obj", 1, 2},                {"closed/sphere.obj", 1, 2},
-                  {"closed/7_8ths_cube.stl", 1, 2},         {"closed/Cray_left.obj", 2, 4, true},
-                  {"closed/fish.obj", 1, 2, true},          {"closed/scorpion_low_resolution.obj", 1, 2, true},
-                  {"closed/plane.obj", 1, 2, true},         {"closed/1002_tray_bottom.STL", 1, -44, true},
-                  {"closed/fixed_top.ply", 1, -12, true},   {"closed/mengerSponge3.glb", 1, -2816, true}};
+    } solids[] = {{"closed/spot_low_resolution.obj", 1, 2},
+                  {"closed/koala.obj", 1, 2},
+                  {"closed/wingnut.obj", 1, 2},
+                  {"closed/hammer.obj", 1, 2, true},
+                  {"closed/cube.obj", 1, 2},
+                  {"closed/sphere.obj", 1, 2},
+                  {"closed/7_8ths_cube.stl", 1, 2},
+                  {"closed/Cray_left.obj", 2, 4, true},
+                  {"closed/fish.obj", 1, 2, true},
+                  {"closed/scorpion_low_resolution.obj", 1, 2, true},
+                  {"closed/plane.obj", 1, 2, true},
+                  {"closed/1002_tray_bottom.STL", 1, -44, true},
+                  {"closed/fixed_top.ply", 1, -12, true},
+                  {"closed/mengerSponge3.glb", 1, -2816, true}};
     for (const auto& [name, parts, euler, thin] : solids) {
         const TriangleMeshPtr mesh = corpusMesh(name);
         const FieldVolumePtr volume = bake({.mesh = mesh, .resolution = 64});
@@ -312,7 +332,8 @@ TEST_F(MeshFieldDevice, BrokenMeshesAreMadeSolidsOrRefused) {
     if (!kCorpus) GTEST_SKIP() << "FIELDWRIGHT_CORPUS names no folder of meshes";
     std::vector<std::string> names;
     for (const char* folder : {"broken", "open", "derived"})
-        for (const auto& entry : std::filesystem::directory_iterator(std::string(kCorpus) + "/meshes/" + folder))
+        for (const auto& entry :
+             std::filesystem::directory_iterator(std::string(kCorpus) + "/meshes/" + folder))
             names.push_back(std::string(folder) + "/" + entry.path().filename().string());
     std::ranges::sort(names);
     for (const std::string& name : names) {
@@ -321,9 +342,10 @@ TEST_F(MeshFieldDevice, BrokenMeshesAreMadeSolidsOrRefused) {
         const Result<TriangleMeshPtr> mesh = readTriangleMesh(owner, name);
         if (!mesh) continue;
         const Result<FieldVolumePtr> volume = baker()({.mesh = *mesh, .resolution = 64});
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         std::printf("%-34s %.2f s: %s\n", name.c_str(), seconds,
-                    !volume                  ? volume.error().message.c_str()
+                    !volume                    ? volume.error().message.c_str()
                     : (*volume)->notes.empty() ? "clean"
                                                : (*volume)->notes.front().c_str());
         if (!volume) continue;

@@ -12,7 +12,8 @@ namespace fw::test {
 inline TriangleMesh cubeFile() {
     TriangleMesh mesh;
     for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
     return mesh;
 }
 
@@ -60,7 +61,8 @@ inline TriangleMesh joinedFile(const TriangleMesh& a, const TriangleMesh& b) {
 /// As a recipe wants it.
 inline TriangleMeshPtr shared(TriangleMesh mesh, const std::string& file = "mesh.obj") {
     mesh.file = file;
-    for (const glm::vec3& p : mesh.positions) mesh.hash = mesh.hash * 31 + std::hash<float>()(p.x + 3 * p.y + 7 * p.z);
+    for (const glm::vec3& p : mesh.positions)
+        mesh.hash = mesh.hash * 31 + std::hash<float>()(p.x + 3 * p.y + 7 * p.z);
     for (const uint32_t index : mesh.indices) mesh.hash = mesh.hash * 31 + index;
     return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
