@@ -10,6 +10,25 @@
 namespace fw {
 namespace {
 
+/// Distances to a ball.
+FieldVolumePtr ballVolume() {
+    static const FieldVolumePtr volume = [] {
+        const VolumeGrid grid{{-1.0, -1.0, -1.0}, 0.2, {11, 11, 11}};
+        std::vector<float> distances;
+        std::vector<glm::vec3> gradients;
+        for (int z = 0; z < 11; ++z)
+            for (int y = 0; y < 11; ++y)
+                for (int x = 0; x < 11; ++x) {
+                    const glm::vec3 p(grid.place({x, y, z}));
+                    const float length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+                    distances.push_back(length - 0.7f);
+                    gradients.push_back(length > 0.0f ? p / length : glm::vec3(0.0f));
+                }
+        return std::make_shared<const FieldVolume>(grid, distances, gradients);
+    }();
+    return volume;
+}
+
 /// An Ir that applies `op` to x, y, z and a constant, as far as its arity goes; booleans where they are
 /// wanted.
 struct Applied {
@@ -21,6 +40,9 @@ struct Applied {
         const int arity = opInfo(op).arity;
         if (op == Op::image)
             root = ir.sample(ir.addImage(plainImage()), 1, ir.position(0), ir.position(1));
+        else if (op == Op::volume)
+            root = ir.sample(ir.addVolume(ballVolume()), tricubicChannel,
+                             {ir.position(0), ir.position(1), ir.position(2)});
         else if (op == Op::select)
             root = ir.add(op, isPositive, ir.position(1), ir.position(2));
         else if (op == Op::logicalNot)

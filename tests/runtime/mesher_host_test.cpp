@@ -14,6 +14,7 @@
 #include "runtime/mesh_report.h"
 #include "runtime/mesher.h"
 #include "runtime/session.h"
+#include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
 #include "tests/support/random_graph.h"
 
@@ -58,10 +59,8 @@ TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
         const Result<Box> box = meshRegion(program, {std::nullopt, 40});
         ASSERT_TRUE(box);
         MesherConfig config = gridOf(*box, 40);
-        const std::vector<uint32_t> words = imageWords(program.ir.images());
-        const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
-        upload(test::device(), images, words);
-        config.field.images = &images;
+        const test::FieldResources resources(program);
+        config.field = resources.buffers();
         config.families = &program.families;
         const Meshed kernels =
             run(createMesherPipelines(test::device(), emitField(program)), config, nullptr);

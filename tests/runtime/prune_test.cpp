@@ -26,13 +26,11 @@ struct Meshed {
 
 Meshed meshOf(const Program& program, const Box& box, int cells, MeshMethod method, bool pruned,
               bool sparse = true) {
-    const std::vector<uint32_t> words = imageWords(program.ir.images());
-    const Buffer images = createBuffer(test::device(), words.size() * sizeof(uint32_t));
-    upload(test::device(), images, words);
+    const test::FieldResources resources(program);
     MesherConfig config{.origin = {box.lo[0], box.lo[1], box.lo[2]},
                         .cellSize = glm::vec3(float((box.hi[0] - box.lo[0]) / cells)),
                         .cells = glm::ivec3(cells),
-                        .field = {.images = &images},
+                        .field = resources.buffers(),
                         .families = &program.families,
                         .sparse = sparse,
                         .pruned = pruned,

@@ -5,6 +5,15 @@
 
 namespace fw::test {
 
+FieldResources::FieldResources(const Program& program) {
+    const std::vector<uint32_t> words = imageWords(program.ir.images());
+    images = createBuffer(device(), words.size() * sizeof(uint32_t));
+    upload(device(), images, words);
+    const std::vector<uint32_t> texels = volumeTexels(program.ir.volumes());
+    volumes = createBuffer(device(), texels.size() * sizeof(uint32_t));
+    upload(device(), volumes, texels);
+}
+
 std::vector<FieldSample> evaluateOnDevice(const Program& program,
                                           std::span<const std::array<float, 3>> points, float halfSize) {
     Device& gpu = device();
@@ -14,12 +23,7 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
     const Buffer out = createBuffer(gpu, points.size() * sizeof(FieldSample), Memory::readback);
     const std::vector<float> live = program.numbers();
     const Buffer parameters = createBuffer(gpu, live.size() * sizeof(float), Memory::upload);
-    const std::vector<uint32_t> words = imageWords(program.ir.images());
-    const Buffer images = createBuffer(gpu, words.size() * sizeof(uint32_t), Memory::upload);
-    upload(gpu, images, words);
-    const std::vector<uint32_t> texels = volumeTexels(program.ir.volumes());
-    const Buffer volumes = createBuffer(gpu, texels.size() * sizeof(uint32_t), Memory::upload);
-    upload(gpu, volumes, texels);
+    const FieldResources resources(program);
     uploadBytes(gpu, in, points.data(), points.size_bytes());
     upload(gpu, parameters, live);
 
@@ -28,11 +32,8 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
         uint32_t count;
         float halfSize;
     } push{static_cast<uint32_t>(points.size()), halfSize};
-    const Descriptor descriptors[] = {{0, in},
-                                      {1, out},
-                                      {kFieldParametersBinding, parameters},
-                                      {kFieldImagesBinding, images},
-                                      {kFieldVolumesBinding, volumes}};
+    std::vector<Descriptor> descriptors = {{0, in}, {1, out}, {kFieldParametersBinding, parameters}};
+    addField(descriptors, resources.buffers());
     dispatch(commands, pipeline, {groupsFor(points.size(), 64), 1, 1}, push, descriptors);
     submit(commands);
     return download<FieldSample>(gpu, out, points.size());

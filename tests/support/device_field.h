@@ -6,8 +6,16 @@
 #include <vector>
 
 #include "graph/compile.h"
+#include "runtime/field_buffers.h"
 
 namespace fw::test {
+
+/// The images and volumes of a program on the device.
+struct FieldResources {
+    explicit FieldResources(const Program& program);
+    FieldBuffers buffers() const { return {.images = &images, .volumes = &volumes}; }
+    Buffer images, volumes;
+};
 
 /// As shaders/field/evaluate.comp writes it.
 struct FieldSample {
