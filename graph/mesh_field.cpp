@@ -25,6 +25,7 @@ constexpr double kPadding = 2.37;
 constexpr double kThin = 2.5;  // cells: what is thinner loses parts
 constexpr int kCoarse = 4;     // cells between the samples from which membranes are looked for
 constexpr int kDraftResolution = 32;
+constexpr std::size_t kTexelBytes = 16;  // of a sample on the device
 constexpr float kCrossing =
     1.05f;  // cells: two neighbours are no farther from what is between them, taken together
 constexpr double kFlat = 0.99;    // cosine between the normals of a face and of an edge that is none
@@ -57,6 +58,10 @@ Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
         grid.origin[axis] = 0.5 * (lo[axis] + hi[axis]) - 0.5 * grid.cell * (grid.size[axis] - 1);
         grid.inset[axis] = 0.5 * (grid.cell * (grid.size[axis] - 1) - (hi[axis] - lo[axis]));
     }
+    if (kTexelBytes * grid.samples() > kMostVolumeBytes)
+        return Error{.message = "the mesh " + nameOf(*recipe.mesh) + " would take more than " +
+                                std::to_string(kMostVolumeBytes >> 20) +
+                                " MiB as a field: lower the resolution"};
     return grid;
 }
 
@@ -446,6 +451,7 @@ Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe) {
 }
 
 Result<FieldVolumePtr> boxInPlace(const MeshFieldRecipe& recipe) {
+    if (const Result<VolumeGrid> whole = gridOf(recipe); !whole) return whole.error();
     MeshFieldRecipe coarse = recipe;
     coarse.resolution = kLeastFieldResolution;
     const Result<VolumeGrid> grid = gridOf(coarse);

@@ -142,6 +142,12 @@ TEST(MeshField, NonsenseIsRefused) {
     EXPECT_FALSE(bakeOnHost({.mesh = shared(point)}));
     TriangleMesh huge = movedFile(cubeFile(), {}, 1e37f);
     EXPECT_FALSE(bakeOnHost({.mesh = shared(huge)}));
+    // Before anything is measured.
+    for (const MeshFieldBaker& baker : {MeshFieldBaker(bakeOnHost), MeshFieldBaker(boxInPlace)}) {
+        const Result<FieldVolumePtr> large = baker({.mesh = shared(cubeFile()), .resolution = 512});
+        ASSERT_FALSE(large);
+        EXPECT_NE(large.error().message.find("lower the resolution"), std::string::npos);
+    }
     TriangleMesh collapsed = cubeFile();
     collapsed.indices = {0, 0, 1, 2, 2, 2};
     const Result<FieldVolumePtr> none = bakeOnHost({.mesh = shared(collapsed)});
