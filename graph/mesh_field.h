@@ -2,16 +2,14 @@
 //
 // Theory. The talk ("Advanced Procedural Rendering in DirectX 11", mesh to signed distance field) rasterises
 // triangles into the slices of a grid that they can affect, keeps the nearest one at each sample with its
-// sign, and fills the rest by fast sweeping. Here too, in three steps:
-//   1. the *band*, samples within kBand cells of the surface: each triangle is measured against those around
-//   it;
-//   2. inside or outside, for the band alone;
-//   3. *sweeps* from slice to slice, forwards and backwards, each axis in turn: a sample tries the points
-//   that are nearest
-//      to the nine samples before it. The talk adds a step to the distance of the sample before in a row,
-//      which is far from Euclidean; handing on points along rows is still off by five cells for a ball of 64,
-//      since a point gets nowhere along a diagonal. A sample that nothing has reached takes the sign along,
-//      for between neighbours outside of the band there is no surface.
+// sign, and fills the rest by fast sweeping. Here too, in three steps. First the *band*, samples within kBand
+// cells of the surface: each triangle is measured against those around it. Then inside or outside, for the
+// band alone. Then *sweeps* from slice to slice, forwards and backwards, each axis in turn: a sample tries
+// the points that are nearest to the nine samples before it. The talk adds a step to the distance of the
+// sample before in a row, which is far from Euclidean; handing on points along rows is still off by five
+// cells for a ball of 128, since a point gets nowhere along a diagonal. A sample that nothing has reached
+// takes the sign along, for between neighbours outside of the band there is no surface.
+//
 // The sign is that of the nearest feature's normal where the mesh is closed and oriented. That fails where
 // its parts overlap, which shows: then neighbours have unlike signs though neither is as near to the surface
 // as it should be. There, and where the mesh is open, has edges of more than two faces or faces that cannot
