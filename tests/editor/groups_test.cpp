@@ -23,7 +23,7 @@ using test::structuralErrors;
 
 /// Distance and material at some points; empty if the graph does not compile.
 std::vector<double> valuesOf(const Graph& graph) {
-    const Result<Program> program = compile(graph);
+    const Result<Program> program = compile(graph, {.bake = boxInPlace});
     if (!program) return {};
     std::mt19937 random(3);
     std::vector<Point> points(20);
