@@ -29,6 +29,7 @@ constexpr std::size_t kTexelBytes = 16;  // of a sample on the device
 constexpr float kCrossing =
     1.05f;  // cells: two neighbours are no farther from what is between them, taken together
 constexpr double kFlat = 0.99;    // cosine between the normals of a face and of an edge that is none
+constexpr double kAside = 0.02;   // cells from a triangle, where it is asked whether it is an inner wall
 constexpr float kInside = 0.55f;  // a sheet alone has winding numbers up to one half on one of its sides
 
 std::string nameOf(const TriangleMesh& mesh) {
@@ -180,6 +181,21 @@ class Windings {
         forBlocks(list.size(), 256, [&](std::size_t, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) find(placeOf(list[i]), list[i]);
         });
+    }
+    /// Whether the surface passes through `point`, which is on a triangle; `off` leads away from it. An inner
+    /// wall has the inside on both of its sides.
+    bool passes(const glm::dvec3& point, const glm::dvec3& off) const {
+        const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(point)), glm::ivec3(0), grid.size - 2);
+        int within = 0, outside = 0;
+        for (int k = 0; k < 8; ++k) {
+            const std::size_t corner = grid.index(cell.x + (k & 1), cell.y + (k >> 1 & 1), cell.z + (k >> 2));
+            if (known(corner)) ++(inside(corner) ? within : outside);
+        }
+        if (within > 0 && outside > 0) return true;
+        const double length = glm::length(off);
+        if (length == 0.0) return true;
+        const glm::dvec3 step = off * (kAside / length);
+        return (tree.windingNumber(point + step) > 0.5) != (tree.windingNumber(point - step) > 0.5);
     }
     glm::ivec3 placeOf(std::size_t index) const {
         const auto x = std::size_t(grid.size.x), y = std::size_t(grid.size.y);
@@ -356,12 +372,15 @@ bool signByWinding(const MeshInGrid& mesh, NearestPoints& nearest) {
     });
     forSamples(grid, [&](int x, int y, int z, std::size_t index) {
         float& distance = nearest.distance[index];
-        if (!atSurface[index]) distance = kUnreached;
         if (distance == kUnreached) return;
         const auto corners = cornersOf(mesh, nearest.triangle[index]);
         const glm::dvec3 p(x, y, z), normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
         const double size = glm::length(normal);
         const NearestPoint on = nearestOnTriangle(p, corners);
+        if (!atSurface[index] && !windings.passes(on.point, p - on.point)) {
+            distance = kUnreached;
+            return;
+        }
         nearest.point[index] =
             keptPoint(p, on, normal / std::max(size, 1e-30), on.feature == 0, windings.inside(index));
         distance = std::copysign(distance, -windings.above(index));

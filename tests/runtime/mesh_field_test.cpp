@@ -114,6 +114,29 @@ TEST_F(MeshFieldDevice, DistancesAreExactInTheBandAndNearlyBeyond) {
             expectRight(name, *bake({.mesh = shared(mesh), .resolution = resolution}), mesh);
 }
 
+TEST_F(MeshFieldDevice, OutsideOfPartsThatOverlapDistancesAreExactInTheBand) {
+    const TriangleMesh mesh = joinedFile(torusFile(120, 60), movedFile(torusFile(120, 60), {0.8f, 0.1f, 0}));
+    const TriangleTree tree(mesh.positions, mesh.indices);
+    for (const int resolution : {33, 80}) {
+        const FieldVolumePtr volume = bake({.mesh = shared(mesh), .resolution = resolution});
+        const VolumeGrid& grid = volume->grid;
+        double worst = 0.0;
+        std::size_t seen = 0;
+        for (std::size_t i = 0; i < grid.samples(); ++i) {
+            const int x = int(i) % grid.size.x, rest = int(i) / grid.size.x;
+            const glm::dvec3 p = grid.place({x, rest % grid.size.y, rest / grid.size.y});
+            NearestPoint on;
+            tree.nearest(p, 0, on);
+            const double exact = std::sqrt(on.squared) / grid.cell;
+            if (exact > 2.0 || exact < 0.1 || tree.windingNumber(p) > 0.5) continue;
+            worst = std::max(worst, std::abs(std::bit_cast<float>(volume->words[2 * i]) / grid.cell - exact));
+            ++seen;
+        }
+        EXPECT_GT(seen, grid.samples() / 50);
+        EXPECT_LE(worst, 0.02) << resolution;
+    }
+}
+
 TEST_F(MeshFieldDevice, DistancesToRealMeshes) {
     if (!kCorpus) GTEST_SKIP() << "FIELDWRIGHT_CORPUS names no folder of meshes";
     for (const char* name :
