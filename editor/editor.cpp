@@ -9,6 +9,7 @@
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/shell/theme.h"
+#include "graph/named_parameters.h"
 
 namespace fw::editor {
 

@@ -6,6 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 
 #include "graph/result.h"
@@ -42,5 +45,36 @@ Result<Asset> openAsset(const std::string& owner, const std::string& path, const
 
 /// "the picture 'a.png' " and what is wrong with it.
 Error assetProblem(const std::string& path, const AssetKind& kind, const std::string& what);
+
+/// What make(bytes, absolute path) gives for the file, a Result of a shared pointer. While somebody holds
+/// what was made of a file, and the file was not changed, it is given again. Errors: as openAsset(),
+/// Asset::read() and `make`.
+template <class Made, class Make>
+Result<std::shared_ptr<const Made>> readAsset(const std::string& owner, const std::string& path,
+                                              const AssetKind& kind, const Make& make) {
+    struct Known {
+        std::array<int64_t, 4> stamp;
+        std::weak_ptr<const Made> made;
+    };
+    static std::mutex mutex;
+    static std::map<std::string, Known> known;  // by absolute path
+    const Result<Asset> asset = openAsset(owner, path, kind);
+    if (!asset) return asset.error();
+    {
+        const std::lock_guard lock(mutex);
+        const auto found = known.find(asset->file);
+        if (found != known.end() && found->second.stamp == asset->stamp)
+            if (std::shared_ptr<const Made> held = found->second.made.lock()) return held;
+        std::erase_if(known, [](const auto& entry) { return entry.second.made.expired(); });
+    }
+    const Result<std::string> bytes = asset->read();
+    if (!bytes) return assetProblem(path, kind, bytes.error().message);
+    Result<std::shared_ptr<const Made>> made = make(*bytes, asset->file);
+    if (made) {
+        const std::lock_guard lock(mutex);
+        known[asset->file] = {asset->stamp, *made};
+    }
+    return made;
+}
 
 }  // namespace fw

@@ -4,6 +4,7 @@
 #include "graph/check_value.h"
 #include "graph/compile.h"
 #include "graph/language/lower.h"
+#include "graph/named_parameters.h"
 #include "graph/timeline.h"
 
 namespace fw {

@@ -5,6 +5,7 @@
 
 #include "graph/check_parts.h"
 #include "graph/check_value.h"
+#include "graph/named_parameters.h"
 #include "graph/scene.h"
 #include "graph/timeline.h"
 

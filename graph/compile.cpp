@@ -1,13 +1,13 @@
 #include "graph/compile.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <unordered_map>
 
 #include "graph/check.h"
 #include "graph/check_value.h"
 #include "graph/language/lower.h"
+#include "graph/named_parameters.h"
 #include "graph/node_type.h"
 
 namespace fw {
@@ -383,9 +383,9 @@ class Compiler {
             report(node, prefix, "mesh", volume.error());
             return failure(type.outputs);
         }
-        std::size_t bytes = 16 * texelCount(**volume);
+        std::size_t bytes = kTexelBytes * texelCount(**volume);
         for (const FieldVolumePtr& held : state.ir.volumes())
-            if (held != *volume) bytes += 16 * texelCount(*held);
+            if (held != *volume) bytes += kTexelBytes * texelCount(*held);
         if (bytes > kMostVolumeBytes) {
             report(node, prefix, "resolution",
                    {.message = "the graph's meshes would take more than " +
@@ -393,10 +393,9 @@ class Compiler {
                                " MiB as fields: lower a resolution or take fewer"});
             return failure(type.outputs);
         }
-        for (const std::string& what : (*volume)->notes) {
-            Error& note = notes.emplace_back();
-            note = located(node, prefix, "mesh", {.message = what, .severity = Error::Severity::warning});
-        }
+        for (const std::string& what : (*volume)->notes)
+            notes.push_back(
+                located(node, prefix, "mesh", {.message = what, .severity = Error::Severity::warning}));
         const uint32_t number = state.ir.addVolume(*volume);
         const Value& p = inputOf(type, inputs, "p");
         const std::array<IrId, 3> place{p.ids[0], p.ids[1], p.ids[2]};
@@ -624,20 +623,6 @@ void readSettings(const Node& output, const MeshRecipe& recipe, Program& program
         if (const auto* name = std::get_if<std::string>(&method->value)) program.method = meshMethod(*name);
 }
 
-/// The number with as few digits as name it.
-std::string shortest(double number) {
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-Error errorAt(const Graph& graph, const Node* node, std::string message) {
-    Error error;
-    error.message = std::move(message);
-    error.file = graph.path;
-    if (node) error.node = node->id, error.line = node->place.line, error.column = node->place.column;
-    return error;
-}
-
 }  // namespace
 
 MeshMethod meshMethod(std::string_view name) {
@@ -679,57 +664,6 @@ std::optional<Type> compiledType(const Graph& graph, std::string_view group, con
     for (const OutputSpec& output : made.outputs)
         if (link.output.empty() || output.name == link.output) return output.type;
     return {};
-}
-
-std::vector<double> inputNumbers(const Node& node, std::string_view input) {
-    const InputValue* value = node.input(input);
-    if (value) {
-        if (const auto* number = std::get_if<double>(&value->value)) return {*number};
-        if (const auto* numbers = std::get_if<std::vector<double>>(&value->value)) return *numbers;
-    }
-    const NodeType* type = findNodeType(node.type);
-    const int index = type ? inputIndex(*type, input) : -1;
-    return index < 0 ? std::vector<double>{} : type->inputs[index].value.numbers;
-}
-
-namespace {
-
-NamedParameter named(const ExposedParameter& parameter) {
-    NamedParameter result{parameter.name, parameter.node, parameter.input};
-    result.min = parameter.min.value_or(result.min), result.max = parameter.max.value_or(result.max);
-    return result;
-}
-
-/// The name that a node of type parameter gives itself; empty for any other.
-std::string_view parameterName(const Node& node) {
-    const InputValue* name = node.type == "parameter" ? node.input("name") : nullptr;
-    const std::string* text = name ? std::get_if<std::string>(&name->value) : nullptr;
-    return text ? std::string_view(*text) : std::string_view();
-}
-
-NamedParameter named(const Node& node) {
-    NamedParameter result{std::string(parameterName(node)), node.id, "value"};
-    if (const auto least = inputNumbers(node, "min"); !least.empty()) result.min = least[0];
-    if (const auto most = inputNumbers(node, "max"); !most.empty()) result.max = most[0];
-    return result;
-}
-
-}  // namespace
-
-std::vector<NamedParameter> namedParameters(const Graph& graph) {
-    std::vector<NamedParameter> list;
-    for (const ExposedParameter& parameter : graph.parameters) list.push_back(named(parameter));
-    for (const Node& node : graph.nodes)
-        if (!parameterName(node).empty()) list.push_back(named(node));
-    return list;
-}
-
-std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view name) {
-    for (const ExposedParameter& parameter : graph.parameters)
-        if (parameter.name == name) return named(parameter);
-    for (const Node& node : graph.nodes)
-        if (!name.empty() && parameterName(node) == name) return named(node);
-    return std::nullopt;
 }
 
 Result<Program> compile(const Graph& graph, const CompileOptions& options) {
@@ -797,69 +731,6 @@ Done checkLive(const Graph& graph, const CompileOptions& options) {
                             : ofNode.empty() ? ""
                                              : "; the node has " + listed(ofNode)));
     }
-    return done();
-}
-
-Done setParameter(Graph& graph, const std::string& name, const std::string& text) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (at < end) {
-        double number = 0.0;
-        const auto [next, failure] = std::from_chars(at, end, number);
-        if (failure != std::errc{} || !std::isfinite(number) ||
-            (next < end && (*next != ',' || next + 1 == end)))
-            return errorAt(graph, nullptr,
-                           inQuotes(text) + " is no value for the parameter " + inQuotes(name) +
-                               ": write a number, or numbers with commas between them");
-        numbers.push_back(number);
-        at = next < end ? next + 1 : next;
-    }
-    if (numbers.empty())
-        return errorAt(graph, nullptr,
-                       "the parameter " + inQuotes(name) + " is given no value: write name=value");
-    Done set = setParameter(graph, name, numbers);
-    const std::optional<NamedParameter> target = findParameter(graph, name);
-    const Node* node = target ? graph.node(target->node) : nullptr;
-    if (!set && numbers.size() == 2 && node && inputNumbers(*node, target->input).size() == 1) {
-        Error error = set.error();
-        error.message +=
-            "; the decimal sign is a point: " + std::string(text).replace(text.find(','), 1, ".");
-        return error;
-    }
-    return set;
-}
-
-Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers) {
-    const std::optional<NamedParameter> target = findParameter(graph, name);
-    Node* const node = target ? graph.node(target->node) : nullptr;
-    if (!node) {
-        std::vector<std::string> names;
-        for (const NamedParameter& parameter : namedParameters(graph)) names.push_back(parameter.name);
-        const std::string near = nearestName(name, names);
-        return errorAt(graph, nullptr,
-                       "the graph has no parameter " + inQuotes(name) +
-                           (!near.empty()   ? ": did you mean " + inQuotes(near) + "?"
-                            : names.empty() ? ": it exposes none"
-                                            : ": it has " + listed(names)));
-    }
-    const std::size_t count = inputNumbers(*node, target->input).size();
-    if (count > 0 && count != numbers.size())
-        return errorAt(graph, node,
-                       "the parameter " + inQuotes(name) + " takes " +
-                           (count == 1 ? "one number" : std::to_string(count) + " numbers") + ", not " +
-                           std::to_string(numbers.size()));
-    for (double number : numbers)
-        if (number < target->min || number > target->max)
-            return errorAt(graph, node,
-                           "the parameter " + inQuotes(name) + " takes values from " + shortest(target->min) +
-                               " to " + shortest(target->max));
-    InputValue value;
-    if (numbers.size() == 1)
-        value.value = numbers[0];
-    else
-        value.value = std::vector(numbers.begin(), numbers.end());
-    node->set(target->input, std::move(value));
     return done();
 }
 

@@ -49,4 +49,12 @@ bool isName(std::string_view text) {
     return !text.empty() && isLetter(text[0]) && std::all_of(text.begin(), text.end(), fits);
 }
 
+Error errorAt(const Graph& graph, const Node* node, std::string message) {
+    Error error;
+    error.message = std::move(message);
+    error.file = graph.path;
+    if (node) error.node = node->id, error.line = node->place.line, error.column = node->place.column;
+    return error;
+}
+
 }  // namespace fw

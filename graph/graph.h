@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "graph/kept_json.h"
+#include "graph/result.h"
 
 namespace fw {
 
@@ -129,6 +130,9 @@ struct Graph {
     Node* node(std::string_view id);
     const Group* group(std::string_view id) const;
 };
+
+/// About the node, or if that is null about the whole document.
+Error errorAt(const Graph& graph, const Node* node, std::string message);
 
 /// The entry of `nodes` with this id, or nullptr.
 const Node* findNode(const std::vector<Node>& nodes, std::string_view id);

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 #include "graph/asset_file.h"
 #include "graph/image.h"
@@ -54,34 +52,12 @@ Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path, 
     return std::make_shared<const FieldImage>(width, height, std::move(texels), file);
 }
 
-/// What was read before and is still held somewhere. By path; `stamp` tells whether the file is the same.
-struct Known {
-    std::array<int64_t, 4> stamp;
-    std::weak_ptr<const FieldImage> image;
-};
-
 }  // namespace
 
 Result<FieldImagePtr> readImage(const std::string& graphPath, const std::string& path) {
-    const Result<Asset> asset = openAsset(graphPath, path, kPicture);
-    if (!asset) return asset.error();
-    static std::mutex mutex;
-    static std::map<std::string, Known> known;
-    {
-        const std::lock_guard lock(mutex);
-        const auto found = known.find(asset->file);
-        if (found != known.end() && found->second.stamp == asset->stamp)
-            if (FieldImagePtr held = found->second.image.lock()) return held;
-        std::erase_if(known, [](const auto& entry) { return entry.second.image.expired(); });
-    }
-    const Result<std::string> bytes = asset->read();
-    if (!bytes) return problem(path, bytes.error().message);
-    const Result<FieldImagePtr> image = decode(*bytes, path, asset->file);
-    if (image) {
-        const std::lock_guard lock(mutex);
-        known[asset->file] = {asset->stamp, *image};
-    }
-    return image;
+    return readAsset<FieldImage>(
+        graphPath, path, kPicture,
+        [&](const std::string& bytes, const std::string& file) { return decode(bytes, path, file); });
 }
 
 }  // namespace fw

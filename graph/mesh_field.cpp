@@ -12,6 +12,7 @@
 #include <mutex>
 #include <utility>
 
+#include "graph/hash.h"
 #include "graph/image.h"
 #include "graph/parallel.h"
 
@@ -25,7 +26,6 @@ constexpr double kPadding = 2.37;
 constexpr double kThin = 2.5;  // cells: what is thinner loses parts
 constexpr int kCoarse = 4;     // cells between the samples from which membranes are looked for
 constexpr int kDraftResolution = 32;
-constexpr std::size_t kTexelBytes = 16;  // of a sample on the device
 constexpr float kCrossing =
     1.05f;  // cells: two neighbours are no farther from what is between them, taken together
 constexpr double kFlat = 0.99;    // cosine between the normals of a face and of an edge that is none
@@ -78,11 +78,6 @@ void forSamples(const VolumeGrid& grid, const Work& work) {
 
 std::array<std::size_t, 3> strides(const VolumeGrid& grid) {
     return {1, std::size_t(grid.size.x), std::size_t(grid.size.x) * std::size_t(grid.size.y)};
-}
-
-std::array<glm::dvec3, 3> cornersOf(const MeshInGrid& mesh, uint32_t triangle) {
-    const auto [a, b, c] = mesh.corners(triangle);
-    return {glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)};
 }
 
 /// The point as a sample at `p` keeps it, off by kLeastDistance at least or not at all.
@@ -326,7 +321,7 @@ std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& m
 
 uint64_t MeshFieldRecipe::key() const {
     uint64_t hash = mesh->hash;
-    const auto mix = [&](uint64_t word) { hash = std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); };
+    const auto mix = [&](uint64_t word) { hash = mixed(hash, word); };
     mix(uint64_t(resolution));
     mix(std::bit_cast<uint64_t>(margin));
     mix(uint64_t(inside));
@@ -373,7 +368,7 @@ bool signByWinding(const MeshInGrid& mesh, NearestPoints& nearest) {
     forSamples(grid, [&](int x, int y, int z, std::size_t index) {
         float& distance = nearest.distance[index];
         if (distance == kUnreached) return;
-        const auto corners = cornersOf(mesh, nearest.triangle[index]);
+        const auto corners = mesh.solid.corners(nearest.triangle[index]);
         const glm::dvec3 p(x, y, z), normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
         const double size = glm::length(normal);
         const NearestPoint on = nearestOnTriangle(p, corners);
@@ -437,8 +432,8 @@ FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, s
         // The mean thickness of a plate with this volume and area.
         double area = 0.0;
         for (std::size_t t = 0; t < mesh.solid.source.size(); ++t) {
-            const auto [a, b, c] = mesh.corners(uint32_t(t));
-            area += 0.5 * double(glm::length(glm::cross(b - a, c - a)));
+            const auto [a, b, c] = mesh.solid.corners(t);
+            area += 0.5 * glm::length(glm::cross(b - a, c - a));
         }
         if (2.0 * mesh.solid.volume < kThin * area)
             note("is thinner in places than the cells of its field: raise the resolution, now " +

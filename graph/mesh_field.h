@@ -74,11 +74,6 @@ struct MeshInGrid {
     VolumeGrid grid;
     SolidMesh solid;        ///< positions in cells
     bool byNormals = true;  ///< whether normals decide
-
-    std::array<glm::vec3, 3> corners(uint32_t triangle) const {
-        const uint32_t* corner = &solid.indices[3 * std::size_t(triangle)];
-        return {solid.positions[corner[0]], solid.positions[corner[1]], solid.positions[corner[2]]};
-    }
 };
 
 /// Of each sample, as far as it is known: the nearest point of the surface, the triangle that it is on, or

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "graph/hash.h"
 #include "graph/parallel.h"
 #include "graph/triangle_tree.h"
 
@@ -15,8 +16,6 @@ namespace fw {
 namespace {
 
 constexpr uint32_t kNone = ~0u;
-
-uint64_t mixed(uint64_t hash, uint64_t word) { return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); }
 
 /// Places in a table that is searched from a hash on: at least twice as many as there will be entries.
 std::vector<uint32_t> emptyTable(std::size_t entries) {
@@ -116,12 +115,6 @@ void turn(SolidMesh& solid, Part& part) {
     part.volume = -part.volume;
 }
 
-std::array<glm::dvec3, 3> cornersOf(const SolidMesh& solid, uint32_t triangle) {
-    const uint32_t* corner = &solid.indices[3 * std::size_t(triangle)];
-    return {glm::dvec3(solid.positions[corner[0]]), glm::dvec3(solid.positions[corner[1]]),
-            glm::dvec3(solid.positions[corner[2]])};
-}
-
 /// Finds the parts and turns the triangles of each alike.
 std::vector<Part> findParts(SolidMesh& solid, const glm::dvec3& middle) {
     const std::vector<uint32_t>& mates = solid.mates;
@@ -163,7 +156,7 @@ std::vector<Part> findParts(SolidMesh& solid, const glm::dvec3& middle) {
                 if ((against[t] != 0) != most) turn(solid, t);
         }
         for (uint32_t t : part.triangles) {
-            const auto [a, b, c] = cornersOf(solid, t);
+            const auto [a, b, c] = solid.corners(t);
             part.volume += glm::dot(a - middle, glm::cross(b - middle, c - middle)) / 6.0;
         }
         solid.found.turned += part.turned;
@@ -179,7 +172,7 @@ int depthOf(const SolidMesh& solid, const std::vector<Part>& parts, const Part& 
         if (&other == &part || !other.closed) continue;
         double angle = 0.0;
         for (uint32_t t : other.triangles) {
-            const auto [a, b, c] = cornersOf(solid, t);
+            const auto [a, b, c] = solid.corners(t);
             angle += solidAngle(a - at, b - at, c - at);
         }
         depth += std::abs(angle) > 0.5;
@@ -250,7 +243,7 @@ std::vector<FeatureNormals> featureNormals(const SolidMesh& solid) {
     std::vector<glm::dvec3> faces(count), angles(count), vertices(solid.positions.size(), glm::dvec3(0.0));
     forBlocks(count, kBlock, [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last; ++t) {
-            const auto [a, b, c] = cornersOf(solid, uint32_t(t));
+            const auto [a, b, c] = solid.corners(t);
             const glm::dvec3 ab = unit(b - a), bc = unit(c - b), ca = unit(a - c);
             const auto angle = [](const glm::dvec3& in, const glm::dvec3& out) {
                 return std::acos(std::clamp(-glm::dot(in, out), -1.0, 1.0));

@@ -48,6 +48,12 @@ struct SolidMesh {
     std::vector<uint32_t> mates;
     double volume = 0.0;  ///< of closed meshes, cubic metres
     MeshFindings found;
+
+    std::array<glm::dvec3, 3> corners(std::size_t triangle) const {
+        const uint32_t* corner = &indices[3 * triangle];
+        return {glm::dvec3(positions[corner[0]]), glm::dvec3(positions[corner[1]]),
+                glm::dvec3(positions[corner[2]])};
+    }
 };
 
 /// Of nearestOnTriangle()'s features: the face, its sides ab, bc, ca, its corners a, b, c. Of length 1, or 0.

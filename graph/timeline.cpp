@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "graph/named_parameters.h"
 #include "graph/node_type.h"
 
 namespace fw {

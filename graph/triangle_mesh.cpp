@@ -1,14 +1,12 @@
 #include "graph/triangle_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cctype>
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 #include "graph/asset_file.h"
+#include "graph/hash.h"
 
 namespace fw {
 
@@ -45,7 +43,7 @@ void dropUnused(TriangleMesh& mesh) {
 
 uint64_t hashOf(const TriangleMesh& mesh) {
     uint64_t hash = 0xcbf29ce484222325u;
-    const auto mix = [&](uint32_t word) { hash = std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); };
+    const auto mix = [&](uint64_t word) { hash = mixed(hash, word); };
     mix(uint32_t(mesh.positions.size()));
     for (const std::vector<glm::vec3>* of : {&mesh.positions, &mesh.colors})
         for (const glm::vec3& p : *of)
@@ -53,12 +51,6 @@ uint64_t hashOf(const TriangleMesh& mesh) {
     for (uint32_t index : mesh.indices) mix(index);
     return hash ^ hash >> 32;
 }
-
-/// What was read before and is still held somewhere. By path; `stamp` tells whether the file is the same.
-struct Known {
-    std::array<int64_t, 4> stamp;
-    std::weak_ptr<const TriangleMesh> mesh;
-};
 
 }  // namespace
 
@@ -83,25 +75,13 @@ Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
 }
 
 Result<TriangleMeshPtr> readTriangleMesh(const std::string& graphPath, const std::string& path) {
-    const Result<Asset> asset = openAsset(graphPath, path, kMesh);
-    if (!asset) return asset.error();
-    static std::mutex mutex;
-    static std::map<std::string, Known> known;
-    {
-        const std::lock_guard lock(mutex);
-        const auto found = known.find(asset->file);
-        if (found != known.end() && found->second.stamp == asset->stamp)
-            if (TriangleMeshPtr held = found->second.mesh.lock()) return held;
-        std::erase_if(known, [](const auto& entry) { return entry.second.mesh.expired(); });
-    }
-    const Result<std::string> bytes = asset->read();
-    if (!bytes) return meshProblem(path, bytes.error().message);
-    Result<TriangleMesh> mesh = parseTriangleMesh({*bytes, path, asset->file});
-    if (!mesh) return mesh.error();
-    auto shared = std::make_shared<const TriangleMesh>(std::move(*mesh));
-    const std::lock_guard lock(mutex);
-    known[asset->file] = {asset->stamp, shared};
-    return TriangleMeshPtr(shared);
+    return readAsset<TriangleMesh>(
+        graphPath, path, kMesh,
+        [&](const std::string& bytes, const std::string& file) -> Result<TriangleMeshPtr> {
+            Result<TriangleMesh> mesh = parseTriangleMesh({bytes, path, file});
+            if (!mesh) return mesh.error();
+            return TriangleMeshPtr(std::make_shared<const TriangleMesh>(std::move(*mesh)));
+        });
 }
 
 }  // namespace fw

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "graph/hash.h"
 #include "graph/image.h"
 
 namespace fw {
@@ -139,7 +140,7 @@ FieldVolume::FieldVolume(const VolumeGrid& grid_, std::span<const float> distanc
 FieldVolume::FieldVolume(const VolumeGrid& grid_, std::vector<uint32_t> words_)
     : grid(grid_), words(std::move(words_)) {
     hash = 0xcbf29ce484222325u;
-    const auto mix = [&](uint64_t word) { hash = std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29); };
+    const auto mix = [&](uint64_t word) { hash = mixed(hash, word); };
     for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<uint64_t>(grid.origin[axis]));
     for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<uint64_t>(grid.inset[axis]));
     for (int axis = 0; axis < 3; ++axis) mix(uint64_t(grid.size[axis]));

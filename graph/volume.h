@@ -110,6 +110,7 @@ std::vector<uint32_t> volumeTexels(const std::vector<FieldVolumePtr>& volumes);
 /// The texels of one.
 std::size_t texelCount(const FieldVolume& volume);
 
+inline constexpr std::size_t kTexelBytes = 16;
 inline constexpr std::size_t kMostVolumeBytes = 1024u
                                                 << 20;  ///< the texels of all volumes of a graph take less
 

@@ -48,11 +48,11 @@ std::vector<gpu::BakeItem> itemsOf(const MeshInGrid& mesh) {
     std::vector<gpu::BakeItem> items;
     items.reserve(2 * mesh.solid.source.size());
     for (uint32_t t = 0; t < mesh.solid.source.size(); ++t) {
-        const auto [a, b, c] = mesh.corners(t);
+        const auto [a, b, c] = mesh.solid.corners(t);
         const glm::ivec3 lo =
-            glm::max(glm::ivec3(glm::ceil(glm::min(a, glm::min(b, c)) - kBand)), glm::ivec3(0));
+            glm::max(glm::ivec3(glm::ceil(glm::min(a, glm::min(b, c)) - double(kBand))), glm::ivec3(0));
         const glm::ivec3 hi =
-            glm::min(glm::ivec3(glm::floor(glm::max(a, glm::max(b, c)) + kBand)), mesh.grid.size - 1);
+            glm::min(glm::ivec3(glm::floor(glm::max(a, glm::max(b, c)) + double(kBand))), mesh.grid.size - 1);
         for (int z = lo.z; z <= hi.z; z += BAKE_ROWS)
             for (int y = lo.y; y <= hi.y; y += BAKE_ROWS)
                 items.push_back({t, uint32_t(y) | uint32_t(z) << 16});

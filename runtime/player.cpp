@@ -9,6 +9,7 @@
 
 #include "graph/check.h"
 #include "graph/json.h"
+#include "graph/named_parameters.h"
 #include "graph/region.h"
 
 namespace fw {
@@ -75,12 +76,11 @@ Result<Player> Player::open(const std::string& path, const PlayerOptions& option
     // The device starts while the graph is read: on software Vulkan that takes longer than the rest.
     DeviceOptions deviceOptions = options.deviceOptions;
     deviceOptions.pick = options.device;
-    std::future<Result<Device>> opening =
-        std::async(std::launch::async, [&] { return createDevice(deviceOptions); });
+    OpeningDevice opening(std::launch::async, deviceOptions);
     Result<Graph> graph = readGraph(path, warnings);
     if (!graph) return graph.error();
     if (std::optional<Error> error = firstError(*graph, warnings)) return std::move(*error);
-    Result<Device> device = opening.get();
+    Result<Device>& device = opening.get();
     if (!device) return device.error();
     Player player(std::move(*device), options);
     Result<Prepared> prepared = player.prepare(std::move(*graph), options);

@@ -13,6 +13,7 @@
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
 #include "graph/compile.h"
+#include "graph/named_parameters.h"
 #include "graph/timeline.h"
 
 namespace fw::editor {

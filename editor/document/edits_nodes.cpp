@@ -7,7 +7,7 @@
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
 #include "graph/check_value.h"
-#include "graph/compile.h"
+#include "graph/named_parameters.h"
 
 namespace fw::editor {
 

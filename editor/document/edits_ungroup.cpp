@@ -15,6 +15,7 @@
 #include "editor/document/wiring.h"
 #include "graph/check_value.h"
 #include "graph/compile.h"
+#include "graph/named_parameters.h"
 #include "graph/timeline.h"
 
 namespace fw::editor {
@@ -298,6 +299,17 @@ class Ungrouping {
         return node;
     }
 
+    /// Whether the parameter led into the group, to a node of type parameter that says the same without it.
+    bool namesItself(const ExposedParameter& parameter) const {
+        const Node* node = findNode(result.nodes, parameter.node);
+        if (!node || std::ranges::find(added, node->id, &Node::id) == added.end()) return false;
+        Graph alone;
+        alone.nodes = {*node};
+        const std::optional<NamedParameter> own = findParameter(alone, parameter.name);
+        return own && own->input == parameter.input && own->min == parameter.min.value_or(own->min) &&
+               own->max == parameter.max.value_or(own->max);
+    }
+
     void finish(std::vector<Node> outer) {
         std::size_t at = 0;
         while (wiring.scope().nodes[at].id != instance.id) ++at;
@@ -310,6 +322,7 @@ class Ungrouping {
                 if (plug.node != instance.id || to == redirected.end()) return {};
                 return to->second;
             });
+        std::erase_if(result.parameters, [&](const ExposedParameter& each) { return namesItself(each); });
         const auto shows = [&](const Node& node) { return node.group == groupId; };
         bool last = std::ranges::none_of(result.nodes, shows);
         for (const Group& each : result.groups) last = last && std::ranges::none_of(each.nodes, shows);

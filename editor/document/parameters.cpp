@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "editor/document/references.h"
-#include "graph/compile.h"
+#include "graph/named_parameters.h"
 
 namespace fw::editor {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "editor/document/wiring.h"
-#include "graph/compile.h"
+#include "graph/named_parameters.h"
 #include "graph/timeline.h"
 
 namespace fw::editor {

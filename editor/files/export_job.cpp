@@ -1,7 +1,6 @@
 #include "editor/files/export_job.h"
 
 #include <atomic>
-#include <future>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -73,20 +72,14 @@ Result<ExportState> ExportJob::Shared::make() {
         return known.error();
     if (const Done distinct = checkDistinct(wish.graph->path, exportedPaths(wish.path)); !distinct)
         return distinct.error();
-    std::future<Result<Device>> opening =
-        std::async(std::launch::async, [this] { return createDevice(wish.device); });
+    OpeningDevice opening(std::launch::async, wish.device);
     if (!start("check")) return stopped;
     findings = check(*wish.graph);
     std::erase_if(findings, [](const Error& each) { return each.severity != Error::Severity::error; });
     if (!findings.empty()) return findings.front();
     if (!start("compile")) return stopped;
-    std::optional<Result<Device>> device;  // there when it is first asked for
-    const auto awaited = [&]() -> const Device* {
-        if (!device) device.emplace(opening.get());
-        return *device ? &**device : nullptr;
-    };
     CompileOptions options;
-    options.bake = meshFieldBaker(awaited);
+    options.bake = meshFieldBaker([&] { return opening.orNone(); });
     Result<Program> program = compileAtTime(*wish.graph, wish.seconds, std::move(options));
     if (!program) return program.error();
     if (!start("region")) return stopped;
@@ -94,10 +87,10 @@ Result<ExportState> ExportJob::Shared::make() {
     if (!region) return region.error();
     prepareMesher(emitField(*program));
     if (!start("device")) return stopped;
-    awaited();
-    if (!*device) return device->error();
+    Result<Device>& device = opening.get();
+    if (!device) return device.error();
     const Result<MeshedProgram> meshed =
-        meshProgram(std::move(**device), std::move(*program), wish.mesh, *region,
+        meshProgram(std::move(*device), std::move(*program), wish.mesh, *region,
                     [this](const char* stage) { return start(stage); });
     if (!meshed) return meshed.error();
     if (!start("download")) return stopped;

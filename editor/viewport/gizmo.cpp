@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "graph/compile.h"
+#include "graph/named_parameters.h"
 
 namespace fw::editor {
 

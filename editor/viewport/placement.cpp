@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "editor/document/paths.h"
-#include "graph/compile.h"
+#include "graph/named_parameters.h"
 
 namespace fw::editor {
 

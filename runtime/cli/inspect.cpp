@@ -6,6 +6,7 @@
 #include "graph/glsl.h"
 #include "graph/json.h"
 #include "graph/language/lower.h"
+#include "graph/named_parameters.h"
 #include "graph/reference.h"
 #include "graph/timeline.h"
 #include "runtime/cli/commands.h"
@@ -70,24 +71,6 @@ int runCheck(const std::vector<std::string>& paths) {
     return sound ? kDone : kBadInput;
 }
 
-namespace {
-
-/// A device that is opened only if the graph has a mesh to measure.
-class OpenedDevice {
-  public:
-    MeshFieldBaker baker() {
-        return meshFieldBaker([this]() -> const Device* {
-            if (!device) device.emplace(createDevice({}));
-            return *device ? &**device : nullptr;
-        });
-    }
-
-  private:
-    std::optional<Result<Device>> device;
-};
-
-}  // namespace
-
 int runEval(const EvalOptions& options) {
     if (options.at.empty() && options.interval.empty()) {
         std::fprintf(stderr,
@@ -106,9 +89,9 @@ int runEval(const EvalOptions& options) {
         }
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;
-    OpenedDevice device;
+    OpeningDevice device(std::launch::deferred, {});
     CompileOptions compileOptions;
-    compileOptions.bake = device.baker();
+    compileOptions.bake = meshFieldBaker([&] { return device.orNone(); });
     const std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return kBadInput;
     if (!options.at.empty()) {
@@ -130,9 +113,9 @@ int runEval(const EvalOptions& options) {
 }
 
 int runCompile(const CompileCommandOptions& options) {
-    OpenedDevice device;
+    OpeningDevice device(std::launch::deferred, {});
     CompileOptions compileOptions;
-    compileOptions.bake = device.baker();
+    compileOptions.bake = meshFieldBaker([&] { return device.orNone(); });
     compileOptions.live.insert(options.live.begin(), options.live.end());
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <future>
 
 #include "graph/glsl.h"
 #include "runtime/mesh_field_baker.h"
@@ -76,20 +75,15 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     const BeforeOutput nothing;
 
     // The device starts while the graph is read: on software Vulkan that takes longer than reading.
-    std::future<Result<Device>> opening =
-        std::async(std::launch::async, [&] { return createDevice({.pick = options.device}); });
+    OpeningDevice device(std::launch::async, {.pick = options.device});
     progress.start("read", 0);
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return fail(kBadInput);
     progress.start("compile", 5);
-    std::optional<Result<Device>> device;  // there when it is first asked for
-    const auto awaited = [&]() -> const Device* {
-        if (!device) device.emplace(opening.get());
-        return *device ? &**device : nullptr;
-    };
     CompileOptions compileOptions;
     compileOptions.bake =
-        meshFieldBaker(awaited, {.progress = [&](double share) { progress.show(5 + int(5 * share)); }});
+        meshFieldBaker([&] { return device.orNone(); },
+                       {.progress = [&](double share) { progress.show(5 + int(5 * share)); }});
     std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
     if (!program) return fail(kBadInput);
     progress.start("region", 10);
@@ -99,11 +93,11 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     if (!box) return fail(badInput(options, box.error()));
     prepareMesher(emitField(*program));
     progress.start("device", 15);
-    awaited();
-    if (!*device) return print(device->error()), fail(kBadUsage);
+    Result<Device>& opened = device.get();
+    if (!opened) return print(opened.error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
 
-    return OpenedGraph{std::move(**device), std::move(*program), request, *box};
+    return OpenedGraph{std::move(*opened), std::move(*program), request, *box};
 }
 
 Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed) {
@@ -139,15 +133,14 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     playerOptions.method = options.method;
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
     const BeforeOutput nothing;
-    std::future<Result<Device>> opening =
-        std::async(std::launch::async, [&] { return createDevice(playerOptions.deviceOptions); });
+    OpeningDevice opening(std::launch::async, playerOptions.deviceOptions);
     progress.start("read", 0);
     std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return fail(kBadInput);
     if (accept)
         if (const int refused = accept(*readTimeline(*graph)); refused != kDone) return fail(refused);
     progress.start("device", 10);
-    Result<Device> device = opening.get();
+    Result<Device>& device = opening.get();
     if (!device) return print(device.error()), fail(kBadUsage);
     if (interrupted) return fail(stopped());
     progress.start("pipelines", 20, kCompiling);

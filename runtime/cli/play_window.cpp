@@ -6,6 +6,7 @@
 #include <map>
 
 #include "graph/json.h"
+#include "graph/named_parameters.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/clock.h"
 #include "runtime/file_watch.h"

@@ -9,8 +9,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,6 +96,25 @@ std::vector<DeviceInfo> listDevices();
 /// Opens the preferred usable device, or the one that `options.pick` names; an Error where nothing matches
 /// it. Throws SystemError where Vulkan or a usable device is missing.
 Result<Device> createDevice(const DeviceOptions& options = {});
+
+/// A device that opens beside other work, or at its first use.
+class OpeningDevice {
+  public:
+    /// With std::launch::async it opens from now on, with deferred at the first use.
+    OpeningDevice(std::launch when, const DeviceOptions& options)
+        : opening(std::async(when, [options] { return createDevice(options); })) {}
+    /// Waits until it is open. As createDevice().
+    Result<Device>& get() {
+        if (!opened) opened.emplace(opening.get());
+        return *opened;
+    }
+    /// The same, and nullptr in place of an Error.
+    const Device* orNone() { return get() ? &**opened : nullptr; }
+
+  private:
+    std::future<Result<Device>> opening;
+    std::optional<Result<Device>> opened;
+};
 
 /// Another logical device on the same physical one, opened at the first call. A software device translates
 /// kernels on the one thread of its queue; the sibling's queue has a thread of its own, and what it

@@ -4,6 +4,7 @@
 
 #include "editor/preview/preview.h"
 #include "graph/json.h"
+#include "graph/named_parameters.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {

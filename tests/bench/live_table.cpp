@@ -4,6 +4,7 @@
 
 #include "graph/glsl.h"
 #include "graph/json.h"
+#include "graph/named_parameters.h"
 #include "runtime/mesher.h"
 #include "runtime/mesher_host.h"
 #include "tests/bench/tables.h"

@@ -10,6 +10,7 @@
 
 #include "graph/check.h"
 #include "graph/json.h"
+#include "graph/named_parameters.h"
 
 namespace fw {
 namespace {
