@@ -216,7 +216,7 @@ std::string MeshFindings::text() const {
     add(oneSided, "part whose faces cannot agree", "parts whose faces cannot agree");
     add(collapsed, "face without area left out", "faces without area left out");
     add(copies, "copy of a face left out", "copies of faces left out");
-    if (insideOut) text += std::string(text.empty() ? "" : ", ") + "all faces were turned inwards";
+    if (insideOut) text += std::string(text.empty() ? "" : ", ") + "all faces turned inwards";
     return text;
 }
 

@@ -15,12 +15,20 @@ namespace fw {
 
 namespace {
 
-/// Of the samples of distances: the greatest length that a gradient between them can have, and by how many
-/// cells a value there can be off the distance. Trilinear: differences are at most 1 along each axis, and a
-/// value is a mean of others that are half a diagonal away at most. Tricubic: by search, 2.38 and 0.98, where
-/// each corner of a cell has a nearest point of its own; meshes of all kinds have up to 1.7.
-constexpr double kFlatSlope = std::numbers::sqrt3, kFlatOff = 0.5 * std::numbers::sqrt3;
-constexpr double kCubicSlope = 2.5, kCubicOff = 1.0;
+// How far values are from distances, in cells. A value at x is a mean of the cell's samples s, and with
+// tricubic sampling a sum of their slopes as well:
+//     f(x) = sum w_s d_s + sum v_s . g_s
+// Where the distance at a place a is known, that at s is off it by |s - a| at most. The mean of |s - a| is at
+// most the root of the mean of its square, which is |m - a|^2 and the variance of s, at most 1/4 along each
+// axis; m is x itself, or with the weights of cubic polynomials off it by at most sqrt(3)/18 along each axis.
+// And the sum of |v_s| is at most sqrt(3)/4: the root of the mean of |v_s / w_s|^2, which is at most 1/16
+// along each axis.
+constexpr double kScatter = 0.5 * std::numbers::sqrt3;
+constexpr double kCubicShift = 1.0 / 6.0, kCubicRise = 0.435;  // and some, for gradients have ten bits
+constexpr double kSwept = 0.25;  // what distances are off that were handed on from sample to sample
+// The greatest gradients. Trilinear: differences are at most 1 along each axis. Tricubic: by search, 2.62
+// where each corner of a cell has a nearest point of its own; meshes of all kinds have up to 1.7.
+constexpr double kFlatSlope = std::numbers::sqrt3, kCubicSlope = 3.0;
 
 glm::dvec3 unpackGradient(uint32_t word) {
     const auto part = [&](int shift) { return (int32_t(word << (22 - shift)) >> 22) / 511.0; };
@@ -111,6 +119,27 @@ VolumeSample trilinear(const FieldVolume& volume, const Axis* axes, int channel)
     return {mix(alongY[0], alongY[1], z), gradient / volume.grid.cell};
 }
 
+/// What the distance at a place of the grid can be by the samples around it; anything, beyond.
+Interval distanceAt(const FieldVolume& volume, const glm::dvec3& place) {
+    const VolumeGrid& grid = volume.grid;
+    Axis axes[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        axes[axis] = along(place[axis], grid.origin[axis], grid.cell, grid.size[axis]);
+        if (axes[axis].beyond != 0.0) return {-kHuge, kHuge};
+    }
+    Interval distance{-kHuge, kHuge};
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 2; ++j)
+            for (int i = 0; i < 2; ++i) {
+                const std::size_t index = grid.index(axes[0].cell + i, axes[1].cell + j, axes[2].cell + k);
+                const double f = std::bit_cast<float>(volume.words[2 * index]);
+                const double far =
+                    grid.cell * glm::length(glm::dvec3(i - axes[0].t, j - axes[1].t, k - axes[2].t));
+                distance = {std::max(distance.lo, f - far), std::min(distance.hi, f + far)};
+            }
+    return distance;
+}
+
 std::vector<uint32_t> pack(const VolumeGrid& grid, std::span<const float> distances,
                            std::span<const glm::vec3> gradients, std::span<const uint32_t> colors) {
     std::vector<uint32_t> words;
@@ -152,9 +181,10 @@ FieldVolume::FieldVolume(const VolumeGrid& grid_, std::vector<uint32_t> words_)
         const double f = std::bit_cast<float>(words[2 * i]);
         least = std::min(least, f), most = std::max(most, f);
     }
-    const double off = kCubicOff * grid.cell;
-    layers = {{{this, tricubicChannel, least - off, most + off, kCubicSlope, 2.0 * off},
-               {this, trilinearChannel, least, most, kFlatSlope, 2.0 * kFlatOff * grid.cell},
+    const double cell = grid.cell, rise = kCubicRise * cell, swept = kSwept * cell, scatter = kScatter * cell;
+    layers = {{{this, tricubicChannel, least - rise, most + rise, kCubicSlope, kCubicShift * cell, scatter,
+                rise + swept},
+               {this, trilinearChannel, least, most, kFlatSlope, 0.0, scatter, swept},
                {this, redChannel},
                {this, greenChannel},
                {this, blueChannel}}};
@@ -198,10 +228,15 @@ Interval sampleVolume(const VolumeLayer& layer, const Interval* place) {
     if (layer.channel >= redChannel) return {layer.least - 1e-12, layer.most + 1e-12};
     // A coordinate is known up to its rounding.
     const double radius = glm::length(half) + 1e-15 * (1.0 + far);
-    const double reach = std::min(layer.slope * radius, radius + layer.slack);
-    const Interval around = lipschitzRange(sampleVolume(layer, centre).value, 1.0, reach, layer.least,
-                                           within ? layer.most : kHuge);
-    return outward(around.lo - 1e-12 * (1.0 + grid.cell), around.hi + 1e-12 * (1.0 + grid.cell));
+    const auto off = [&](double r) { return std::hypot(r + layer.shift, layer.scatter) + layer.rise; };
+    const double value = sampleVolume(layer, centre).value;
+    Interval distance = distanceAt(*layer.volume, centre);  // at the centre
+    if (distance.lo == -kHuge) distance = {value - off(0.0), value + off(0.0)};
+    if (!within) distance.hi = std::max(distance.hi, 0.0);
+    const double lo = std::max(distance.lo - off(radius), value - layer.slope * radius);
+    const double hi = std::min(distance.hi + off(radius), value + layer.slope * radius);
+    const double more = 1e-12 * (1.0 + grid.cell), most = within ? layer.most : kHuge;
+    return outward(std::clamp(lo, layer.least, most) - more, std::clamp(hi, layer.least, most) + more);
 }
 
 std::size_t texelCount(const FieldVolume& volume) {

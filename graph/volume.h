@@ -61,9 +61,9 @@ struct VolumeLayer {
     const FieldVolume* volume = nullptr;
     int channel = tricubicChannel;
     double least = 0.0, most = 1.0;  ///< within the grid
-    // How far two values can be apart: by `slope` times the distance of their places, and by `slack` more
-    // than that distance. Of distances only, metres.
-    double slope = 0.0, slack = 0.0;
+    // Of distances only, metres. Two values are apart by `slope` times the distance of their places at most;
+    // a value r away from a place of known distance is off that by sqrt((r + shift)^2 + scatter^2) + rise.
+    double slope = 0.0, shift = 0.0, scatter = 0.0, rise = 0.0;
 };
 
 struct VolumeSample {

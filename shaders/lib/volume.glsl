@@ -103,15 +103,34 @@ vec4 volumeColor(VolumeGrid grid, vec3 p, int channel) {
     return vec4(mix(result.xyz, vec3(0.0), notEqual(place.beyond, vec3(0.0))), result.w);
 }
 
-// Contains every value of a distance over a box, whose value at the centre is given; `spread` is how far values can be apart
-// (VolumeLayer's slope and slack), and `range` has the values within the grid.
-vec2 volumeRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, vec2 spread, vec2 range) {
+// What the distance at a place of the grid can be by the samples around it.
+vec2 volumeDistance(VolumeGrid grid, VolumePlace place) {
+    vec2 distance = vec2(-1e30, 1e30);
+    for (int i = 0; i < 8; i += 2) {
+        ivec3 corner = ivec3(0, i >> 1 & 1, i >> 2);
+        uvec4 words = imageLoad(fieldVolumes, place.texel + (corner.z * grid.size.y + corner.y) * grid.size.x);
+        vec2 f = uintBitsToFloat(words.xz);
+        vec3 off = place.t - vec3(corner);
+        vec2 far = grid.cell * vec2(length(off), length(off - vec3(1.0, 0.0, 0.0)));
+        distance = vec2(max(distance.x, max(f.x - far.x, f.y - far.y)), min(distance.y, min(f.x + far.x, f.y + far.y)));
+    }
+    return distance;
+}
+
+// Contains every value of a distance over a box, whose value at the centre is given; `spread` has VolumeLayer's slope, shift,
+// scatter and rise, and `range` the values within the grid.
+vec2 volumeRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, vec4 spread, vec2 range) {
     vec3 lo = vec3(x.x, y.x, z.x), hi = vec3(x.y, y.y, z.y);
     vec3 least = grid.origin, most = grid.origin + grid.cell * vec3(grid.size - 1);
     bool within = all(greaterThanEqual(lo, least)) && all(lessThanEqual(hi, most));
     vec3 far = max(abs(lo), abs(hi));
     float margin = 4e-7 * (max(far.x, max(far.y, far.z)) + grid.cell * float(grid.size.x + grid.size.y + grid.size.z));
-    float radius = 0.5 * length(hi - lo) + margin, reach = min(spread.x * radius, radius + spread.y) + margin;
-    return clamp(centre + vec2(-reach, reach), vec2(range.x - margin),
-                 vec2(within ? range.y + margin : 1e30));
+    float radius = 0.5 * length(hi - lo) + margin;
+    float off = length(vec2(spread.y, spread.z)) + spread.w, reach = length(vec2(radius + spread.y, spread.z)) + spread.w;
+    VolumePlace place = volumePlace(grid, 0.5 * (lo + hi));
+    bool beyond = any(notEqual(place.beyond, vec3(0.0)));
+    vec2 distance = beyond ? centre + vec2(-off, off) : volumeDistance(grid, place);
+    distance.y = within ? distance.y : max(distance.y, 0.0);
+    vec2 all_ = vec2(max(distance.x - reach, centre - spread.x * radius), min(distance.y + reach, centre + spread.x * radius));
+    return clamp(all_ + vec2(-margin, margin), vec2(range.x - margin), vec2(within ? range.y + margin : 1e30));
 }

@@ -23,6 +23,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/triangle_meshes.h"
+#include "tests/support/volume_intervals.h"
 
 namespace fw {
 namespace {
@@ -96,6 +97,8 @@ void expectRight(const std::string& name, const FieldVolume& volume, const Trian
     EXPECT_LE(worst.band, 0.02) << name;
     EXPECT_LE(worst.beyond, 1.0) << name;
     EXPECT_EQ(worst.signs, 0u) << name;
+    std::mt19937 random(9);
+    expectIntervalsContain(volume, 2'000, 0.2, random);
 }
 
 TEST_F(MeshFieldDevice, DistancesAreExactInTheBandAndNearlyBeyond) {
