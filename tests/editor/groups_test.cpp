@@ -154,6 +154,9 @@ TEST(Group, AParameterNodeInsideIsExposedByItsName) {
     EXPECT_EQ((*made->graph.timeline)["tracks"].size(), 1u);
     EXPECT_TRUE(check(made->graph).empty()) << format(check(made->graph)[0]);
     EXPECT_TRUE(alike(valuesOf(made->graph), valuesOf(graph)));
+    const Graph apart = ungroup(made->graph, "", "group").graph;
+    EXPECT_TRUE(apart.parameters.empty()) << "its name alone exposes it again";
+    EXPECT_EQ(findParameter(apart, "size")->node, "s");
 }
 
 TEST(Ungroup, GivesInputsTheValuesOfTheInstance) {
