@@ -55,7 +55,7 @@ void takeTriangles(const TriangleMesh& mesh, SolidMesh& solid) {
             ++solid.found.collapsed;
             continue;
         }
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         const uint64_t hash = mixed(mixed(mixed(0, corners[0]), corners[1]), corners[2]);
         uint32_t& entry = table[find(table, hash, [&](uint32_t i) {
             return std::equal(corners.begin(), corners.end(), &solid.indices[3 * std::size_t(i)]);
