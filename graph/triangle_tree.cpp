@@ -31,7 +31,7 @@ double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 
 /// Whether the open segment passes through the open triangle.
 bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
-    const auto& [a, b, c] = triangle;
+    const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
     if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0.0) return false;
     const double ab = orientation(p, q, a, b), bc = orientation(p, q, b, c), ca = orientation(p, q, c, a);
     return (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
@@ -56,7 +56,7 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 
 NearestPoint nearestOnTriangle(const glm::dvec3& p, const Triangle& triangle) {
     // By the region of its plane that the point is over (Ericson, Real-Time Collision Detection, 5.1.5).
-    const auto& [a, b, c] = triangle;
+    const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
     const auto at = [&](const glm::dvec3& weights, int feature) {
         const glm::dvec3 point = weights.x * a + weights.y * b + weights.z * c;
         const glm::dvec3 off = p - point;
