@@ -66,41 +66,24 @@ struct Run {
     glm::uvec3 groups(uint64_t items) const { return spread(groupsFor(items, MESH_GROUP)); }
 };
 
-/// Writes to `starts` the sum of `counts` before each vertex.
-void sumUp(Commands& commands, const Run& run, const Buffer& counts, const Buffer& starts) {
-    const MeshStagePipelines& pipelines = *run.config.pipelines;
-    const gpu::MeshPush push = run.push();
-    const uint32_t groups = groupsFor(push.vertices, MESH_SUM_LANES * MESH_SUM_EACH);
-    const Descriptor bound[] = {{0, counts}, {4, run.buffers.sums}, {5, starts}};
-    dispatch(commands, pipelines.sum, spread(groups), push, bound);
-    barrier(commands);
-    dispatch(commands, pipelines.top, {1, 1, 1}, push, bound);
-    barrier(commands);
-    dispatch(commands, pipelines.place, spread(groups), push, bound);
-    barrier(commands);
-}
-
 /// The counting sort of corners by vertex.
 void sortCorners(Commands& commands, Run& run) {
     if (std::exchange(run.sorted, true)) return;
     const Device& device = run.device;
     MeshStageBuffers& b = run.buffers;
     const gpu::MeshPush push = run.push();
-    for (Buffer* perVertex : {&b.counts, &b.starts, &b.edgeCounts, &b.edgeStarts})
-        reserve(device, *perVertex, 4ull * push.vertices);
-    for (Buffer* perCorner : {&b.ranks, &b.next, &b.previous})
+    reserve(device, b.edgeCounts, 4ull * push.vertices);
+    for (Buffer* perCorner : {&b.next, &b.previous})
         reserve(device, *perCorner, 12ull * push.triangles + kWholeTexels);
-    reserve(device, b.sums, 16ull * groupsFor(push.vertices, MESH_SUM_LANES * MESH_SUM_EACH));
     beginStage(commands, "sort");
-    fill(commands, b.counts, 0);
-    barrier(commands);
     const VkDeviceSize triangles = 12ull * push.triangles;
-    const Descriptor counted[] = {{0, run.mesh.triangles, 0, triangles}, {1, b.counts}, {2, b.ranks}};
-    dispatch(commands, run.config.pipelines->count, run.groups(push.triangles), push, counted);
-    barrier(commands);
-    sumUp(commands, run, b.counts, b.starts);
-    const Descriptor scattered[] = {
-        {0, run.mesh.triangles, 0, triangles}, {1, b.starts}, {2, b.ranks}, {3, b.next}, {4, b.previous}};
+    countKeys(commands, run.config.pipelines->sorting, b.corners, {0, run.mesh.triangles, 0, triangles},
+              3 * push.triangles, push.vertices);
+    const Descriptor scattered[] = {{0, run.mesh.triangles, 0, triangles},
+                                    {1, b.corners.starts},
+                                    {2, b.corners.ranks},
+                                    {3, b.next},
+                                    {4, b.previous}};
     dispatch(commands, run.config.pipelines->scatter, run.groups(push.triangles), push, scattered);
     barrier(commands);
 }
@@ -113,8 +96,8 @@ void smooth(Commands& commands, Run& run, int iterations) {
     reserve(run.device, b.vertices, sizeof(gpu::MeshVertex) * uint64_t(push.vertices));
     for (int i = 0; i < iterations; ++i) {
         const Descriptor bound[] = {{0, run.mesh.vertices},
-                                    {1, b.counts},
-                                    {2, b.starts},
+                                    {1, b.corners.counts},
+                                    {2, b.corners.starts},
                                     {3, b.next},
                                     {5, b.vertices, 0, sizeof(gpu::MeshVertex) * uint64_t(push.vertices)}};
         dispatch(commands, run.config.pipelines->smooth, run.groups(push.vertices), push, bound);
@@ -132,8 +115,8 @@ void findNormals(Commands& commands, Run& run) {
     push.unit = 2.0f * powerAbove(size.x * size.x + size.y * size.y + size.z * size.z);
     beginStage(commands, "normals");
     const Descriptor bound[] = {{0, run.mesh.vertices},
-                                {1, run.buffers.counts},
-                                {2, run.buffers.starts},
+                                {1, run.buffers.corners.counts},
+                                {2, run.buffers.corners.starts},
                                 {3, run.buffers.next},
                                 {4, run.buffers.previous},
                                 {5, run.mesh.vertices, 0, sizeof(gpu::MeshVertex) * uint64_t(push.vertices)}};
@@ -161,13 +144,14 @@ void splitEdges(Commands& commands, Run& run, bool project) {
     copy(commands, run.mesh.vertices, b.vertices, sizeof(gpu::MeshVertex) * uint64_t(push.vertices));
     if (run.result.colors) copy(commands, run.mesh.colors, b.colors, 12ull * push.vertices);
     const VkDeviceSize bytes = sizeof(gpu::MeshVertex) * vertices;
-    std::vector<Descriptor> bound = {{1, b.counts}, {2, b.starts}, {3, b.next}, {5, b.edgeCounts}};
+    std::vector<Descriptor> bound = {
+        {1, b.corners.counts}, {2, b.corners.starts}, {3, b.next}, {5, b.edgeCounts}};
     dispatch(commands, pipelines.edges, run.groups(push.vertices), push, bound);
     barrier(commands);
-    sumUp(commands, run, b.edgeCounts, b.edgeStarts);
+    sumCounts(commands, pipelines.sorting, b.corners.sums, b.edgeCounts, b.edgeStarts, push.vertices);
     bound = {{0, run.mesh.vertices},
-             {1, b.counts},
-             {2, b.starts},
+             {1, b.corners.counts},
+             {2, b.corners.starts},
              {3, b.next},
              {4, b.edgeStarts},
              {5, b.vertices, 0, bytes},
@@ -256,20 +240,16 @@ void writeCounts(const Run& run) {
 
 MeshStagePipelines createMeshStagePipelines(const Device& device) {
     MeshStagePipelines pipelines;
-    const std::array shaders = {ShaderOptions{.name = "mesh/count.comp"},
-                                ShaderOptions{.name = "mesh/sum.comp"},
-                                ShaderOptions{.name = "mesh/top.comp"},
-                                ShaderOptions{.name = "mesh/place.comp"},
-                                ShaderOptions{.name = "mesh/scatter.comp"},
+    pipelines.sorting = createCountingSort(device);
+    const std::array shaders = {ShaderOptions{.name = "mesh/scatter.comp"},
                                 ShaderOptions{.name = "mesh/smooth.comp"},
                                 ShaderOptions{.name = "mesh/normals.comp"},
                                 ShaderOptions{.name = "mesh/edges.comp"},
                                 ShaderOptions{.name = "mesh/split.comp"},
                                 ShaderOptions{.name = "mesh/split.comp", .defines = {"COLORS"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    Pipeline* const places[] = {
-        &pipelines.count,  &pipelines.sum,     &pipelines.top,   &pipelines.place, &pipelines.scatter,
-        &pipelines.smooth, &pipelines.normals, &pipelines.edges, &pipelines.split, &pipelines.splitColored};
+    Pipeline* const places[] = {&pipelines.scatter, &pipelines.smooth, &pipelines.normals,
+                                &pipelines.edges,   &pipelines.split,  &pipelines.splitColored};
     for (std::size_t i = 0; i < made.size(); ++i) *places[i] = std::move(made[i]);
     return pipelines;
 }

@@ -23,12 +23,14 @@
 #include <span>
 
 #include "graph/mesh_recipe.h"
+#include "runtime/counting_sort.h"
 #include "runtime/mesher.h"
 
 namespace fw {
 
 struct MeshStagePipelines {
-    Pipeline count, sum, top, place, scatter, smooth, normals, edges, split, splitColored;
+    CountingSort sorting;
+    Pipeline scatter, smooth, normals, edges, split, splitColored;
     Pipeline project;  ///< of a field: createProjection()
 };
 
@@ -38,11 +40,10 @@ MeshStagePipelines createMeshStagePipelines(const Device& device);
 Pipeline createProjection(const Device& device, std::string_view field);
 
 struct MeshStageBuffers {
-    Buffer vertices, colors, triangles;   ///< what a stage writes, traded for the mesh's own
-    Buffer ranks;                         ///< of each corner in its bucket
-    Buffer counts, starts;                ///< of each vertex: corners, and the first one's place
-    Buffer next, previous;                ///< of each corner, by vertex
-    Buffer edgeCounts, edgeStarts, sums;  ///< edges that begin at a vertex, to one of a higher number
+    Buffer vertices, colors, triangles;  ///< what a stage writes, traded for the mesh's own
+    CountingSortBuffers corners;         ///< by vertex
+    Buffer next, previous;               ///< of each corner, by vertex
+    Buffer edgeCounts, edgeStarts;       ///< edges that begin at a vertex, to one of a higher number
 };
 
 struct MeshStageConfig {

@@ -6,8 +6,6 @@ namespace fw::gpu {
 #endif
 
 #define MESH_GROUP 64                // vertices or triangles of a work group
-#define MESH_SUM_LANES 256           // of a work group that sums counts,
-#define MESH_SUM_EACH 16             // and counts of a lane
 #define MESH_MOST_MOVED 0.25         // of its edge's length that a new vertex may be moved,
 #define MESH_MOST_MOVED_ON_SIDE 0.1  // and within a side of the region
 

@@ -1,10 +1,10 @@
 // The sum of each group of counts.
-#include "mesh/counts.glsl"
+#include "sort/counts.glsl"
 
 layout(binding = 4, scalar) writeonly buffer Sums { uvec4 sums[]; };
 
 void main() {
     uint first = firstOfLane(), total;
     sumBefore(sumFrom(first), total);
-    if (gl_LocalInvocationIndex == 0 && first < push.vertices) sums[linearGroup()] = uvec4(total, 0, 0, 0);
+    if (gl_LocalInvocationIndex == 0 && first < push.keys) sums[linearGroup()] = uvec4(total, 0, 0, 0);
 }

@@ -1,0 +1,193 @@
+#include "runtime/particles/density.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+
+#include "shaders/shared.h"
+
+#include "shaders/particles/density.h"
+
+namespace fw {
+
+namespace {
+
+// Between eight samples a particle is as wide as a density of this squared radius, in cells: it has 1/6 along
+// each axis for its mean square, a density R^2 / 11. So much narrower is the blur, and the higher for it, so
+// that the sum stays.
+constexpr double kTent = 11.0 / 6.0;
+constexpr int kMostProxyReach =
+    20;  // cells: a sample looks at (2 * 20 + 1)^3 of them, which some devices end at
+
+uint32_t samplesOf(const DensityGrid& grid) {
+    return uint32_t((grid.size.x + 3) / 4 * 4) * uint32_t(grid.size.y) * uint32_t(grid.size.z);
+}
+
+gpu::DensityPush pushOf(const DensityConfig& config, uint32_t particles) {
+    const DensityGrid& grid = config.grid;
+    gpu::DensityPush push{};
+    push.size = grid.size;
+    push.particles = particles;
+    push.origin = grid.origin;
+    push.cell = grid.cell;
+    push.radius = config.radius;
+    push.first = grid.origin - 1.01f * config.radius;
+    push.buckets = glm::ivec3(glm::floor(glm::vec3(grid.size - 1) * (grid.cell / config.radius) + 1.01f)) + 2;
+    push.reach = int(std::ceil(config.radius / grid.cell));
+    return push;
+}
+
+Done fits(const DensityConfig& config, const gpu::DensityPush& push, const Device& device) {
+    const int most = config.method == DensityMethod::blur ? DENSITY_MOST_REACH : kMostProxyReach;
+    if (config.method != DensityMethod::exact && push.reach > most)
+        return Error{.message = "particles " + std::to_string(push.reach) +
+                                " cells wide are too wide for this way: " + std::to_string(most) +
+                                " is the most, so lower the resolution or the radius"};
+    const uint64_t range = device.properties.limits.maxStorageBufferRange;
+    const double samples = double(samplesOf(config.grid));
+    const double buckets = double(push.buckets.x) * push.buckets.y * push.buckets.z;
+    const double needed = std::max(samples * (config.method == DensityMethod::proxies ? 16 : 4),
+                                   config.method == DensityMethod::exact ? 4 * (buckets + 1) : 0.0);
+    if (needed > double(range) || samples > double(device.properties.limits.maxTexelBufferElements))
+        return Error{
+            .message =
+                "the particles' grid is larger than this device can use: lower the resolution, or raise the "
+                "radius"};
+    return done();
+}
+
+}  // namespace
+
+namespace {
+
+/// Along x, and along y or z.
+std::array<Pipeline, 2> createBlur(const Device& device, int reach) {
+    const std::string define = "REACH " + std::to_string(reach);
+    const std::array shaders = {ShaderOptions{.name = "particles/blur.comp", .defines = {define, "ALONG_X"}},
+                                ShaderOptions{.name = "particles/blur.comp", .defines = {define}}};
+    std::vector<Pipeline> made = createComputePipelines(device, shaders);
+    return {std::move(made[0]), std::move(made[1])};
+}
+
+}  // namespace
+
+DensityKernels createDensityKernels(const Device& device) {
+    const std::array shaders = {ShaderOptions{.name = "particles/bucket.comp"},
+                                ShaderOptions{.name = "particles/gather.comp"},
+                                ShaderOptions{.name = "particles/exact.comp"},
+                                ShaderOptions{.name = "particles/splat.comp", .defines = {"PROXIES"}},
+                                ShaderOptions{.name = "particles/proxies.comp"},
+                                ShaderOptions{.name = "particles/splat.comp"}};
+    std::vector<Pipeline> made = createComputePipelines(device, shaders);
+    DensityKernels kernels;
+    kernels.sort = createCountingSort(device);
+    Pipeline* const places[] = {&kernels.bucket,       &kernels.gather,  &kernels.exact,
+                                &kernels.splatProxies, &kernels.proxies, &kernels.splat};
+    for (std::size_t i = 0; i < made.size(); ++i) *places[i] = std::move(made[i]);
+    return kernels;
+}
+
+std::vector<float> blurWeights(double radius) {
+    // The best product w_i w_j w_k for the tensor T_ijk of densities at whole offsets: the direction T(w, w),
+    // again and again, then a length whose cube is T(w, w, w). Of the symmetric offsets those above 0 stand
+    // for two.
+    const int reach = int(std::ceil(radius));
+    const auto many = [](int i) { return i == 0 ? 1.0 : 2.0; };
+    std::vector<double> w(std::size_t(reach) + 1);
+    for (int i = 0; i <= reach; ++i) w[std::size_t(i)] = std::exp(-3.0 * i * i / (radius * radius));
+    double length = 0.0;  // of T(w, w), which is T(w, w, w) in the end
+    for (int turn = 0; turn < 40; ++turn) {
+        double squares = 0.0;
+        for (int i = 0; i <= reach; ++i) squares += many(i) * w[std::size_t(i)] * w[std::size_t(i)];
+        std::vector<double> next(w.size(), 0.0);
+        length = 0.0;
+        for (int i = 0; i <= reach; ++i) {
+            double& sum = next[std::size_t(i)];
+            for (int j = 0; j <= reach; ++j)
+                for (int k = 0; k <= reach; ++k) {
+                    const double s = std::max(1.0 - (i * i + j * j + k * k) / (radius * radius), 0.0);
+                    sum += many(j) * many(k) * s * s * s * w[std::size_t(j)] * w[std::size_t(k)] / squares;
+                }
+            length += many(i) * sum * sum;
+        }
+        length = std::sqrt(length);
+        for (double& each : next) each /= length;
+        w = std::move(next);
+    }
+    for (double& each : w) each *= std::cbrt(length);
+    return {w.begin(), w.end()};
+}
+
+Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& b,
+                   const DensityConfig& config, const Buffer& particles, uint32_t count) {
+    const Device& device = commands.device;
+    gpu::DensityPush push = pushOf(config, count);
+    if (const Done fit = fits(config, push, device); !fit) return fit.error();
+    const uint32_t samples = samplesOf(config.grid);
+    const glm::uvec3 perParticle = spread(groupsFor(count, DENSITY_GROUP)),
+                     perSample = spread(groupsFor(samples, DENSITY_GROUP));
+    reserve(device, b.density, 4ull * samples);
+    if (count == 0) {
+        beginStage(commands, "splat");
+        fill(commands, b.density, 0);
+        barrier(commands);
+        return done();
+    }
+    if (config.method == DensityMethod::exact) {
+        const auto buckets = uint32_t(push.buckets.x * push.buckets.y * push.buckets.z);
+        reserve(device, b.keys, 4ull * count);
+        reserve(device, b.sorted, 16ull * count);
+        beginStage(commands, "sort");
+        const Descriptor keyed[] = {{0, particles}, {1, b.keys}};
+        dispatch(commands, kernels.bucket, perParticle, push, keyed);
+        barrier(commands);
+        sortByKey(commands, kernels.sort, b.buckets, b.keys, b.order, count, buckets + 1);
+        const Descriptor gathered[] = {{0, particles}, {1, b.order}, {2, b.sorted}};
+        dispatch(commands, kernels.gather, perParticle, push, gathered);
+        barrier(commands);
+        beginStage(commands, "density");
+        const Descriptor bound[] = {{0, b.sorted}, {1, b.buckets.starts}, {2, b.density}};
+        dispatch(commands, kernels.exact, perSample, push, bound);
+        barrier(commands);
+        return done();
+    }
+    const bool proxies = config.method == DensityMethod::proxies;
+    beginStage(commands, "splat");
+    reserve(device, b.grid, (proxies ? 16ull : 4ull) * samples);
+    fill(commands, b.grid, 0);
+    barrier(commands);
+    const Descriptor splat[] = {{0, particles}, {1, b.grid}};
+    dispatch(commands, proxies ? kernels.splatProxies : kernels.splat, perParticle, push, splat);
+    barrier(commands);
+    beginStage(commands, proxies ? "density" : "blur");
+    if (proxies) {
+        const Descriptor bound[] = {{0, b.grid}, {1, b.density}};
+        dispatch(commands, kernels.proxies, perSample, push, bound);
+        barrier(commands);
+        return done();
+    }
+    const double radius = double(config.radius) / config.grid.cell,
+                 narrower = std::sqrt(std::max(radius * radius - kTent, 1.0));
+    std::vector<float> weights = blurWeights(narrower);
+    for (float& each : weights) each *= float(radius / narrower);
+    weights.resize(std::size_t(push.reach) + 1, 0.0f);
+    reserve(device, b.weights, 4 * (DENSITY_MOST_REACH + 1), Memory::upload);
+    upload(device, b.weights, weights);
+    std::array<Pipeline, 2>& blur = kernels.blurs[push.reach];
+    if (!blur[0].handle) blur = createBlur(device, push.reach);
+    reserve(device, b.blurred, 4ull * samples);
+    const Buffer* const passes[] = {&b.grid, &b.blurred, &b.grid, &b.density};
+    for (push.axis = 0; push.axis < 3; ++push.axis) {
+        const Descriptor bound[] = {{0, *passes[push.axis]}, {1, *passes[push.axis + 1]}, {2, b.weights}};
+        const uint32_t along = push.axis == 0 ? (samples / 4) / uint32_t((config.grid.size.x + 3) / 4)
+                                              : (samples / 4) / uint32_t(config.grid.size[push.axis]);
+        dispatch(commands, blur[push.axis == 0 ? 0 : 1], {groupsFor(along, DENSITY_LINES), 1, 1}, push,
+                 bound);
+        barrier(commands);
+    }
+    return done();
+}
+
+}  // namespace fw

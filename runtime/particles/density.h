@@ -1,0 +1,71 @@
+// From particles to a density: density(P) = sum over particles of (1 - r^2 / R^2)^3, r the distance to P,
+// nothing beyond R.
+//
+// The three ways of Matt Swoboda's "Advanced Procedural Rendering in DirectX 11" (GDC 2012), "SDFs From
+// Particle Systems":
+//  * exact: particles sorted into buckets, all in the buckets around a sample summed. Here buckets are as
+//  large as R, so
+//    that 27 of them matter, not 729 cells; three in a row lie in one piece.
+//  * proxies: each particle adds its place and a count to its cell of the grid; then each sample sums over
+//  the cells
+//    around it, taking each for its particles' mean. Off where a cell's particles are apart.
+//  * blur: each particle adds its weight to the eight samples around it, and three blurs, one along each
+//  axis, spread it.
+//    A product of three weights is not the density's formula: the weights are those whose products are
+//    nearest to it, as the power method finds them (the best separable one in the sense of least squares).
+//    How far off each is, is measured by the tests and the benchmark.
+// Deviation: sums in the grid are of whole numbers, so that the same particles give the same bytes on every
+// run.
+//
+// Lifetime: kernels serve all densities; buffers grow.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <map>
+#include <vector>
+
+#include "runtime/counting_sort.h"
+
+namespace fw {
+
+enum class DensityMethod { exact, proxies, blur };
+
+struct DensityKernels {
+    CountingSort sort;
+    Pipeline bucket, gather, exact, splatProxies, proxies, splat;
+    std::map<int, std::array<Pipeline, 2>> blurs;  ///< by the reach in cells, made when first used
+};
+DensityKernels createDensityKernels(const Device& device);
+
+struct DensityBuffers {
+    CountingSortBuffers buckets;
+    Buffer keys, order, sorted;
+    Buffer grid, blurred, weights;
+    Buffer density;  ///< the result: a float a sample, rows padded to four
+};
+
+/// Samples at origin + cell * (i, j, k).
+struct DensityGrid {
+    glm::vec3 origin{0.0f};  ///< metres
+    float cell = 1.0f;
+    glm::ivec3 size{1};
+};
+
+struct DensityConfig {
+    DensityGrid grid;
+    float radius = 1.0f;  ///< R, metres
+    DensityMethod method = DensityMethod::blur;
+};
+
+/// Records the density of so many particles at each sample, into buffers.density. `particles` has four floats
+/// each, of which the first three are the place; those that are not numbers are left out. Errors: a radius of
+/// more than 12 cells by blur, 20 by proxies; a grid that is more than the device can bind.
+Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& buffers,
+                   const DensityConfig& config, const Buffer& particles, uint32_t count);
+
+/// Weights of a blur, from the middle on, whose products are nearest to the density of a particle `radius`
+/// cells wide.
+std::vector<float> blurWeights(double radius);
+
+}  // namespace fw
