@@ -14,10 +14,6 @@ namespace fw {
 
 namespace {
 
-// Between eight samples a particle is as wide as a density of this squared radius, in cells: it has 1/6 along
-// each axis for its mean square, a density R^2 / 11. So much narrower is the blur, and the higher for it, so
-// that the sum stays.
-constexpr double kTent = 11.0 / 6.0;
 constexpr int kMostProxyReach =
     20;  // cells: a sample looks at (2 * 20 + 1)^3 of them, which some devices end at
 
@@ -168,11 +164,7 @@ Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& 
         barrier(commands);
         return done();
     }
-    const double radius = double(config.radius) / config.grid.cell,
-                 narrower = std::sqrt(std::max(radius * radius - kTent, 1.0));
-    std::vector<float> weights = blurWeights(narrower);
-    for (float& each : weights) each *= float(radius / narrower);
-    weights.resize(std::size_t(push.reach) + 1, 0.0f);
+    const std::vector<float> weights = blurWeights(double(config.radius) / config.grid.cell);
     reserve(device, b.weights, 4 * (DENSITY_MOST_REACH + 1), Memory::upload);
     upload(device, b.weights, weights);
     std::array<Pipeline, 2>& blur = kernels.blurs[push.reach];

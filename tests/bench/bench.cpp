@@ -19,10 +19,10 @@ struct NamedTable {
 // one.
 const NamedTable kTables[] = {{"process", processTable},     {"mesher", mesherTable},
                               {"prune", pruneTable},         {"mesh-to-field", meshFieldTable},
-                              {"talk", talkTable},           {"live", liveTable},
-                              {"compile", compileTable},     {"editor", editorTable},
-                              {"interface", interfaceTable}, {"light", lightTable},
-                              {"peaks", peaksTable}};
+                              {"particles", particlesTable}, {"talk", talkTable},
+                              {"live", liveTable},           {"compile", compileTable},
+                              {"editor", editorTable},       {"interface", interfaceTable},
+                              {"light", lightTable},         {"peaks", peaksTable}};
 
 /// The value behind the first "key : value" of a file of such lines; empty if there is none.
 std::string lineValue(const char* path, const std::string& key) {

@@ -18,8 +18,8 @@ struct BenchOptions {
     int repeats = 7;              ///< runs that count, at least 1
 };
 
-/// The tables there are, in the order of the page: "process", "mesher", "prune", "mesh-to-field", "talk",
-/// "live", "compile", "editor", "interface", "light", "peaks".
+/// The tables there are, in the order of the page: "process", "mesher", "prune", "mesh-to-field",
+/// "particles", "talk", "live", "compile", "editor", "interface", "light", "peaks".
 std::span<const std::string> benchNames();
 
 /// Prints the named tables, all of them for "all" or no name. Returns an exit status: 0; 1 if a mesh was

@@ -29,6 +29,7 @@ struct Bench {
 void mesherTable(Bench& bench);     ///< ours against the baseline, four fields
 void pruneTable(Bench& bench);      ///< a thousand shapes
 void meshFieldTable(Bench& bench);  ///< triangle meshes to fields
+void particlesTable(Bench& bench);  ///< particles to fields
 void talkTable(Bench& bench);       ///< the slide's table
 void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
 void liveTable(Bench& bench);       ///< a live parameter changes
