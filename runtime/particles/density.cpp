@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 #include <string>
 
 #include "shaders/shared.h"
@@ -116,68 +117,98 @@ std::vector<float> blurWeights(double radius) {
     return {w.begin(), w.end()};
 }
 
-Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& b,
-                   const DensityConfig& config, const Buffer& particles, uint32_t count) {
-    const Device& device = commands.device;
-    gpu::DensityPush push = pushOf(config, count);
-    if (const Done fit = fits(config, push, device); !fit) return fit.error();
-    const uint32_t samples = samplesOf(config.grid);
-    const glm::uvec3 perParticle = spread(groupsFor(count, DENSITY_GROUP)),
-                     perSample = spread(groupsFor(samples, DENSITY_GROUP));
-    reserve(device, b.density, 4ull * samples);
-    if (count == 0) {
-        beginStage(commands, "splat");
-        fill(commands, b.density, 0);
+namespace {
+
+/// What the ways share.
+struct Run {
+    Commands& commands;
+    DensityKernels& kernels;
+    DensityBuffers& buffers;
+    const DensityConfig& config;
+    const Buffer& particles;
+    gpu::DensityPush push;
+    uint32_t samples;  ///< rows padded
+
+    void dispatchOver(uint32_t items, const Pipeline& kernel, std::span<const Descriptor> bound) const {
+        dispatch(commands, kernel, spread(groupsFor(items, DENSITY_GROUP)), push, bound);
         barrier(commands);
-        return done();
     }
-    if (config.method == DensityMethod::exact) {
-        const auto buckets = uint32_t(push.buckets.x * push.buckets.y * push.buckets.z);
-        reserve(device, b.keys, 4ull * count);
-        reserve(device, b.sorted, 16ull * count);
-        beginStage(commands, "sort");
-        const Descriptor keyed[] = {{0, particles}, {1, b.keys}};
-        dispatch(commands, kernels.bucket, perParticle, push, keyed);
-        barrier(commands);
-        sortByKey(commands, kernels.sort, b.buckets, b.keys, b.order, count, buckets + 1);
-        const Descriptor gathered[] = {{0, particles}, {1, b.order}, {2, b.sorted}};
-        dispatch(commands, kernels.gather, perParticle, push, gathered);
-        barrier(commands);
-        beginStage(commands, "density");
-        const Descriptor bound[] = {{0, b.sorted}, {1, b.buckets.starts}, {2, b.density}};
-        dispatch(commands, kernels.exact, perSample, push, bound);
-        barrier(commands);
-        return done();
-    }
-    const bool proxies = config.method == DensityMethod::proxies;
-    beginStage(commands, "splat");
-    reserve(device, b.grid, (proxies ? 16ull : 4ull) * samples);
-    fill(commands, b.grid, 0);
-    barrier(commands);
-    const Descriptor splat[] = {{0, particles}, {1, b.grid}};
-    dispatch(commands, proxies ? kernels.splatProxies : kernels.splat, perParticle, push, splat);
-    barrier(commands);
-    beginStage(commands, proxies ? "density" : "blur");
-    if (proxies) {
-        const Descriptor bound[] = {{0, b.grid}, {1, b.density}};
-        dispatch(commands, kernels.proxies, perSample, push, bound);
-        barrier(commands);
-        return done();
-    }
-    const std::vector<float> weights = blurWeights(double(config.radius) / config.grid.cell);
+};
+
+void recordExact(const Run& run) {
+    DensityBuffers& b = run.buffers;
+    const Device& device = run.commands.device;
+    const uint32_t count = run.push.particles;
+    const auto buckets = uint32_t(run.push.buckets.x * run.push.buckets.y * run.push.buckets.z);
+    reserve(device, b.keys, 4ull * count);
+    reserve(device, b.sorted, 16ull * count);
+    beginStage(run.commands, "sort");
+    run.dispatchOver(count, run.kernels.bucket,
+                     std::array{Descriptor{0, run.particles}, Descriptor{1, b.keys}});
+    sortByKey(run.commands, run.kernels.sort, b.buckets, b.keys, b.order, count, buckets + 1);
+    run.dispatchOver(
+        count, run.kernels.gather,
+        std::array{Descriptor{0, run.particles}, Descriptor{1, b.order}, Descriptor{2, b.sorted}});
+    beginStage(run.commands, "density");
+    run.dispatchOver(
+        run.samples, run.kernels.exact,
+        std::array{Descriptor{0, b.sorted}, Descriptor{1, b.buckets.starts}, Descriptor{2, b.density}});
+}
+
+/// Adds the particles to the grid: so many bytes a sample.
+void recordSplat(const Run& run, const Pipeline& kernel, uint32_t bytes) {
+    beginStage(run.commands, "splat");
+    reserve(run.commands.device, run.buffers.grid, uint64_t(bytes) * run.samples);
+    fill(run.commands, run.buffers.grid, 0);
+    barrier(run.commands);
+    run.dispatchOver(run.push.particles, kernel,
+                     std::array{Descriptor{0, run.particles}, Descriptor{1, run.buffers.grid}});
+}
+
+void recordProxies(const Run& run) {
+    recordSplat(run, run.kernels.splatProxies, 16);
+    beginStage(run.commands, "density");
+    run.dispatchOver(run.samples, run.kernels.proxies,
+                     std::array{Descriptor{0, run.buffers.grid}, Descriptor{1, run.buffers.density}});
+}
+
+void recordBlur(Run& run) {
+    recordSplat(run, run.kernels.splat, 4);
+    DensityBuffers& b = run.buffers;
+    const Device& device = run.commands.device;
+    beginStage(run.commands, "blur");
     reserve(device, b.weights, 4 * (DENSITY_MOST_REACH + 1), Memory::upload);
-    upload(device, b.weights, weights);
-    std::array<Pipeline, 2>& blur = kernels.blurs[push.reach];
-    if (!blur[0].handle) blur = createBlur(device, push.reach);
-    reserve(device, b.blurred, 4ull * samples);
-    const Buffer* const passes[] = {&b.grid, &b.blurred, &b.grid, &b.density};
-    for (push.axis = 0; push.axis < 3; ++push.axis) {
-        const Descriptor bound[] = {{0, *passes[push.axis]}, {1, *passes[push.axis + 1]}, {2, b.weights}};
-        const uint32_t along = push.axis == 0 ? (samples / 4) / uint32_t((config.grid.size.x + 3) / 4)
-                                              : (samples / 4) / uint32_t(config.grid.size[push.axis]);
-        dispatch(commands, blur[push.axis == 0 ? 0 : 1], {groupsFor(along, DENSITY_LINES), 1, 1}, push,
+    upload(device, b.weights, blurWeights(double(run.config.radius) / run.config.grid.cell));
+    std::array<Pipeline, 2>& blur = run.kernels.blurs[run.push.reach];
+    if (!blur[0]) blur = createBlur(device, run.push.reach);
+    reserve(device, b.blurred, 4ull * run.samples);
+    const Buffer* const steps[] = {&b.grid, &b.blurred, &b.grid, &b.density};
+    const glm::ivec3 texels(glm::ivec3((run.push.size.x + 3) / 4, run.push.size.y, run.push.size.z));
+    for (int& axis = run.push.axis = 0; axis < 3; ++axis) {
+        const Descriptor bound[] = {{0, *steps[axis]}, {1, *steps[axis + 1]}, {2, b.weights}};
+        const uint32_t lines = run.samples / 4 / uint32_t(texels[axis]);
+        dispatch(run.commands, blur[axis == 0 ? 0 : 1], {groupsFor(lines, DENSITY_LINES), 1, 1}, run.push,
                  bound);
+        barrier(run.commands);
+    }
+}
+
+}  // namespace
+
+Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& buffers,
+                   const DensityConfig& config, const Buffer& particles, uint32_t count) {
+    Run run{commands, kernels, buffers, config, particles, pushOf(config, count), samplesOf(config.grid)};
+    if (const Done fit = fits(config, run.push, commands.device); !fit) return fit.error();
+    reserve(commands.device, buffers.density, 4ull * run.samples);
+    if (count == 0) {
+        fill(commands, buffers.density, 0);
         barrier(commands);
+    } else if (config.method == DensityMethod::exact) {
+        recordExact(run);
+    } else if (config.method == DensityMethod::proxies) {
+        recordProxies(run);
+    } else {
+        recordBlur(run);
     }
     return done();
 }
