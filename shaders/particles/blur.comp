@@ -3,6 +3,10 @@
 // number of weights beyond the middle one.
 #include "particles/density.glsl"
 
+#ifndef REACH
+#define REACH 4
+#endif
+
 layout(local_size_x = DENSITY_LINES) in;
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer from;
 layout(binding = 1, rgba32ui) restrict writeonly uniform uimageBuffer to;
