@@ -323,7 +323,17 @@ class Compiler {
                                       const std::vector<Value>& inputs, std::string_view name,
                                       int component = 0) {
         const IrId id = inputOf(type, inputs, name).ids[static_cast<std::size_t>(component)];
-        if (state.ir.isConstant(id)) return state.ir.number(id);
+        if (state.ir.isConstant(id)) {
+            // One that is written was checked where it stands; here one may come from a wire.
+            const InputSpec& spec = type.inputs[static_cast<std::size_t>(inputIndex(type, name))];
+            const double number = state.ir.number(id);
+            if (componentCount(spec.type) > 1) return number;
+            const auto problem =
+                spec.type == Type::boolean ? std::nullopt : valueProblem(spec.type, &spec, {number});
+            if (!problem) return number;
+            report(node, prefix, std::string(name), {.message = *problem});
+            return std::nullopt;
+        }
         report(node, prefix, std::string(name),
                {.message = "a mesh is made with one number, known when the graph is compiled: it cannot "
                            "depend on the place, nor be live"});
@@ -394,8 +404,9 @@ class Compiler {
             return failure(type.outputs);
         }
         for (const std::string& what : (*volume)->notes)
-            notes.push_back(
-                located(node, prefix, "mesh", {.message = what, .severity = Error::Severity::warning}));
+            notes.push_back(located(
+                node, prefix, "mesh",
+                {.message = meshName(*mesh->read) + " " + what, .severity = Error::Severity::warning}));
         const uint32_t number = state.ir.addVolume(*volume);
         const Value& p = inputOf(type, inputs, "p");
         const std::array<IrId, 3> place{p.ids[0], p.ids[1], p.ids[2]};

@@ -32,10 +32,6 @@ constexpr double kFlat = 0.99;    // cosine between the normals of a face and of
 constexpr double kAside = 0.02;   // cells from a triangle, where it is asked whether it is an inner wall
 constexpr float kInside = 0.55f;  // a sheet alone has winding numbers up to one half on one of its sides
 
-std::string nameOf(const TriangleMesh& mesh) {
-    return inQuotes(std::filesystem::path(mesh.file).filename().string());
-}
-
 void boundsOf(const TriangleMesh& mesh, glm::dvec3& lo, glm::dvec3& hi) {
     lo = glm::dvec3(std::numeric_limits<double>::infinity()), hi = -lo;
     for (const glm::vec3& p : mesh.positions)
@@ -51,8 +47,11 @@ Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
     grid.cell = longest / (recipe.resolution - 1 - 2 * kPadding);
     // Below, squares of lengths leave the range of single precision.
     if (!(grid.cell >= 1e-15) || !(grid.cell <= 1e14))
-        return Error{.message = "the mesh " + nameOf(*recipe.mesh) + " is " +
-                                (grid.cell < 1.0 ? "a single point, or nearly" : "too large") + ": scale it"};
+        return Error{.message = meshName(*recipe.mesh) + " is " +
+                                (!(grid.cell > 1.0) ? "a single point, or nearly: scale it"
+                                 : recipe.margin > 0.5 * (longest - 2.0 * recipe.margin)
+                                     ? "lost in its margin: lower that"
+                                     : "too large: scale it")};
     for (int axis = 0; axis < 3; ++axis) {
         const int cells = int(std::ceil(size[axis] / grid.cell + 2.0 * kPadding - 1e-9));
         grid.size[axis] = std::min(cells + 1, recipe.resolution);
@@ -60,7 +59,7 @@ Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
         grid.inset[axis] = 0.5 * (grid.cell * (grid.size[axis] - 1) - (hi[axis] - lo[axis]));
     }
     if (kTexelBytes * grid.samples() > kMostVolumeBytes)
-        return Error{.message = "the mesh " + nameOf(*recipe.mesh) + " would take more than " +
+        return Error{.message = meshName(*recipe.mesh) + " would take more than " +
                                 std::to_string(kMostVolumeBytes >> 20) +
                                 " MiB as a field: lower the resolution"};
     return grid;
@@ -319,6 +318,10 @@ std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& m
 
 }  // namespace
 
+std::string meshName(const TriangleMesh& mesh) {
+    return "the mesh " + inQuotes(std::filesystem::path(mesh.file).filename().string());
+}
+
 uint64_t MeshFieldRecipe::key() const {
     uint64_t hash = mesh->hash;
     const auto mix = [&](uint64_t word) { hash = mixed(hash, word); };
@@ -335,7 +338,7 @@ Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe) {
     for (glm::vec3& p : mesh.solid.positions) p = glm::vec3((glm::dvec3(p) - grid->origin) / grid->cell);
     mesh.solid.volume /= grid->cell * grid->cell * grid->cell;
     if (mesh.solid.indices.empty())
-        return Error{.message = "the mesh " + nameOf(*recipe.mesh) +
+        return Error{.message = meshName(*recipe.mesh) +
                                 " has no triangle with three different corners: nothing of it can be seen"};
     mesh.byNormals = recipe.inside == MeshInside::automatic && mesh.solid.found.oriented();
     return mesh;
@@ -409,9 +412,7 @@ bool signByWinding(const MeshInGrid& mesh, NearestPoints& nearest) {
 FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, std::vector<uint32_t> words) {
     auto volume = std::make_shared<FieldVolume>(mesh.grid, std::move(words));
     volume->mesh = recipe.mesh;
-    const auto note = [&](const std::string& what) {
-        volume->notes.push_back("the mesh " + nameOf(*recipe.mesh) + " " + what);
-    };
+    const auto note = [&](const std::string& what) { volume->notes.push_back(what); };
     const MeshFindings& found = mesh.solid.found;
     if (recipe.inside == MeshInside::automatic) {
         const std::string text = found.text();
@@ -437,17 +438,16 @@ FieldVolumePtr volumeOf(const MeshFieldRecipe& recipe, const MeshInGrid& mesh, s
         }
         if (2.0 * mesh.solid.volume < kThin * area)
             note("is thinner in places than the cells of its field: raise the resolution, now " +
-                 std::to_string(recipe.resolution));
+                 std::to_string(recipe.resolution) + (recipe.margin > 0.0 ? ", or lower the margin" : ""));
     }
     return volume;
 }
 
 Error nothingInside(const MeshFieldRecipe& recipe) {
-    return {
-        .message =
-            "the mesh " + nameOf(*recipe.mesh) +
-            " encloses nothing: close its holes, or set inside to none and give the sheet a thickness with "
-            "an offset node"};
+    return {.message = meshName(*recipe.mesh) +
+                       " encloses nothing: close its holes, raise the resolution if its parts are smaller "
+                       "than a cell, or "
+                       "set inside to none and give the sheet a thickness with an offset node"};
 }
 
 Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe) {

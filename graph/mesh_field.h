@@ -60,6 +60,9 @@ Result<FieldVolumePtr> meshField(const MeshFieldRecipe& recipe, const MeshFieldB
 /// On the host: in a mesh whose normals decide, every distance is exact.
 Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe);
 
+/// "the mesh 'duck.glb'", as messages have it.
+std::string meshName(const TriangleMesh& mesh);
+
 /// A stand-in of few samples: the mesh's box. For whoever wants a program but not its field.
 Result<FieldVolumePtr> boxInPlace(const MeshFieldRecipe& recipe);
 /// A stand-in at a low resolution, made on the host.

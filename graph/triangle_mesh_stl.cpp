@@ -72,7 +72,11 @@ Result<TriangleMesh> readStlMesh(const MeshFile& file) {
         fault = readText({bytes}, mesh);
     else
         fault = count > 0 ? "is cut off, or is no STL file" : "is no STL file, or has no triangles";
-    if (fault.empty() && mesh.positions.empty()) fault = "has no triangles";
+    const bool none = mesh.positions.empty();
+    if (text && (none || !fault.empty()) && bytes.find('\0') != std::string_view::npos)
+        fault = "is cut off, or is no STL file";  // it only began as text does
+    else if (none && fault.empty())
+        fault = "has no triangles";
     if (!fault.empty()) return meshProblem(file.path, fault);
     for (uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
     return mesh;

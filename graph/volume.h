@@ -91,8 +91,8 @@ struct FieldVolume {
     std::array<VolumeLayer, kVolumeLayers> layers;
 
     std::shared_ptr<const TriangleMesh> mesh = {};  ///< that it was made of, if of one
-    std::vector<std::string> notes = {};            ///< what its user should know about how it was made
-    bool standIn = false;                           ///< something coarser, for whoever need not wait
+    std::vector<std::string> notes = {};  ///< what its user should know of the mesh: "has 3 open edges"
+    bool standIn = false;                 ///< something coarser, for whoever need not wait
 };
 using FieldVolumePtr = std::shared_ptr<const FieldVolume>;
 

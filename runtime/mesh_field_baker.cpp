@@ -269,7 +269,7 @@ bool fits(const Device& device, const MeshInGrid& mesh) {
 
 // ---- What was made before
 
-constexpr uint32_t kVersion = 4;  // of the file's words and of how they are found
+constexpr uint32_t kVersion = 5;  // of the file's words and of how they are found
 
 std::string pathOf(const MeshFieldRecipe& recipe) {
     char name[24];

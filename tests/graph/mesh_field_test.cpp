@@ -218,11 +218,12 @@ TEST(MeshFieldNodes, AMeshIsASolidThatCanBeMovedAndCut) {
     EXPECT_GT(value({0.0, 0.0, 0.0}), 1.0);
 }
 
+std::string field(const std::string& inputs) {
+    return R"({"id": "it", "type": "mesh_to_field", "inputs": {)" + inputs + "}}," + kOut;
+}
+
 TEST(MeshFieldNodes, WhatDoesNotFitIsRefusedWithARemedy) {
     const Folder folder;
-    const auto field = [](const std::string& inputs) {
-        return R"({"id": "it", "type": "mesh_to_field", "inputs": {)" + inputs + "}}," + kOut;
-    };
     const std::string mesh = R"("mesh": {"from": "file"})";
     EXPECT_NE(folder.refusal(field("")).find("not connected"), std::string::npos);
     EXPECT_NE(
@@ -280,6 +281,24 @@ TEST(MeshFieldNodes, FindingsAreNotesOfTheProgram) {
     EXPECT_EQ(program->notes[0].severity, Error::Severity::warning);
     EXPECT_EQ(program->notes[0].node, "it");
     EXPECT_NE(program->notes[0].message.find("3 open edges"), std::string::npos);
+    EXPECT_EQ(program->notes[0].message.find("the mesh 'cube.obj' has "), 0u);
+}
+
+TEST(MeshFieldNodes, ANumberThatComesByAWireIsInRangeToo) {
+    const Folder folder;
+    const std::string mesh = R"("mesh": {"from": "file"})";
+    for (const auto& [input, value, why] : {std::tuple("resolution", "4", "at least 8"),
+                                            {"resolution", "1000", "at most 512"},
+                                            {"resolution", "40.5", "whole number"},
+                                            {"margin", "-1", "at least 0"}}) {
+        const std::string wired =
+            R"({"id": "v", "type": "expression", "code": "return )" + std::string(value) + R"(;"},)";
+        const std::string refused =
+            folder.refusal(kFile + wired + field(mesh + R"(, ")" + input + R"(": {"from": "v"})"));
+        EXPECT_NE(refused.find(why), std::string::npos) << refused;
+    }
+    EXPECT_NE(folder.refusal(kFile + field(mesh + R"(, "margin": 1e30)")).find("lost in its margin"),
+              std::string::npos);
 }
 
 }  // namespace

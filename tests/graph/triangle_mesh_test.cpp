@@ -100,6 +100,7 @@ TEST(TriangleMeshFile, Stl) {
     for (const auto& [bytes, why] :
          {std::pair(stlBinary().substr(0, 200), "is cut off"),
           {stlBinary().substr(0, 84), "is cut off"},
+          {stlBinary("solid, although it is binary").substr(0, 200), "is cut off"},
           {stlBinary().substr(0, 40), "is no STL file"},
           {std::string("solid nothing\nendsolid"), "no triangles"},
           {text.substr(0, text.rfind("vertex")), "is cut off"},
