@@ -327,9 +327,8 @@ class Compiler {
             // One that is written was checked where it stands; here one may come from a wire.
             const InputSpec& spec = type.inputs[static_cast<std::size_t>(inputIndex(type, name))];
             const double number = state.ir.number(id);
-            if (componentCount(spec.type) > 1) return number;
-            const auto problem =
-                spec.type == Type::boolean ? std::nullopt : valueProblem(spec.type, &spec, {number});
+            if (spec.type != Type::integer && spec.type != Type::scalar) return number;
+            const auto problem = valueProblem(spec.type, &spec, {number});
             if (!problem) return number;
             report(node, prefix, std::string(name), {.message = *problem});
             return std::nullopt;

@@ -9,32 +9,37 @@
 
 namespace fw {
 
-CountingSort createCountingSort(const Device& device) {
+KeyCounting createKeyCounting(const Device& device) {
     const std::array shaders = {
-        ShaderOptions{.name = "sort/count.comp"},   ShaderOptions{.name = "sort/sum.comp"},
-        ShaderOptions{.name = "sort/top.comp"},     ShaderOptions{.name = "sort/place.comp"},
-        ShaderOptions{.name = "sort/scatter.comp"}, ShaderOptions{.name = "sort/settle.comp"}};
+        ShaderOptions{.name = "sort/count.comp"}, ShaderOptions{.name = "sort/sum.comp"},
+        ShaderOptions{.name = "sort/top.comp"}, ShaderOptions{.name = "sort/place.comp"}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {std::move(made[0]), std::move(made[1]), std::move(made[2]),
-            std::move(made[3]), std::move(made[4]), std::move(made[5])};
+    return {std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3])};
 }
 
-void sumCounts(Commands& commands, const CountingSort& sort, Buffer& sums, const Buffer& counts,
+CountingSort createCountingSort(const Device& device) {
+    const std::array shaders = {ShaderOptions{.name = "sort/scatter.comp"},
+                                ShaderOptions{.name = "sort/settle.comp"}};
+    std::vector<Pipeline> made = createComputePipelines(device, shaders);
+    return {createKeyCounting(device), std::move(made[0]), std::move(made[1])};
+}
+
+void sumCounts(Commands& commands, const KeyCounting& counting, Buffer& sums, const Buffer& counts,
                Buffer& starts, uint32_t keys) {
     const gpu::SortPush push{.items = 0, .keys = keys};
     const uint32_t groups = groupsFor(keys, SORT_SUM_LANES * SORT_SUM_EACH);
     reserve(commands.device, sums, 16ull * groups);
     reserve(commands.device, starts, 4ull * keys);
     const Descriptor bound[] = {{0, counts}, {4, sums}, {5, starts}};
-    dispatch(commands, sort.sum, spread(groups), push, bound);
+    dispatch(commands, counting.sum, spread(groups), push, bound);
     barrier(commands);
-    dispatch(commands, sort.top, {1, 1, 1}, push, bound);
+    dispatch(commands, counting.top, {1, 1, 1}, push, bound);
     barrier(commands);
-    dispatch(commands, sort.place, spread(groups), push, bound);
+    dispatch(commands, counting.place, spread(groups), push, bound);
     barrier(commands);
 }
 
-void countKeys(Commands& commands, const CountingSort& sort, CountingSortBuffers& buffers,
+void countKeys(Commands& commands, const KeyCounting& counting, CountingSortBuffers& buffers,
                const Descriptor& keysOfItems, uint32_t items, uint32_t keys) {
     const gpu::SortPush push{.items = items, .keys = keys};
     reserve(commands.device, buffers.counts, 4ull * keys);
@@ -42,14 +47,14 @@ void countKeys(Commands& commands, const CountingSort& sort, CountingSortBuffers
     fill(commands, buffers.counts, 0);
     barrier(commands);
     const Descriptor bound[] = {keysOfItems, {1, buffers.counts}, {2, buffers.ranks}};
-    dispatch(commands, sort.count, spread(groupsFor(items, SORT_GROUP)), push, bound);
+    dispatch(commands, counting.count, spread(groupsFor(items, SORT_GROUP)), push, bound);
     barrier(commands);
-    sumCounts(commands, sort, buffers.sums, buffers.counts, buffers.starts, keys);
+    sumCounts(commands, counting, buffers.sums, buffers.counts, buffers.starts, keys);
 }
 
 void sortByKey(Commands& commands, const CountingSort& sort, CountingSortBuffers& buffers,
                const Buffer& keysOfItems, Buffer& order, uint32_t items, uint32_t keys) {
-    countKeys(commands, sort, buffers, {0, keysOfItems}, items, keys);
+    countKeys(commands, sort.counting, buffers, {0, keysOfItems}, items, keys);
     const gpu::SortPush push{.items = items, .keys = keys};
     reserve(commands.device, buffers.unsettled, 4ull * items);
     reserve(commands.device, order, 4ull * items);

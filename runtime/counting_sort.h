@@ -14,8 +14,14 @@
 
 namespace fw {
 
+struct KeyCounting {
+    Pipeline count, sum, top, place;
+};
+KeyCounting createKeyCounting(const Device& device);
+
 struct CountingSort {
-    Pipeline count, sum, top, place, scatter, settle;
+    KeyCounting counting;
+    Pipeline scatter, settle;
 };
 CountingSort createCountingSort(const Device& device);
 
@@ -28,12 +34,12 @@ struct CountingSortBuffers {
 
 /// Records: `starts` gets the sum of `counts` before each of so many keys. `sums` is scratch memory; all
 /// grow.
-void sumCounts(Commands& commands, const CountingSort& sort, Buffer& sums, const Buffer& counts,
+void sumCounts(Commands& commands, const KeyCounting& counting, Buffer& sums, const Buffer& counts,
                Buffer& starts, uint32_t keys);
 
 /// Records: counts, starts and ranks of the items whose keys, all below `keys`, are given. Up to 2^32 - 1 of
 /// each.
-void countKeys(Commands& commands, const CountingSort& sort, CountingSortBuffers& buffers,
+void countKeys(Commands& commands, const KeyCounting& counting, CountingSortBuffers& buffers,
                const Descriptor& keysOfItems, uint32_t items, uint32_t keys);
 
 /// Records countKeys() and then: `order` gets the numbers of the items by key, and those of a key in their

@@ -77,7 +77,7 @@ void sortCorners(Commands& commands, Run& run) {
         reserve(device, *perCorner, 12ull * push.triangles + kWholeTexels);
     beginStage(commands, "sort");
     const VkDeviceSize triangles = 12ull * push.triangles;
-    countKeys(commands, run.config.pipelines->sorting, b.corners, {0, run.mesh.triangles, 0, triangles},
+    countKeys(commands, run.config.pipelines->counting, b.corners, {0, run.mesh.triangles, 0, triangles},
               3 * push.triangles, push.vertices);
     const Descriptor scattered[] = {{0, run.mesh.triangles, 0, triangles},
                                     {1, b.corners.starts},
@@ -148,7 +148,7 @@ void splitEdges(Commands& commands, Run& run, bool project) {
         {1, b.corners.counts}, {2, b.corners.starts}, {3, b.next}, {5, b.edgeCounts}};
     dispatch(commands, pipelines.edges, run.groups(push.vertices), push, bound);
     barrier(commands);
-    sumCounts(commands, pipelines.sorting, b.corners.sums, b.edgeCounts, b.edgeStarts, push.vertices);
+    sumCounts(commands, pipelines.counting, b.corners.sums, b.edgeCounts, b.edgeStarts, push.vertices);
     bound = {{0, run.mesh.vertices},
              {1, b.corners.counts},
              {2, b.corners.starts},
@@ -240,7 +240,7 @@ void writeCounts(const Run& run) {
 
 MeshStagePipelines createMeshStagePipelines(const Device& device) {
     MeshStagePipelines pipelines;
-    pipelines.sorting = createCountingSort(device);
+    pipelines.counting = createKeyCounting(device);
     const std::array shaders = {ShaderOptions{.name = "mesh/scatter.comp"},
                                 ShaderOptions{.name = "mesh/smooth.comp"},
                                 ShaderOptions{.name = "mesh/normals.comp"},

@@ -29,7 +29,7 @@
 namespace fw {
 
 struct MeshStagePipelines {
-    CountingSort sorting;
+    KeyCounting counting;
     Pipeline scatter, smooth, normals, edges, split, splitColored;
     Pipeline project;  ///< of a field: createProjection()
 };

@@ -55,10 +55,6 @@ Done fits(const DensityConfig& config, const gpu::DensityPush& push, const Devic
     return done();
 }
 
-}  // namespace
-
-namespace {
-
 /// Along x, and along y or z.
 std::array<Pipeline, 2> createBlur(const Device& device, int reach) {
     const std::string define = "REACH " + std::to_string(reach);

@@ -1,10 +1,11 @@
 // Of all kernels that make a mesh a field (graph/mesh_field.h says how). Coordinates are cells of the grid.
 #include "shared.h"
 #include "bake/bake.h"
+#include "lib/groups.glsl"
 
 layout(push_constant, scalar) uniform PushConstants { BakePush push; };
 
-uint item() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * BAKE_GROUP + gl_LocalInvocationIndex; }
+uint item() { return linearGroup() * BAKE_GROUP + gl_LocalInvocationIndex; }
 uint sampleCount() { return uint(push.size.x * push.size.y * push.size.z); }
 ivec3 placeOf(uint index) {
     uvec2 size = uvec2(push.size.xy);

@@ -1,12 +1,12 @@
 // What all mesher kernels share: the push constants, the counts, and how grid points are numbered.
 #include "shared.h"
+#include "lib/groups.glsl"
 
 layout(push_constant, scalar) uniform Push { MesherPush push; };
 layout(binding = 0, scalar) buffer Counts { MesherCounts counts; };
 
 /// Work groups of a dispatch over many items are spread evenly over two axes: a group too many runs, if to no effect.
 const uint kMostGroups = 65535;  // along one axis
-uint linearGroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 DispatchArguments groupsFor(uint items, uint perGroup) {
     uint groups = (items + perGroup - 1) / perGroup;
     uint y = max((groups + kMostGroups - 1) / kMostGroups, 1);

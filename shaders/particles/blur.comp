@@ -26,7 +26,7 @@ void main() {
     ivec3 texels = ivec3(pitch() / 4, push.size.yz);
     int line = int(gl_WorkGroupID.x * DENSITY_LINES + gl_LocalInvocationIndex);
 #ifdef ALONG_X
-    const int axis = 0, reach = (REACH + 3) / 4;
+    const int reach = (REACH + 3) / 4;
     if (line >= texels.y * texels.z) return;
     int first = line * texels.x, stride = 1, count = texels.x;
 #else

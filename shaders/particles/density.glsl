@@ -1,10 +1,11 @@
 // Of all kernels that make particles a density (runtime/particles/density.h says how).
 #include "shared.h"
 #include "particles/density.h"
+#include "lib/groups.glsl"
 
 layout(push_constant, scalar) uniform PushConstants { DensityPush push; };
 
-uint item() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * DENSITY_GROUP + gl_LocalInvocationIndex; }
+uint item() { return linearGroup() * DENSITY_GROUP + gl_LocalInvocationIndex; }
 // Samples of a row, in memory: four to a texel.
 int pitch() { return (push.size.x + 3) / 4 * 4; }
 uint sampleCount() { return uint(pitch() * push.size.y * push.size.z); }
