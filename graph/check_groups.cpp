@@ -17,8 +17,7 @@ void checkDeclaration(const Group& group, const Entry& entry, const std::string&
                                   " is not letters, digits and '_', beginning with a letter");
     if (!typeNamed(entry.type)) {
         std::vector<std::string> names;
-        for (int i = 0; i <= static_cast<int>(Type::mesh); ++i)
-            names.emplace_back(typeName(static_cast<Type>(i)));
+        for (int i = 0; i < kTypes; ++i) names.emplace_back(typeName(static_cast<Type>(i)));
         findings.error(place, "unknown type " + inQuotes(entry.type) + findings.hint(entry.type, names) +
                                   "; the types are " + listed(names));
     }

@@ -116,13 +116,14 @@ void checkUnconnected(const Scope& scope, uint32_t i, Findings& findings) {
     const Node& node = scope.nodes[i];
     const NodeType& type = *scope.types[i];
     const auto missing = [&](const std::string& name, std::optional<Type> wanted) {
-        if ((wanted != Type::surface && wanted != Type::mesh) || node.input(name)) return;
+        if (!wanted || node.input(name)) return;
         Place place = placeOf(scope, node);
         place.input = name;
         if (wanted == Type::surface)
             findings.warning(place, "the input is not connected: it counts as empty space");
-        if (wanted == Type::mesh)
-            findings.error(place, "the input is not connected: link a node that gives a mesh");
+        if (wanted == Type::mesh || wanted == Type::particles)
+            findings.error(place, "the input is not connected: link a node that gives " +
+                                      std::string(wanted == Type::mesh ? "a mesh" : "particles"));
     };
     if (type.id == "output") {
         const bool linked = std::any_of(node.inputs.begin(), node.inputs.end(), [](const auto& input) {
@@ -142,8 +143,11 @@ void checkUnconnected(const Scope& scope, uint32_t i, Findings& findings) {
         for (const GroupInput& input : scope.groups.list[*group].group->inputs)
             missing(input.name, typeNamed(input.type));
     } else {
+        // Particles need nothing to collide with.
+        const bool free = type.category == Category::particles;
         for (const InputSpec& spec : type.inputs)
-            if (spec.value.kind == InputDefault::Kind::none) missing(spec.name, spec.type);
+            if (spec.value.kind == InputDefault::Kind::none && !(free && spec.type == Type::surface))
+                missing(spec.name, spec.type);
     }
 }
 

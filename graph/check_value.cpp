@@ -27,7 +27,8 @@ bool isKind(Type type, const InputValue& value) {
         case Type::image: return std::holds_alternative<std::string>(value.value);
         case Type::points: return array && value.pairs;
         case Type::surface:
-        case Type::mesh: return false;
+        case Type::mesh:
+        case Type::particles: return false;
     }
     return false;
 }
@@ -84,6 +85,7 @@ std::string_view expectedOf(Type type) {
         case Type::points: return "an array of [x, y] pairs";
         case Type::image: return "the path of a picture, a string";
         case Type::mesh: return "a link to a node with a mesh, {\"from\": \"node\"}";
+        case Type::particles: return "a link to a node with particles, {\"from\": \"node\"}";
     }
     return "";
 }

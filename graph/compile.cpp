@@ -247,7 +247,10 @@ class Compiler {
                     fine = false;
                 }
             } else if (spec.type != Type::mesh) {
-                value = literal(node, prefix, spec, given, type->body.empty());
+                // What a simulation reads is read anew at each step.
+                const bool stepped =
+                    type->category == Category::particles && spec.value.kind == InputDefault::Kind::numbers;
+                value = literal(node, prefix, spec, given, type->body.empty() && !stepped);
             }
             if (shape) {
                 if (from) shown = inputs.size();
@@ -290,6 +293,8 @@ class Compiler {
         }
         if (type->id == "mesh_file") return meshFile(node, prefix, *type, inputs);
         if (type->id == "mesh_to_field") return meshToField(node, prefix, *type, inputs);
+        if (type->id == "particles_to_field") return particlesToField(node, prefix, *type, inputs);
+        if (type->category == Category::particles) return particles(node, prefix, *type, inputs);
         if (type->body.empty()) {  // stages
             result.outputs = {{type->outputs.empty() ? "surface" : type->outputs[0].name, Type::surface}};
             result.values = {inputs.empty() ? language::emptySurface(state) : inputs[shown]};
@@ -334,8 +339,8 @@ class Compiler {
             return std::nullopt;
         }
         report(node, prefix, std::string(name),
-               {.message = "a mesh is made with one number, known when the graph is compiled: it cannot "
-                           "depend on the place, nor be live"});
+               {.message = "takes one number, known when the graph is compiled: it cannot depend on the "
+                           "place, nor be live"});
         return std::nullopt;
     }
 
@@ -368,9 +373,6 @@ class Compiler {
 
     Lowered meshToField(const Node& node, const std::string& prefix, const NodeType& type,
                         const std::vector<Value>& inputs) {
-        Lowered result;
-        result.outputs = type.outputs;
-        result.values = {language::emptySurface(state)};
         const std::shared_ptr<const MeshRecipe>& mesh = inputOf(type, inputs, "mesh").mesh;
         if (!mesh || !mesh->read) {
             report(
@@ -392,29 +394,37 @@ class Compiler {
             report(node, prefix, "mesh", volume.error());
             return failure(type.outputs);
         }
-        std::size_t bytes = kTexelBytes * texelCount(**volume);
-        for (const FieldVolumePtr& held : state.ir.volumes())
-            if (held != *volume) bytes += kTexelBytes * texelCount(*held);
-        if (bytes > kMostVolumeBytes) {
-            report(node, prefix, "resolution",
-                   {.message = "the graph's meshes would take more than " +
-                               std::to_string(kMostVolumeBytes >> 20) +
-                               " MiB as fields: lower a resolution or take fewer"});
-            return failure(type.outputs);
-        }
         for (const std::string& what : (*volume)->notes)
             notes.push_back(located(
                 node, prefix, "mesh",
                 {.message = meshName(*mesh->read) + " " + what, .severity = Error::Severity::warning}));
-        const uint32_t number = state.ir.addVolume(*volume);
+        const bool flat = inputOf(type, inputs, "sampling").text == "trilinear";
+        return sampled(node, prefix, type, inputs, *volume, flat ? trilinearChannel : tricubicChannel);
+    }
+
+    /// The surface of a volume at the node's input "p".
+    Lowered sampled(const Node& node, const std::string& prefix, const NodeType& type,
+                    const std::vector<Value>& inputs, const FieldVolumePtr& volume, VolumeChannel distance) {
+        std::size_t bytes = kTexelBytes * texelCount(*volume);
+        for (const FieldVolumePtr& held : state.ir.volumes())
+            if (held != volume) bytes += kTexelBytes * texelCount(*held);
+        if (bytes > kMostVolumeBytes) {
+            report(node, prefix, "resolution",
+                   {.message = "the graph's meshes and particles would take more than " +
+                               std::to_string(kMostVolumeBytes >> 20) +
+                               " MiB as fields: lower a resolution or take fewer"});
+            return failure(type.outputs);
+        }
+        const uint32_t number = state.ir.addVolume(volume);
         const Value& p = inputOf(type, inputs, "p");
         const std::array<IrId, 3> place{p.ids[0], p.ids[1], p.ids[2]};
-        const bool flat = inputOf(type, inputs, "sampling").text == "trilinear";
-        const VolumeChannel distance = flat ? trilinearChannel : tricubicChannel;
+        Lowered result;
+        result.outputs = type.outputs;
+        result.values = {
+            *language::convert(state, language::constantValue(state, Type::scalar, {}), Type::surface)};
         Value& surface = result.values[0];
-        surface = *language::convert(state, language::constantValue(state, Type::scalar, {}), Type::surface);
         surface.ids[distanceComponent] = state.ir.sample(number, distance, place);
-        if ((*volume)->colored())
+        if (volume->colored())
             for (int i = 0; i < 3; ++i)
                 surface.ids[static_cast<std::size_t>(baseColorComponent + i)] =
                     state.ir.sample(number, VolumeChannel(redChannel + i), place);
@@ -422,6 +432,131 @@ class Compiler {
         result.exactness = here ? distorted(kSampledLipschitz) : distorted();
         result.spoiler = prefix + node.id;
         return result;
+    }
+
+    /// A field of its own, of the distance of a surface.
+    std::shared_ptr<const Program> fieldOf(const Value& surface) {
+        auto field = std::make_shared<Program>();
+        field->surface =
+            language::convert(state, language::constantValue(state, Type::scalar, {}), Type::surface)->ids;
+        field->surface[distanceComponent] = surface.ids[distanceComponent];
+        field->ir = state.ir.compact(field->surface);
+        field->live = live;
+        field->families = findFamilies(field->ir, field->distance());
+        field->structureHash = field->ir.hash(field->surface);
+        return field;
+    }
+
+    /// The inputs of a particle node as a stage of a recipe; none, reported, where a number depends on the
+    /// place.
+    std::optional<ParticleStage> particleStage(const Node& node, const std::string& prefix,
+                                               const NodeType& type, const std::vector<Value>& inputs) {
+        ParticleStage stage{.node = prefix + node.id};
+        bool fine = true;
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const InputSpec& spec = type.inputs[i];
+            const Value& value = inputs[i];
+            if (spec.value.kind == InputDefault::Kind::position) continue;
+            if (spec.type == Type::surface) {
+                if (state.ir.isConstant(value.id(), language::kEmptyDistance)) continue;
+                const std::shared_ptr<const Program> field = fieldOf(value);
+                if (std::ranges::any_of(field->ir.volumes(), [](const FieldVolumePtr& volume) {
+                        return bool(volume->particles);
+                    })) {
+                    report(node, prefix, spec.name,
+                           {.message = "cannot be a surface that particles make, for those are not known "
+                                       "before: take what the particles collide with themselves"});
+                    fine = false;
+                }
+                stage.fields[spec.name] = field;
+            } else if (spec.value.kind == InputDefault::Kind::numbers) {
+                std::array<IrId, 3>& ids = stage.numbers[spec.name];
+                for (int k = 0; k < componentCount(spec.type); ++k) {
+                    ids[std::size_t(k)] = value.ids[std::size_t(k)];
+                    if (state.ir[ids[std::size_t(k)]].positions == 0) continue;
+                    report(node, prefix, spec.name,
+                           {.message = "takes one number for all of space: it cannot depend on the place"});
+                    fine = false;
+                    break;
+                }
+            } else if (spec.value.kind == InputDefault::Kind::text) {
+                stage.words[spec.name] = value.text;
+            }
+        }
+        return fine ? std::optional(std::move(stage)) : std::nullopt;
+    }
+
+    /// A node that gives particles: one stage more.
+    Lowered particles(const Node& node, const std::string& prefix, const NodeType& type,
+                      const std::vector<Value>& inputs) {
+        using Kind = ParticleStage::Kind;
+        std::optional<ParticleStage> stage = particleStage(node, prefix, type, inputs);
+        if (!stage) return failure(type.outputs);
+        ParticleRecipe recipe;
+        stage->kind = type.id == "emitter"         ? Kind::emitter
+                      : type.id == "particle_file" ? Kind::file
+                      : type.id == "sph_fluid"     ? Kind::fluid
+                                                   : Kind::dynamics;
+        if (stage->kind == Kind::dynamics) {
+            const Value& from = inputOf(type, inputs, "particles");
+            if (!from.particles) return failure(type.outputs);
+            recipe = *from.particles;
+            if (recipe.stages.front().kind == Kind::fluid) {
+                report(node, prefix, "particles",
+                       {.message = "a fluid moves itself: give the sph_fluid its gravity and what it "
+                                   "collides with"});
+                return failure(type.outputs);
+            }
+        } else if (stage->kind == Kind::file) {
+            const std::string& path = stage->words["path"];
+            const Result<ParticlePlacesPtr> places =
+                path.empty() ? Error{.message =
+                                         "no file is named: write the path of a .ply, .obj, .csv, .txt "
+                                         "or .xyz file"}
+                             : readParticlePlaces(state.graphPath, path);
+            if (!places) {
+                report(node, prefix, "path", places.error());
+                return failure(type.outputs);
+            }
+            stage->places = *places;
+        }
+        recipe.stages.push_back(std::move(*stage));
+        Lowered result;
+        result.outputs = type.outputs;
+        result.values = {Value{Type::particles}};
+        result.values[0].particles = std::make_shared<const ParticleRecipe>(std::move(recipe));
+        return result;
+    }
+
+    Lowered particlesToField(const Node& node, const std::string& prefix, const NodeType& type,
+                             const std::vector<Value>& inputs) {
+        const std::optional<ParticleStage> own = particleStage(node, prefix, type, inputs);
+        const Value& from = inputOf(type, inputs, "particles");
+        const auto resolution = knownNumber(node, prefix, type, inputs, "resolution");
+        if (!own || !from.particles || !resolution) return failure(type.outputs);
+        std::vector<double> values;
+        for (const LiveParameter& parameter : live) values.push_back(parameter.value);
+        Box region;
+        if (node.input("region_min") && node.input("region_max")) {
+            for (int i = 0; i < 3; ++i) {
+                const auto lo = knownNumber(node, prefix, type, inputs, "region_min", i),
+                           hi = knownNumber(node, prefix, type, inputs, "region_max", i);
+                if (!lo || !hi) return failure(type.outputs);
+                region.lo[std::size_t(i)] = *lo, region.hi[std::size_t(i)] = *hi;
+            }
+        } else {
+            const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
+            region = particleBounds(state.ir, *from.particles, values, radius);
+        }
+        const auto method = std::ranges::find(kDensityMethodNames, inputOf(type, inputs, "method").text);
+        const Result<FieldVolumePtr> volume =
+            particleVolume(state.ir, *from.particles, *own, region, static_cast<int>(*resolution),
+                           DensityMethod(method - kDensityMethodNames));
+        if (!volume) {
+            report(node, prefix, node.input("region_min") ? "region_min" : "particles", volume.error());
+            return failure(type.outputs);
+        }
+        return sampled(node, prefix, type, inputs, *volume, tricubicChannel);
     }
 
     /// How the mesh is made that a node gives which takes `from` and other `inputs`. Reported, and none, if a

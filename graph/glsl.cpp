@@ -121,11 +121,13 @@ class Emitter : GlslStatements {
                          : "volumeColor(" + gridName + ", p, " + std::to_string(layer.channel - redChannel)) +
                     "); }\nvec2 fieldVolumeRange" + name + "(vec2 x, vec2 y, vec2 z) { return " +
                     (color ? "vec2(-1e-5, 1.00001)"
-                           : "volumeRange(" + gridName + ", fieldVolume" + name +
-                                 "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " + "vec4(" +
-                                 glslLiteral(layer.slope) + ", " + glslLiteral(layer.shift) + ", " +
-                                 glslLiteral(layer.scatter) + ", " + glslLiteral(layer.rise) + "), " +
-                                 pair(layer.least, layer.most) + ")") +
+                     : volume.particles
+                         ? "volumeBlockRange(" + gridName + ", x, y, z, " + glslLiteral(layer.rise) + ")"
+                         : "volumeRange(" + gridName + ", fieldVolume" + name +
+                               "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " + "vec4(" +
+                               glslLiteral(layer.slope) + ", " + glslLiteral(layer.shift) + ", " +
+                               glslLiteral(layer.scatter) + ", " + glslLiteral(layer.rise) + "), " +
+                               pair(layer.least, layer.most) + ")") +
                     "; }\n";
             }
             first += texelCount(volume);

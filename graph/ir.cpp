@@ -195,6 +195,11 @@ IrId Ir::sample(uint32_t image, int channel, IrId u, IrId v) {
 
 uint32_t Ir::addVolume(const FieldVolumePtr& volume) { return placeIn(grids, volume); }
 
+void Ir::replaceVolume(std::size_t number, FieldVolumePtr volume) {
+    assert(volume->particles && grids[number]->particles);
+    grids[number] = std::move(volume);
+}
+
 IrId Ir::sample(uint32_t volume, VolumeChannel channel, std::array<IrId, 3> place) {
     assert(volume < grids.size());
     return make(Op::volume, double(volume * kVolumeLayers + uint32_t(channel)), place);

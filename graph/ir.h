@@ -60,6 +60,8 @@ class Ir {
     /// The number of the volume among volumes(), which it joins if it is new.
     uint32_t addVolume(const FieldVolumePtr& volume);
     const std::vector<FieldVolumePtr>& volumes() const { return grids; }
+    /// Puts in its place the volume of the same particles at some time.
+    void replaceVolume(std::size_t number, FieldVolumePtr volume);
     /// A channel of a volume of volumes() at (x, y, z); see volume.h.
     IrId sample(uint32_t volume, VolumeChannel channel, std::array<IrId, 3> place);
     /// What a node samples.

@@ -12,7 +12,7 @@ namespace {
 std::vector<NodeType> gatherNodeTypes() {
     std::vector<NodeType> all;
     for (auto family : {shapeNodes, shape2dNodes, combineNodes, domainNodes, fieldNodes, mathsNodes,
-                        materialNodes, meshNodes, stageNodes}) {
+                        materialNodes, meshNodes, stageNodes, particleNodes}) {
         std::vector<NodeType> nodes = family();
         std::move(nodes.begin(), nodes.end(), std::back_inserter(all));
     }
@@ -80,6 +80,7 @@ std::string_view categoryName(Category category) {
         case Category::maths: return "Maths";
         case Category::material: return "Material";
         case Category::mesh: return "Mesh stages";
+        case Category::particles: return "Particles";
         case Category::structure: return "Structure";
     }
     assert(!"every category has a name");

@@ -34,8 +34,10 @@ enum class Category : unsigned char {
     maths,
     material,
     mesh,
+    particles,
     structure
 };
+inline constexpr int kCategories = int(Category::structure) + 1;
 std::string_view categoryName(Category category);
 
 /// Default of an input where the file gives none. `position` means: the context position.
@@ -116,5 +118,6 @@ std::vector<NodeType> mathsNodes();
 std::vector<NodeType> materialNodes();
 std::vector<NodeType> meshNodes();
 std::vector<NodeType> stageNodes();
+std::vector<NodeType> particleNodes();
 
 }  // namespace fw

@@ -10,10 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr Category kCategories[] = {Category::shape,    Category::shape2d, Category::combine,
-                                    Category::domain,   Category::field,   Category::maths,
-                                    Category::material, Category::mesh,    Category::structure};
-
 std::string numberText(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
@@ -144,7 +140,8 @@ std::string nodesMarkdown() {
         "bound* is never more than the distance; *distorted* may be more, which slows rendering and makes "
         "offsets, shells and "
         "blends uneven.\n\n";
-    for (Category category : kCategories) {
+    for (int i = 0; i < kCategories; ++i) {
+        const auto category = Category(i);
         text += "## " + std::string(categoryName(category)) + "\n\n";
         for (const NodeType& type : nodeTypes()) {
             if (type.category == category) text += nodeMarkdown(type);

@@ -58,7 +58,8 @@ Json valueSchema(const InputSpec& spec) {
         case Type::points: return {{"type", "array"}, {"items", array({{"type", "number"}}, 2)}};
         case Type::image: return {{"type", "string"}};
         case Type::surface:
-        case Type::mesh: return nullptr;
+        case Type::mesh:
+        case Type::particles: return nullptr;
     }
     return nullptr;
 }
@@ -145,7 +146,7 @@ Json nodeSchema() {
 
 Json groupSchema() {
     Json types = Json::array();
-    for (int i = 0; i <= static_cast<int>(Type::mesh); ++i) types.push_back(typeName(static_cast<Type>(i)));
+    for (int i = 0; i < kTypes; ++i) types.push_back(typeName(static_cast<Type>(i)));
     const Json name = refer("name"), type = {{"enum", types}};
     return object(
         {{"id", refer("id")},

@@ -68,6 +68,7 @@ Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
     if (file.bytes.empty()) return meshProblem(file.path, "is an empty file");
     Result<TriangleMesh> mesh = format->read(file);
     if (!mesh) return mesh;
+    if (mesh->indices.empty()) return meshProblem(file.path, "has no faces");
     dropUnused(*mesh);
     mesh->file = file.file;
     mesh->hash = hashOf(*mesh);

@@ -38,8 +38,9 @@ struct MeshFile {
     const std::string& file;
 };
 
-/// The readers of each format. Errors, with a message only: what is damaged, missing or beyond the limits,
-/// and in a glTF file what is of a version or an extension that is not read.
+/// The readers of each format. A PLY file may be without faces. Errors, with a message only: what is
+/// damaged, missing or beyond the limits, and in a glTF file what is of a version or an extension that is not
+/// read.
 Result<TriangleMesh> readGltfMesh(
     const MeshFile& file);  ///< 2.0: the default scene, with its nodes' transforms
 Result<TriangleMesh> readObjMesh(const MeshFile& file);

@@ -68,7 +68,6 @@ class Reader {
                     each(
                         element, [](std::size_t, double) {}, [](std::size_t, const std::vector<double>&) {});
         }
-        if (mesh.indices.empty()) fail("has no faces");
         return std::move(mesh);
     }
 

@@ -16,13 +16,14 @@ std::string_view typeName(Type type) {
         case Type::points: return "points";
         case Type::image: return "image";
         case Type::mesh: return "mesh";
+        case Type::particles: return "particles";
     }
     assert(!"every type has a name");
     return "";
 }
 
 std::optional<Type> typeNamed(std::string_view name) {
-    for (int i = 0; i <= static_cast<int>(Type::mesh); ++i)
+    for (int i = 0; i < kTypes; ++i)
         if (typeName(static_cast<Type>(i)) == name) return static_cast<Type>(i);
     return {};
 }

@@ -16,14 +16,17 @@ enum class Type : unsigned char {
     scalar,  ///< "float" in files and code
     vec2,
     vec3,
-    surface,  ///< distance and material: nine scalars, in the order of `SurfaceComponent`
-    string,   ///< an enum choice, a path or a text; known when the graph is compiled
-    points,   ///< a list of vec2, known when the graph is compiled
-    image,    ///< the path of a picture; read when the graph is compiled (image.h)
-    mesh,     ///< triangles: the result of a stage
+    surface,    ///< distance and material: nine scalars, in the order of `SurfaceComponent`
+    string,     ///< an enum choice, a path or a text; known when the graph is compiled
+    points,     ///< a list of vec2, known when the graph is compiled
+    image,      ///< the path of a picture; read when the graph is compiled (image.h)
+    mesh,       ///< triangles: the result of a stage
+    particles,  ///< places that move: what a simulation makes
 };
+inline constexpr int kTypes = int(Type::particles) + 1;
 
-/// Number of scalars that represent a value of this type in the IR; 0 for string, points, image and mesh.
+/// Number of scalars that represent a value of this type in the IR; 0 for all that is no function of
+/// position.
 constexpr int componentCount(Type type) {
     switch (type) {
         case Type::boolean:

@@ -10,6 +10,7 @@
 
 #include "graph/hash.h"
 #include "graph/image.h"
+#include "graph/particle_recipe.h"
 
 namespace fw {
 
@@ -166,6 +167,21 @@ FieldVolume::FieldVolume(const VolumeGrid& grid_, std::span<const float> distanc
                          std::span<const glm::vec3> gradients, std::span<const uint32_t> colors)
     : FieldVolume(grid_, pack(grid_, distances, gradients, colors)) {}
 
+FieldVolume::FieldVolume(const VolumeGrid& grid_, std::shared_ptr<const ParticleField> particles_)
+    : grid(grid_), hash(particles_->hash), particles(std::move(particles_)) {
+    const double rise = kCubicRise * grid.cell;
+    layers = {{{.volume = this, .channel = tricubicChannel, .rise = rise},
+               {.volume = this, .channel = trilinearChannel},
+               {this, redChannel},
+               {this, greenChannel},
+               {this, blueChannel}}};
+}
+
+FieldVolume::FieldVolume(const FieldVolume& unmade, std::vector<uint32_t> words_)
+    : FieldVolume(unmade.grid, unmade.particles) {
+    words = std::move(words_);
+}
+
 FieldVolume::FieldVolume(const VolumeGrid& grid_, std::vector<uint32_t> words_)
     : grid(grid_), words(std::move(words_)) {
     hash = 0xcbf29ce484222325u;
@@ -190,6 +206,105 @@ FieldVolume::FieldVolume(const VolumeGrid& grid_, std::vector<uint32_t> words_)
                {this, blueChannel}}};
 }
 
+namespace {
+
+/// Within the grid, the box of a volume whose samples are not made.
+VolumeSample insideBox(const VolumeGrid& grid, const glm::dvec3& place) {
+    VolumeSample nearest{-kHuge, glm::dvec3(0.0)};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            const double face = grid.origin[axis] + (side > 0.0 ? grid.cell * (grid.size[axis] - 1) : 0.0);
+            const double value = side * (place[axis] - face);
+            if (value <= nearest.value) continue;
+            nearest = {value, glm::dvec3(0.0)};
+            nearest.gradient[axis] = side;
+        }
+    return nearest;
+}
+
+/// Contains the values of a layer of particles over a box.
+Interval particleRange(const VolumeLayer& layer, const Interval* place) {
+    const FieldVolume& volume = *layer.volume;
+    const VolumeGrid& grid = volume.grid;
+    bool within = true;
+    double far = 0.0, apart = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double least = grid.origin[axis], most = least + grid.cell * (grid.size[axis] - 1);
+        within &= place[axis].lo >= least && place[axis].hi <= most;
+        far = std::max({far, std::abs(place[axis].lo), std::abs(place[axis].hi)});
+        apart = std::hypot(apart, std::max({least - place[axis].hi, place[axis].lo - most, 0.0}));
+    }
+    const double more = 1e-12 * (1.0 + far + grid.cell);
+    glm::ivec3 lo, hi;  // samples
+    for (int axis = 0; axis < 3; ++axis) {
+        lo[axis] = along(place[axis].lo - more, grid.origin[axis], grid.cell, grid.size[axis]).cell;
+        hi[axis] = along(place[axis].hi + more, grid.origin[axis], grid.cell, grid.size[axis]).cell + 1;
+    }
+    Interval range{kHuge, -kHuge};
+    if (volume.made()) {
+        std::size_t first = grid.samples();  // in pairs of words
+        const std::vector<glm::ivec3> levels = blockLevels(grid);
+        int level = 0, side = kBlockSamples;
+        const glm::ivec3 extent = hi - lo;
+        const int longest = std::max({extent.x, extent.y, extent.z});
+        while (longest > 2 * side && level + 1 < int(levels.size())) {
+            const glm::ivec3& blocks = levels[std::size_t(level++)];
+            first += std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z);
+            side *= 2;
+        }
+        const glm::ivec3& blocks = levels[std::size_t(level)];
+        for (int z = lo.z / side; z <= hi.z / side; ++z)
+            for (int y = lo.y / side; y <= hi.y / side; ++y)
+                for (int x = lo.x / side; x <= hi.x / side; ++x) {
+                    const std::size_t block =
+                        first +
+                        (std::size_t(z) * std::size_t(blocks.y) + std::size_t(y)) * std::size_t(blocks.x) +
+                        std::size_t(x);
+                    range.lo = std::min(range.lo, double(std::bit_cast<float>(volume.words[2 * block])));
+                    range.hi = std::max(range.hi, double(std::bit_cast<float>(volume.words[2 * block + 1])));
+                }
+    } else {
+        const double reach = grid.cell * std::max({grid.size.x, grid.size.y, grid.size.z});
+        range = {-reach, reach};
+    }
+    range = {range.lo - layer.rise, within ? range.hi + layer.rise : kHuge};
+    if (apart > 0.0) range.lo = std::max(range.lo, apart);
+    return outward(range.lo - more, range.hi + more);
+}
+
+}  // namespace
+
+std::vector<glm::ivec3> blockLevels(const VolumeGrid& grid) {
+    std::vector<glm::ivec3> levels{(grid.size + kBlockSamples - 1) / kBlockSamples};
+    while (std::max({levels.back().x, levels.back().y, levels.back().z}) > 2)
+        levels.push_back((levels.back() + 1) / 2);
+    return levels;
+}
+
+std::vector<uint32_t> blockRanges(const VolumeGrid& grid, std::span<const uint32_t> words) {
+    std::vector<uint32_t> ranges;
+    int side = kBlockSamples;
+    for (const glm::ivec3& blocks : blockLevels(grid)) {
+        for (int z = 0; z < blocks.z; ++z)
+            for (int y = 0; y < blocks.y; ++y)
+                for (int x = 0; x < blocks.x; ++x) {
+                    const glm::ivec3 lo = side * glm::ivec3(x, y, z), hi = glm::min(lo + side, grid.size);
+                    float least = std::numeric_limits<float>::max(), most = -least;
+                    for (int k = lo.z; k < hi.z; ++k)
+                        for (int j = lo.y; j < hi.y; ++j)
+                            for (int i = lo.x; i < hi.x; ++i) {
+                                const float f = std::bit_cast<float>(words[2 * grid.index(i, j, k)]);
+                                least = std::min(least, f), most = std::max(most, f);
+                            }
+                    ranges.push_back(std::bit_cast<uint32_t>(least));
+                    ranges.push_back(std::bit_cast<uint32_t>(most));
+                }
+        side *= 2;
+    }
+    ranges.resize((ranges.size() + 3) / 4 * 4);
+    return ranges;
+}
+
 VolumeSample sampleVolume(const VolumeLayer& layer, const glm::dvec3& place) {
     const FieldVolume& volume = *layer.volume;
     Axis axes[3];
@@ -198,8 +313,9 @@ VolumeSample sampleVolume(const VolumeLayer& layer, const glm::dvec3& place) {
         axes[axis] = along(place[axis], volume.grid.origin[axis], volume.grid.cell, volume.grid.size[axis]);
         beyond[axis] = axes[axis].beyond;
     }
-    VolumeSample sample =
-        layer.channel == tricubicChannel ? tricubic(volume, axes) : trilinear(volume, axes, layer.channel);
+    VolumeSample sample = !volume.made()                     ? insideBox(volume.grid, place - beyond)
+                          : layer.channel == tricubicChannel ? tricubic(volume, axes)
+                                                             : trilinear(volume, axes, layer.channel);
     if (beyond == glm::dvec3(0.0)) return sample;
     for (int axis = 0; axis < 3; ++axis)
         if (beyond[axis] != 0.0) sample.gradient[axis] = 0.0;
@@ -214,6 +330,7 @@ VolumeSample sampleVolume(const VolumeLayer& layer, const glm::dvec3& place) {
 }
 
 Interval sampleVolume(const VolumeLayer& layer, const Interval* place) {
+    if (layer.volume->particles) return particleRange(layer, place);
     const VolumeGrid& grid = layer.volume->grid;
     glm::dvec3 centre, half;
     bool within = true;
@@ -241,7 +358,11 @@ Interval sampleVolume(const VolumeLayer& layer, const Interval* place) {
 
 std::size_t texelCount(const FieldVolume& volume) {
     const std::size_t samples = volume.grid.samples();
-    return samples + (volume.colored() ? (samples + 3) / 4 : 0);
+    if (!volume.particles) return samples + (volume.colored() ? (samples + 3) / 4 : 0);
+    std::size_t blocks = 0;
+    for (const glm::ivec3& level : blockLevels(volume.grid))
+        blocks += std::size_t(level.x) * std::size_t(level.y) * std::size_t(level.z);
+    return samples + (blocks + 1) / 2;
 }
 
 std::vector<uint32_t> volumeTexels(const std::vector<FieldVolumePtr>& volumes) {
@@ -250,12 +371,14 @@ std::vector<uint32_t> volumeTexels(const std::vector<FieldVolumePtr>& volumes) {
     std::vector<uint32_t> texels(4 * std::max<std::size_t>(count, 1));
     uint32_t* to = texels.data();
     for (const FieldVolumePtr& volume : volumes) {
-        const std::size_t samples = volume->grid.samples();
-        const uint32_t* words = volume->words.data();
-        for (std::size_t i = 0; i < samples; ++i, to += 4)
-            std::copy_n(words + 2 * i, i + 1 < samples ? 4 : 2, to);
-        if (volume->colored()) std::copy(words + 2 * samples, words + 3 * samples, to);
-        to += 4 * (texelCount(*volume) - samples);
+        const std::size_t samples = volume->grid.samples(), all = texelCount(*volume);
+        if (volume->made()) {
+            const uint32_t* words = volume->words.data();
+            for (std::size_t i = 0; i < samples; ++i)
+                std::copy_n(words + 2 * i, i + 1 < samples ? 4 : 2, to + 4 * i);
+            std::copy(words + 2 * samples, words + volume->words.size(), to + 4 * samples);
+        }
+        to += 4 * all;
     }
     return texels;
 }

@@ -13,6 +13,11 @@
 // convex, so that the angle at q is not acute: the value is never more than the distance. It is continuous
 // and, as is the distance, 1-Lipschitz.
 //
+// The volume of *particles* (particle_recipe.h) has other samples at every time. A program knows its grid
+// alone; whoever plays the program makes the samples. Until then the solid may be anywhere in the grid. Its
+// samples are near to distances, but by no rule, so that the bounds of values come from the least and the
+// greatest samples of blocks: of four samples along each axis, of eight, and so on.
+//
 // The double functions here are the reference of shaders/lib/volume.glsl, which reads the same words.
 //
 // Lifetime: volumes are shared and never change; an Ir keeps those that its operations sample.
@@ -54,6 +59,7 @@ enum VolumeChannel { tricubicChannel, trilinearChannel, redChannel, greenChannel
 inline constexpr int kVolumeLayers = 5;
 
 struct FieldVolume;
+struct ParticleField;
 struct TriangleMesh;
 
 /// One function of (x, y, z), with what bounds it.
@@ -78,10 +84,15 @@ struct FieldVolume {
     FieldVolume(const VolumeGrid& grid, std::span<const float> distances,
                 std::span<const glm::vec3> gradients, std::span<const uint32_t> colors = {});
     FieldVolume(const VolumeGrid& grid, std::vector<uint32_t> words);
+    /// Of particles, without samples.
+    FieldVolume(const VolumeGrid& grid, std::shared_ptr<const ParticleField> particles);
+    /// The same with samples, at some time: distances and gradients, then blockRanges().
+    FieldVolume(const FieldVolume& unmade, std::vector<uint32_t> words);
     FieldVolume(const FieldVolume&) = delete;  // layers point here
     FieldVolume& operator=(const FieldVolume&) = delete;
 
-    bool colored() const { return words.size() > 2 * grid.samples(); }
+    bool colored() const { return !particles && words.size() > 2 * grid.samples(); }
+    bool made() const { return !words.empty(); }
 
     VolumeGrid grid;
     /// Two words a sample, along x, then y, then z: the distance's bits, and the gradient as three whole
@@ -90,7 +101,8 @@ struct FieldVolume {
     uint64_t hash;  ///< of grid and words
     std::array<VolumeLayer, kVolumeLayers> layers;
 
-    std::shared_ptr<const TriangleMesh> mesh = {};  ///< that it was made of, if of one
+    std::shared_ptr<const ParticleField> particles = {};  ///< what makes the samples, if particles do
+    std::shared_ptr<const TriangleMesh> mesh = {};        ///< that it was made of, if of one
     std::vector<std::string> notes = {};  ///< what its user should know of the mesh: "has 3 open edges"
     bool standIn = false;                 ///< something coarser, for whoever need not wait
 };
@@ -103,9 +115,18 @@ Interval sampleVolume(const VolumeLayer& layer, const Interval* place);
 /// The second word of a sample: a vector of length at most 1.
 uint32_t packGradient(const glm::vec3& gradient);
 
+/// Samples along an axis of the smallest blocks.
+inline constexpr int kBlockSamples = 4;
+/// How many blocks there are along each axis: the smallest, then those of twice as many samples, until at
+/// most two are left.
+std::vector<glm::ivec3> blockLevels(const VolumeGrid& grid);
+/// Two words a block, level after level, along x, then y, then z: the least and the greatest distance, as
+/// bits. Then nothing, or two words more, so that they are whole texels.
+std::vector<uint32_t> blockRanges(const VolumeGrid& grid, std::span<const uint32_t> words);
+
 /// What the device reads: texels of four words. A volume has one for each sample, of that sample and the next
-/// one in their order, so that four loads get a cell; then one for each four colours. All volumes, one after
-/// the other; never empty.
+/// one in their order, so that four loads get a cell; then one for each four colours, or for each two blocks.
+/// All volumes, one after the other; never empty.
 std::vector<uint32_t> volumeTexels(const std::vector<FieldVolumePtr>& volumes);
 /// The texels of one.
 std::size_t texelCount(const FieldVolume& volume);

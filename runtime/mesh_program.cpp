@@ -18,11 +18,19 @@ double cellSizeOf(const Box& region, int resolution) {
 
 }  // namespace
 
-Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options) {
+Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options,
+                              const std::function<const Device*()>& simulator,
+                              const std::function<bool(int, int)>& progress) {
     const Result<Timeline> timeline = readTimeline(graph);
     if (!timeline) return timeline.error();
     options.time = timelineTime(*timeline, seconds);
     Result<Program> program = compile(atTime(graph, *timeline, options.time), options);
+    if (program && simulator && lacksParticles(*program)) {
+        const Device* device = simulator();
+        if (!device) return Error{.message = "particles need a device, and none could be opened"};
+        if (const Done made = makeParticles(*program, graph, seconds, options, *device, progress); !made)
+            return made.error();
+    }
     if (program || program.error().message != language::kDivisionByZero) return program;
     Error error = program.error();  // not always, or check() would have found it
     error.message += " at " + std::to_string(options.time) + " s with these parameters";

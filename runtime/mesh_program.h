@@ -12,8 +12,11 @@
 namespace fw {
 
 /// Compiles what the graph, in which check() found no error, is that many seconds after its start. Errors as
-/// compile().
-Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options = {});
+/// compile(). What particles make is simulated up to then on the device that `simulator` gives, and without
+/// samples if there is no simulator; `progress` as Simulation::goTo(). Errors then as makeParticles().
+Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions options = {},
+                              const std::function<const Device*()>& simulator = {},
+                              const std::function<bool(int done, int all)>& progress = {});
 
 /// Called as a stage of the work starts, with its name; false ends the work there.
 using StageStarts = std::function<bool(const char* stage)>;

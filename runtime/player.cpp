@@ -108,78 +108,17 @@ Player::Player(Device device, PlayerOptions options_)
       options(std::move(options_)) {}
 
 Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishes) const {
-    Prepared made;
-    Result<Timeline> timeline = readTimeline(graph);
-    if (!timeline) return timeline.error();
-    made.timeline = std::move(*timeline);
-
     CompileOptions compileOptions;
     compileOptions.bake = bake;
-    compileOptions.live = animatedInputs(graph, made.timeline);
-    compileOptions.live.insert("time");
-    const std::set<std::string> moving = compileOptions.live;
-    compileOptions.live.insert(wishes.live.begin(), wishes.live.end());
+    std::set<std::string> exposed = wishes.live;
     if (wishes.liveParameters)
         for (const NamedParameter& parameter : namedParameters(graph))
-            compileOptions.live.insert(parameter.node + "." + parameter.input);
-    Result<Program> program = compile(graph, compileOptions);
-    if (!program && compileOptions.live != moving) {
-        // Some code asks for a parameter's value when it is compiled: then set() compiles.
-        compileOptions.live = moving;
-        program = compile(graph, compileOptions);
-    }
-    if (!program) return program.error();
-    made.program = std::move(*program);
-
-    const std::vector<LiveParameter>& live = made.program.live;
-    made.read.assign(live.size(), false);
-    for (IrId id = 0; id < made.program.ir.size(); ++id)
-        if (made.program.ir[id].op == Op::parameter)
-            made.read.at(static_cast<std::size_t>(made.program.ir[id].number)) = true;
-    for (std::size_t slot = 0; slot < live.size(); ++slot) {
-        const std::size_t dot = live[slot].name.rfind('.');
-        const Node* node = dot == std::string::npos ? nullptr : graph.node(live[slot].name.substr(0, dot));
-        if (!node) {  // the time, or an input within a group
-            made.fieldMoves = made.fieldMoves || (dot == std::string::npos && made.read[slot]);
-            continue;
-        }
-        LiveInput& input = made.inputs[live[slot].name];
-        if (input.value.empty()) input.value = inputNumbers(*node, live[slot].name.substr(dot + 1));
-        input.slots.resize(input.value.size(), -1);
-        input.slots.at(static_cast<std::size_t>(live[slot].component)) = static_cast<int>(slot);
-    }
-    for (const Track& track : made.timeline.tracks) {
-        const std::optional<AnimatedInput> input = animatedInput(graph, track);
-        const auto found = input ? made.inputs.find(input->node + "." + input->input) : made.inputs.end();
-        if (found == made.inputs.end()) continue;
-        made.motions.push_back({track, *input});
-        for (const int slot : found->second.slots)
-            made.fieldMoves = made.fieldMoves || (slot >= 0 && made.read[static_cast<std::size_t>(slot)]);
-    }
-    made.graph = std::move(graph);
+            exposed.insert(parameter.node + "." + parameter.input);
+    Result<LiveProgram> live = compileLive(std::move(graph), std::move(compileOptions), exposed);
+    if (!live) return live.error();
+    Prepared made{std::move(*live), {}, false};
     if (const Done found = findSharedRegion(made, wishes); !found) return found.error();
     return made;
-}
-
-std::vector<double> Player::valuesAt(const Prepared& prepared, double seconds) {
-    std::vector<double> values = prepared.program.parameters();
-    const double time = fw::timelineTime(prepared.timeline, seconds);
-    const auto place = [&](const LiveInput& input, const std::vector<double>& numbers) {
-        for (std::size_t c = 0; c < input.slots.size(); ++c)
-            if (input.slots[c] >= 0) values[static_cast<std::size_t>(input.slots[c])] = numbers[c];
-    };
-    for (const auto& [name, input] : prepared.inputs) place(input, input.value);
-    std::map<std::string, std::vector<double>> moved;  // several tracks may move one vector
-    for (const Motion& motion : prepared.motions) {
-        const std::string name = motion.input.node + "." + motion.input.input;
-        const LiveInput& input = prepared.inputs.at(name);
-        std::vector<double>& numbers = moved.try_emplace(name, input.value).first->second;
-        applyTrack(motion.track, motion.input, time, numbers);
-        place(input, numbers);
-    }
-    for (std::size_t slot = 0; slot < values.size(); ++slot)
-        if (prepared.program.live[slot].name == "time") values[slot] = time;
-    return values;
 }
 
 Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) {
@@ -188,7 +127,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     const MeshRequest request{options.region, resolution};
     prepared.regionFound = !options.region && !program.region;
     if (!prepared.regionFound || !prepared.fieldMoves) {
-        const std::vector<double> values = valuesAt(prepared, 0.0);
+        const std::vector<double> values = prepared.valuesAt(0.0);
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
         const Result<Box> box = meshRegion(program, request);
         if (!box) return problem(prepared.graph, box.error().message);
@@ -199,7 +138,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     std::vector<Region> found(times.size());
     const auto search = [&](std::size_t first, std::size_t step) {
         for (std::size_t i = first; i < times.size(); i += step)
-            found[i] = findRegion(program.ir, program.distance(), valuesAt(prepared, times[i]));
+            found[i] = findRegion(program.ir, program.distance(), prepared.valuesAt(times[i]));
     };
     const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
     {
@@ -213,7 +152,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (found[i].extent == Extent::bounded) all = all ? joined(*all, found[i].box) : found[i].box;
         if (found[i].extent != Extent::unbounded) continue;
-        const std::vector<double> values = valuesAt(prepared, times[i]);
+        const std::vector<double> values = prepared.valuesAt(times[i]);
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
         const Result<Box> box = meshRegion(program, request);
         return problem(prepared.graph, box.error().message + " (at " + std::to_string(times[i]) + " s)");
@@ -224,7 +163,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
 }
 
 void Player::adopt(Prepared prepared) {
-    const std::vector<double> values = valuesAt(prepared, seconds);
+    const std::vector<double> values = prepared.valuesAt(seconds);
     for (std::size_t slot = 0; slot < values.size(); ++slot) prepared.program.live[slot].value = values[slot];
     const bool same = meshed && session.program().structureHash == prepared.program.structureHash &&
                       session.program().parameters() == values && now.region == prepared.region &&
@@ -232,11 +171,13 @@ void Player::adopt(Prepared prepared) {
                       now.program.method == prepared.program.method &&
                       now.program.stages == prepared.program.stages;
     const bool moved = prepared.fieldMoves || now.fieldMoves;
+    const bool other = now.timeline != prepared.timeline || now.inputs != prepared.inputs;
     now = std::move(prepared);
     if (options.compileBehind)
         session.replaceProgram(now.program, {.lamps = hasLamps(now.graph), .show = options.fieldViews});
     else
         session.setProgram(now.program);
+    if (other) session.valuesChanged();
     if (same && !moved) return;
     meshed.reset();
     points.clear();
@@ -247,8 +188,12 @@ std::vector<std::string> Player::files() const {
     if (!now.graph.path.empty()) list.push_back(now.graph.path);
     for (const FieldImagePtr& image : session.program().ir.images())
         if (!image->file.empty()) list.push_back(image->file);
-    for (const FieldVolumePtr& volume : session.program().ir.volumes())
+    for (const FieldVolumePtr& volume : session.program().ir.volumes()) {
         if (volume->mesh) list.push_back(volume->mesh->file);
+        if (!volume->particles) continue;
+        for (const ParticleStage& stage : volume->particles->particles.stages)
+            if (stage.places) list.push_back(stage.places->file);
+    }
     return list;
 }
 
@@ -297,6 +242,7 @@ Done Player::set(std::string_view name, std::span<const double> value) {
         input->second.value.assign(value.begin(), value.end());
         if (now.regionFound) now.region.reset();
         points.clear();
+        session.valuesChanged();
         seek(seconds);
     }
     chosen[parameterName].assign(value.begin(), value.end());
@@ -305,7 +251,7 @@ Done Player::set(std::string_view name, std::span<const double> value) {
 
 void Player::seek(double to) {
     seconds = to;
-    const std::vector<double> values = valuesAt(now, seconds);
+    const std::vector<double> values = now.valuesAt(seconds);
     const std::vector<LiveParameter>& live = session.program().live;
     for (std::size_t slot = 0; slot < values.size(); ++slot) {
         if (live[slot].value == values[slot]) continue;
@@ -317,6 +263,14 @@ void Player::seek(double to) {
 Result<MesherResult> Player::meshOnDevice() { return makeMesh(true); }
 
 Result<MesherResult> Player::makeMesh(bool stages) {
+    const Result<bool> changed = session.simulate(
+        timelineTime(), [&](double at) { return now.valuesAt(at); }, options.simulating);
+    if (!changed) {
+        Error error = changed.error();
+        error.file = now.graph.path;
+        return error;
+    }
+    if (*changed) meshed.reset();
     if (meshed) return *meshed;
     if (!now.region)
         if (const Done found = findSharedRegion(now, options); !found) return found.error();
@@ -354,7 +308,16 @@ Result<std::span<const gpu::MeshVertex>> Player::outline() {
         return done();
     };
     Done added = done();
-    if (now.fieldMoves) {
+    if (lacksParticles(now.program)) {
+        // Where they will be is not known before they were there: the corners of what they are looked for in.
+        if (!now.region) added = findSharedRegion(now, options);
+        for (int corner = 0; added && corner < 8; ++corner) {
+            gpu::MeshVertex& point = points.emplace_back();
+            for (int axis = 0; axis < 3; ++axis)
+                point.position[axis] =
+                    float((corner >> axis & 1 ? now.region->hi : now.region->lo)[std::size_t(axis)]);
+        }
+    } else if (now.fieldMoves) {
         const int resolution = std::exchange(options.resolution, kOutlineResolution);
         for (int i = 0; i <= kOutlineSteps && added; ++i) {
             seek(now.timeline.length * i / kOutlineSteps);

@@ -17,6 +17,10 @@
 // found at its keys and at even steps between. A frame whose solid leaves it nevertheless gets a region of
 // its own. So a frame depends on its time and on the parameters alone, not on those that came before it.
 //
+// Particles have a past: what they are at a time comes from the steps up to then, of which some are kept for
+// seeking back. A parameter that is set while they fly bears on what is to come, and on all once they are
+// played from the start again.
+//
 // Lifetime: a Player owns its device unless it was given one; a mesh or picture that it returned is the
 // caller's. It is not safe to call from several threads at once. A failure of the device or the system is
 // thrown as SystemError; every other is a returned Error, after which the player is as it was before.
@@ -30,7 +34,7 @@
 #include <string_view>
 #include <vector>
 
-#include "graph/timeline.h"
+#include "runtime/live_program.h"
 #include "runtime/mesh_field_baker.h"
 #include "runtime/session.h"
 
@@ -51,6 +55,8 @@ struct PlayerOptions {
     /// Called while a mesh is made a field, with what is done of it: from 0 to 1. That of a player's creation
     /// stays; reload() takes no other.
     std::function<void(double share)> baking = {};
+    /// Called while particles are simulated, with the steps that are done and those there are; false ends it.
+    std::function<bool(int done, int all)> simulating = {};
     DeviceOptions deviceOptions = {};  ///< further wishes, for a device that presents
 };
 
@@ -137,24 +143,8 @@ class Player {
     uint64_t pipelinesBuilt() const { return session.device().record->pipelines; }
 
   private:
-    /// Numbers of an input that stand in slots of the parameter buffer.
-    struct LiveInput {
-        std::vector<double> value;  ///< where no track moves it
-        std::vector<int> slots;     ///< one a component; negative where the field has none
-    };
-    struct Motion {
-        Track track;
-        AnimatedInput input;
-    };
     /// A document made ready to be played.
-    struct Prepared {
-        Graph graph;
-        Timeline timeline;
-        Program program;
-        std::map<std::string, LiveInput> inputs;  ///< by "node.input"
-        std::vector<Motion> motions;
-        std::vector<bool> read;  ///< of each slot: whether the field reads it
-        bool fieldMoves = false;
+    struct Prepared : LiveProgram {
         std::optional<Box> region;  ///< shared by all times
         bool regionFound = false;   ///< rather than given
     };
@@ -162,7 +152,6 @@ class Player {
     Player(Device device, PlayerOptions options_);
     Result<Prepared> prepare(Graph graph, const PlayerOptions& wishes) const;
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
-    static std::vector<double> valuesAt(const Prepared& prepared, double seconds);
     void adopt(Prepared prepared);
     /// meshOnDevice(), or the mesh without the program's stages: an outline needs none.
     Result<MesherResult> makeMesh(bool stages);

@@ -98,6 +98,12 @@ void Session::take(Program program) {
         reserve(*gpu, volumes, texels.size() * sizeof(uint32_t));
         upload(*gpu, volumes, texels);
     }
+    if (lacksParticles(current)) {
+        if (!particles) particles.emplace(*gpu);
+        particles->setProgram(current);
+    } else {
+        particles.reset();
+    }
     const std::vector<float> values = current.numbers();
     reserve(*gpu, parameters, values.size() * sizeof(float), Memory::upload);
     upload(*gpu, parameters, values);
@@ -188,6 +194,26 @@ void Session::setParameter(std::size_t slot, double value) {
     uploadBytes(*gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
 }
 
+Result<bool> Session::simulate(double seconds, const ValuesAt& values,
+                               const std::function<bool(int done, int all)>& progress) {
+    if (!particles) return false;
+    const Result<bool> changed = particles->make(current, seconds, values, volumes, progress);
+    if (changed && *changed) ++content;
+    return changed;
+}
+
+void Session::valuesChanged() {
+    if (particles) particles->valuesChanged();
+}
+
+Program Session::onHost() const {
+    Program program = current;
+    for (std::size_t i = 0; particles && i < program.ir.volumes().size(); ++i)
+        if (const FieldVolumePtr volume = program.ir.volumes()[i]; volume->particles)
+            program.ir.replaceVolume(i, downloadVolume(*gpu, *volume, volumes, firstTexel(program, i)));
+    return program;
+}
+
 Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed) {
     const int resolution = request.resolution > 0 ? request.resolution : current.resolution;
     const Result<Box> region = meshRegion(current, {request.region, resolution});
@@ -207,7 +233,11 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.method = request.method.value_or(current.method);
     config.timed = timed;
     std::optional<MesherHost> host;
-    if (compiling()) config.host = &host.emplace(current.ir, current.distance(), current.parameters());
+    std::optional<Program> evaluated;
+    if (compiling()) {
+        evaluated = onHost();
+        config.host = &host.emplace(evaluated->ir, evaluated->distance(), evaluated->parameters());
+    }
     Result<MesherResult> result = runMesher(*gpu, pipelines, buffers, config);
     if (result && request.stages && !current.stages.empty())
         if (const Done staged = runStages(*result, *region, !host, timed); !staged) return staged.error();
@@ -228,9 +258,10 @@ Done Session::runStages(MesherResult& result, const Box& region, bool kernels, b
         stagePipelines->project = createProjection(*gpu, emitField(current));
         projectionHash = current.structureHash;
     }
+    std::optional<Program> measured;
     std::optional<MeasureOptions> measure;  // made by the first decimation
     config.decimate = [&](Mesh& mesh, double error) {
-        if (!measure) measure = measureOf(current, region);
+        if (!measure) measure = measureOf(measured.emplace(onHost()), region);
         return decimate(mesh, error, *measure);
     };
     return runMeshStages(*gpu, stageBuffers, buffers, result, current.stages, config);

@@ -14,6 +14,7 @@
 #include "graph/compile.h"
 #include "runtime/mesh_stages.h"
 #include "runtime/mesher.h"
+#include "runtime/particles/particle_fields.h"
 #include "runtime/render/renderer.h"
 
 namespace fw {
@@ -65,6 +66,13 @@ class Session {
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
 
+    /// Brings the program's particles to a time, if it has some; `values` are the live parameters' then.
+    /// Returns whether the field changed with that. Errors as ParticleFields::make().
+    Result<bool> simulate(double seconds, const ValuesAt& values,
+                          const std::function<bool(int done, int all)>& progress = {});
+    /// Of live values that were changed otherwise than by the time: Simulation::valuesChanged().
+    void valuesChanged();
+
     /// Runs the mesher into device memory, and then the program's stages. Errors: a region without bounds
     /// (the field is unbounded) or with none left (it is empty), a resolution out of range, and what
     /// runMesher and runMeshStages refuse.
@@ -90,6 +98,8 @@ class Session {
 
   private:
     void take(Program program);
+    /// The program with the samples of its particles, for the host to evaluate.
+    Program onHost() const;
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
     /// What the program does to the mesh that was made in `region`; `kernels` tells whether by its kernels.
     Done runStages(MesherResult& result, const Box& region, bool kernels, bool timed);
@@ -110,7 +120,8 @@ class Session {
     std::optional<Renderer> renderer;  ///< made by the first picture
     uint64_t content = 0;              ///< counts changes of mesh and parameters
     Buffer parameters, images, volumes;
-    std::future<MesherPipelines> next;  ///< being compiled, for the structure nextHash
+    std::optional<ParticleFields> particles;  ///< of a program that has some
+    std::future<MesherPipelines> next;        ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;
     /// Of the renderer: compiled behind, those there are, and those being compiled.
     bool kernelsBehind = false;

@@ -87,8 +87,9 @@ std::string Wiring::refusal(const Plug& from, const Plug& to) const {
         names.push_back(from.node);
         return "a cycle: " + arrows(names);
     }
-    if (!socket->type && its.is(*source, "expression") && input(to) && input(to)->type == Type::mesh)
-        return "an expression gives no mesh";
+    if (!socket->type && its.is(*source, "expression") && input(to) && input(to)->type &&
+        componentCount(*input(to)->type) == 0 && !takesNoWire(*input(to)->type))
+        return "an expression gives no " + std::string(typeName(*input(to)->type));
     return typeRefusal(socket->type, to);
 }
 
@@ -171,7 +172,8 @@ bool Wiring::fits(const NodeType& type, const Plug& plug, bool plugIsOutput) con
     if (!plugIsOutput) {
         const auto may = [&](std::optional<Type> from) { return typeRefusal(from, plug).empty(); };
         if (type.id == "group_input") return group && anyType(group->inputs, may);
-        if (type.id == "expression") return may({}) && !(input(plug) && input(plug)->type == Type::mesh);
+        if (type.id == "expression")
+            return may({}) && !(input(plug) && input(plug)->type && componentCount(*input(plug)->type) == 0);
         if (type.id == "reroute") return may({});
         return std::ranges::any_of(type.outputs, [&](const OutputSpec& spec) { return may(spec.type); });
     }

@@ -80,7 +80,9 @@ Result<ExportState> ExportJob::Shared::make() {
     if (!start("compile")) return stopped;
     CompileOptions options;
     options.bake = meshFieldBaker([&] { return opening.orNone(); });
-    Result<Program> program = compileAtTime(*wish.graph, wish.seconds, std::move(options));
+    Result<Program> program = compileAtTime(
+        *wish.graph, wish.seconds, std::move(options), [&] { return opening.orNone(); },
+        [&](int, int) { return !cancel; });
     if (!program) return program.error();
     if (!start("region")) return stopped;
     const Result<Box> region = meshRegion(*program, wish.mesh);

@@ -16,7 +16,7 @@ namespace {
 const std::vector<std::string>& socketTypes() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
-        for (int i = 0; i <= int(Type::mesh); ++i) list.emplace_back(typeName(Type(i)));
+        for (int i = 0; i < kTypes; ++i) list.emplace_back(typeName(Type(i)));
         return list;
     }();
     return names;

@@ -26,7 +26,7 @@ static_assert(std::size(kColors) == std::size_t(ThemeColor::warning) + 1);
 
 // By Category: deep, so that a canvas of many nodes is calm and the light title stands out; and differing in
 // lightness too, so that everyone tells them apart (theme_test.cpp measures it).
-constexpr ImU32 kCategories[] = {
+constexpr ImU32 kCategoryColors[] = {
     rgb(0x1771a0),  // shape
     rgb(0x597286),  // shape2d
     rgb(0xa85824),  // combine
@@ -35,9 +35,10 @@ constexpr ImU32 kCategories[] = {
     rgb(0x50525c),  // maths
     rgb(0x772e6f),  // material
     rgb(0x534500),  // mesh
+    rgb(0x8a1f2b),  // particles
     rgb(0x746861),  // structure
 };
-static_assert(std::size(kCategories) == std::size_t(Category::structure) + 1);
+static_assert(std::size(kCategoryColors) == kCategories);
 
 struct TypeStyle {
     ImU32 color;
@@ -46,7 +47,7 @@ struct TypeStyle {
 
 // By Type, of Okabe and Ito's palette and white. Types of one shape differ in how light they are, which
 // everyone sees.
-constexpr TypeStyle kTypes[] = {
+constexpr TypeStyle kTypeStyles[] = {
     {rgb(0xd55e00), SocketShape::triangle},  // boolean: vermillion
     {rgb(0x009e73), SocketShape::square},    // integer: bluish green
     {rgb(0x56b4e9), SocketShape::circle},    // scalar: sky blue
@@ -57,11 +58,14 @@ constexpr TypeStyle kTypes[] = {
     {rgb(0xf0e442), SocketShape::triangle},  // points: yellow
     {rgb(0xf4f4f4), SocketShape::hexagon},   // image
     {rgb(0x3d8fd1), SocketShape::hexagon},   // mesh: blue, lighter
+    {rgb(0xf4f4f4), SocketShape::circle},    // particles
 };
-static_assert(std::size(kTypes) == std::size_t(Type::mesh) + 1);
+static_assert(std::size(kTypeStyles) == kTypes);
 constexpr TypeStyle kUnknown = {rgb(0x8c939c), SocketShape::circle};
 
-const TypeStyle& styleOf(std::optional<Type> type) { return type ? kTypes[std::size_t(*type)] : kUnknown; }
+const TypeStyle& styleOf(std::optional<Type> type) {
+    return type ? kTypeStyles[std::size_t(*type)] : kUnknown;
+}
 
 ImVec4 faded(ImU32 color, float alpha) {
     ImVec4 value = ImGui::ColorConvertU32ToFloat4(color);
@@ -72,7 +76,7 @@ ImVec4 faded(ImU32 color, float alpha) {
 }  // namespace
 
 ImU32 themeColor(ThemeColor which) { return kColors[std::size_t(which)]; }
-ImU32 categoryColor(Category category) { return kCategories[std::size_t(category)]; }
+ImU32 categoryColor(Category category) { return kCategoryColors[std::size_t(category)]; }
 ImU32 typeColor(std::optional<Type> type) { return styleOf(type).color; }
 SocketShape socketShape(std::optional<Type> type) { return styleOf(type).shape; }
 

@@ -26,6 +26,7 @@
 #include "graph/language/parser.h"
 #include "graph/mesh_recipe.h"
 #include "graph/node_type.h"
+#include "graph/particle_recipe.h"
 
 namespace fw::language {
 
@@ -37,6 +38,8 @@ struct Value {
     std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
     uint32_t image = 0;                                   ///< number among Ir::images()
     std::shared_ptr<const MeshRecipe> mesh{};  ///< of a surface that stands for a mesh: how that is made
+    /// Of particles: their stages, whose numbers are ids of the Lowering's ir.
+    std::shared_ptr<const ParticleRecipe> particles{};
 
     IrId id() const { return ids[0]; }
 };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "graph/compile.h"
 #include "graph/graph.h"
 #include "graph/result.h"
+#include "runtime/gpu/device.h"
 #include "runtime/mesh_requirements.h"
 
 namespace fw::cli {
@@ -35,7 +37,9 @@ struct GraphOptions {
 /// Reads and checks the graph, applies the assignments; warnings and errors go to standard error.
 std::optional<Graph> openGraph(const GraphOptions& options);
 /// Compiles what the graph is that many seconds after its start; errors go to standard error.
-std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions options);
+std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions options,
+                                   const std::function<const Device*()>& simulator = {},
+                                   const std::function<bool(int done, int all)>& progress = {});
 void print(const Error& error);
 
 /// What every command that meshes a graph takes.

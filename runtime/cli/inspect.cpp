@@ -43,8 +43,10 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
     return std::move(*graph);
 }
 
-std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions compileOptions) {
-    Result<Program> program = compileAtTime(graph, seconds, std::move(compileOptions));
+std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOptions compileOptions,
+                                   const std::function<const Device*()>& simulator,
+                                   const std::function<bool(int, int)>& progress) {
+    Result<Program> program = compileAtTime(graph, seconds, std::move(compileOptions), simulator, progress);
     if (program) {
         for (const Error& note : program->notes) print(note);
         return std::move(*program);
@@ -92,7 +94,8 @@ int runEval(const EvalOptions& options) {
     OpeningDevice device(std::launch::deferred, {});
     CompileOptions compileOptions;
     compileOptions.bake = meshFieldBaker([&] { return device.orNone(); });
-    const std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
+    const std::optional<Program> program =
+        openProgram(*graph, options.graph.time, std::move(compileOptions), [&] { return device.orNone(); });
     if (!program) return kBadInput;
     if (!options.at.empty()) {
         const Point point{options.at[0], options.at[1], options.at[2]};

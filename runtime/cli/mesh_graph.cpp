@@ -84,7 +84,13 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     compileOptions.bake =
         meshFieldBaker([&] { return device.orNone(); },
                        {.progress = [&](double share) { progress.show(5 + int(5 * share)); }});
-    std::optional<Program> program = openProgram(*graph, options.graph.time, std::move(compileOptions));
+    std::optional<Program> program = openProgram(
+        *graph, options.graph.time, std::move(compileOptions), [&] { return device.orNone(); },
+        [&](int done, int all) {
+            if (done == 1) progress.start("simulate", 10);
+            progress.show(10 + 5 * done / all);
+            return !interrupted;
+        });
     if (!program) return fail(kBadInput);
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution),

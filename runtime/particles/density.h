@@ -25,11 +25,10 @@
 #include <map>
 #include <vector>
 
+#include "graph/particle_recipe.h"
 #include "runtime/counting_sort.h"
 
 namespace fw {
-
-enum class DensityMethod { exact, proxies, blur };
 
 struct DensityKernels {
     CountingSort sort;

@@ -134,3 +134,43 @@ vec2 volumeRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, vec4 spr
     vec2 all_ = vec2(max(distance.x - reach, centre - spread.x * radius), min(distance.y + reach, centre + spread.x * radius));
     return clamp(all_ + vec2(-margin, margin), vec2(range.x - margin), vec2(within ? range.y + margin : 1e30));
 }
+
+// The least and the greatest distance among the samples from `lo` to `hi`, or some more, by the blocks that follow the samples of
+// particles (graph/volume.h): the smallest of which at most three along each axis are needed.
+vec2 volumeBlocks(VolumeGrid grid, ivec3 lo, ivec3 hi) {
+    ivec3 blocks = (grid.size + 3) / 4, extent = hi - lo;
+    int longest = max(extent.x, max(extent.y, extent.z)), shift = 2, first = 2 * grid.size.x * grid.size.y * grid.size.z;
+    while (longest > 2 << shift && any(greaterThan(blocks, ivec3(2)))) {
+        first += blocks.x * blocks.y * blocks.z;
+        blocks = (blocks + 1) / 2;
+        ++shift;
+    }
+    ivec3 least = lo >> shift, many = (hi >> shift) - least + 1, at = ivec3(0);
+    vec2 range = vec2(1e30, -1e30);
+    do {
+        ivec3 block = least + at;
+        int index = first + (block.z * blocks.y + block.y) * blocks.x + block.x;
+        uvec4 words = imageLoad(fieldVolumes, grid.first + index / 2);
+        vec2 own = uintBitsToFloat((index & 1) == 0 ? words.xy : words.zw);
+        range = vec2(min(range.x, own.x), max(range.y, own.y));
+        ++at.x;
+        if (at.x == many.x) at = ivec3(0, at.y + 1, at.z);
+        if (at.y == many.y) at = ivec3(0, 0, at.z + 1);
+    } while (at.z < many.z);
+    return range;
+}
+
+// Contains every value of the volume of particles over a box; `rise` is what values are beyond their samples.
+vec2 volumeBlockRange(VolumeGrid grid, vec2 x, vec2 y, vec2 z, float rise) {
+    vec3 lo = vec3(x.x, y.x, z.x), hi = vec3(x.y, y.y, z.y);
+    vec3 least = grid.origin, most = grid.origin + grid.cell * vec3(grid.size - 1);
+    bool within = all(greaterThanEqual(lo, least)) && all(lessThanEqual(hi, most));
+    vec3 far = max(abs(lo), abs(hi));
+    float margin = 4e-7 * (max(far.x, max(far.y, far.z)) + grid.cell * float(grid.size.x + grid.size.y + grid.size.z));
+    vec3 last = vec3(grid.size - 2);
+    ivec3 first = ivec3(clamp((lo - margin - least) * grid.perCell, vec3(0.0), last));
+    ivec3 end = ivec3(clamp((hi + margin - least) * grid.perCell, vec3(0.0), last)) + 1;
+    vec2 range = volumeBlocks(grid, first, end) + vec2(-rise - margin, rise + margin);
+    float apart = length(max(max(least - hi, lo - most), 0.0)) - 3.0 * margin;
+    return vec2(apart > 0.0 ? max(range.x, apart) : range.x, within ? range.y : 1e30);
+}

@@ -63,8 +63,6 @@ double leastDifference(ImU32 a, ImU32 b) {
     return least;
 }
 
-constexpr int kTypes = int(Type::mesh) + 1, kCategories = int(Category::structure) + 1;
-
 TEST(Theme, TextStandsOut) {
     ImGui::CreateContext();
     applyTheme(1.0f);

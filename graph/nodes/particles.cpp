@@ -1,0 +1,109 @@
+// Particles: where they come from, what moves them, and the fields that are made of them.
+#include "graph/nodes/inputs.h"
+#include "graph/particle_recipe.h"
+
+namespace fw {
+
+std::vector<NodeType> particleNodes() {
+    const InputSpec particles = {
+        .name = "particles", .type = Type::particles, .value = {}, .doc = "The particles to take."};
+    const auto measured = [](InputSpec input, const char* unit) {
+        input.unit = unit;
+        return input;
+    };
+    const auto amount = [&](std::string name, double value, const char* unit, std::string doc) {
+        InputSpec input = scalar(std::move(name), value, std::move(doc));
+        input.min = 0;
+        input.unit = unit;
+        return input;
+    };
+    const auto corner = [](std::string name, std::string doc) {
+        return InputSpec{
+            .name = std::move(name), .type = Type::vec3, .value = {}, .unit = "m", .doc = std::move(doc)};
+    };
+    const InputSpec gravity =
+        measured(vector("gravity", {0, -9.81, 0}, "The acceleration of everything."), "m/s²");
+    const InputSpec collide =
+        surfaceInput("collide", "What is in the way: any surface, which may move with the time.");
+    const InputSpec seed = integer("seed", 0, 0, 1'000'000, "Another number gives other chances.");
+    return {
+        {.id = "emitter",
+         .label = "Emitter",
+         .category = Category::particles,
+         .doc = "Gives off particles, from the start of the timeline on.",
+         .inputs = {choice("shape", {"ball", "box", "disc", "point"},
+                           "Where particles begin: anywhere in a ball, in a box, on a disc across the y "
+                           "axis, or in one "
+                           "point."),
+                    place("position", {0, 0, 0}, "The middle of the shape."),
+                    lengths("size", {0.1, 0.1, 0.1}, "Half the shape's extents along x, y and z."),
+                    amount("rate", 1000, "1/s", "Particles a second."),
+                    integer("burst", 0, 0, 1'000'000, "Particles that are there at the start."),
+                    measured(positiveLength("lifetime", 4, "How long a particle lives."), "s"),
+                    measured(vector("velocity", {0, 2, 0}, "How particles set off."), "m/s"),
+                    amount("spread", 0.5, "m/s", "How much the velocity varies, at most, in any direction."),
+                    seed},
+         .outputs = {{"particles", Type::particles}},
+         .aliases = {"fountain", "particle_system"}},
+        {.id = "particle_file",
+         .label = "Particle file",
+         .category = Category::particles,
+         .doc = "Reads the places of particles: the vertices of a .ply or .obj file, or x, y and z in each "
+                "line of a .csv, "
+                ".txt or .xyz file, in the folder of the graph's file or in one below it.",
+         .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
+         .outputs = {{"particles", Type::particles}},
+         .aliases = {"point_cloud"}},
+        {.id = "particle_dynamics",
+         .label = "Particle dynamics",
+         .category = Category::particles,
+         .doc = "Moves particles by forces, and lets them collide with any surface. Steps are a sixtieth of "
+                "a second.",
+         .inputs = {particles, gravity,
+                    amount("drag", 0, "1/s",
+                           "How fast the air takes their speed: the share that goes in a second, about."),
+                    amount("turbulence", 0, "m/s²", "The strength of a swirling wind."),
+                    positiveLength("turbulence_size", 0.5, "The size of its swirls."),
+                    place("attractor", {0, 0, 0}, "A place that pulls."),
+                    measured(
+                        scalar("attraction", 0, "How much it pulls, at every distance; negative pushes."),
+                        "m/s²"),
+                    collide,
+                    length("radius", 0.0, "How near a particle's centre may come to what it collides with."),
+                    share("bounce", 0.3, "How much of the speed against a surface comes back."),
+                    share("friction", 0.1, "How much of the speed along a surface is lost.")},
+         .outputs = {{"particles", Type::particles}},
+         .aliases = {"forces"}},
+        {.id = "particles_to_field",
+         .label = "Particles to field",
+         .category = Category::particles,
+         .doc = "Makes a solid of particles, for booleans and everything else that works on surfaces: where "
+                "the density, the "
+                "sum of (1 - r²/R²)³ over all particles, exceeds a threshold.",
+         .inputs = {positionInput(), particles,
+                    positiveLength("radius", 0.1, "R: how far a particle's density reaches."),
+                    [] {
+                        InputSpec threshold = scalar(
+                            "threshold", 0.3,
+                            "The density at the surface. A particle alone has 1 in its middle, and is not "
+                            "seen above that.");
+                        threshold.positive = true;
+                        threshold.max = 100;
+                        return threshold;
+                    }(),
+                    choice("method", {std::begin(kDensityMethodNames), std::end(kDensityMethodNames)},
+                           "How densities are added up. Blur is fast and some per cent off; exact asks every "
+                           "particle; proxies asks "
+                           "cells for the mean of theirs."),
+                    integer("resolution", 64, kLeastParticleResolution, kMostParticleResolution,
+                            "Cells along the grid's longest side. A radius is best two to six cells."),
+                    corner(
+                        "region_min",
+                        "Lowest corner of the grid; found from where the particles come from if not given."),
+                    corner("region_max", "Highest corner of the grid. What leaves it is cut off.")},
+         .outputs = {{"surface", Type::surface}},
+         .aliases = {"metaballs", "blobs"}},
+    };
+}
+
+}  // namespace fw

@@ -1,0 +1,120 @@
+#include "runtime/particles/particle_fields.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fw {
+
+namespace {
+
+Error atNode(Error error, const ParticleField& field) {
+    if (error.node.empty()) error.node = field.node;
+    return error;
+}
+
+}  // namespace
+
+uint32_t firstTexel(const Program& program, std::size_t volume) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < volume; ++i) first += texelCount(*program.ir.volumes()[i]);
+    return uint32_t(first);
+}
+
+bool lacksParticles(const Program& program) {
+    return std::ranges::any_of(program.ir.volumes(), [](const FieldVolumePtr& volume) {
+        return volume->particles && !volume->made();
+    });
+}
+
+void ParticleFields::setProgram(const Program& program) {
+    std::vector<Part> next;
+    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i) {
+        const ParticleFieldPtr& field = program.ir.volumes()[i]->particles;
+        if (!field || program.ir.volumes()[i]->made()) continue;
+        const auto same = std::ranges::find_if(
+            parts, [&](const Part& part) { return part.simulation.recipe()->hash == field->hash; });
+        if (same == parts.end()) {
+            next.push_back({i, Simulation(*device, field)});
+        } else {
+            next.push_back(std::move(*same));
+            parts.erase(same);
+        }
+        next.back().volume = i;
+        next.back().radius = 0.0;  // the volumes are others
+    }
+    parts = std::move(next);
+}
+
+void ParticleFields::valuesChanged() {
+    for (Part& part : parts) part.simulation.valuesChanged();
+}
+
+uint64_t ParticleFields::slots() const {
+    uint64_t sum = 0;
+    for (const Part& part : parts) sum += part.simulation.slots();
+    return sum;
+}
+
+Result<bool> ParticleFields::make(const Program& program, double seconds, const ValuesAt& values,
+                                  const Buffer& volumes, const std::function<bool(int, int)>& progress) {
+    bool any = false;
+    const std::vector<double> now = parts.empty() ? std::vector<double>() : values(seconds);
+    for (Part& part : parts) {
+        const ParticleField& field = *part.simulation.recipe();
+        const Result<bool> moved = part.simulation.goTo(seconds, values, progress);
+        if (!moved) return atNode(moved.error(), field);
+        const double radius = evaluate(field.ir, field.radius, now, {}),
+                     threshold = evaluate(field.ir, field.threshold, now, {});
+        if (!*moved && radius == part.radius && threshold == part.threshold) continue;
+        if (!(radius > 0.0) || !(threshold > 0.0))
+            return atNode(Error{.message = "the radius and the threshold must be above 0"}, field);
+        if (!kernels) kernels = createParticleVolumeKernels(*device);
+        const ParticleVolumeConfig config{.grid = program.ir.volumes()[part.volume]->grid,
+                                          .radius = radius,
+                                          .threshold = threshold,
+                                          .method = field.method};
+        Commands commands(*device);
+        if (const Done recorded =
+                recordParticleVolume(commands, *kernels, buffers, config, part.simulation.places(),
+                                     part.simulation.slots(), volumes, firstTexel(program, part.volume));
+            !recorded)
+            return atNode(recorded.error(), field);
+        submit(commands);
+        part.radius = radius, part.threshold = threshold;
+        any = true;
+    }
+    return any;
+}
+
+Done makeParticles(Program& program, const Graph& graph, double seconds, const CompileOptions& options,
+                   const Device& device, const std::function<bool(int, int)>& progress) {
+    if (!lacksParticles(program)) return done();
+    const Result<LiveProgram> live = compileLive(graph, options);
+    if (!live) return live.error();
+    const Program& played = live->program;
+    Buffer volumes;
+    std::size_t texels = 0;
+    for (const FieldVolumePtr& volume : played.ir.volumes()) texels += texelCount(*volume);
+    reserve(device, volumes, kTexelBytes * texels);
+    ParticleFields fields(device);
+    fields.setProgram(played);
+    const auto values = [&](double at) { return live->valuesAt(at); };
+    const Result<bool> made =
+        fields.make(played, timelineTime(live->timeline, seconds), values, volumes, progress);
+    if (!made) {
+        Error error = made.error();
+        error.file = graph.path;
+        return error;
+    }
+    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i) {
+        const FieldVolumePtr volume = program.ir.volumes()[i];
+        for (std::size_t k = 0; k < played.ir.volumes().size(); ++k) {
+            const FieldVolumePtr& its = played.ir.volumes()[k];
+            if (volume->particles && its->particles && its->particles->node == volume->particles->node)
+                program.ir.replaceVolume(i, downloadVolume(device, *its, volumes, firstTexel(played, k)));
+        }
+    }
+    return done();
+}
+
+}  // namespace fw

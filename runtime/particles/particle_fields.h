@@ -1,0 +1,53 @@
+// The volumes of all particles of a program, at a time: simulated, and made samples.
+//
+// Lifetime: belongs to one device. A program that takes another's place keeps the simulations of recipes that
+// are the same.
+#pragma once
+
+#include "runtime/live_program.h"
+#include "runtime/particles/particle_volume.h"
+#include "runtime/particles/simulation.h"
+
+namespace fw {
+
+/// Whether particles make a part of the field, of which there are no samples yet.
+bool lacksParticles(const Program& program);
+
+/// Of one of the program's volumes, in the buffer of all.
+uint32_t firstTexel(const Program& program, std::size_t volume);
+
+class ParticleFields {
+  public:
+    explicit ParticleFields(const Device& device_) : device(&device_) {}
+
+    /// The program whose particles are meant from now on.
+    void setProgram(const Program& program);
+    /// Of live values that were changed by hand: Simulation::valuesChanged().
+    void valuesChanged();
+    /// Brings all particles to a time and writes their samples into `volumes`, the texels of all volumes of
+    /// the program. Returns whether any changed. Errors as Simulation::goTo() and recordParticleVolume(),
+    /// with the node.
+    Result<bool> make(const Program& program, double seconds, const ValuesAt& values, const Buffer& volumes,
+                      const std::function<bool(int done, int all)>& progress = {});
+
+    /// Particles of all simulations: slots, of which some may be empty.
+    uint64_t slots() const;
+
+  private:
+    struct Part {
+        std::size_t volume;  ///< among the program's
+        Simulation simulation;
+        double radius = 0.0, threshold = 0.0;  ///< that its samples were made with
+    };
+    const Device* device;
+    std::optional<ParticleVolumeKernels> kernels;  ///< made when first used
+    ParticleVolumeBuffers buffers;
+    std::vector<Part> parts;
+};
+
+/// Gives a program that was compiled at a time the samples of its particles, which live in `graph`, on the
+/// host. Errors as compileLive() and ParticleFields::make().
+Done makeParticles(Program& program, const Graph& graph, double seconds, const CompileOptions& options,
+                   const Device& device, const std::function<bool(int done, int all)>& progress = {});
+
+}  // namespace fw

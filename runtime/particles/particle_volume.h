@@ -1,0 +1,54 @@
+// From a density on a grid to the samples of a volume (graph/volume.h), which the field of a program reads.
+//
+// Theory. A particle alone has the density (1 - r^2 / R^2)^3, so that s, the density's cube root, tells how
+// far away it is: r = R sqrt(1 - s). Where the threshold's cube root is t, the distance to the surface is R
+// (sqrt(1 - s) - sqrt(1 - t)). That is what a sample gets, whatever the particles: right for one, and smooth
+// where many meet. Within the solid, s may be above 1: from t on the value goes on as a straight line in s.
+// Where t is above 0.9 the ones become t + 0.1, for there a particle alone shows nothing. Then values are
+// divided by the length of their gradient where that is above 1, which makes them distances to first order at
+// the surface.
+//
+// No density is left farther than R away. There the value is the distance to the nearest block of 8 x 8 x 8
+// samples that has a part of the solid, between the middles of blocks, and half a block less: steps along a
+// ray need it, and ambient occlusion.
+//
+// Samples at the grid's border are outside, half a cell at least, so that what reaches beyond the grid is
+// closed there.
+//
+// Lifetime: kernels serve all volumes; buffers grow.
+#pragma once
+
+#include "graph/volume.h"
+#include "runtime/particles/density.h"
+
+namespace fw {
+
+struct ParticleVolumeKernels {
+    DensityKernels density;
+    Pipeline level, reach, samples, pyramid;
+};
+ParticleVolumeKernels createParticleVolumeKernels(const Device& device);
+
+struct ParticleVolumeBuffers {
+    DensityBuffers density;
+    Buffer least, reach[2];
+};
+
+struct ParticleVolumeConfig {
+    VolumeGrid grid;
+    double radius = 0.1;     ///< metres
+    double threshold = 0.3;  ///< above 0
+    DensityMethod method = DensityMethod::blur;
+};
+
+/// Records the samples and blocks of a volume of so many particles (four floats each), into `volumes`: the
+/// texels of all volumes of a program, of which `first` is its own first. Errors as recordDensity().
+Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, ParticleVolumeBuffers& buffers,
+                          const ParticleVolumeConfig& config, const Buffer& particles, uint32_t count,
+                          const Buffer& volumes, uint32_t first);
+
+/// The volume with its samples, read back from there.
+FieldVolumePtr downloadVolume(const Device& device, const FieldVolume& unmade, const Buffer& volumes,
+                              uint32_t first);
+
+}  // namespace fw

@@ -1,0 +1,256 @@
+#include "runtime/particles/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <utility>
+
+#include "graph/compile.h"
+#include "graph/glsl.h"
+#include "shaders/shared.h"
+
+#include "shaders/particles/motion.h"
+
+namespace fw {
+
+namespace {
+
+constexpr std::size_t kMostCheckpointBytes = 256u << 20;
+
+using Kind = ParticleStage::Kind;
+
+Obstacle obstacleOf(const Device& device, std::shared_ptr<const Program> program) {
+    Obstacle obstacle{.program = std::move(program)};
+    const std::vector<uint32_t> images = imageWords(obstacle.program->ir.images()),
+                                volumes = volumeTexels(obstacle.program->ir.volumes());
+    reserve(device, obstacle.images, 4 * images.size());
+    reserve(device, obstacle.volumes, 4 * volumes.size());
+    upload(device, obstacle.images, images);
+    upload(device, obstacle.volumes, volumes);
+    reserve(device, obstacle.parameters, 4 * obstacle.program->numbers().size(), Memory::upload);
+    return obstacle;
+}
+
+/// The live values are the first ones of the graph's program.
+void setParameters(const Device& device, const Obstacle& obstacle, const std::vector<double>& values) {
+    std::vector<float> numbers = obstacle.program->numbers();
+    for (std::size_t slot = 0; slot < obstacle.program->live.size(); ++slot)
+        numbers[slot] = float(values[slot]);
+    upload(device, obstacle.parameters, numbers);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
+    : device(&device_), field(std::move(field_)) {
+    std::vector<std::string> texts;
+    texts.reserve(field->particles.stages.size());  // the options below point there
+    std::vector<ShaderOptions> shaders{{.name = "particles/emit.comp"}, {.name = "particles/move.comp"}};
+    for (const ParticleStage& stage : field->particles.stages) {
+        if (stage.kind != Kind::dynamics) continue;
+        ShaderOptions& options = shaders.emplace_back(ShaderOptions{.name = "particles/move.comp"});
+        Move& move = moves.emplace_back();
+        if (const auto found = stage.fields.find("collide"); found != stage.fields.end()) {
+            move.obstacle = obstacleOf(*device, found->second);
+            options.field = texts.emplace_back(emitField(*found->second));
+            options.defines = {"OBSTACLE"};
+        }
+    }
+    std::vector<Pipeline> made = createComputePipelines(*device, shaders);
+    births = std::move(made[0]), flight = std::move(made[1]);
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i].kernel = std::move(made[i + 2]);
+}
+
+bool Simulation::rests() const { return source().kind == Kind::file && moves.empty(); }
+
+Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
+                              const std::function<bool(int done, int all)>& progress) {
+    const int wanted = rests() ? 0 : int(std::floor(std::clamp(seconds, 0.0, 1e6) / kSimulationStep + 1e-6));
+    if (wanted == state.steps) return false;
+    const auto after = std::ranges::upper_bound(checkpoints, wanted, {}, &Checkpoint::steps);
+    if (after != checkpoints.begin()) {
+        const Checkpoint& last = *(after - 1);
+        if (wanted < state.steps || last.steps > state.steps) restore(last);
+    }
+    if (wanted < state.steps) state.steps = -1;
+    const int first = std::max(state.steps, 0);
+    while (state.steps < wanted) {
+        const std::vector<double> now = values((state.steps + 1) * kSimulationStep);
+        if (const Done stepped = state.steps < 0 ? start(now) : step(now); !stepped) return stepped.error();
+        ++state.steps;
+        if (state.steps % apart == 0) keep();
+        if (progress && !progress(state.steps - first, wanted - first))
+            return Error{.message = "the simulation was cancelled"};
+    }
+    return true;
+}
+
+void Simulation::valuesChanged() {
+    checkpoints.clear();
+    born.resize(std::min(born.size(), std::size_t(state.steps + 1)));
+    if (state.steps == 0) state.steps = -1;
+}
+
+Done Simulation::start(const std::vector<double>& values) {
+    const StageNumbers numbers(field->ir, source(), values);
+    if (source().kind == Kind::file) {
+        const std::vector<glm::vec3>& from = source().places->places;
+        state.slots = uint32_t(from.size());
+        std::vector<glm::vec4> places, still(from.size(), glm::vec4(0.0f));
+        for (const glm::vec3& p : from) places.emplace_back(p, 0.0f);
+        reserve(*device, state.places, 16 * from.size());
+        reserve(*device, state.velocities, 16 * from.size());
+        upload(*device, state.places, places);
+        upload(*device, state.velocities, still);
+        return done();
+    }
+    state.slots = 0;
+    born = {std::floor(std::max(numbers.scalar("burst"), 0.0))};
+    if (const Done room = makeRoom(numbers, born[0]); !room) return room.error();
+    Commands commands(*device);
+    emit(commands, numbers, 0.0, born[0]);
+    submit(commands);
+    return done();
+}
+
+Done Simulation::step(const std::vector<double>& values) {
+    Commands commands(*device);
+    if (source().kind != Kind::emitter) {
+        move(commands, values);
+        submit(commands);
+        return done();
+    }
+    const StageNumbers numbers(field->ir, source(), values);
+    const double before = born[std::size_t(state.steps)],
+                 after = before + std::max(numbers.scalar("rate"), 0.0) * kSimulationStep;
+    born.resize(std::max(born.size(), std::size_t(state.steps) + 2));
+    born[std::size_t(state.steps) + 1] = after;
+    if (const Done room = makeRoom(numbers, after); !room) return room.error();
+    move(commands, values);
+    emit(commands, numbers, before, after);
+    submit(commands);
+    return done();
+}
+
+Done Simulation::makeRoom(const StageNumbers& emitter, double all) {
+    const double life = std::max(emitter.scalar("lifetime"), 0.0);
+    const double lived = std::ceil(life / kSimulationStep) + 1.0;
+    const bool anyDied = lived <= double(state.steps);
+    const double oldest = anyDied ? born[std::size_t(state.steps - int(lived))] : 0.0;
+    const double needed = all - std::floor(oldest) + 1.0;
+    if (needed > double(kMostParticles))
+        return Error{.message = "there would be " + std::to_string(uint64_t(needed)) +
+                                " particles at a time, and " + std::to_string(kMostParticles) +
+                                " is the most: lower the rate, the burst or the lifetime",
+                     .node = source().node};
+    if (needed <= double(state.slots)) return done();
+    // What it will come to, if nothing changes; and no step by step.
+    const double settled = (state.steps < 0 ? all : 0.0) +
+                           std::max(emitter.scalar("rate"), 0.0) * (life + 2.0 * kSimulationStep) + 2.0;
+    setSlots(uint32_t(std::min(std::max(1.25 * needed, settled), double(kMostParticles))));
+    return done();
+}
+
+void Simulation::setSlots(uint32_t slots) {
+    const uint32_t old = std::exchange(state.slots, slots);
+    std::vector<glm::vec4> places(slots, glm::vec4(std::numeric_limits<float>::quiet_NaN())),
+        velocities(slots, glm::vec4(0.0f));
+    if (old > 0) {
+        const auto oldPlaces = download<glm::vec4>(*device, state.places, old),
+                   oldVelocities = download<glm::vec4>(*device, state.velocities, old);
+        const auto all = uint64_t(born[std::size_t(state.steps)]);
+        for (uint64_t n = all > old ? all - old : 0; n < all; ++n)
+            places[n % slots] = oldPlaces[n % old], velocities[n % slots] = oldVelocities[n % old];
+    }
+    reserve(*device, state.places, 16ull * slots);
+    reserve(*device, state.velocities, 16ull * slots);
+    upload(*device, state.places, places);
+    upload(*device, state.velocities, velocities);
+}
+
+void Simulation::emit(Commands& commands, const StageNumbers& emitter, double before, double after) {
+    const auto first = uint64_t(before), count = uint64_t(after) - first;
+    if (count == 0) return;
+    static constexpr std::string_view kShapes[] = {"ball", "box", "disc", "point"};
+    gpu::EmitPush push{};
+    push.first = uint32_t(first % state.slots);
+    push.count = uint32_t(count);
+    push.slots = state.slots;
+    push.number = uint32_t(first);
+    push.seed = uint32_t(emitter.scalar("seed"));
+    push.position = emitter.vector("position");
+    push.shape = int(std::ranges::find(kShapes, source().words.find("shape")->second) - kShapes);
+    push.size = emitter.vector("size");
+    push.velocity = emitter.vector("velocity");
+    push.spread = float(emitter.scalar("spread"));
+    if (state.steps >= 0) {
+        push.sooner = float(kSimulationStep / (after - before));
+        push.age = float(kSimulationStep * (1.0 - (double(first) + 1.0 - before) / (after - before)));
+    }
+    const Descriptor bound[] = {{0, state.places}, {1, state.velocities}};
+    dispatch(commands, births, spread(groupsFor(push.count, MOTION_GROUP)), push, bound);
+    barrier(commands);
+}
+
+void Simulation::move(Commands& commands, const std::vector<double>& values) {
+    const bool mortal = source().kind == Kind::emitter;
+    gpu::MotionPush push{};
+    push.slots = state.slots;
+    push.step = float(kSimulationStep);
+    push.time = float((state.steps + 1) * kSimulationStep);
+    push.lifetime = mortal ? float(StageNumbers(field->ir, source(), values).scalar("lifetime"))
+                           : std::numeric_limits<float>::max();
+    push.swirls = 1.0f;
+    push.moves = 1;
+    const auto run = [&](const Pipeline& kernel, const Obstacle* obstacle) {
+        std::vector<Descriptor> bound{{0, state.places}, {1, state.velocities}};
+        if (obstacle) addField(bound, obstacle->buffers());
+        dispatch(commands, kernel, spread(groupsFor(state.slots, MOTION_GROUP)), push, bound);
+        barrier(commands);
+        push.moves = 0;
+    };
+    if (moves.empty()) run(flight, nullptr);
+    std::size_t next = 0;
+    for (const ParticleStage& stage : field->particles.stages) {
+        if (stage.kind != Kind::dynamics) continue;
+        const StageNumbers numbers(field->ir, stage, values);
+        push.gravity = numbers.vector("gravity");
+        push.drag = float(std::max(numbers.scalar("drag"), 0.0));
+        push.attractor = numbers.vector("attractor");
+        push.attraction = float(numbers.scalar("attraction"));
+        push.turbulence = float(std::max(numbers.scalar("turbulence"), 0.0));
+        push.swirls = float(std::max(numbers.scalar("turbulence_size"), 1e-3));
+        push.radius = float(std::max(numbers.scalar("radius"), 0.0));
+        push.bounce = float(numbers.scalar("bounce"));
+        push.friction = float(numbers.scalar("friction"));
+        const Move& how = moves[next++];
+        if (how.obstacle) setParameters(*device, *how.obstacle, values);
+        run(how.kernel, how.obstacle ? &*how.obstacle : nullptr);
+    }
+}
+
+void Simulation::keep() {
+    if (rests()) return;
+    const auto place = std::ranges::lower_bound(checkpoints, state.steps, {}, &Checkpoint::steps);
+    if (place != checkpoints.end() && place->steps == state.steps) return;
+    checkpoints.insert(
+        place, {state.steps, state.slots, download<uint32_t>(*device, state.places, 4ull * state.slots),
+                download<uint32_t>(*device, state.velocities, 4ull * state.slots)});
+    std::size_t bytes = 0;
+    for (const Checkpoint& each : checkpoints) bytes += 32ull * each.slots;
+    if (bytes <= kMostCheckpointBytes || checkpoints.size() < 3) return;
+    apart *= 2;
+    std::erase_if(checkpoints, [&](const Checkpoint& each) { return each.steps % apart != 0; });
+}
+
+void Simulation::restore(const Checkpoint& from) {
+    state.steps = from.steps;
+    state.slots = from.slots;
+    reserve(*device, state.places, 16ull * from.slots);
+    reserve(*device, state.velocities, 16ull * from.slots);
+    upload(*device, state.places, from.places);
+    upload(*device, state.velocities, from.velocities);
+}
+
+}  // namespace fw

@@ -1,0 +1,93 @@
+// Particles over time: what a recipe (graph/particle_recipe.h) says, in steps of a sixtieth of a second.
+//
+// The state after so many steps is a pure function of the recipe and of the live values at the times of all
+// steps before. Going forward takes the steps in between; going back starts from the last checkpoint before:
+// copies of the state, of which one is kept each second at first, and of every second one fewer when they
+// take too much memory. Where a live value was changed by hand, the particles go on from where they are, and
+// the past is as the new values have it once it is played again.
+//
+// Emitted particles are numbered in the order of their births; number n stands in slot n % slots, so that the
+// last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
+// is not a number.
+//
+// Lifetime: a simulation belongs to one device and one recipe; buffers grow.
+#pragma once
+
+#include <deque>
+#include <functional>
+
+#include "graph/particle_recipe.h"
+#include "runtime/field_buffers.h"
+
+namespace fw {
+
+inline constexpr double kSimulationStep = 1.0 / 60.0;  ///< seconds
+inline constexpr uint32_t kMostParticles = 4'000'000;  ///< at a time
+
+/// The live parameters' values at a time.
+using ValuesAt = std::function<std::vector<double>(double seconds)>;
+
+/// A field that particles meet, on the device.
+struct Obstacle {
+    std::shared_ptr<const Program> program;
+    Buffer parameters = {}, images = {}, volumes = {};
+    FieldBuffers buffers() const { return {&parameters, &images, &volumes}; }
+};
+
+class Simulation {
+  public:
+    Simulation(const Device& device, ParticleFieldPtr field);
+
+    /// Goes to the last step at or before so many seconds; before the start there is nothing. `progress`,
+    /// which may be empty, is told how many steps there are and how many are done, and ends the work by
+    /// returning false. Returns whether the particles are others now. Errors: more particles than there may
+    /// be, and that it was ended.
+    Result<bool> goTo(double seconds, const ValuesAt& values,
+                      const std::function<bool(int done, int all)>& progress = {});
+    /// Of live values that changed otherwise than with the time: what was kept is out of date.
+    void valuesChanged();
+
+    /// Where they are: four floats each, the place and the age.
+    const Buffer& places() const { return state.places; }
+    uint32_t slots() const { return state.slots; }
+    const ParticleFieldPtr& recipe() const { return field; }
+
+  private:
+    struct State {
+        int steps = -1;  ///< taken; -1 before the start
+        Buffer places, velocities;
+        uint32_t slots = 0;
+    };
+    struct Checkpoint {
+        int steps;
+        uint32_t slots;
+        std::vector<uint32_t> places, velocities;
+    };
+
+    const ParticleStage& source() const { return field->particles.stages.front(); }
+    /// Whether time changes nothing.
+    bool rests() const;
+    Done start(const std::vector<double>& values);
+    Done step(const std::vector<double>& values);
+    void move(Commands& commands, const std::vector<double>& values);
+    void emit(Commands& commands, const StageNumbers& emitter, double before, double after);
+    Done makeRoom(const StageNumbers& emitter, double born);
+    void setSlots(uint32_t slots);
+    void keep();
+    void restore(const Checkpoint& from);
+
+    const Device* device;
+    ParticleFieldPtr field;
+    Pipeline births, flight;
+    struct Move {
+        Pipeline kernel;
+        std::optional<Obstacle> obstacle;
+    };
+    std::vector<Move> moves;  ///< of each stage of dynamics
+    State state;
+    std::vector<double> born;            ///< how many were, after each step
+    std::deque<Checkpoint> checkpoints;  ///< by their steps
+    int apart = 60;                      ///< steps between checkpoints
+};
+
+}  // namespace fw

@@ -1,0 +1,232 @@
+// Particles over time: falls that are known exactly, births and deaths, the same bytes whichever way a time
+// is reached, obstacles.
+#include "runtime/particles/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "graph/json.h"
+#include "runtime/live_program.h"
+#include "tests/support/gpu.h"
+
+namespace fw {
+namespace {
+
+using test::device;
+
+LiveProgram liveOf(const std::string& emitter, const std::string& dynamics, const std::string& more = "",
+                   const std::string& keys = "") {
+    const std::string text =
+        R"({"fieldwright": 1, "nodes": [{"id": "rain", "type": "emitter", "inputs": {)" + emitter + "}}," +
+        more +
+        (dynamics == "none"
+             ? ""
+             : R"({"id": "fall", "type": "particle_dynamics", "inputs": {"particles": {"from": "rain"})" +
+                   std::string(dynamics.empty() ? "" : ",") + dynamics + "}},") +
+        R"({"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": ")" +
+        (dynamics == "none" ? "rain" : "fall") +
+        R"("}}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}])" + keys + "}";
+    Result<Graph> graph = parseGraph(text, "test.field.json", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<LiveProgram> live = compileLive(std::move(*graph), {});
+    if (!live) throw SystemError(format(live.error()));
+    return std::move(*live);
+}
+
+struct Played {
+    explicit Played(LiveProgram program)
+        : live(std::move(program)), simulation(device(), live.program.ir.volumes()[0]->particles) {}
+    bool goTo(double seconds) {
+        const Result<bool> changed = simulation.goTo(seconds, [&](double at) { return live.valuesAt(at); });
+        if (!changed) throw SystemError(changed.error().message);
+        return *changed;
+    }
+    std::vector<glm::vec4> places() {
+        return download<glm::vec4>(device(), simulation.places(), simulation.slots());
+    }
+    std::vector<glm::vec4> alive() {
+        std::vector<glm::vec4> list = places();
+        std::erase_if(list, [](const glm::vec4& p) { return std::isnan(p.x); });
+        return list;
+    }
+    LiveProgram live;
+    Simulation simulation;
+};
+
+/// Equal but for what is not a number in both.
+void expectSame(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (int k = 0; k < 4; ++k)
+            ASSERT_TRUE(a[i][k] == b[i][k] || (std::isnan(a[i][k]) && std::isnan(b[i][k]))) << i << ' ' << k;
+}
+
+TEST(Simulation, BurstsFallFreely) {
+    Played player(liveOf(
+        R"("burst": 500, "rate": 0, "velocity": [1, 2, 0], "spread": 0, "size": [0.5, 0.1, 0.2], "lifetime": 9)",
+        ""));
+    player.goTo(0.0);
+    const std::vector<glm::vec4> first = player.alive();
+    ASSERT_EQ(first.size(), 500u);
+    for (const glm::vec4& p : first) {
+        EXPECT_LE(glm::length(glm::vec3(p) / glm::vec3(0.5f, 0.1f, 0.2f)), 1.0001f);
+        EXPECT_EQ(p.w, 0.0f);
+    }
+    player.goTo(1.0);
+    const std::vector<glm::vec4> last = player.alive();
+    ASSERT_EQ(last.size(), 500u);
+    for (std::size_t i = 0; i < 500; ++i) {
+        // Semi-implicit steps fall half a step's speed farther.
+        const glm::vec3 wanted =
+            glm::vec3(first[i]) + glm::vec3(1, 2, 0) + glm::vec3(0, -0.5f * 9.81f * (1.0f + 1.0f / 60), 0);
+        EXPECT_LT(glm::distance(glm::vec3(last[i]), wanted), 1e-5f);
+        EXPECT_NEAR(last[i].w, 1.0f, 1e-5f);
+    }
+}
+
+TEST(Simulation, BirthsAreEvenAndDeathsComeInTime) {
+    Played player(liveOf(
+        R"("rate": 250, "lifetime": 0.5, "velocity": [0, 3, 0], "spread": 0, "shape": "point", "size": [0, 0, 0])",
+        "none"));
+    for (const double time : {0.0, 0.1, 0.25, 0.5, 1.0, 2.0}) {
+        player.goTo(time);
+        std::vector<glm::vec4> alive = player.alive();
+        EXPECT_NEAR(double(alive.size()), 250 * std::min(time, 0.5), 250.0 / 60 + 1) << time;
+        std::ranges::sort(alive, {}, [](const glm::vec4& p) { return p.w; });
+        for (std::size_t i = 0; i < alive.size(); ++i) {
+            EXPECT_NEAR(alive[i].y, 3.0f * alive[i].w, 1e-5f);  // each flies since its own birth
+            if (i > 0) { EXPECT_NEAR(alive[i].w - alive[i - 1].w, 1.0f / 250, 1e-5f); }
+            EXPECT_LE(alive[i].w, 0.5f);
+        }
+    }
+    EXPECT_LT(player.simulation.slots(), 250u);
+}
+
+TEST(Simulation, ATimeIsTheSameHoweverItIsReached) {
+    const char* emitter = R"("rate": 300, "burst": 40, "lifetime": 1.5, "seed": 7)";
+    const char* dynamics =
+        R"("turbulence": 5, "drag": 0.4, "attraction": 2, "attractor": [0, 1, 0], "collide": {"from": "floor"})";
+    const char* more = R"({"id": "floor", "type": "plane", "inputs": {"offset": -0.5}},)";
+    const auto straight = [&](double to) {
+        Played player(liveOf(emitter, dynamics, more));
+        player.goTo(to);
+        return player.places();
+    };
+    Played player(liveOf(emitter, dynamics, more));
+    for (const double time : {0.4, 3.3, 1.9, 2.5, 0.0, 3.3, 3.3 + 1.0 / 60, 1.0}) {
+        EXPECT_TRUE(player.goTo(time));
+        expectSame(player.places(), straight(time));
+    }
+    EXPECT_FALSE(player.goTo(1.0));
+    EXPECT_FALSE(player.goTo(1.0 + 0.9 / 60));  // within a step
+    // Another seed is another rain.
+    Played other(liveOf(R"("rate": 300, "burst": 40, "lifetime": 1.5, "seed": 8)", dynamics, more));
+    other.goTo(1.0);
+    EXPECT_NE(other.places()[0], player.places()[0]);
+}
+
+TEST(Simulation, MovingValuesAreTakenStepByStep) {
+    // The rate falls from 600 to 0 within a second: 300 births. And they rise more and more.
+    Played player(liveOf(R"("rate": 600, "lifetime": 20, "velocity": [0, 0, 0], "spread": 0)",
+                         R"("gravity": [0, 0, 0])", "",
+                         R"(, "timeline": {"length": 4, "tracks": [{"node": "rain", "input": "rate", "keys": [
+                              {"time": 0, "value": 600}, {"time": 1, "value": 0}]}]})"));
+    player.goTo(1.5);
+    EXPECT_NEAR(double(player.alive().size()), 300, 8);
+    player.goTo(2.5);
+    EXPECT_NEAR(double(player.alive().size()), 300, 8);
+}
+
+TEST(Simulation, ChangedValuesBearOnWhatComes) {
+    Played player(liveOf(R"("rate": 60, "lifetime": 20, "velocity": [0, 0, 0], "spread": 0)", ""));
+    player.goTo(1.0);
+    EXPECT_EQ(player.alive().size(), 60u);
+    player.live.inputs["rain.rate"];  // not live: nothing to change
+    const ValuesAt values = [&](double at) { return player.live.valuesAt(at); };
+    player.simulation.valuesChanged();
+    EXPECT_FALSE(*player.simulation.goTo(1.0, values));  // it goes on from where it is
+    EXPECT_TRUE(*player.simulation.goTo(0.5, values));   // and is played from the start
+    EXPECT_EQ(player.alive().size(), 30u);
+}
+
+/// Particles that rain on a surface for some seconds: none may be in it, and how many got below.
+void rainOn(const std::string& collide, const std::string& more,
+            const std::function<double(glm::vec3)>& distance, double seconds,
+            const std::function<void(const std::vector<glm::vec4>&)>& look) {
+    Played player(liveOf(
+        R"("shape": "box", "position": [0, 2, 0], "size": [0.9, 0.1, 0.9], "rate": 2000, "lifetime": 3, "velocity": [0, -6, 0])",
+        R"("turbulence": 3, "bounce": 0.5, "radius": 0.01, "collide": {"from": ")" + collide + "\"}", more));
+    double deepest = 1e9;
+    const int steps = int(seconds * 60);
+    for (int step = 20; step <= steps; step += std::max(20, steps / 20)) {
+        player.goTo(step / 60.0);
+        for (const glm::vec4& p : player.alive()) {
+            ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+            deepest = std::min(deepest, distance(glm::vec3(p)));
+        }
+    }
+    EXPECT_GE(deepest, 0.0);
+    look(player.alive());
+}
+
+TEST(Simulation, NothingGetsIntoAnObstacleNorThroughAThinOne) {
+    const double seconds = std::getenv("FIELDWRIGHT_LONG") ? 10'000 / 60.0 : 4.0;
+    rainOn(
+        "ball", R"({"id": "ball", "type": "sphere", "inputs": {"radius": 0.7}},)",
+        [](glm::vec3 p) { return glm::length(p) - 0.7; }, seconds,
+        [](const auto& alive) {
+            EXPECT_GT(std::ranges::count_if(alive, [](const glm::vec4& p) { return p.y < -1.0f; }), 100);
+        });
+    // Two centimetres thick, at some ten metres a second: a step is eight times as long.
+    rainOn(
+        "sheet", R"({"id": "sheet", "type": "box", "inputs": {"half_extents": [9, 0.01, 9]}},)",
+        [](glm::vec3 p) { return std::abs(p.y) - 0.01; }, seconds,
+        [](const auto& alive) {
+            EXPECT_EQ(std::ranges::count_if(alive, [](const glm::vec4& p) { return p.y < 0.0f; }), 0);
+        });
+}
+
+TEST(Simulation, AHoleLetsThemThrough) {
+    rainOn(
+        "drilled", R"({"id": "sheet", "type": "box", "inputs": {"half_extents": [9, 0.05, 9]}},
+        {"id": "drill", "type": "infinite_cylinder", "inputs": {"radius": 0.4}},
+        {"id": "drilled", "type": "subtract", "inputs": {"a": {"from": "sheet"}, "b": {"from": "drill"}}},)",
+        [](glm::vec3 p) {
+            const double sheet = std::abs(p.y) - 0.05, wall = 0.4 - std::hypot(p.x, p.z);
+            return std::max(sheet, wall);
+        },
+        4.0,
+        [](const auto& alive) {
+            const auto below = std::ranges::count_if(alive, [](const glm::vec4& p) { return p.y < -0.1f; });
+            EXPECT_GT(below, 50);
+            EXPECT_LT(below, std::ptrdiff_t(alive.size()) / 2);
+        });
+}
+
+TEST(Simulation, TooManyAreRefusedAndNoneIsFine) {
+    Played player(liveOf(R"("rate": 10000000, "lifetime": 60)", ""));
+    const Result<bool> gone =
+        player.simulation.goTo(1.0, [&](double at) { return player.live.valuesAt(at); });
+    ASSERT_FALSE(gone);
+    EXPECT_NE(gone.error().message.find("lower the rate"), std::string::npos) << gone.error().message;
+    Played none(liveOf(R"("rate": 0)", ""));
+    none.goTo(2.0);
+    EXPECT_TRUE(none.alive().empty());
+    int told = 0;
+    const Result<bool> ended = none.simulation.goTo(
+        9.0, [&](double at) { return none.live.valuesAt(at); },
+        [&](int, int all) {
+            EXPECT_EQ(all, 420);
+            return ++told < 5;
+        });
+    EXPECT_FALSE(ended);
+    EXPECT_EQ(told, 5);
+}
+
+}  // namespace
+}  // namespace fw
