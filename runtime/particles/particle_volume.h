@@ -9,11 +9,11 @@
 // the surface.
 //
 // No density is left farther than R away. There the value is the distance to the nearest block of 8 x 8 x 8
-// samples that has a part of the solid, between the middles of blocks, and half a block less: steps along a
-// ray need it, and ambient occlusion.
+// samples that has a part of the solid, found between the middles of blocks and lessened by what that may be
+// too much: steps along a ray need it, and ambient occlusion.
 //
 // Samples at the grid's border are outside, half a cell at least, so that what reaches beyond the grid is
-// closed there.
+// closed there. Of particles beyond the grid only the exact way knows.
 //
 // Lifetime: kernels serve all volumes; buffers grow.
 #pragma once
