@@ -17,55 +17,72 @@ namespace fw {
 
 namespace {
 
-constexpr double kSoft = 0.01;  // of the squared gradients in a full lattice: what keeps lone particles still
+/// Along each axis. Narrow along x, where the part of a row that the kernel reaches can be taken.
+constexpr glm::vec3 kCellsInSupport(4.0f, 1.0f, 1.0f);
 
-/// Sum over a full cubic lattice of the squared gradients that two particles have of each other, times
-/// spacing squared.
-double squaresInLattice() {
+/// Those of the tank and one support and a half more on each side.
+glm::vec3 cellsOf(const FluidConfig& config) {
+    return glm::ceil(((config.hi - config.lo) / (kFluidSupport * config.spacing) + 3.0f) * kCellsInSupport);
+}
+
+}  // namespace
+
+FluidLattice fluidLattice() {
+    constexpr double kSoft = 0.01;
+    const double support = kFluidSupport;
     const int reach = int(kFluidSupport);
-    const double support = kFluidSupport, s5 = std::pow(support, 5);
-    double sum = 0.0;
+    double density = 0.0, squares = 0.0;
     for (int z = -reach; z <= reach; ++z)
         for (int y = -reach; y <= reach; ++y)
             for (int x = -reach; x <= reach; ++x) {
                 const double r = std::sqrt(double(x * x + y * y + z * z)),
                              u = std::max(1.0 - r / support, 0.0);
-                const double slope = 210.0 / (std::numbers::pi * s5) * u * u * u * r;
-                sum += slope * slope;
+                density += u * u * u * u * (5.0 - 4.0 * u);
+                squares += u * u * u * u * u * u * r * r;
             }
-    return sum;
+    const double slope = 20.0 / (density * support * support);
+    return {float(1.0 / density), float(kSoft * slope * slope * squares)};
 }
 
+namespace {
+
 gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
-    static const double squares = squaresInLattice();
+    static const FluidLattice lattice = fluidLattice();
     gpu::FluidPush push{};
     push.support = kFluidSupport * config.spacing;
-    push.cell = 0.5f * push.support;
-    push.first = config.lo - 2.5f * push.cell;
-    push.cells = glm::ivec3(glm::ceil((config.hi - config.lo) / push.cell)) + 6;
+    push.perSupport = 1.0f / push.support;
+    push.first = config.lo - 1.5f * push.support;
+    push.perCell = kCellsInSupport * push.perSupport;
+    push.cells = glm::ivec3(cellsOf(config));
     push.particles = count;
     push.lo = config.lo;
     push.hi = config.hi;
     push.gravity = config.gravity;
     push.step = step;
-    push.volume = config.spacing * config.spacing * config.spacing;
-    push.viscosity = config.viscosity;
-    push.tension = config.tension;
-    push.soft = float(kSoft * squares) / (config.spacing * config.spacing);
+    push.weight = lattice.weight;
+    push.slope = -20.0f * push.weight / (push.support * push.support);
+    push.relaxation = kFluidRelaxation;
+    push.viscosity = std::min(config.viscosity * step, 1.0f);
+    push.tension = config.tension * step;
+    push.soft = lattice.soft / (config.spacing * config.spacing);
     return push;
 }
 
-Done fits(const Device& device, const gpu::FluidPush& push) {
-    const double range = device.properties.limits.maxStorageBufferRange;
-    if (4.0 * FLUID_MOST_NEIGHBOURS * push.particles > range)
-        return Error{.message = "more particles than this device can list the neighbours of: " +
-                                std::to_string(uint64_t(range / (4.0 * FLUID_MOST_NEIGHBOURS))) +
-                                " is the most, so raise the spacing"};
-    if (4.0 * push.cells.x * push.cells.y * push.cells.z > range)
-        return Error{
-            .message =
-                "the fluid's tank has more cells than this device can use: make it smaller, or raise the "
-                "spacing"};
+Done fits(const Device& device, const FluidConfig& config, uint32_t count, float step) {
+    const auto positive = [](float value) { return std::isfinite(value) && value > 0.0f; };
+    const glm::vec3 size = config.hi - config.lo;
+    if (!positive(config.spacing) || !positive(step) || !positive(glm::min(size.x, glm::min(size.y, size.z))))
+        return Error{.message = "a fluid's spacing, its tank's sides and its step must be greater than 0"};
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    const uint64_t most = limits.maxTexelBufferElements / (FLUID_MOST_NEIGHBOURS / 4);
+    if (count > most)
+        return Error{.message = "this device can list the neighbours of " + std::to_string(most) +
+                                " particles at most: raise the fluid's spacing"};
+    const glm::dvec3 cells(cellsOf(config));
+    if (4.0 * cells.x * cells.y * cells.z > double(limits.maxStorageBufferRange))
+        return Error{.message =
+                         "the fluid's tank has more cells than this device can use: make it smaller, or "
+                         "raise the spacing"};
     return done();
 }
 
@@ -111,16 +128,17 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& b,
                      const FluidConfig& config, float step) {
     const Device& device = commands.device;
-    const gpu::FluidPush push = pushOf(config, b.count, step);
-    if (const Done fit = fits(device, push); !fit) return fit.error();
+    if (const Done fit = fits(device, config, b.count, step); !fit) return fit.error();
     if (b.count == 0) return done();
+    const gpu::FluidPush push = pushOf(config, b.count, step);
     for (Buffer* each :
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
         reserve(device, *each, 16ull * b.count);
     for (Buffer* each : {&b.keys, &b.counts, &b.densities}) reserve(device, *each, 4ull * b.count);
-    reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * b.count);
+    const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
+    reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
-        dispatch(commands, kernel, spread(groupsFor(b.count, FLUID_GROUP)), push, bound);
+        dispatch(commands, kernel, spread(groups), push, bound);
         barrier(commands);
     };
     beginStage(commands, "predict");

@@ -10,9 +10,16 @@
 // Deviations from the paper: one kernel, Wendland's C2, for density and gradient, so that pairs do not clump
 // and no artificial pressure is needed; walls count as full of fluid, by the integral of the kernel beyond
 // their plane, so that there is no gap before them and no particles' boundary to place; lists of neighbours
-// are made once a step. Densities below that at rest are left alone: a fluid does not pull. Everything that
-// two particles do to one another is equal and opposite, so that momentum is kept to rounding; sums run in
-// the order of a stable sort, so that the same particles give the same bytes on every run.
+// are made once a step; a turn makes a share of the correction (kFluidRelaxation), without which turns
+// diverge; the kernel is scaled so that a lattice has the density at rest. Densities below that at rest are
+// left alone: a fluid does not pull. Everything that two particles do to one another is equal and opposite,
+// so that momentum is kept to rounding; sums run in the order of a stable sort, so that the same particles
+// give the same bytes on every run. A particle feels 64 others at most: momentum is not kept where there are
+// more, twice as dense as at rest.
+//
+// What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
+// half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
+// the bottom.
 //
 // Units: metres, seconds, densities in units of that at rest. Lifetime: kernels serve one obstacle; buffers
 // grow.
@@ -38,23 +45,36 @@ struct FluidConfig {
     float spacing = 0.05f;          ///< of particles at rest
     glm::vec3 lo{-1.0f}, hi{1.0f};  ///< the tank
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
-    float viscosity = 0.02f;  ///< share of the difference of velocities that a step takes away, 0 to 1
-    float tension = 0.0f;     ///< 1/s^2: how fast neighbours draw nearer for each metre between them
-    int iterations = 4;
+    float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
+    float tension =
+        0.0f;            ///< 1/s^2: how much neighbours hasten towards each other for each metre between them
+    int iterations = 4;  ///< turns of a step
     FieldBuffers field = {};  ///< what the obstacle reads
 };
 
 struct FluidParticles {
     uint32_t count = 0;
     Buffer places, velocities;  ///< four floats each, in the order of cells after a step
-    Buffer densities;           ///< of the last step, before its last turn
+    Buffer densities;           ///< one each, as they were before the last turn of the step
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
     Buffer keys, order, lists, counts;
     CountingSortBuffers cells;
 };
 
-/// The side of a particle's share of the fluid times this is the support of the kernel: some 65 neighbours.
-inline constexpr float kFluidSupport = 2.5f;
+/// The support of the kernel, in spacings: some 33 neighbours.
+inline constexpr float kFluidSupport = 2.0f;
+/// Share of each turn's correction that is made. All particles move at once, so that neighbours together
+/// make more of a correction than each asked for: by 2.58 in a full lattice, for the wave that fares worst.
+/// Turns diverge above 2 / 2.58.
+inline constexpr float kFluidRelaxation = 0.6f;
+
+/// What the solver knows of particles at rest: a cubic lattice of spacing 1.
+struct FluidLattice {
+    float weight;  ///< of the kernel at distance 0, for the lattice's density to be 1
+    float soft;    ///< a hundredth of the squared gradients that a particle's neighbours have of its density:
+                   ///< what keeps lone particles still
+};
+FluidLattice fluidLattice();
 
 /// Particles at even spacing in a box, at rest.
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing);
@@ -62,8 +82,8 @@ std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, floa
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities);
 
-/// Records one step of so many seconds. Errors: a tank of so many cells, or so many particles, that the
-/// device cannot bind what belongs to them.
+/// Records one step of so many seconds. Errors: sizes or a step that are not greater than 0; more cells or
+/// particles than the device can bind what belongs to.
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
                      const FluidConfig& config, float step);
 

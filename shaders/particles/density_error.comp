@@ -1,12 +1,13 @@
 // How far each particle must give way for its density to be that at rest, at most: Macklin and Mueller's lambda.
+#extension GL_KHR_shader_subgroup_vote : require
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer guesses;
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer planes;
-layout(binding = 2, scalar) readonly buffer Lists { uint lists[]; };
+layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
-layout(binding = 4, rgba32ui) restrict writeonly uniform uimageBuffer weighed;  // floats: the guess, and lambda
+layout(binding = 4, rgba32ui) restrict writeonly uniform uimageBuffer weighed;  // floats: the guess, about, and lambda
 layout(binding = 5, scalar) writeonly buffer Densities { float densities[]; };
 
 void main() {
@@ -14,20 +15,25 @@ void main() {
     if (index >= push.particles) return;
     vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz);
     vec4 walls = wallsAt(p, uintBitsToFloat(imageLoad(planes, int(index))));
-    float density = weightAt(0.0) + walls.w, squares = 0.0;
+    uint texels = (counts[index] + 3) / 4, t = 0;
+    float density = weightAt(1.0) + walls.w, squares = 0.0;
     vec3 gradient = walls.xyz;
-    uint count = counts[index], k = 0;
-    do {
-        uint other = lists[k * push.particles + index];
-        vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(k < count ? other : index)).xyz);
-        float r = length(off);
-        vec3 slope = slopeAt(r) * off;
-        bool counts_ = k < count;
-        density += counts_ ? weightAt(r) : 0.0;
-        squares += counts_ ? dot(slope, slope) : 0.0;
-        gradient += counts_ ? slope : vec3(0.0);
-    } while (++k < count);
-    float lambda = -max(density - 1.0, 0.0) / (squares + dot(gradient, gradient) + push.soft);
-    imageStore(weighed, int(index), floatBitsToUint(vec4(p, lambda)));
+    int texel = firstTexel(index);
+    do {  // as long as any lane: one that is done goes on with itself, which adds nothing
+        uvec4 four = t < texels ? imageLoad(lists, texel) : uvec4(index);
+        for (int k = 0; k < 4; ++k) {
+            vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(four[k])).xyz);
+            float u = left(off);
+            vec3 slope = slopeAt(u) * off;
+            density += four[k] != index ? weightAt(u) : 0.0;
+            squares += dot(slope, slope);
+            gradient += slope;
+        }
+        texel += kNextTexel;
+    } while (subgroupAny(++t < texels));
+    float lambda = -push.relaxation * max(density - 1.0, 0.0) / (squares + dot(gradient, gradient) + push.soft);
+    // Each a little to the side of its own, so that particles in one place part.
+    vec3 aside = vec3(index * uvec3(3518319155u, 2882110345u, 2360945575u)) * (1e-5 / 4294967296.0 * push.support);
+    imageStore(weighed, int(index), floatBitsToUint(vec4(p + aside, lambda)));
     densities[index] = density;
 }

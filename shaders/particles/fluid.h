@@ -6,21 +6,24 @@ namespace fw::gpu {
 #endif
 
 #define FLUID_GROUP 64            // particles of a work group
-#define FLUID_MOST_NEIGHBOURS 96  // that a particle feels; more than that are only where it is far too dense
+#define FLUID_MOST_NEIGHBOURS 64  // that a particle feels; more than that are only where it is far too dense
 
 struct FluidPush {
-    vec3 first;  // corner of the first cell, metres
-    float cell;  // half of `support`
+    vec3 first;    // corner of the first cell, metres
+    vec3 perCell;  // cells a metre
     ivec3 cells;
     uint particles;
     vec3 lo, hi;  // the walls of the tank, metres
     vec3 gravity;
-    float step;     // s
-    float support;  // of the kernel, metres
-    float volume;   // of a particle, m^3
-    float viscosity;
-    float tension;
-    float soft;  // added to the sum of squared gradients, 1/m^2
+    float step;        // s
+    float support;     // of the kernel, metres
+    float perSupport;  // 1/metre
+    float weight;      // the kernel times a particle's volume is this at distance 0,
+    float slope;       // and its gradient near 0 this times the offset, 1/m^2
+    float soft;        // added to the sum of squared gradients, 1/m^2
+    float relaxation;
+    float viscosity;  // share of the difference of velocities that this step takes away
+    float tension;    // 1/s: velocity for each metre of offset
 };
 
 #ifdef __cplusplus

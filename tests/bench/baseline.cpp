@@ -1,9 +1,9 @@
 #include "tests/bench/baseline.h"
 
 #include <chrono>
-#include <thread>
 
 #include "tests/bench/case_table.h"
+#include "tests/bench/two_threads.h"
 
 namespace fw::bench {
 namespace {
@@ -11,14 +11,6 @@ namespace {
 double now() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
-}
-
-/// Runs work(0) and work(1) at the same time.
-template <class Work>
-void onTwoThreads(Work&& work) {
-    std::thread other([&] { work(1); });
-    work(0);
-    other.join();
 }
 
 }  // namespace

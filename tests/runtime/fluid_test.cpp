@@ -128,7 +128,7 @@ TEST_F(Fluid, DensitiesAreSumsAndWallsAreFull) {
     double least = 1e9, most = 0.0;
     for (uint32_t i = 0; i < fluid.count; ++i) {
         const bool inner = glm::all(glm::lessThan(glm::abs(at[i]), glm::vec3(0.72f)));
-        if (inner) EXPECT_NEAR(densities[i], lattice, 1e-4);
+        if (inner) { EXPECT_NEAR(densities[i], lattice, 1e-4); }
         const bool beside = !inner && glm::abs(at[i].y) < 0.72f && glm::abs(at[i].z) < 0.72f;
         if (beside)
             least = std::min(least, double(densities[i])), most = std::max(most, double(densities[i]));
