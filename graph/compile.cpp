@@ -507,6 +507,22 @@ class Compiler {
                                    "collides with"});
                 return failure(type.outputs);
             }
+        } else if (stage->kind == Kind::fluid) {
+            if (!stage->fields.contains("source")) {
+                report(node, prefix, "source",
+                       {.message = "nothing is fluid: link the surface that is full of it at the start"});
+                return failure(type.outputs);
+            }
+            std::vector<double> values;
+            for (const LiveParameter& parameter : live) values.push_back(parameter.value);
+            const StageNumbers numbers(state.ir, *stage, values);
+            const glm::dvec3 lo = numbers.vector("tank_min"), hi = numbers.vector("tank_max");
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(lo[axis] < hi[axis])) {
+                    report(node, prefix, "tank_max",
+                           {.message = "must be above tank_min along " + std::string(1, "xyz"[axis])});
+                    return failure(type.outputs);
+                }
         } else if (stage->kind == Kind::file) {
             const std::string& path = stage->words["path"];
             const Result<ParticlePlacesPtr> places =

@@ -74,6 +74,31 @@ std::vector<NodeType> particleNodes() {
                     share("friction", 0.1, "How much of the speed along a surface is lost.")},
          .outputs = {{"particles", Type::particles}},
          .aliases = {"forces"}},
+        {.id = "sph_fluid",
+         .label = "Fluid",
+         .category = Category::particles,
+         .doc = "Water: fills a surface with particles at the start, and lets them flow within a tank and "
+                "around what is in the "
+                "way. Particles keep their density by moving apart, as often in a step as it takes.",
+         .inputs =
+             {surfaceInput("source", "Where there is fluid at the start; it may reach beyond the tank."),
+              positiveLength(
+                  "spacing", 0.05,
+                  "Between particles: the fluid's finest detail. Half of it means eight times as many."),
+              measured(vector("velocity", {0, 0, 0}, "How the fluid moves at the start."), "m/s"), gravity,
+              amount("viscosity", 2, "1/s",
+                     "How fast neighbours come to move alike: 0.5 for water, 20 for honey."),
+              amount("tension", 0, "1/s²", "How much neighbours draw together: drops get round."), collide,
+              place("tank_min", {-1, 0, -1}, "Lowest corner of the tank, which the fluid cannot leave."),
+              place("tank_max", {1, 2, 1}, "Highest corner of the tank."),
+              choice("neighbours", {"exact", "averaged"},
+                     "Who pushes a particle: each of its neighbours, or of those that are far away the mean "
+                     "of each cell."),
+              integer("substeps", 0, 0, 64,
+                      "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank asks "
+                      "for.")},
+         .outputs = {{"particles", Type::particles}},
+         .aliases = {"water", "liquid", "fluid"}},
         {.id = "particles_to_field",
          .label = "Particles to field",
          .category = Category::particles,

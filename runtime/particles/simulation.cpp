@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 #include <utility>
 
 #include "graph/compile.h"
 #include "graph/glsl.h"
+#include "graph/region.h"
 #include "shaders/shared.h"
 
 #include "shaders/particles/motion.h"
@@ -60,7 +62,60 @@ Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
     std::vector<Pipeline> made = createComputePipelines(*device, shaders);
     births = std::move(made[0]), flight = std::move(made[1]);
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i].kernel = std::move(made[i + 2]);
+    if (source().kind != Kind::fluid) return;
+    Fluid& flowing = fluid.emplace();
+    std::string obstacle;
+    if (const auto found = source().fields.find("collide"); found != source().fields.end()) {
+        flowing.obstacle = obstacleOf(*device, found->second);
+        obstacle = emitField(*found->second);
+    }
+    flowing.kernels = createFluidKernels(*device, obstacle);
 }
+
+namespace {
+
+/// A fluid's places at the start: even spacing in the tank, where the source is.
+Result<std::vector<glm::vec3>> placesIn(const Program& source, const StageNumbers& numbers,
+                                        const std::vector<double>& values) {
+    constexpr double kMostPlaces = 64e6;  // that are looked at
+    const std::span<const double> live(values.data(), source.live.size());
+    const double spacing = std::max(numbers.scalar("spacing"), 1e-6);
+    const glm::dvec3 lo = numbers.vector("tank_min"), hi = numbers.vector("tank_max");
+    const Region region = findRegion(source.ir, source.distance(), live);
+    glm::dvec3 first, count;
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool bounded = region.extent == Extent::bounded;
+        const double least = bounded ? std::max(lo[axis], region.box.lo[std::size_t(axis)]) : lo[axis],
+                     most = bounded ? std::min(hi[axis], region.box.hi[std::size_t(axis)]) : hi[axis];
+        first[axis] = std::floor((least - lo[axis]) / spacing);
+        const double last = std::min(std::ceil((most - lo[axis]) / spacing),
+                                     std::floor((hi[axis] - lo[axis]) / spacing + 1e-6));
+        count[axis] = region.extent == Extent::empty ? 0.0 : std::max(last - first[axis], 0.0);
+    }
+    if (count.x * count.y * count.z > kMostPlaces)
+        return Error{.message = "the spacing is too small for the source's size: raise it"};
+    std::vector<glm::vec3> places;
+    std::vector<Point> row(std::size_t(count.x));
+    std::vector<double> distances(row.size());
+    for (double z = 0; z < count.z; ++z)
+        for (double y = 0; y < count.y; ++y) {
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                const glm::dvec3 p = lo + spacing * (first + glm::dvec3(double(x), y, z) + 0.5);
+                row[x] = {p.x, p.y, p.z};
+            }
+            evaluate(source.ir, source.distance(), live, row, distances);
+            for (std::size_t x = 0; x < row.size(); ++x)
+                if (distances[x] < 0.0) places.emplace_back(row[x][0], row[x][1], row[x][2]);
+        }
+    if (places.empty())
+        return Error{.message = "no place of the source is in the tank: move or enlarge one of them"};
+    if (places.size() > kMostParticles)
+        return Error{.message = "the source holds " + std::to_string(places.size()) + " particles, and " +
+                                std::to_string(kMostParticles) + " is the most: raise the spacing"};
+    return places;
+}
+
+}  // namespace
 
 bool Simulation::rests() const { return source().kind == Kind::file && moves.empty(); }
 
@@ -93,6 +148,7 @@ void Simulation::valuesChanged() {
 }
 
 Done Simulation::start(const std::vector<double>& values) {
+    if (source().kind == Kind::fluid) return fill(values);
     const StageNumbers numbers(field->ir, source(), values);
     if (source().kind == Kind::file) {
         const std::vector<glm::vec3>& from = source().places->places;
@@ -116,6 +172,11 @@ Done Simulation::start(const std::vector<double>& values) {
 
 Done Simulation::step(const std::vector<double>& values) {
     Commands commands(*device);
+    if (fluid) {
+        if (const Done flowed = flow(commands, values); !flowed) return flowed.error();
+        submit(commands);
+        return done();
+    }
     if (source().kind != Kind::emitter) {
         move(commands, values);
         submit(commands);
@@ -130,6 +191,44 @@ Done Simulation::step(const std::vector<double>& values) {
     move(commands, values);
     emit(commands, numbers, before, after);
     submit(commands);
+    return done();
+}
+
+Done Simulation::fill(const std::vector<double>& values) {
+    const StageNumbers numbers(field->ir, source(), values);
+    const Result<std::vector<glm::vec3>> places =
+        placesIn(*source().fields.find("source")->second, numbers, values);
+    if (!places) return Error{.message = places.error().message, .node = source().node};
+    state.slots = uint32_t(places->size());
+    setFluid(*device, fluid->particles, *places,
+             std::vector(places->size(), glm::vec3(numbers.vector("velocity"))));
+    return done();
+}
+
+Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
+    const StageNumbers numbers(field->ir, source(), values);
+    FluidConfig config{.spacing = float(numbers.scalar("spacing")),
+                       .lo = numbers.vector("tank_min"),
+                       .hi = numbers.vector("tank_max"),
+                       .gravity = numbers.vector("gravity"),
+                       .viscosity = float(std::max(numbers.scalar("viscosity"), 0.0)),
+                       .tension = float(std::max(numbers.scalar("tension"), 0.0))};
+    if (fluid->obstacle) {
+        setParameters(*device, *fluid->obstacle, values);
+        config.field = fluid->obstacle->buffers();
+    }
+    int parts = int(numbers.scalar("substeps"));
+    if (parts <= 0) {
+        // At the end of a fall through the tank, half a spacing each.
+        const double speed = std::sqrt(2.0 * glm::length(numbers.vector("gravity")) *
+                                       glm::length(glm::dvec3(config.hi - config.lo)));
+        parts = std::clamp(int(std::ceil(speed * kSimulationStep / (0.5 * config.spacing))), 1, 8);
+    }
+    for (int part = 0; part < parts; ++part)
+        if (const Done recorded = recordFluidStep(commands, fluid->kernels, fluid->particles, config,
+                                                  float(kSimulationStep / parts));
+            !recorded)
+            return Error{.message = recorded.error().message, .node = source().node};
     return done();
 }
 
@@ -234,9 +333,9 @@ void Simulation::keep() {
     if (rests()) return;
     const auto place = std::ranges::lower_bound(checkpoints, state.steps, {}, &Checkpoint::steps);
     if (place != checkpoints.end() && place->steps == state.steps) return;
-    checkpoints.insert(
-        place, {state.steps, state.slots, download<uint32_t>(*device, state.places, 4ull * state.slots),
-                download<uint32_t>(*device, state.velocities, 4ull * state.slots)});
+    checkpoints.insert(place,
+                       {state.steps, state.slots, download<uint32_t>(*device, places(), 4ull * state.slots),
+                        download<uint32_t>(*device, velocities(), 4ull * state.slots)});
     std::size_t bytes = 0;
     for (const Checkpoint& each : checkpoints) bytes += 32ull * each.slots;
     if (bytes <= kMostCheckpointBytes || checkpoints.size() < 3) return;
@@ -247,10 +346,12 @@ void Simulation::keep() {
 void Simulation::restore(const Checkpoint& from) {
     state.steps = from.steps;
     state.slots = from.slots;
-    reserve(*device, state.places, 16ull * from.slots);
-    reserve(*device, state.velocities, 16ull * from.slots);
-    upload(*device, state.places, from.places);
-    upload(*device, state.velocities, from.velocities);
+    if (!fluid) {
+        reserve(*device, state.places, 16ull * from.slots);
+        reserve(*device, state.velocities, 16ull * from.slots);
+    }
+    upload(*device, places(), from.places);
+    upload(*device, velocities(), from.velocities);
 }
 
 }  // namespace fw

@@ -18,6 +18,7 @@
 
 #include "graph/particle_recipe.h"
 #include "runtime/field_buffers.h"
+#include "runtime/particles/fluid.h"
 
 namespace fw {
 
@@ -47,8 +48,8 @@ class Simulation {
     /// Of live values that changed otherwise than with the time: what was kept is out of date.
     void valuesChanged();
 
-    /// Where they are: four floats each, the place and the age.
-    const Buffer& places() const { return state.places; }
+    /// Where they are: four floats each, the place and, of those that are born, the age.
+    const Buffer& places() const { return fluid ? fluid->particles.places : state.places; }
     uint32_t slots() const { return state.slots; }
     const ParticleFieldPtr& recipe() const { return field; }
 
@@ -64,10 +65,19 @@ class Simulation {
         std::vector<uint32_t> places, velocities;
     };
 
+    struct Fluid {
+        FluidKernels kernels;
+        std::optional<Obstacle> obstacle;
+        FluidParticles particles;
+    };
+
+    const Buffer& velocities() const { return fluid ? fluid->particles.velocities : state.velocities; }
     const ParticleStage& source() const { return field->particles.stages.front(); }
     /// Whether time changes nothing.
     bool rests() const;
     Done start(const std::vector<double>& values);
+    Done fill(const std::vector<double>& values);
+    Done flow(Commands& commands, const std::vector<double>& values);
     Done step(const std::vector<double>& values);
     void move(Commands& commands, const std::vector<double>& values);
     void emit(Commands& commands, const StageNumbers& emitter, double before, double after);
@@ -84,6 +94,7 @@ class Simulation {
         std::optional<Obstacle> obstacle;
     };
     std::vector<Move> moves;  ///< of each stage of dynamics
+    std::optional<Fluid> fluid;
     State state;
     std::vector<double> born;            ///< how many were, after each step
     std::deque<Checkpoint> checkpoints;  ///< by their steps
