@@ -24,6 +24,8 @@ constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
 constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
 constexpr int kLeastHeldResolution = 48;
+/// Fewer steps of particles than this are soon made: nobody is told of them.
+constexpr int kToldSteps = 20;
 
 bool sameWish(const PreviewWish& a, const PreviewWish& b) {
     return a.graph == b.graph && a.revision == b.revision && a.document == b.document &&
@@ -48,7 +50,8 @@ struct Preview::Shared {
     /// A newer wish waits; one of another graph that no hand is moving, so that a draft will come before this
     /// picture is done.
     std::atomic<bool> overtaken = false, replaced = false;
-    std::atomic<double> baked = 1.0;  ///< of a mesh that is being made a field; 1: none is
+    std::atomic<double> baked = 1.0;      ///< of a mesh that is being made a field; 1: none is
+    std::atomic<double> simulated = 1.0;  ///< of the steps of particles up to the time; 1: all
     bool stop = false, working = true;
     std::thread thread;
 
@@ -64,9 +67,8 @@ struct Preview::Shared {
         }
         if (changed) changed();
     }
-    void bake(double share) {
-        baked = share;
-        if (changed) changed();
+    void tell(std::atomic<double>& of, double share) {
+        if (of.exchange(share) != share && changed) changed();
     }
     /// What the thread does: work(), and again with another device after a failure, when something is asked.
     void run();
@@ -79,10 +81,12 @@ namespace {
 class Maker {
   public:
     Maker(Device opened, std::function<void(PreviewResult)> publish_, const std::atomic<bool>& overtaken_,
-          const std::atomic<bool>& replaced_, std::function<void(double)> baking_)
+          const std::atomic<bool>& replaced_, std::function<void(double)> baking_,
+          std::function<void(double)> simulating_)
         : device(std::move(opened)),
           publish(std::move(publish_)),
           baking(std::move(baking_)),
+          simulating(std::move(simulating_)),
           overtaken(overtaken_),
           replaced(replaced_) {}
 
@@ -104,7 +108,7 @@ class Maker {
 
     std::optional<Device> device;  ///< until the player has it
     std::function<void(PreviewResult)> publish;
-    std::function<void(double)> baking;
+    std::function<void(double)> baking, simulating;
     const std::atomic<bool>&overtaken, &replaced;
     std::optional<Player> player;
     PreviewWish wish;
@@ -131,6 +135,10 @@ PlayerOptions Maker::playerOptions() const {
     options.live = {live.begin(), live.end()};
     options.compileBehind = options.checked = true;
     options.baking = baking;
+    options.simulating = [this](int done, int all) {
+        if (all >= kToldSteps) simulating(double(done) / all);
+        return !replaced;
+    };
     options.fieldViews = wish.view >= RENDER_STEPS && wish.view != RENDER_WIREFRAME;
     return options;
 }
@@ -255,7 +263,11 @@ bool Maker::draw() {
     const auto start = Clock::now();
     const Result<MesherResult> mesh = player->meshOnDevice();
     const double meshing = millisecondsSince(start);
-    if (!mesh) return refuse(mesh.error()), tell(), false;
+    if (!mesh) {
+        simulating(1.0);
+        if (!replaced) refuse(mesh.error()), tell();
+        return false;
+    }
     if (!aim(options)) return tell(), false;
     const auto drawing = Clock::now();
     const Result<bool> drawn = player->show(options, picture);
@@ -317,7 +329,7 @@ void Preview::Shared::work() {
     if (!device) throw SystemError(device.error().message);
     Maker maker(
         std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken, replaced,
-        [this](double share) { bake(share); });
+        [this](double share) { tell(baked, share); }, [this](double share) { tell(simulated, share); });
     bool more = false;
     for (;;) {
         const bool waits = maker.waits();
@@ -351,7 +363,7 @@ void Preview::Shared::run() {
             ready->failure = error.what();
             ready->current = false;
             next.reset();  // it may be what failed
-            baked = 1.0;
+            baked = simulated = 1.0;
             working = false;
         }
         if (changed) changed();
@@ -371,7 +383,7 @@ Preview::Preview(DeviceOptions device, std::function<void()> changed) : shared(s
 Preview::~Preview() {
     {
         std::lock_guard lock(shared->mutex);
-        shared->stop = true;
+        shared->stop = shared->overtaken = shared->replaced = true;
     }
     shared->asked.notify_all();
     shared->thread.join();
@@ -394,6 +406,11 @@ std::optional<PreviewResult> Preview::take() {
 
 std::optional<double> Preview::baking() const {
     const double share = shared->baked;
+    return share < 1.0 ? std::optional(share) : std::nullopt;
+}
+
+std::optional<double> Preview::simulating() const {
+    const double share = shared->simulated;
     return share < 1.0 ? std::optional(share) : std::nullopt;
 }
 

@@ -71,6 +71,8 @@ class Preview {
     bool busy() const;
     /// How much is done, from 0 to 1, of the field that is being made of a mesh; nothing if none is.
     std::optional<double> baking() const;
+    /// The same of particles' steps up to the time that is asked for.
+    std::optional<double> simulating() const;
 
   private:
     struct Shared;

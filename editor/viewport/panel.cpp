@@ -107,6 +107,9 @@ void showViewport(Editor& editor) {
         caption(place,
                 ("measuring distances to the mesh, " + std::to_string(int(100.0 * *share)) + " %").c_str(),
                 themeColor(ThemeColor::text), scale);
+    else if (const std::optional<double> steps = editor.preview.simulating())
+        caption(place, ("simulating up to here, " + std::to_string(int(100.0 * *steps)) + " %").c_str(),
+                themeColor(ThemeColor::text), scale);
     else if (view.texture && !view.shown.current)
         caption(place, "showing the last valid version", themeColor(ThemeColor::warning), scale);
     else if (!view.texture)

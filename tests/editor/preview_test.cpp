@@ -405,5 +405,35 @@ TEST(Preview, ItCanEndAtAnyTime) {
     }
 }
 
+TEST(Preview, TellsHowFarParticlesAre) {
+    const Graph graph = test::graphOf(R"({"id": "jet", "type": "emitter", "inputs": {"rate": 500}},
+        {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "jet"}, "resolution": 24}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}})");
+    std::mutex mutex;
+    std::vector<double> shares;
+    std::optional<Preview> preview;
+    preview.emplace(DeviceOptions{.validation = true}, [&] {
+        std::lock_guard lock(mutex);
+        shares.push_back(preview->simulating().value_or(1.0));
+    });
+    preview->ask({.graph = std::make_shared<const Graph>(graph),
+                  .revision = 1,
+                  .seconds = 3.0,
+                  .width = 160,
+                  .height = 120});
+    std::optional<PreviewResult> result;
+    for (int i = 0; i < 6000 && !(result && result->current); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (auto newer = preview->take()) result = std::move(newer);
+    }
+    ASSERT_TRUE(result && result->current);
+    EXPECT_TRUE(result->findings.empty());
+    EXPECT_FALSE(preview->simulating());
+    std::lock_guard lock(mutex);
+    const auto told = std::ranges::count_if(shares, [](double share) { return share < 1.0; });
+    EXPECT_GT(told, 20);
+    EXPECT_LT(shares.front(), 0.05);
+}
+
 }  // namespace
 }  // namespace fw::editor

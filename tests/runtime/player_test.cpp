@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -389,6 +390,96 @@ TEST(Player, AReloadShowsAPictureAsItIsNow) {
     paint(128);
     ASSERT_TRUE(player->reload(player->graph()));
     EXPECT_NEAR(shade(), 0.2158605f, 1e-4f);
+}
+
+/// Drops that fall on a floor from the start on.
+std::string rain(const std::string& emitter = "") {
+    return R"({"fieldwright": 1, "nodes": [
+      {"id": "cloud", "type": "emitter", "inputs": {"rate": 200, "position": [0, 1, 0], "size": [0.4, 0.1, 0.4],
+          "velocity": [0, -1, 0], "lifetime": 2)" +
+           emitter + R"(}},
+      {"id": "slab", "type": "box", "inputs": {"half_extents": [1, 0.1, 1]}},
+      {"id": "fall", "type": "particle_dynamics", "inputs": {"particles": {"from": "cloud"}, "collide": {"from": "slab"}}},
+      {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "fall"}, "radius": 0.15,
+          "region_min": [-1, -0.2, -1], "region_max": [1, 1.4, 1], "resolution": 48}},
+      {"id": "wet", "type": "union", "inputs": {"a": {"from": "field"}, "b": {"from": "slab"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "wet"}, "resolution": 48}}],
+      "parameters": [{"name": "drops", "node": "field", "input": "radius", "min": 0.1, "max": 0.3},
+                     {"name": "rate", "node": "cloud", "input": "rate", "min": 0, "max": 1000}],
+      "timeline": {"length": 3}})";
+}
+
+TEST(Player, ParticlesAreTheSameHoweverTheirTimeIsReached) {
+    Played played(rain());
+    EXPECT_TRUE(played->moves());
+    const Box region = played->region();
+    std::map<double, Mesh> seen;
+    for (const double time : {0.0, 0.5, 1.5, 0.5, 2.5, 1.5, 3.5}) {
+        played->seek(time);
+        Mesh mesh = meshOf(*played.player);
+        const Report report = reportOnMesh(mesh.positions, mesh.indices);
+        EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.flippedEdges, 0u) << time;
+        if (const auto [at, fresh] = seen.try_emplace(std::fmod(time, 3.0), mesh); !fresh) {
+            EXPECT_EQ(at->second.positions, mesh.positions) << time;
+            EXPECT_EQ(at->second.indices, mesh.indices) << time;
+        }
+        EXPECT_EQ(played->region(), region);  // the grid stays
+    }
+    EXPECT_EQ(shells(seen.at(0.0)), 1u);
+    EXPECT_GT(shells(seen.at(1.5)), 2u);
+    played->seek(1.5);
+    ASSERT_TRUE(played->frame({.width = 64, .height = 48}));
+    const uint64_t built = played->pipelinesBuilt();
+    for (int i = 0; i < 5; ++i) {
+        played->advance(0.1);
+        ASSERT_TRUE(played->frame({.width = 64, .height = 48}));
+    }
+    EXPECT_EQ(played->pipelinesBuilt(), built);
+}
+
+TEST(Player, ParametersOfParticlesAreSetWhileTheyFly) {
+    Played played(rain());
+    played->seek(1.0);
+    const auto volume = [&] {
+        const Mesh mesh = meshOf(*played.player);
+        return reportOnMesh(mesh.positions, mesh.indices).volume;
+    };
+    const double before = volume();
+    ASSERT_TRUE(played->set("drops", 0.2));
+    EXPECT_GT(volume(), 1.2 * before);
+    ASSERT_TRUE(played->set("drops", 0.15));
+    EXPECT_NEAR(volume(), before, 1e-9);
+    // Those that are there stay; no more are born.
+    ASSERT_TRUE(played->set("rate", 0));
+    EXPECT_NEAR(volume(), before, 1e-9);
+    played->seek(2.9);
+    EXPECT_GT(volume(), 0.8 + 1e-3);
+    played->seek(0.9);  // from the start, it never rains
+    EXPECT_NEAR(volume(), 0.8, 1e-3);
+}
+
+TEST(Player, ParticlesThatCannotBeAreRefusedAndLongWorkEnds) {
+    Played many(rain(R"(, "burst": 1000000, "rate": 90000000)"));
+    const Result<Mesh> none = many->mesh();
+    many->seek(1.0);
+    const Result<Mesh> mesh = many->mesh();
+    ASSERT_FALSE(mesh);
+    EXPECT_NE(format(mesh.error()).find("node 'cloud'"), std::string::npos) << format(mesh.error());
+    EXPECT_NE(format(mesh.error()).find("lower the rate"), std::string::npos) << format(mesh.error());
+
+    int steps = 0;
+    PlayerOptions options;
+    options.simulating = [&](int, int all) {
+        EXPECT_GT(all, 0);
+        return ++steps % 50 != 0;
+    };
+    Played played(rain(), options);
+    played->seek(2.0);
+    EXPECT_FALSE(played->mesh());
+    EXPECT_EQ(steps, 50);
+    EXPECT_FALSE(played->mesh());  // it goes on where it was
+    EXPECT_TRUE(played->mesh());
+    EXPECT_EQ(steps, 121);
 }
 
 }  // namespace
