@@ -1,4 +1,5 @@
-// Particles to a density, the talk's three ways, beside what the slide says of them.
+// Particles to a density, the talk's three ways, beside what the slide says of them; and the fluid that makes
+// such particles.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -93,6 +94,7 @@ void particlesTable(Bench& bench) {
     table.notes.push_back("Errors are of the densest sample. Blur is wanted at least " +
                           number(kLeastOverExact) + " times as fast as exact.");
     print(table, bench.options.markdown);
+    fluidTable(bench);
 }
 
 }  // namespace fw::bench

@@ -29,7 +29,8 @@ struct Bench {
 void mesherTable(Bench& bench);     ///< ours against the baseline, four fields
 void pruneTable(Bench& bench);      ///< a thousand shapes
 void meshFieldTable(Bench& bench);  ///< triangle meshes to fields
-void particlesTable(Bench& bench);  ///< particles to fields
+void particlesTable(Bench& bench);  ///< particles to fields, and then the next
+void fluidTable(Bench& bench);      ///< steps of a fluid
 void talkTable(Bench& bench);       ///< the slide's table
 void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
 void liveTable(Bench& bench);       ///< a live parameter changes
