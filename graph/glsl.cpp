@@ -122,7 +122,9 @@ class Emitter : GlslStatements {
                     "); }\nvec2 fieldVolumeRange" + name + "(vec2 x, vec2 y, vec2 z) { return " +
                     (color ? "vec2(-1e-5, 1.00001)"
                      : volume.particles
-                         ? "volumeBlockRange(" + gridName + ", x, y, z, " + glslLiteral(layer.rise) + ")"
+                         ? "volumeBlockRange(" + gridName + ", fieldVolume" + name +
+                               "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " +
+                               glslLiteral(layer.rise) + ")"
                          : "volumeRange(" + gridName + ", fieldVolume" + name +
                                "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " + "vec4(" +
                                glslLiteral(layer.slope) + ", " + glslLiteral(layer.shift) + ", " +

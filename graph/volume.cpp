@@ -30,6 +30,9 @@ constexpr double kSwept = 0.25;  // what distances are off that were handed on f
 // The greatest gradients. Trilinear: differences are at most 1 along each axis. Tricubic: by search, 2.62
 // where each corner of a cell has a nearest point of its own; meshes of all kinds have up to 1.7.
 constexpr double kFlatSlope = std::numbers::sqrt3, kCubicSlope = 3.0;
+// Of samples that are not distances: along an axis the derivative is at most 1.5 times the samples'
+// difference, and what their slopes add: 1, and twice 0.75 where those across differ by 2.
+constexpr double kRoughSlope = 1.5 * std::numbers::sqrt3, kRoughRest = 2.5 * std::numbers::sqrt3;
 
 glm::dvec3 unpackGradient(uint32_t word) {
     const auto part = [&](int shift) { return (int32_t(word << (22 - shift)) >> 22) / 511.0; };
@@ -242,33 +245,44 @@ Interval particleRange(const VolumeLayer& layer, const Interval* place) {
     }
     Interval range{kHuge, -kHuge};
     if (volume.made()) {
-        std::size_t first = grid.samples();  // in pairs of words
-        const std::vector<glm::ivec3> levels = blockLevels(grid);
-        int level = 0, side = kBlockSamples;
+        std::size_t first = 0;  // in pairs of words: the samples themselves, or a level of blocks
+        glm::ivec3 many = grid.size;
+        int side = 1;
         const glm::ivec3 extent = hi - lo;
         const int longest = std::max({extent.x, extent.y, extent.z});
-        while (longest > 2 * side && level + 1 < int(levels.size())) {
-            const glm::ivec3& blocks = levels[std::size_t(level++)];
-            first += std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z);
-            side *= 2;
+        for (const glm::ivec3& blocks : blockLevels(grid)) {
+            if (longest <= 2 * side) break;
+            first += std::size_t(many.x) * std::size_t(many.y) * std::size_t(many.z);
+            side = side == 1 ? kBlockSamples : 2 * side;
+            many = blocks;
         }
-        const glm::ivec3& blocks = levels[std::size_t(level)];
         for (int z = lo.z / side; z <= hi.z / side; ++z)
             for (int y = lo.y / side; y <= hi.y / side; ++y)
                 for (int x = lo.x / side; x <= hi.x / side; ++x) {
-                    const std::size_t block =
+                    const std::size_t at =
                         first +
-                        (std::size_t(z) * std::size_t(blocks.y) + std::size_t(y)) * std::size_t(blocks.x) +
+                        (std::size_t(z) * std::size_t(many.y) + std::size_t(y)) * std::size_t(many.x) +
                         std::size_t(x);
-                    range.lo = std::min(range.lo, double(std::bit_cast<float>(volume.words[2 * block])));
-                    range.hi = std::max(range.hi, double(std::bit_cast<float>(volume.words[2 * block + 1])));
+                    const uint32_t* words = &volume.words[2 * at];
+                    range.lo = std::min(range.lo, double(std::bit_cast<float>(words[0])));
+                    range.hi = std::max(range.hi, double(std::bit_cast<float>(words[side == 1 ? 0 : 1])));
                 }
     } else {
         const double reach = grid.cell * std::max({grid.size.x, grid.size.y, grid.size.z});
         range = {-reach, reach};
     }
+    const double slope = kRoughSlope * (range.hi - range.lo) / grid.cell + kRoughRest;
     range = {range.lo - layer.rise, within ? range.hi + layer.rise : kHuge};
     if (apart > 0.0) range.lo = std::max(range.lo, apart);
+    if (volume.made() && within) {
+        glm::dvec3 centre, half;
+        for (int axis = 0; axis < 3; ++axis) {
+            centre[axis] = 0.5 * (place[axis].lo + place[axis].hi);
+            half[axis] = 0.5 * (place[axis].hi - place[axis].lo);
+        }
+        const double value = sampleVolume(layer, centre).value, off = slope * (glm::length(half) + more);
+        range = {std::max(range.lo, value - off), std::min(range.hi, value + off)};
+    }
     return outward(range.lo - more, range.hi + more);
 }
 

@@ -135,33 +135,34 @@ vec2 volumeRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, vec4 spr
     return clamp(all_ + vec2(-margin, margin), vec2(range.x - margin), vec2(within ? range.y + margin : 1e30));
 }
 
-// The least and the greatest distance among the samples from `lo` to `hi`, or some more, by the blocks that follow the samples of
-// particles (graph/volume.h): the smallest of which at most three along each axis are needed.
+// The least and the greatest distance among the samples from `lo` to `hi`, or some more: by the samples themselves, or by the blocks
+// that follow those of particles (graph/volume.h), the smallest of which at most three along each axis are needed.
 vec2 volumeBlocks(VolumeGrid grid, ivec3 lo, ivec3 hi) {
-    ivec3 blocks = (grid.size + 3) / 4, extent = hi - lo;
-    int longest = max(extent.x, max(extent.y, extent.z)), shift = 2, first = 2 * grid.size.x * grid.size.y * grid.size.z;
-    while (longest > 2 << shift && any(greaterThan(blocks, ivec3(2)))) {
-        first += blocks.x * blocks.y * blocks.z;
-        blocks = (blocks + 1) / 2;
-        ++shift;
+    ivec3 many = grid.size, extent = hi - lo;
+    int longest = max(extent.x, max(extent.y, extent.z)), shift = 0, first = 0;
+    while (longest > 2 << shift && (shift == 0 || any(greaterThan(many, ivec3(2))))) {
+        first += many.x * many.y * many.z * (shift == 0 ? 2 : 1);
+        many = shift == 0 ? (many + 3) / 4 : (many + 1) / 2;
+        shift += shift == 0 ? 2 : 1;
     }
-    ivec3 least = lo >> shift, many = (hi >> shift) - least + 1, at = ivec3(0);
+    ivec3 least = lo >> shift, count = (hi >> shift) - least + 1, at = ivec3(0);
     vec2 range = vec2(1e30, -1e30);
     do {
         ivec3 block = least + at;
-        int index = first + (block.z * blocks.y + block.y) * blocks.x + block.x;
+        int index = first + ((block.z * many.y + block.y) * many.x + block.x) * (shift == 0 ? 2 : 1);
         uvec4 words = imageLoad(fieldVolumes, grid.first + index / 2);
-        vec2 own = uintBitsToFloat((index & 1) == 0 ? words.xy : words.zw);
+        vec2 own = uintBitsToFloat(shift == 0 ? words.xx : (index & 1) == 0 ? words.xy : words.zw);
         range = vec2(min(range.x, own.x), max(range.y, own.y));
         ++at.x;
-        if (at.x == many.x) at = ivec3(0, at.y + 1, at.z);
-        if (at.y == many.y) at = ivec3(0, 0, at.z + 1);
-    } while (at.z < many.z);
+        if (at.x == count.x) at = ivec3(0, at.y + 1, at.z);
+        if (at.y == count.y) at = ivec3(0, 0, at.z + 1);
+    } while (at.z < count.z);
     return range;
 }
 
-// Contains every value of the volume of particles over a box; `rise` is what values are beyond their samples.
-vec2 volumeBlockRange(VolumeGrid grid, vec2 x, vec2 y, vec2 z, float rise) {
+// Contains every value of the volume of particles over a box, whose value at the centre is given; `rise` is what values are beyond
+// their samples. As particleRange() of graph/volume.cpp.
+vec2 volumeBlockRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, float rise) {
     vec3 lo = vec3(x.x, y.x, z.x), hi = vec3(x.y, y.y, z.y);
     vec3 least = grid.origin, most = grid.origin + grid.cell * vec3(grid.size - 1);
     bool within = all(greaterThanEqual(lo, least)) && all(lessThanEqual(hi, most));
@@ -170,7 +171,10 @@ vec2 volumeBlockRange(VolumeGrid grid, vec2 x, vec2 y, vec2 z, float rise) {
     vec3 last = vec3(grid.size - 2);
     ivec3 first = ivec3(clamp((lo - margin - least) * grid.perCell, vec3(0.0), last));
     ivec3 end = ivec3(clamp((hi + margin - least) * grid.perCell, vec3(0.0), last)) + 1;
-    vec2 range = volumeBlocks(grid, first, end) + vec2(-rise - margin, rise + margin);
+    vec2 range = volumeBlocks(grid, first, end);
+    float off = sqrt(3.0) * (1.5 * (range.y - range.x) * grid.perCell + 2.5) * (0.5 * length(hi - lo) + margin);
+    range += vec2(-rise - margin, rise + margin);
+    if (within) range = vec2(max(range.x, centre - off), min(range.y, centre + off));
     float apart = length(max(max(least - hi, lo - most), 0.0)) - 3.0 * margin;
     return vec2(apart > 0.0 ? max(range.x, apart) : range.x, within ? range.y : 1e30);
 }
