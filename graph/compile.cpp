@@ -564,10 +564,8 @@ class Compiler {
             const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
             region = particleBounds(state.ir, *from.particles, values, radius);
         }
-        const auto method = std::ranges::find(kDensityMethodNames, inputOf(type, inputs, "method").text);
         const Result<FieldVolumePtr> volume =
-            particleVolume(state.ir, *from.particles, *own, region, static_cast<int>(*resolution),
-                           DensityMethod(method - kDensityMethodNames));
+            particleVolume(state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
         if (!volume) {
             report(node, prefix, node.input("region_min") ? "region_min" : "particles", volume.error());
             return failure(type.outputs);

@@ -85,8 +85,7 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
 }
 
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
-                                      const ParticleStage& toField, const Box& region, int resolution,
-                                      DensityMethod method) {
+                                      const ParticleStage& toField, const Box& region, int resolution) {
     VolumeGrid grid;
     double longest = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -104,7 +103,9 @@ Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe
     }
     auto field = std::make_shared<ParticleField>();
     field->particles = recipe;
-    field->method = method;
+    const auto method = std::ranges::find(kDensityMethodNames, toField.words.find("method")->second);
+    field->method = DensityMethod(method - kDensityMethodNames);
+    field->trueDistance = toField.words.find("distance")->second == "true";
     field->node = toField.node;
     std::vector<IrId> roots{toField.numbers.find("radius")->second[0],
                             toField.numbers.find("threshold")->second[0]};
@@ -125,7 +126,7 @@ Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe
         for (const auto& [name, program] : stage.fields) mix(program->structureHash);
         if (stage.places) mix(stage.places->hash);
     }
-    mix(uint64_t(method));
+    mix(uint64_t(field->method) * 2 + uint64_t(field->trueDistance));
     for (int axis = 0; axis < 3; ++axis) {
         mix(std::bit_cast<uint64_t>(grid.origin[axis]));
         mix(uint64_t(grid.size[axis]));

@@ -53,8 +53,9 @@ struct ParticleField {
     ParticleRecipe particles;
     IrId radius = 0, threshold = 0;
     DensityMethod method = DensityMethod::blur;
-    std::string node;   ///< of the particles_to_field
-    uint64_t hash = 0;  ///< equal for equal recipes, whatever the live values
+    bool trueDistance = false;  ///< everywhere, and not near the surface alone
+    std::string node;           ///< of the particles_to_field
+    uint64_t hash = 0;          ///< equal for equal recipes, whatever the live values
 };
 using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
 
@@ -83,8 +84,7 @@ class StageNumbers {
 /// `ir` is that of the recipe's numbers and of those of the particles_to_field. Errors, with a message only:
 /// a region without extent.
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
-                                      const ParticleStage& toField, const Box& region, int resolution,
-                                      DensityMethod method);
+                                      const ParticleStage& toField, const Box& region, int resolution);
 
 /// Where the particles can be: the box of a file's places, a fluid's tank, or what an emitter's particles
 /// reach in their lives under the gravity behind it, with nothing in their way; enlarged by `radius`.

@@ -12,6 +12,7 @@
 
 #include "runtime/clock.h"
 #include "runtime/gpu/cache_file.h"
+#include "runtime/sweep.h"
 #include "shaders/shared.h"
 
 #include "shaders/bake/bake.h"
@@ -29,13 +30,14 @@ struct Kernels {
 };
 
 Kernels createKernels(const Device& device) {
-    const ShaderOptions shaders[] = {
-        {.name = "bake/scatter.comp"}, {.name = "bake/list.comp"},
-        {.name = "bake/sign.comp"},    {.name = "bake/sweep.comp"},
-        {.name = "bake/pack.comp"},    {.name = "bake/pack.comp", .defines = {"COLORS"}}};
+    const ShaderOptions shaders[] = {{.name = "bake/scatter.comp"},
+                                     {.name = "bake/list.comp"},
+                                     {.name = "bake/sign.comp"},
+                                     {.name = "bake/pack.comp"},
+                                     {.name = "bake/pack.comp", .defines = {"COLORS"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {std::move(made[0]), std::move(made[1]), std::move(made[2]),
-            std::move(made[3]), std::move(made[4]), std::move(made[5])};
+    return {std::move(made[0]),  std::move(made[1]), std::move(made[2]),
+            createSweep(device), std::move(made[3]), std::move(made[4])};
 }
 
 glm::uvec3 groupsOf(std::size_t items) {
@@ -218,16 +220,7 @@ class Bake {
         std::vector<Descriptor> bound = {{0, corners}, {4, state}, {6, counts}, {8, words}};
         if (colored) bound.push_back({10, colors}), bound.push_back({11, colorWords});
         beginStage(commands, "sweep");
-        for (all.axis = 0; all.axis < 3; ++all.axis) {
-            const glm::ivec3& size = mesh.grid.size;
-            const auto slice = std::size_t(size[(all.axis + 1) % 3]) * std::size_t(size[(all.axis + 2) % 3]);
-            for (all.step = 1; all.step >= -1; all.step -= 2)
-                for (int i = 1; i < size[all.axis]; ++i) {
-                    all.slice = all.step > 0 ? i : size[all.axis] - 1 - i;
-                    dispatch(commands, kernels.sweep, groupsOf(slice), all, bound);
-                    barrier(commands);
-                }
-        }
+        recordSweeps(commands, kernels.sweep, state, mesh.grid.size);
         beginStage(commands, "pack");
         fill(commands, counts, 0);
         barrier(commands);

@@ -136,6 +136,9 @@ class Player {
     /// call.
     bool compiling();
 
+    /// Places for particles that fly now, of which some may be empty.
+    uint64_t particles() const { return session.particleSlots(); }
+
     const Device& device() const { return session.device(); }
     /// Warnings: what its user should know of the graph's meshes.
     const std::vector<Error>& notes() const { return now.program.notes; }

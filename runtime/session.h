@@ -72,6 +72,7 @@ class Session {
                           const std::function<bool(int done, int all)>& progress = {});
     /// Of live values that were changed otherwise than by the time: Simulation::valuesChanged().
     void valuesChanged();
+    uint64_t particleSlots() const { return particles ? particles->slots() : 0; }
 
     /// Runs the mesher into device memory, and then the program's stages. Errors: a region without bounds
     /// (the field is unbounded) or with none left (it is empty), a resolution out of range, and what

@@ -120,6 +120,10 @@ std::vector<NodeType> particleNodes() {
                            "How densities are added up. Blur is fast and some per cent off; exact asks every "
                            "particle; proxies asks "
                            "cells for the mean of theirs."),
+                    choice("distance", {"near", "true"},
+                           "Where values are distances: near the surface, which is fast; or everywhere, for "
+                           "offsets, shells and "
+                           "blends that reach far."),
                     integer("resolution", 64, kLeastParticleResolution, kMostParticleResolution,
                             "Cells along the grid's longest side. A radius is best two to six cells."),
                     corner(

@@ -72,7 +72,8 @@ Result<bool> ParticleFields::make(const Program& program, double seconds, const 
         const ParticleVolumeConfig config{.grid = program.ir.volumes()[part.volume]->grid,
                                           .radius = radius,
                                           .threshold = threshold,
-                                          .method = field.method};
+                                          .method = field.method,
+                                          .trueDistance = field.trueDistance};
         Commands commands(*device);
         if (const Done recorded =
                 recordParticleVolume(commands, *kernels, buffers, config, part.simulation.places(),

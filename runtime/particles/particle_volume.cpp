@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/sweep.h"
 #include "shaders/shared.h"
 
 #include "shaders/particles/volume.h"
@@ -17,12 +18,15 @@ uint32_t countOf(const glm::ivec3& size) { return uint32_t(size.x) * uint32_t(si
 }  // namespace
 
 ParticleVolumeKernels createParticleVolumeKernels(const Device& device) {
-    const std::array shaders = {
-        ShaderOptions{.name = "particles/level.comp"}, ShaderOptions{.name = "particles/reach.comp"},
-        ShaderOptions{.name = "particles/samples.comp"}, ShaderOptions{.name = "particles/pyramid.comp"}};
+    const std::array shaders = {ShaderOptions{.name = "particles/level.comp"},
+                                ShaderOptions{.name = "particles/reach.comp"},
+                                ShaderOptions{.name = "particles/samples.comp"},
+                                ShaderOptions{.name = "particles/pyramid.comp"},
+                                ShaderOptions{.name = "particles/seed.comp"},
+                                ShaderOptions{.name = "particles/samples.comp", .defines = {"SWEPT"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createDensityKernels(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
-            std::move(made[3])};
+    return {createDensityKernels(device), std::move(made[0]), std::move(made[1]),  std::move(made[2]),
+            std::move(made[3]),           std::move(made[4]), createSweep(device), std::move(made[5])};
 }
 
 Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, ParticleVolumeBuffers& b,
@@ -57,13 +61,27 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
     };
     beginStage(commands, "distance");
     run(kernels.level, blocks, std::array{Descriptor{0, b.density.density}, Descriptor{1, b.least}});
-    for (push.axis = 0; push.axis < 3; ++push.axis)
-        run(kernels.reach, coarse,
-            std::array{Descriptor{0, b.least}, Descriptor{1, b.reach[(push.axis + 1) % 2]},
-                       Descriptor{2, b.reach[push.axis % 2]}});
-    beginStage(commands, "samples");
-    run(kernels.samples, blocks,
-        std::array{Descriptor{0, b.density.density}, Descriptor{1, b.reach[0]}, Descriptor{2, volumes}});
+    if (config.trueDistance) {
+        const auto samples = uint32_t(grid.samples());
+        if (16.0 * samples > double(device.properties.limits.maxStorageBufferRange))
+            return Error{.message =
+                             "true distances of so many samples are more than this device can use: lower the "
+                             "resolution"};
+        reserve(device, b.nearest, 16ull * samples);
+        run(kernels.seed, samples, std::array{Descriptor{0, b.density.density}, Descriptor{1, b.nearest}});
+        beginStage(commands, "sweep");
+        recordSweeps(commands, kernels.sweep, b.nearest, grid.size);
+        beginStage(commands, "samples");
+        run(kernels.sweptSamples, blocks, std::array{Descriptor{0, b.nearest}, Descriptor{2, volumes}});
+    } else {
+        for (push.axis = 0; push.axis < 3; ++push.axis)
+            run(kernels.reach, coarse,
+                std::array{Descriptor{0, b.least}, Descriptor{1, b.reach[(push.axis + 1) % 2]},
+                           Descriptor{2, b.reach[push.axis % 2]}});
+        beginStage(commands, "samples");
+        run(kernels.samples, blocks,
+            std::array{Descriptor{0, b.density.density}, Descriptor{1, b.reach[0]}, Descriptor{2, volumes}});
+    }
     for (std::size_t level = 1; level < levels.size(); ++level) {
         push.blocks = levels[level - 1];
         push.from = push.to;

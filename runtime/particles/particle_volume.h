@@ -12,6 +12,9 @@
 // samples that has a part of the solid, found between the middles of blocks and lessened by what that may be
 // too much: steps along a ray need it, and ambient occlusion.
 //
+// True distances, for who asks for them, come from the same values: those beside the surface tell its nearest
+// points, which sweeps hand on (graph/mesh_field.h). They take several times as long.
+//
 // Samples at the grid's border are outside, half a cell at least, so that what reaches beyond the grid is
 // closed there. Of particles beyond the grid only the exact way knows.
 //
@@ -26,12 +29,13 @@ namespace fw {
 struct ParticleVolumeKernels {
     DensityKernels density;
     Pipeline level, reach, samples, pyramid;
+    Pipeline seed, sweep, sweptSamples;  ///< of true distances
 };
 ParticleVolumeKernels createParticleVolumeKernels(const Device& device);
 
 struct ParticleVolumeBuffers {
     DensityBuffers density;
-    Buffer least, reach[2];
+    Buffer least, reach[2], nearest;
 };
 
 struct ParticleVolumeConfig {
@@ -39,6 +43,7 @@ struct ParticleVolumeConfig {
     double radius = 0.1;     ///< metres
     double threshold = 0.3;  ///< above 0
     DensityMethod method = DensityMethod::blur;
+    bool trueDistance = false;
 };
 
 /// Records the samples and blocks of a volume of so many particles (four floats each), into `volumes`: the

@@ -1,11 +1,15 @@
 // Particles to a density, the talk's three ways, beside what the slide says of them; and the fluid that makes
 // such particles.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 #include <random>
 
-#include "runtime/particles/density.h"
+#include "graph/json.h"
+#include "runtime/particles/particle_volume.h"
+#include "runtime/player.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {
@@ -37,11 +41,102 @@ std::vector<glm::vec4> splash() {
     return places;
 }
 
+constexpr double kMostFrameMs = 150;
+
+/// Some 20,000 particles of a column of water that was let go, in 64 cells along the tank.
+constexpr const char* kFluid = R"({"fieldwright": 1, "nodes": [
+    {"id": "column", "type": "box", "inputs": {"half_extents": [0.5, 0.5, 0.5]}},
+    {"id": "moved", "type": "translate", "inputs": {"surface": {"from": "column"}, "offset": [-0.5, 0.5, 0]}},
+    {"id": "post", "type": "infinite_cylinder", "inputs": {"radius": 0.12}},
+    {"id": "water", "type": "sph_fluid", "inputs": {"source": {"from": "moved"}, "spacing": 0.0368, "collide": {"from": "post_moved"},
+        "tank_min": [-1, 0, -0.5], "tank_max": [1, 1.5, 0.5], "substeps": 2}},
+    {"id": "post_moved", "type": "translate", "inputs": {"surface": {"from": "post"}, "offset": [0.5, 0, 0]}},
+    {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "water"}, "radius": 0.08, "threshold": 0.7,
+        "resolution": 64}},
+    {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 64}}]})";
+
+/// What becomes of a density: samples of a volume.
+void volumeTable(Bench& bench, ParticleVolumeKernels& kernels, const Buffer& particles) {
+    Table table{
+        .title = "From " + count(kParticles) + " particles to a volume, four cells wide, by the blur (ms)",
+        .header = {"samples", "values", "all", "density", "distance", "sweep", "samples written"}};
+    for (const int size : bench.sizes({64, 128}))
+        for (const bool trueDistance : {false, true}) {
+            ParticleVolumeBuffers buffers;
+            ParticleVolumeConfig config;
+            config.threshold = 0.5;
+            config.trueDistance = trueDistance;
+            config.grid.origin = glm::dvec3(-1.0);
+            config.grid.cell = 2.0 / double(size - 1);
+            config.grid.size = glm::ivec3(size);
+            config.radius = kRadiusInCells * config.grid.cell;
+            std::size_t texels = config.grid.samples();
+            for (const glm::ivec3& level : blockLevels(config.grid))
+                texels += std::size_t(level.x) * std::size_t(level.y) * std::size_t(level.z);
+            Buffer volumes = createBuffer(bench.device(), kTexelBytes * texels);
+            const auto run = [&](bool timed) {
+                const auto start = Clock::now();
+                Commands commands(bench.device(), timed);
+                if (const Done recorded = recordParticleVolume(commands, kernels, buffers, config, particles,
+                                                               kParticles, volumes, 0);
+                    !recorded)
+                    bench.fail(recorded.error().message);
+                submit(commands);
+                return std::pair(millisecondsSince(start), commands.stages);
+            };
+            const Figure all = measure(bench.options.repeats, [&] { return run(false).first; });
+            std::map<std::string, double> stages;
+            for (const StageTime& stage : run(true).second) stages[stage.name] += stage.milliseconds;
+            table.rows.push_back({count(config.grid.samples()), trueDistance ? "true distances" : "near",
+                                  text(all), number(stages["splat"] + stages["blur"]),
+                                  number(stages["distance"]), trueDistance ? number(stages["sweep"]) : "",
+                                  number(stages["samples"])});
+        }
+    print(table, bench.options.markdown);
+}
+
+/// A step, the field, the mesh and the picture, again and again.
+void frameTable(Bench& bench) {
+    const Result<Graph> graph = parseGraph(kFluid, "fluid.field.json", nullptr);
+    if (!graph) return bench.fail(format(graph.error()));
+    Result<Device> device = createDevice({.pick = bench.options.device});
+    if (!device) return bench.fail(device.error().message);
+    Result<Player> player = Player::create(*graph, std::move(*device));
+    if (!player) return bench.fail(format(player.error()));
+    Picture picture;
+    RenderOptions options{.width = 640, .height = 360};
+    const auto frame = [&](std::vector<double>* parts) {
+        const auto start = Clock::now();
+        player->advance(1.0 / 60);
+        const Result<MesherResult> mesh = player->meshOnDevice();
+        if (!mesh) bench.fail(format(mesh.error()));
+        const double made = millisecondsSince(start);
+        const Result<bool> drawn = player->show(options, picture);
+        if (!drawn) bench.fail(format(drawn.error()));
+        const double all = millisecondsSince(start);
+        if (parts) parts->push_back(made);
+        return all;
+    };
+    for (int i = 0; i < 10; ++i) frame(nullptr);
+    std::vector<double> made;
+    const Figure all = measure(std::max(bench.options.repeats, 15), [&] { return frame(&made); });
+    std::ranges::sort(made);
+    Table table{.title = "A frame of a fluid at 640x360: step, field of 64 cells, mesh, picture (ms)",
+                .header = {"particles", "all", "until the mesh", "picture"}};
+    const double until = made[made.size() / 2];
+    table.rows.push_back(
+        {count(player->particles()), text(all), number(until), number(all.median() - until)});
+    table.notes.push_back("Wanted at most " + number(kMostFrameMs) +
+                          " ms: " + (all.median() <= kMostFrameMs ? "met." : "missed."));
+    print(table, bench.options.markdown);
+}
+
 }  // namespace
 
 void particlesTable(Bench& bench) {
     const Device& device = bench.device();
-    DensityKernels kernels = createDensityKernels(device);
+    ParticleVolumeKernels volumeKernels = createParticleVolumeKernels(device);
+    DensityKernels& kernels = volumeKernels.density;
     DensityBuffers buffers;
     const std::vector<glm::vec4> places = splash();
     Buffer particles = createBuffer(device, 16 * places.size());
@@ -94,6 +189,8 @@ void particlesTable(Bench& bench) {
     table.notes.push_back("Errors are of the densest sample. Blur is wanted at least " +
                           number(kLeastOverExact) + " times as fast as exact.");
     print(table, bench.options.markdown);
+    volumeTable(bench, volumeKernels, particles);
+    frameTable(bench);
     fluidTable(bench);
 }
 

@@ -41,16 +41,20 @@ Program programOf(int resolution) {
 }
 
 FieldVolumePtr made(const FieldVolume& unmade, const std::vector<glm::vec4>& places, double radius,
-                    double threshold, DensityMethod method = DensityMethod::exact) {
+                    double threshold, DensityMethod method = DensityMethod::exact,
+                    bool trueDistance = false) {
     Buffer particles = createBuffer(device(), 16 * std::max<std::size_t>(places.size(), 1)),
            volumes = createBuffer(device(), kTexelBytes * texelCount(unmade));
     upload(device(), particles, places);
     ParticleVolumeBuffers buffers;
     Commands commands(device());
-    const Done recorded = recordParticleVolume(
-        commands, ParticleFieldOnDevice::kernels(), buffers,
-        {.grid = unmade.grid, .radius = radius, .threshold = threshold, .method = method}, particles,
-        uint32_t(places.size()), volumes, 0);
+    const Done recorded = recordParticleVolume(commands, ParticleFieldOnDevice::kernels(), buffers,
+                                               {.grid = unmade.grid,
+                                                .radius = radius,
+                                                .threshold = threshold,
+                                                .method = method,
+                                                .trueDistance = trueDistance},
+                                               particles, uint32_t(places.size()), volumes, 0);
     if (!recorded) throw SystemError(recorded.error().message);
     submit(commands);
     return downloadVolume(device(), unmade, volumes, 0);
@@ -136,6 +140,34 @@ TEST_F(ParticleFieldOnDevice, TheSurfaceOfManyIsWhereTheDensityIsTheThreshold) {
             << i;
     std::mt19937 random(9);
     test::expectIntervalsContain(*volume, 2'000, 0.3, random);
+}
+
+TEST_F(ParticleFieldOnDevice, TrueDistancesAreThoseEverywhere) {
+    const Program program = programOf(80);
+    const FieldVolume& unmade = *program.ir.volumes()[0];
+    const double radius = 0.4, threshold = 0.3, ball = radius * std::sqrt(1.0 - std::cbrt(threshold));
+    const std::vector<glm::vec4> places = {{0.4f, 0.1f, 0.2f, 0}, {-0.45f, 0, -0.1f, 0}};  // too far to meet
+    const FieldVolumePtr volume = made(unmade, places, radius, threshold, DensityMethod::exact, true);
+    double worst = 0.0, slopes = 0.0;
+    for (std::size_t i = 0; i < unmade.grid.samples(); i += 7) {
+        const int x = int(i) % unmade.grid.size.x, rest = int(i) / unmade.grid.size.x;
+        const glm::dvec3 p = unmade.grid.place({x, rest % unmade.grid.size.y, rest / unmade.grid.size.y});
+        double exact = 1e9;
+        for (const glm::vec4& each : places)
+            exact = std::min(exact, glm::distance(p, glm::dvec3(each)) - ball);
+        worst = std::max(worst, std::abs(std::bit_cast<float>(volume->words[2 * i]) - exact));
+        if (std::abs(exact) > 0.02 && exact > 0.1 - ball)
+            slopes =
+                std::max(slopes, std::abs(glm::length(sampleVolume(volume->layers[0], p).gradient) - 1.0));
+    }
+    std::printf("true distances off by %.4f cells at most, slopes by %.4f\n", worst / unmade.grid.cell,
+                slopes);
+    EXPECT_LT(worst, 0.3 * unmade.grid.cell);
+    EXPECT_LT(slopes, 0.01);
+    std::mt19937 random(9);
+    test::expectIntervalsContain(*volume, 1'000, 0.3, random);
+    const FieldVolumePtr none = made(unmade, {}, radius, threshold, DensityMethod::exact, true);
+    EXPECT_GT(std::bit_cast<float>(none->words[0]), 1e3f);
 }
 
 TEST_F(ParticleFieldOnDevice, TheDeviceReadsItAsTheHostDoes) {
