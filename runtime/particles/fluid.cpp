@@ -50,6 +50,7 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     static const FluidLattice lattice = fluidLattice();
     gpu::FluidPush push{};
     push.support = kFluidSupport * config.spacing;
+    push.near = (config.farOnce ? kFluidNear : 1.0f) * push.support;
     push.perSupport = 1.0f / push.support;
     push.first = config.lo - 1.5f * push.support;
     push.perCell = kCellsInSupport * push.perSupport;
@@ -134,7 +135,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     for (Buffer* each :
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
         reserve(device, *each, 16ull * b.count);
-    for (Buffer* each : {&b.keys, &b.counts, &b.densities}) reserve(device, *each, 4ull * b.count);
+    for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4ull * b.count);
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
     reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
@@ -153,12 +154,17 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
                                     Descriptor{3, b.planes}, Descriptor{4, b.sortedPlaces},
                                     Descriptor{5, b.sortedGuesses}, Descriptor{6, b.sortedPlanes}});
     beginStage(commands, "neighbours");
-    run(kernels.neighbours, std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.cells.starts},
-                                       Descriptor{2, b.lists}, Descriptor{3, b.counts}});
+    run(kernels.neighbours,
+        std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.cells.starts}, Descriptor{2, b.lists},
+                   Descriptor{3, b.counts}, Descriptor{4, b.far}});
     beginStage(commands, "density");
-    const std::array weighs = {Descriptor{0, b.sortedGuesses}, Descriptor{1, b.sortedPlanes},
-                               Descriptor{2, b.lists},         Descriptor{3, b.counts},
-                               Descriptor{4, b.weighed},       Descriptor{5, b.densities}};
+    const std::array weighs = {Descriptor{0, b.sortedGuesses},
+                               Descriptor{1, b.sortedPlanes},
+                               Descriptor{2, b.lists},
+                               Descriptor{3, b.counts},
+                               Descriptor{4, b.weighed},
+                               Descriptor{5, b.densities},
+                               Descriptor{6, b.far}};
     const std::array moves = {Descriptor{0, b.weighed}, Descriptor{1, b.sortedPlanes}, Descriptor{2, b.lists},
                               Descriptor{3, b.counts}, Descriptor{4, b.sortedGuesses}};
     for (int i = 0; i < config.iterations; ++i) {

@@ -49,6 +49,7 @@ struct FluidConfig {
     float tension =
         0.0f;            ///< 1/s^2: how much neighbours hasten towards each other for each metre between them
     int iterations = 4;  ///< turns of a step
+    bool farOnce = true;  ///< whether neighbours beyond kFluidNear are felt as they were when the step began
     FieldBuffers field = {};  ///< what the obstacle reads
 };
 
@@ -57,12 +58,15 @@ struct FluidParticles {
     Buffer places, velocities;  ///< four floats each, in the order of cells after a step
     Buffer densities;           ///< one each, as they were before the last turn of the step
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
-    Buffer keys, order, lists, counts;
+    Buffer keys, order, lists, counts, far;
     CountingSortBuffers cells;
 };
 
 /// The support of the kernel, in spacings: some 33 neighbours.
 inline constexpr float kFluidSupport = 2.0f;
+/// Share of the support within which neighbours are listed: half of them, which make all but a thirtieth of
+/// the density. With 0.75 the fluid is no longer stable.
+inline constexpr float kFluidNear = 0.8f;
 /// Share of each turn's correction that is made. All particles move at once, so that neighbours together
 /// make more of a correction than each asked for: by 2.58 in a full lattice, for the wave that fares worst.
 /// Turns diverge above 2 / 2.58.

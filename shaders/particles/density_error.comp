@@ -9,6 +9,7 @@ layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
 layout(binding = 4, rgba32ui) restrict writeonly uniform uimageBuffer weighed;  // floats: the guess, about, and lambda
 layout(binding = 5, scalar) writeonly buffer Densities { float densities[]; };
+layout(binding = 6, scalar) readonly buffer Far { float far[]; };  // density of those that are not listed
 
 void main() {
     uint index = item();
@@ -16,7 +17,7 @@ void main() {
     vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz);
     vec4 walls = wallsAt(p, uintBitsToFloat(imageLoad(planes, int(index))));
     uint texels = (counts[index] + 3) / 4, t = 0;
-    float density = weightAt(1.0) + walls.w, squares = 0.0;
+    float density = weightAt(1.0) + walls.w + far[index], squares = 0.0;
     vec3 gradient = walls.xyz;
     int texel = firstTexel(index);
     do {  // as long as any lane: one that is done goes on with itself, which adds nothing

@@ -17,6 +17,7 @@ struct FluidPush {
     vec3 gravity;
     float step;        // s
     float support;     // of the kernel, metres
+    float near;        // nearer neighbours are listed, metres
     float perSupport;  // 1/metre
     float weight;      // the kernel times a particle's volume is this at distance 0,
     float slope;       // and its gradient near 0 this times the offset, 1/m^2

@@ -1,5 +1,5 @@
-// Lists the neighbours of each particle: those nearer than the support, in the nine rows of cells around it. What the ball of the
-// kernel can reach of a row lies in one piece.
+// Lists the near neighbours of each particle, and adds up the density of those that are farther, but not beyond the support, in the
+// nine rows of cells around it. What the ball of the kernel can reach of a row lies in one piece.
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
@@ -7,6 +7,7 @@ layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer guesses;
 layout(binding = 1, scalar) readonly buffer Starts { uint starts[]; };
 layout(binding = 2, rgba32ui) restrict writeonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) writeonly buffer Counts { uint counts[]; };
+layout(binding = 4, scalar) writeonly buffer Far { float far[]; };
 
 // To store a neighbour takes software devices as long as to find it, so they are stored four at a time: up to seven wait, the
 // newest first.
@@ -25,7 +26,7 @@ void main() {
     if (index >= push.particles) return;
     vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz);
     ivec2 own = cellOf(p).yz;
-    float most = push.support * push.support;
+    float most = push.support * push.support, nearest = push.near * push.near, farther = 0.0;
     newest = uvec4(index), older = uvec3(index);
     uint found = 0, waiting = 0;
     int row = 0, texel = firstTexel(index);
@@ -40,7 +41,9 @@ void main() {
         do {
             for (int k = 0; k < 4; ++k, ++i) {
                 vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(i)).xyz);
-                bool near = i < end && i != index && dot(off, off) < most && found < FLUID_MOST_NEIGHBOURS;
+                float apart = dot(off, off);
+                bool other = i < end && i != index, near = other && apart < nearest && found < FLUID_MOST_NEIGHBOURS;
+                farther += other && apart >= nearest ? weightAt(left(off)) : 0.0;
                 older = near ? uvec3(newest.w, older.xy) : older;
                 newest = near ? uvec4(i, newest.xyz) : newest;
                 found += near ? 1 : 0;
@@ -56,5 +59,6 @@ void main() {
     } while (++row < 9);
     uvec3 rest = mix(uvec3(index), newest.xyz, greaterThan(uvec3(waiting), uvec3(0, 1, 2)));
     if (waiting > 0 || found == 0) imageStore(lists, texel, uvec4(rest, index));
+    far[index] = farther;
     counts[index] = found;
 }

@@ -27,7 +27,7 @@ FluidBaseline::FluidBaseline(const FluidConfig& given, std::vector<glm::vec3> at
     for (auto* each : {&keys, &order, &counts}) each->resize(count);
     for (auto* each : {&guesses, &shifted, &sortedPlaces, &sortedVelocities, &sortedGuesses})
         each->resize(count);
-    lambdas.resize(count);
+    lambdas.resize(count), far.resize(count);
     lists.resize(kMostNeighbours * count);
 }
 
@@ -78,21 +78,28 @@ void FluidBaseline::sort(float seconds) {
 
 void FluidBaseline::list(std::size_t from, std::size_t to) {
     const glm::vec3 first = config.lo - 1.01f * support;
+    const float near = (config.farOnce ? kFluidNear : 1.0f) * support;
     for (std::size_t i = from; i < to; ++i) {
         const glm::vec3 p = guesses[i];
         const glm::ivec3 own((p - first) / support);
         uint32_t* const list = &lists[kMostNeighbours * i];
         uint32_t found = 0;
+        float farther = 0.0f;
         for (int z = own.z - 1; z <= own.z + 1; ++z)
             for (int y = own.y - 1; y <= own.y + 1; ++y) {
                 const std::size_t row = std::size_t((z * cells.y + y) * cells.x + own.x);
                 for (uint32_t j = starts[row - 1]; j < starts[row + 2]; ++j) {
                     const glm::vec3 off = p - guesses[j];
-                    if (glm::dot(off, off) < support * support && j != i && found < kMostNeighbours)
+                    const float apart = glm::dot(off, off);
+                    if (apart >= support * support || j == i) continue;
+                    if (apart >= near * near) {
+                        farther += weightAt(left(off));
+                    } else if (found < kMostNeighbours) {
                         list[found++] = j;
+                    }
                 }
             }
-        counts[i] = found;
+        counts[i] = found, far[i] = farther;
     }
 }
 
@@ -100,7 +107,7 @@ void FluidBaseline::weigh(std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
         const glm::vec3 p = guesses[i];
         glm::vec3 gradient(0.0f);
-        float density = weight + wallsAt(p, gradient), squares = 0.0f;
+        float density = weight + far[i] + wallsAt(p, gradient), squares = 0.0f;
         for (uint32_t k = 0; k < counts[i]; ++k) {
             const glm::vec3 off = p - guesses[lists[kMostNeighbours * i + k]];
             const float u = left(off);

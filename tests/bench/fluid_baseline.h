@@ -45,7 +45,7 @@ class FluidBaseline {
     glm::ivec3 cells;
     std::vector<uint32_t> keys, starts, order, lists, counts;
     std::vector<glm::vec3> guesses, shifted, sortedPlaces, sortedVelocities, sortedGuesses;
-    std::vector<float> lambdas;
+    std::vector<float> lambdas, far;
 };
 
 }  // namespace fw::bench
