@@ -3,9 +3,8 @@
 // After Macklin and Müller, "Position Based Fluids" (ACM TOG 32(4), 2013): each step first moves every
 // particle as if it were alone; then, some times over, moves all of them so that no density is above that at
 // rest; the velocity is what led from the old place to the new one. Chosen over solvers of forces (the
-// talk's, WCSPH) since it is stable at steps of a sixtieth of a second, where those need some forty: a step
-// is never longer than what it moves. The price: it gives no pressures, and what it moves wrongly in one turn
-// is lost as energy.
+// talk's, WCSPH) since it is stable at steps of a sixtieth of a second, where those need some forty. The
+// price: it gives no pressures, and what a turn moves wrongly is lost as energy.
 //
 // Deviations from the paper: one kernel, Wendland's C2, for density and gradient, so that pairs do not clump
 // and no artificial pressure is needed; walls count as full of fluid, by the integral of the kernel beyond
@@ -16,6 +15,12 @@
 // so that momentum is kept to rounding; sums run in the order of a stable sort, so that the same particles
 // give the same bytes on every run. A particle feels 64 others at most: momentum is not kept where there are
 // more, twice as dense as at rest.
+//
+// Far neighbours are felt once a step, as they were when it began (FluidConfig::farOnce). Swoboda ("Advanced
+// Procedural Rendering in DirectX 11", GDC 2012) takes them for the mean of their cell, which pays where
+// cells hold many: of 28 neighbours that this kernel has, it leaves 27 with cells half as wide as the
+// support, and with cells as wide the density is off by 0.23. To feel 21 in each turn and 7 once puts it off
+// by 0.0001.
 //
 // What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
 // half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
@@ -46,9 +51,8 @@ struct FluidConfig {
     glm::vec3 lo{-1.0f}, hi{1.0f};  ///< the tank
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
-    float tension =
-        0.0f;            ///< 1/s^2: how much neighbours hasten towards each other for each metre between them
-    int iterations = 4;  ///< turns of a step
+    float tension = 0.0f;    ///< 1/s^2: what draws neighbours together, for each metre between them
+    int iterations = 4;      ///< turns of a step
     bool farOnce = true;  ///< whether neighbours beyond kFluidNear are felt as they were when the step began
     FieldBuffers field = {};  ///< what the obstacle reads
 };
@@ -64,9 +68,9 @@ struct FluidParticles {
 
 /// The support of the kernel, in spacings: some 33 neighbours.
 inline constexpr float kFluidSupport = 2.0f;
-/// Share of the support within which neighbours are listed: half of them, which make all but a thirtieth of
-/// the density. With 0.75 the fluid is no longer stable.
-inline constexpr float kFluidNear = 0.8f;
+/// Share of the support within which neighbours are listed: three of four. With 0.8 a column 80 particles
+/// high gains energy without end.
+inline constexpr float kFluidNear = 0.9f;
 /// Share of each turn's correction that is made. All particles move at once, so that neighbours together
 /// make more of a correction than each asked for: by 2.58 in a full lattice, for the wave that fares worst.
 /// Turns diverge above 2 / 2.58.
