@@ -87,6 +87,8 @@ FluidLattice fluidLattice();
 /// Particles at even spacing in a box, at rest.
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing);
 
+/// Sets all there is of the state: what was read from `places` and `velocities` goes on to the same bytes. No
+/// velocities: all at rest. The device must not be using it.
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities);
 

@@ -203,6 +203,17 @@ TEST_F(Fluid, TheSameBytesEachTime) {
     }
 }
 
+TEST_F(Fluid, GoesOnFromWhatWasRead) {
+    const FluidConfig config{.spacing = 0.06f};
+    FluidParticles fluid, again;
+    setFluid(device(), fluid, randomPlaces(3000, 0.6f, 8), {});
+    run(fluid, config, 10, 1.0f / 120);
+    setFluid(device(), again, read(fluid.places, fluid.count), read(fluid.velocities, fluid.count));
+    for (FluidParticles* each : {&fluid, &again}) run(*each, config, 10, 1.0f / 120);
+    EXPECT_EQ(read(fluid.places, fluid.count), read(again.places, again.count));
+    EXPECT_EQ(read(fluid.velocities, fluid.count), read(again.velocities, again.count));
+}
+
 /// Kinetic and potential, of a kilogramme, above the tank's floor.
 double energyOf(const FluidParticles& fluid, const FluidConfig& config) {
     const std::vector<glm::vec3> places = read(fluid.places, fluid.count),
