@@ -91,9 +91,10 @@ std::vector<NodeType> particleNodes() {
               amount("tension", 0, "1/s²", "How much neighbours draw together: drops get round."), collide,
               place("tank_min", {-1, 0, -1}, "Lowest corner of the tank, which the fluid cannot leave."),
               place("tank_max", {1, 2, 1}, "Highest corner of the tank."),
-              choice("neighbours", {"exact", "averaged"},
-                     "Who pushes a particle: each of its neighbours, or of those that are far away the mean "
-                     "of each cell."),
+              choice("neighbours", {"fast", "exact"},
+                     "How a particle feels its far neighbours: fast, as they were when the step began; or "
+                     "exact, in every "
+                     "turn of the step."),
               integer("substeps", 0, 0, 64,
                       "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank asks "
                       "for.")},

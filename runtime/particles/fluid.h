@@ -18,9 +18,9 @@
 //
 // Far neighbours are felt once a step, as they were when it began (FluidConfig::farOnce). Swoboda ("Advanced
 // Procedural Rendering in DirectX 11", GDC 2012) takes them for the mean of their cell, which pays where
-// cells hold many: of 28 neighbours that this kernel has, it leaves 27 with cells half as wide as the
-// support, and with cells as wide the density is off by 0.23. To feel 21 in each turn and 7 once puts it off
-// by 0.0001.
+// cells hold many. With some 33 neighbours they do not: with cells of half the support nearly as many means
+// are left, and with cells as wide as the support the density is far off. fluid_test.cpp has the figures of
+// both.
 //
 // What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
 // half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
@@ -68,12 +68,12 @@ struct FluidParticles {
 
 /// The support of the kernel, in spacings: some 33 neighbours.
 inline constexpr float kFluidSupport = 2.0f;
-/// Share of the support within which neighbours are listed: three of four. With 0.8 a column 80 particles
-/// high gains energy without end.
+/// Share of the support within which neighbours are listed: three of four. With less, deep columns gain
+/// energy.
 inline constexpr float kFluidNear = 0.9f;
 /// Share of each turn's correction that is made. All particles move at once, so that neighbours together
-/// make more of a correction than each asked for: by 2.58 in a full lattice, for the wave that fares worst.
-/// Turns diverge above 2 / 2.58.
+/// make more of a correction than each asked for, more than twice as much in a full lattice: then turns with
+/// a whole share diverge.
 inline constexpr float kFluidRelaxation = 0.6f;
 
 /// What the solver knows of particles at rest: a cubic lattice of spacing 1.

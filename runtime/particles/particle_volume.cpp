@@ -72,7 +72,8 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
         beginStage(commands, "sweep");
         recordSweeps(commands, kernels.sweep, b.nearest, grid.size);
         beginStage(commands, "samples");
-        run(kernels.sweptSamples, blocks, std::array{Descriptor{0, b.nearest}, Descriptor{2, volumes}});
+        run(kernels.sweptSamples, blocks,
+            std::array{Descriptor{0, b.nearest}, Descriptor{1, b.density.density}, Descriptor{2, volumes}});
     } else {
         for (push.axis = 0; push.axis < 3; ++push.axis)
             run(kernels.reach, coarse,

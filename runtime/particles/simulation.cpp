@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
@@ -19,6 +20,7 @@ namespace fw {
 namespace {
 
 constexpr std::size_t kMostCheckpointBytes = 256u << 20;
+constexpr int kCalmSteps = 30;  // of a fluid, before the start
 
 using Kind = ParticleStage::Kind;
 
@@ -200,28 +202,49 @@ Done Simulation::fill(const std::vector<double>& values) {
         placesIn(*source().fields.find("source")->second, numbers, values);
     if (!places) return Error{.message = places.error().message, .node = source().node};
     state.slots = uint32_t(places->size());
-    setFluid(*device, fluid->particles, *places,
-             std::vector(places->size(), glm::vec3(numbers.vector("velocity"))));
+    setFluid(*device, fluid->particles, *places, {});
+    // Beside walls a lattice is a little too dense, and would leap: it is given time to settle, without
+    // weight.
+    FluidConfig config = configOf(values);
+    config.gravity = glm::vec3(0.0f);
+    Commands commands(*device);
+    for (int turn = 0; turn < kCalmSteps; ++turn) {
+        if (const Done recorded = recordFluidStep(commands, fluid->kernels, fluid->particles, config,
+                                                  float(kSimulationStep / 4));
+            !recorded)
+            return Error{.message = recorded.error().message, .node = source().node};
+        fw::fill(commands, fluid->particles.velocities, 0);
+        barrier(commands);
+    }
+    submit(commands);
+    upload(*device, fluid->particles.velocities,
+           std::vector(places->size(), glm::vec4(glm::vec3(numbers.vector("velocity")), 0.0f)));
     return done();
 }
 
-Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
+FluidConfig Simulation::configOf(const std::vector<double>& values) const {
     const StageNumbers numbers(field->ir, source(), values);
     FluidConfig config{.spacing = float(numbers.scalar("spacing")),
                        .lo = numbers.vector("tank_min"),
                        .hi = numbers.vector("tank_max"),
                        .gravity = numbers.vector("gravity"),
                        .viscosity = float(std::max(numbers.scalar("viscosity"), 0.0)),
-                       .tension = float(std::max(numbers.scalar("tension"), 0.0))};
+                       .tension = float(std::max(numbers.scalar("tension"), 0.0)),
+                       .farOnce = source().words.find("neighbours")->second == "fast"};
     if (fluid->obstacle) {
         setParameters(*device, *fluid->obstacle, values);
         config.field = fluid->obstacle->buffers();
     }
-    int parts = int(numbers.scalar("substeps"));
+    return config;
+}
+
+Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
+    const FluidConfig config = configOf(values);
+    int parts = int(StageNumbers(field->ir, source(), values).scalar("substeps"));
     if (parts <= 0) {
         // At the end of a fall through the tank, half a spacing each.
-        const double speed = std::sqrt(2.0 * glm::length(numbers.vector("gravity")) *
-                                       glm::length(glm::dvec3(config.hi - config.lo)));
+        const double speed =
+            std::sqrt(2.0 * glm::dot(glm::abs(config.gravity), glm::abs(config.hi - config.lo)));
         parts = std::clamp(int(std::ceil(speed * kSimulationStep / (0.5 * config.spacing))), 1, 8);
     }
     for (int part = 0; part < parts; ++part)

@@ -77,6 +77,7 @@ class Simulation {
     bool rests() const;
     Done start(const std::vector<double>& values);
     Done fill(const std::vector<double>& values);
+    FluidConfig configOf(const std::vector<double>& values) const;
     Done flow(Commands& commands, const std::vector<double>& values);
     Done step(const std::vector<double>& values);
     void move(Commands& commands, const std::vector<double>& values);

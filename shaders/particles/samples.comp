@@ -4,8 +4,8 @@
 
 layout(local_size_x = VOLUME_GROUP) in;
 #ifdef SWEPT
-#include "bake/bake.h"
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer state;  // nearest points, of bake/sweep.comp
+layout(binding = 1, scalar) readonly buffer Field { float field[]; };        // whose sign it is; rows padded to texels
 #else
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer field;  // floats
 layout(binding = 1, scalar) readonly buffer Reach { float squares[]; };     // of blocks of 8 x 8 x 8 samples
@@ -62,9 +62,10 @@ void main() {
             bool stored = there && k < many.x;
 #ifdef SWEPT
             ivec3 place = ivec3(4 * at.x + k, at.yz);
-            uvec4 nearest = imageLoad(state, indexIn(push.size, min(place, push.size - 1)));
-            vec3 off = vec3(place) - uintBitsToFloat(nearest.xyz);
-            float away = min(length(off), kNowhere), side = (nearest.w & BAKE_INSIDE) != 0 ? -1.0 : 1.0;
+            ivec3 known = min(place, push.size - 1);
+            vec3 off = vec3(place) - uintBitsToFloat(imageLoad(state, indexIn(push.size, known)).xyz);
+            float away = min(length(off), kNowhere);
+            float side = field[(known.z * push.size.y + known.y) * 4 * texels().x + known.x] < 0.0 ? -1.0 : 1.0;
             float value = side * away;
             vec3 gradient = away < kNowhere ? side * off / max(away, 1e-6) : vec3(0.0);
 #else

@@ -26,6 +26,5 @@ void main() {
     }
     float slope = max(length(gradient), 1e-3);
     vec3 point = vec3(place) - clamp(here / slope, -1.5, 1.5) * gradient / slope;
-    uint side = here < 0.0 ? BAKE_INSIDE : 0;
-    imageStore(state, int(index), uvec4(floatBitsToUint(beside ? point : vec3(BAKE_UNREACHED)), side));
+    imageStore(state, int(index), uvec4(floatBitsToUint(beside ? point : vec3(BAKE_UNREACHED)), 0));
 }

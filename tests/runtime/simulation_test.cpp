@@ -228,5 +228,82 @@ TEST(Simulation, TooManyAreRefusedAndNoneIsFine) {
     EXPECT_EQ(told, 5);
 }
 
+/// A column of water beside a ball, in a tank of 2 by 1 by 1 m.
+LiveProgram water(const std::string& inputs = "", const std::string& source = "column") {
+    const std::string text = R"({"fieldwright": 1, "nodes": [
+        {"id": "cube", "type": "box", "inputs": {"half_extents": [0.4, 0.4, 0.5]}},
+        {"id": "column", "type": "translate", "inputs": {"surface": {"from": "cube"}, "offset": [-0.6, 0.4, 0]}},
+        {"id": "ball", "type": "sphere", "inputs": {"radius": 0.3}},
+        {"id": "fluid", "type": "sph_fluid", "inputs": {"source": {"from": ")" +
+                             source + R"("}, "collide": {"from": "ball"}, "spacing": 0.08,
+            "tank_min": [-1, 0, -0.5], "tank_max": [1, 1.5, 0.5])" +
+                             inputs + R"(}},
+        {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "fluid"}, "radius": 0.16}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}]})";
+    Result<Graph> graph = parseGraph(text, "test.field.json", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<LiveProgram> live = compileLive(std::move(*graph), {});
+    if (!live) throw SystemError(format(live.error()));
+    return std::move(*live);
+}
+
+TEST(Simulation, WaterFlowsAroundWhatIsInItsWay) {
+    Played player(water());
+    player.goTo(0.0);
+    const std::size_t count = player.alive().size();
+    EXPECT_EQ(count, 10u * 10u * 12u);  // as many as fit between the walls
+    for (const double time : {0.25, 0.5, 1.0, 2.0}) {
+        player.goTo(time);
+        const std::vector<glm::vec4> alive = player.alive();
+        EXPECT_EQ(alive.size(), count);
+        for (const glm::vec4& p : alive) {
+            ASSERT_TRUE(std::abs(p.x) <= 1.0f && p.y >= 0.0f && p.y <= 1.5f && std::abs(p.z) <= 0.5f);
+            ASSERT_GT(glm::length(glm::vec3(p)), 0.3f - 1e-4f);
+        }
+    }
+    const std::vector<glm::vec4> last = player.places();
+    EXPECT_GT(std::ranges::count_if(last, [](const glm::vec4& p) { return p.x > 0.5f; }), 100);
+    // And the same again, whichever way it is reached.
+    player.goTo(0.5);
+    player.goTo(2.0);
+    expectSame(player.places(), last);
+    Played other(water());
+    other.goTo(2.0);
+    expectSame(other.places(), last);
+}
+
+TEST(Simulation, WaterThatCannotBeIsRefused) {
+    const auto says = [](const std::string& inputs, const std::string& source, const std::string& what) {
+        std::string message;
+        try {
+            Played player(water(inputs, source));
+            const Result<bool> gone =
+                player.simulation.goTo(0.0, [&](double at) { return player.live.valuesAt(at); });
+            message = gone ? "went" : format(gone.error());
+        } catch (const SystemError& error) { message = error.what(); }
+        EXPECT_NE(message.find(what), std::string::npos) << message;
+    };
+    says(R"(, "tank_max": [1, -1, 0.5])", "column", "stands twice");
+    says(R"(, "substeps": 2)", "column", "went");
+    says("", "cube", "went");
+    says(R"(, "gravity": [0, 0, 0], "velocity": [1, 0, 0])", "column", "went");
+    Graph far = water().graph;
+    for (Node& node : far.nodes)
+        if (node.id == "column") node.set("offset", {std::vector<double>{9, 0, 0}});
+    Result<LiveProgram> live = compileLive(far, {});
+    ASSERT_TRUE(live);
+    Played away(std::move(*live));
+    const Result<bool> gone = away.simulation.goTo(0.0, [&](double at) { return away.live.valuesAt(at); });
+    ASSERT_FALSE(gone);
+    EXPECT_NE(format(gone.error()).find("node 'fluid': no place of the source is in the tank"),
+              std::string::npos)
+        << format(gone.error());
+    for (Node& node : far.nodes)
+        if (node.id == "fluid") node.set("tank_max", {std::vector<double>{1, -1, 1}});
+    live = compileLive(far, {});
+    ASSERT_FALSE(live);
+    EXPECT_NE(format(live.error()).find("above tank_min along y"), std::string::npos) << format(live.error());
+}
+
 }  // namespace
 }  // namespace fw
