@@ -26,6 +26,9 @@ struct Lowered {
 };
 using LoweredNodes = std::unordered_map<std::string, Lowered>;
 
+/// A particle should be some cells wide.
+constexpr double kMostCellOfRadius = 0.6;
+
 bool isSurface(const OutputSpec& output) { return output.type == Type::surface; }
 
 /// A mesh is known by the surface that it is made from.
@@ -561,8 +564,8 @@ class Compiler {
                 region.lo[std::size_t(i)] = *lo, region.hi[std::size_t(i)] = *hi;
             }
         } else {
-            const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
-            region = particleBounds(state.ir, *from.particles, values, radius);
+            region = particleBounds(state.ir, *from.particles, values,
+                                    StageNumbers(state.ir, *own, values).scalar("radius"));
         }
         const Result<FieldVolumePtr> volume =
             particleVolume(state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
@@ -570,6 +573,16 @@ class Compiler {
             report(node, prefix, node.input("region_min") ? "region_min" : "particles", volume.error());
             return failure(type.outputs);
         }
+        const double cell = (*volume)->grid.cell,
+                     radius = StageNumbers(state.ir, *own, values).scalar("radius");
+        if (cell > kMostCellOfRadius * radius)
+            notes.push_back(located(
+                node, prefix, "resolution",
+                {.message = "cells of " + shortNumber(cell) + " m are wide for particles that reach " +
+                            shortNumber(radius) + " m: raise the resolution to " +
+                            shortNumber(std::ceil(*resolution * cell / (kMostCellOfRadius * radius))) +
+                            ", or give the grid a smaller region",
+                 .severity = Error::Severity::warning}));
         return sampled(node, prefix, type, inputs, *volume, tricubicChannel);
     }
 

@@ -45,6 +45,9 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
     const Region found = findRegion(program.ir, program.distance(), program.parameters());
     switch (found.extent) {
         case Extent::empty:
+            if (std::ranges::any_of(program.ir.volumes(), [](const auto& v) { return bool(v->particles); }))
+                return problem(
+                    "the solid is empty: there may be no particles yet; look at a later time (--time)");
             return problem(
                 "the solid is empty: no point within 16 km of the origin has a negative distance (give a "
                 "region if it lies farther out)");

@@ -39,7 +39,7 @@ std::vector<NodeType> particleNodes() {
                     lengths("size", {0.1, 0.1, 0.1}, "Half the shape's extents along x, y and z."),
                     amount("rate", 1000, "1/s", "Particles a second."),
                     integer("burst", 0, 0, 1'000'000, "Particles that are there at the start."),
-                    measured(positiveLength("lifetime", 4, "How long a particle lives."), "s"),
+                    measured(positiveLength("lifetime", 2, "How long a particle lives."), "s"),
                     measured(vector("velocity", {0, 2, 0}, "How particles set off."), "m/s"),
                     amount("spread", 0.5, "m/s", "How much the velocity varies, at most, in any direction."),
                     seed},
@@ -107,7 +107,7 @@ std::vector<NodeType> particleNodes() {
                 "the density, the "
                 "sum of (1 - r²/R²)³ over all particles, exceeds a threshold.",
          .inputs = {positionInput(), particles,
-                    positiveLength("radius", 0.1, "R: how far a particle's density reaches."),
+                    positiveLength("radius", 0.15, "R: how far a particle's density reaches."),
                     [] {
                         InputSpec threshold = scalar(
                             "threshold", 0.3,
@@ -125,7 +125,7 @@ std::vector<NodeType> particleNodes() {
                            "Where values are distances: near the surface, which is fast; or everywhere, for "
                            "offsets, shells and "
                            "blends that reach far."),
-                    integer("resolution", 64, kLeastParticleResolution, kMostParticleResolution,
+                    integer("resolution", 96, kLeastParticleResolution, kMostParticleResolution,
                             "Cells along the grid's longest side. A radius is best two to six cells."),
                     corner(
                         "region_min",

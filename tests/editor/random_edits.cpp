@@ -139,7 +139,7 @@ std::vector<std::string> structuralErrors(const Graph& graph) {
         const std::string& what = finding.message;
         const bool missing = what.find("no node of type 'output'") != std::string::npos ||
                              what.find("no node of type 'group_output'") != std::string::npos ||
-                             what.find("link a node that gives a mesh") != std::string::npos;
+                             what.find("link a node that gives ") != std::string::npos;
         if (!missing) errors.push_back(format(finding));
     }
     return errors;
