@@ -200,10 +200,13 @@ class Grouping {
         const uint32_t at = *wiring.find(target.node);
         const InputValue* given = wiring.scope().nodes[at].input(target.name);
         if (given && std::holds_alternative<Link>(given->value)) {
-            // What a wire feeds has no effect, and goes on having none.
+            // What a wire feeds has no effect, and goes on having none. A surface is nothing that can be set,
+            // though it stands for a number where it is wired.
             const Link* link = std::get_if<Link>(&node->input(target.name)->value);
-            return link && link->node == in.id ? std::optional(Plug{instance.id, link->output})
-                                               : std::nullopt;
+            if (!link || link->node != in.id) return {};
+            const auto input = std::ranges::find(group.inputs, link->output, &GroupInput::name);
+            if (input == group.inputs.end() || input->type == typeName(Type::surface)) return {};
+            return Plug{instance.id, link->output};
         }
         if (!hasKnownSockets(wiring.scope(), at)) return {};
         const std::optional<Socket> socket = settableSocket(wiring.scope(), at, target.name);
