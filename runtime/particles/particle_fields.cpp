@@ -62,7 +62,10 @@ Result<bool> ParticleFields::make(const Program& program, double seconds, const 
     for (Part& part : parts) {
         const ParticleField& field = *part.simulation.recipe();
         const Result<bool> moved = part.simulation.goTo(seconds, values, progress);
-        if (!moved) return atNode(moved.error(), field);
+        if (!moved) {
+            part.radius = 0.0;  // some steps may have been taken, of which there are no samples
+            return atNode(moved.error(), field);
+        }
         const double radius = evaluate(field.ir, field.radius, now, {}),
                      threshold = evaluate(field.ir, field.threshold, now, {});
         if (!*moved && radius == part.radius && threshold == part.threshold) continue;

@@ -145,18 +145,17 @@ vec2 volumeBlocks(VolumeGrid grid, ivec3 lo, ivec3 hi) {
         many = shift == 0 ? (many + 3) / 4 : (many + 1) / 2;
         shift += shift == 0 ? 2 : 1;
     }
-    ivec3 least = lo >> shift, count = (hi >> shift) - least + 1, at = ivec3(0);
+    ivec3 least = lo >> shift, count = clamp((hi >> shift) - least + 1, 1, 4);
     vec2 range = vec2(1e30, -1e30);
-    do {
-        ivec3 block = least + at;
+    int all_ = count.x * count.y * count.z;
+    for (int i = 0; i < 64; ++i) {
+        if (i >= all_) break;
+        ivec3 block = min(least + ivec3(i % count.x, i / count.x % count.y, i / (count.x * count.y)), many - 1);
         int index = first + ((block.z * many.y + block.y) * many.x + block.x) * (shift == 0 ? 2 : 1);
         uvec4 words = imageLoad(fieldVolumes, grid.first + index / 2);
         vec2 own = uintBitsToFloat(shift == 0 ? words.xx : (index & 1) == 0 ? words.xy : words.zw);
         range = vec2(min(range.x, own.x), max(range.y, own.y));
-        ++at.x;
-        if (at.x == count.x) at = ivec3(0, at.y + 1, at.z);
-        if (at.y == count.y) at = ivec3(0, 0, at.z + 1);
-    } while (at.z < count.z);
+    }
     return range;
 }
 

@@ -21,6 +21,7 @@
 #include "graph/glsl.h"
 #include "tests/support/expression_graph.h"
 #include "tests/support/gpu.h"
+#include "tests/support/plot.h"
 
 namespace fw {
 namespace {
@@ -232,6 +233,7 @@ TEST_F(Fluid, WaterComesToRestInATank) {
                              .lo = glm::vec3(-0.5f, 0.0f, -0.3f),
                              .hi = glm::vec3(0.5f, 1.5f, 0.3f),
                              .viscosity = 12.0f};
+    std::vector<test::Curve> curves;
     for (const bool collapses : {false, true}) {
         setFluid(device(), fluid,
                  fluidBlock({-0.5f, 0.0f, -0.3f},
@@ -242,10 +244,15 @@ TEST_F(Fluid, WaterComesToRestInATank) {
         // settles.
         const double first = energyOf(fluid, config);
         double sprung = 0.0, least = 2.0 * first, growth = 0.0;
+        test::Curve& curve =
+            curves.emplace_back(test::Curve{.name = collapses ? "a column that collapses" : "a layer at rest",
+                                            .color = collapses ? "#d55e00" : "#1771a0",
+                                            .points = {{0.0, first / (0.5 * 9.81 * height)}}});
         for (int i = 1; i <= 120; ++i) {
             run(fluid, config, 10, 1.0f / 120);
             const double now = energyOf(fluid, config);
             sprung = std::max(sprung, now / first - 1.0);
+            if (i <= 60) curve.points.emplace_back(i / 12.0, now / (0.5 * 9.81 * height));
             if (i < 6) continue;
             growth = std::max(growth, now / least - 1.0);
             least = std::min(now, least);
@@ -282,6 +289,7 @@ TEST_F(Fluid, WaterComesToRestInATank) {
         EXPECT_LT(growth, 0.01);
         EXPECT_LT(sprung, 0.04);  // more than the 1 % that energy should grow by at most
     }
+    test::plot("fluid_tank", "seconds", "energy over that of a layer at rest", curves);
 }
 
 struct Front {
@@ -336,6 +344,11 @@ TEST_F(Fluid, ADamBreaksAsInTheExperiment) {
         EXPECT_LT(ratio, 1.20) << wanted.time;
     }
     for (std::size_t i = 1; i < fronts.size(); ++i) EXPECT_GT(fronts[i].at, fronts[i - 1].at - 0.05);
+    test::Curve found{.name = "20 particles to the column's width", .color = "#1771a0", .points = {}},
+        known{.name = "Martin and Moyce, a = 2.25 in", .color = "#d55e00", .points = {}, .dots = true};
+    for (const Front& each : fronts) found.points.emplace_back(each.time, each.at);
+    for (const Front& each : kMartinMoyce) known.points.emplace_back(each.time, each.at);
+    test::plot("fluid_dam_break", "T = t √(2g / a)", "front Z = z / a", {found, known});
     const auto four = std::ranges::find_if(fronts, [](const Front& each) { return each.at > 4.0; });
     const double slope = (frontAt(fronts, 6.0) - four->at) / (6.0 - four->time);
     std::printf("; slope beyond Z = 4: %.2f; energy grew by %.4f at most\n", slope, growth);
@@ -385,6 +398,10 @@ TEST_F(Fluid, ADropBecomesTheEllipse) {
     const double across = spreadAlong(places, 0), along = spreadAlong(places, 1),
                  energy = energyOf(fluid, config);
     double a = 1.0, b = 1.0, rate = 1.0, growth = 0.0;
+    test::Curve longAxis{.name = "long axis", .color = "#1771a0", .points = {{0.0, 1.0}}},
+        wantedLong{.name = "exact", .color = "#d55e00", .points = {}, .dots = true},
+        shortAxis{.name = "short axis", .color = "#0a5c39", .points = {{0.0, 1.0}}},
+        wantedShort{.name = "exact", .color = "#e69f00", .points = {}, .dots = true};
     for (int i = 0; i < 120; ++i) {
         for (int k = 0; k < 100; ++k) {
             const double h = step / 100.0, change = rate * rate * (a * a - b * b) / (a * a + b * b);
@@ -392,13 +409,18 @@ TEST_F(Fluid, ADropBecomesTheEllipse) {
         }
         run(fluid, config, 1, step);
         growth = std::max(growth, energyOf(fluid, config) / energy - 1.0);
-        if (i + 1 != 96 && i + 1 != 120) continue;
+        if ((i + 1) % 12 != 0) continue;
         const std::vector<glm::vec3> now = read(fluid.places, fluid.count);
-        const double ratioA = spreadAlong(now, 0) / across / a, ratioB = spreadAlong(now, 1) / along / b;
+        const double ratioA = spreadAlong(now, 0) / across / a, ratioB = spreadAlong(now, 1) / along / b,
+                     seconds = double(step) * (i + 1);
+        longAxis.points.emplace_back(seconds, ratioB * b), wantedLong.points.emplace_back(seconds, b);
+        shortAxis.points.emplace_back(seconds, ratioA * a), wantedShort.points.emplace_back(seconds, a);
+        if (i + 1 != 96 && i + 1 != 120) continue;
         std::printf("drop after %.1f s: b %.4f, %+.1f %%; a %.4f, %+.1f %%; energy grew by %.4f at most\n",
                     double(step) * (i + 1), b, 100 * (ratioB - 1), a, 100 * (ratioA - 1), growth);
         EXPECT_NEAR(ratioB, 1.0, 0.03);
     }
+    test::plot("fluid_drop", "seconds", "semi-axis", {longAxis, wantedLong, shortAxis, wantedShort});
     EXPECT_NEAR(a, 0.43946, 2e-3);  // the reference's own figures for 1 s
     EXPECT_NEAR(b, 2.27552, 5e-3);
     EXPECT_LT(growth, 0.01);

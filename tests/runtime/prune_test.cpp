@@ -8,6 +8,7 @@
 
 #include "graph/glsl.h"
 #include "graph/json.h"
+#include "runtime/mesh_program.h"
 #include "runtime/mesh_report.h"
 #include "runtime/mesher.h"
 #include "runtime/session.h"
@@ -272,8 +273,8 @@ TEST(Prune, EverySample) {
         SCOPED_TRACE(entry.path().filename().string());
         const Result<Graph> graph = readGraph(entry.path(), nullptr);
         ASSERT_TRUE(graph);
-        const Result<Program> program = compile(*graph);
-        ASSERT_TRUE(program);
+        const Result<Program> program = compileAtTime(*graph, 0.2, {}, [] { return &test::device(); });
+        ASSERT_TRUE(program) << format(program.error());
         const Result<Box> box = meshRegion(*program, {std::nullopt, 48});
         ASSERT_TRUE(box);
         for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring}) {
