@@ -168,8 +168,8 @@ TEST(RandomGraphs, CompileAndEqualTheReference) {
         }
         const Result<Program> program = compile(graph);
         ASSERT_TRUE(program) << "seed " << seed << ": " << format(program.error());
-        if (program->ir.size() > 3000) {
-            ++tooLarge;  // sound, but its shaders take long; the nodes in it are covered by smaller ones
+        if (program->ir.size() > test::kMostOperations) {
+            ++tooLarge;
             continue;
         }
         ++compiled;

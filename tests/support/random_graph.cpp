@@ -177,4 +177,10 @@ class Generator {
 
 Graph randomGraph(uint32_t seed, int maxNodes) { return Generator(seed).graph(maxNodes); }
 
+std::optional<Program> randomProgram(uint32_t seed, int maxNodes) {
+    Result<Program> program = compile(randomGraph(seed, maxNodes));
+    if (!program || program->ir.size() > kMostOperations) return std::nullopt;
+    return std::move(*program);
+}
+
 }  // namespace fw::test
