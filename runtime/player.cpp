@@ -260,11 +260,12 @@ void Player::seek(double to) {
     }
 }
 
-Result<MesherResult> Player::meshOnDevice() { return makeMesh(true); }
+Result<MesherResult> Player::meshOnDevice(uint32_t show) { return makeMesh(true, show); }
 
-Result<MesherResult> Player::makeMesh(bool stages) {
+Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     const Result<bool> changed = session.simulate(
-        timelineTime(), [&](double at) { return now.valuesAt(at); }, options.simulating);
+        timelineTime(), [&](double at) { return now.valuesAt(at); }, !showsParticles(show),
+        options.simulating);
     if (!changed) {
         Error error = changed.error();
         error.file = now.graph.path;
@@ -338,7 +339,7 @@ template <class Draw>
 auto Player::look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes)) {
     const auto framed = outline();  // first: it makes meshes of its own
     if (!framed) return framed.error();
-    const Result<MesherResult> result = meshOnDevice();
+    const Result<MesherResult> result = meshOnDevice(wishes.show);
     if (!result) return result.error();
     if (result->triangles == 0 && framed->empty())
         return problem(now.graph,

@@ -51,7 +51,7 @@ struct PlayerOptions {
     /// pictures are drafts (Session::replaceProgram).
     bool compileBehind = false;
     bool checked = false;     ///< check() was called: only what the output needs must be free of errors
-    bool fieldViews = false;  ///< pictures will be of the views from RENDER_STEPS on
+    bool fieldViews = false;  ///< pictures will be of the views that showsField()
     /// Called while a mesh is made a field, with what is done of it: from 0 to 1. That of a player's creation
     /// stays; reload() takes no other.
     std::function<void(double share)> baking = {};
@@ -102,7 +102,8 @@ class Player {
     /// Session::polygonise.
     Result<Mesh> mesh();
     /// The same where the mesher left it on the device: in deviceMesh(), until the next call of anything.
-    Result<MesherResult> meshOnDevice();
+    /// That of a picture that showsParticles() lacks their surfaces.
+    Result<MesherResult> meshOnDevice(uint32_t show = RENDER_PICTURE);
     /// What the mesh is made in: the region, of all times unless a parameter was set since it was last made;
     /// whether it was found rather than given; and the cells along its longest side.
     Box region() const { return now.region.value_or(Box{}); }
@@ -157,7 +158,7 @@ class Player {
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
     void adopt(Prepared prepared);
     /// meshOnDevice(), or the mesh without the program's stages: an outline needs none.
-    Result<MesherResult> makeMesh(bool stages);
+    Result<MesherResult> makeMesh(bool stages, uint32_t show = RENDER_PICTURE);
     /// Calls draw(mesh, options) with all that a picture of now needs.
     template <class Draw>
     auto look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes));

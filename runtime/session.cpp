@@ -197,12 +197,14 @@ void Session::setParameter(std::size_t slot, double value) {
     uploadBytes(*gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
 }
 
-Result<bool> Session::simulate(double seconds, const ValuesAt& values,
+Result<bool> Session::simulate(double seconds, const ValuesAt& values, bool surfaces,
                                const std::function<bool(int done, int all)>& progress) {
     if (!particles) return false;
-    const Result<bool> changed = particles->make(current, seconds, values, volumes, progress);
-    if (changed && *changed) ++content;
-    return changed;
+    const Result<ParticleChanges> changes =
+        particles->make(current, seconds, values, volumes, surfaces, progress);
+    if (!changes) return changes.error();
+    if (changes->fields || (changes->places && !surfaces)) ++content;
+    return changes->fields;
 }
 
 void Session::valuesChanged() {
@@ -313,6 +315,8 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
     }
     gpu::DraftMaterial look = material();
     look.colored = result.colors && 12ull * result.vertices <= gpu->properties.limits.maxStorageBufferRange;
+    std::vector<ParticleCloud> clouds;
+    if (particles && showsParticles(options.show)) clouds = particles->clouds();
     const RenderScene scene{.mesh = buffers,
                             .vertices = result.vertices,
                             .triangles = result.triangles,
@@ -321,6 +325,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .buffers = fieldBuffers(),
                             .families = &current.families,
                             .bounds = boundsOf(options.framed),
+                            .particles = clouds,
                             .draft = draft ? std::optional(look) : std::nullopt,
                             .content = content};
     return draw(*renderer, scene, options);

@@ -67,8 +67,9 @@ class Session {
     void setParameter(std::size_t slot, double value);
 
     /// Brings the program's particles to a time, if it has some; `values` are the live parameters' then.
-    /// Returns whether the field changed with that. Errors as ParticleFields::make().
-    Result<bool> simulate(double seconds, const ValuesAt& values,
+    /// Without `surfaces` the field has none of theirs, for the pictures that showsParticles(). Returns
+    /// whether the field changed with that. Errors as ParticleFields::make().
+    Result<bool> simulate(double seconds, const ValuesAt& values, bool surfaces = true,
                           const std::function<bool(int done, int all)>& progress = {});
     /// Of live values that were changed otherwise than by the time: Simulation::valuesChanged().
     void valuesChanged();

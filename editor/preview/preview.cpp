@@ -139,7 +139,7 @@ PlayerOptions Maker::playerOptions() const {
         if (all >= kToldSteps) simulating(double(done) / all);
         return !replaced;
     };
-    options.fieldViews = wish.view >= RENDER_STEPS && wish.view != RENDER_WIREFRAME;
+    options.fieldViews = showsField(wish.view);
     return options;
 }
 
@@ -261,7 +261,7 @@ bool Maker::draw() {
     else if (!player->compiling())
         options.cancel = &replaced;
     const auto start = Clock::now();
-    const Result<MesherResult> mesh = player->meshOnDevice();
+    const Result<MesherResult> mesh = player->meshOnDevice(wish.view);
     const double meshing = millisecondsSince(start);
     if (!mesh) {
         simulating(1.0);

@@ -236,7 +236,8 @@ int run(int count, char** arguments) {
             "--view", renderOptions.view,
             "What is shown: picture, or a look inside: ao, normals, color, shadow, steps (of sphere "
             "tracing), slice (the field with lines of equal distance), exactness (red where the field "
-            "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe")
+            "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe; or particles "
+            "as points or spheres, in place of their surface")
         ->check(CLI::IsMember(renderViews()))
         ->default_str(renderOptions.view);
     renderCommand->add_flag(

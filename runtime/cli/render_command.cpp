@@ -21,8 +21,9 @@ bool isPng(const std::string& path) {
 }  // namespace
 
 const std::vector<std::string>& renderViews() {
-    static const std::vector<std::string> names = {"picture", "ao",    "normals",   "color", "shadow",
-                                                   "steps",   "slice", "exactness", "cells", "wireframe"};
+    static const std::vector<std::string> names = {"picture", "ao",        "normals", "color",
+                                                   "shadow",  "steps",     "slice",   "exactness",
+                                                   "cells",   "wireframe", "points",  "spheres"};
     return names;  // in the order of RENDER_PICTURE and the following
 }
 
@@ -60,14 +61,14 @@ int runRender(const RenderCommandOptions& options) {
     std::optional<Player> player = openPlayer(options.mesh, progress, {.liveParameters = false}, status);
     if (!player) return status;
     progress.start("mesh", 50);
-    const Result<MesherResult> mesh = player->meshOnDevice();
+    RenderOptions render = renderOptions(options, *size);
+    const Result<MesherResult> mesh = player->meshOnDevice(render.show);
     if (!mesh) return badInput(options.mesh, mesh.error());
-    if (mesh->triangles == 0)
+    if (mesh->triangles == 0 && !(showsParticles(render.show) && player->particles() > 0))
         return badInput(options.mesh,
                         nothingToSee(!player->regionFound(), player->region(), player->resolution()));
     if (interrupted) return stopped();
     progress.start("light", 60);
-    RenderOptions render = renderOptions(options, *size);
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     const Result<Picture> picture = player->frame(render);
     if (!picture) return interrupted ? stopped() : badInput(options.mesh, picture.error());

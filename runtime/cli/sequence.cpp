@@ -145,7 +145,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
                 const Done written = savePicture(*picture, path, &interrupted);
                 if (!written && interrupted) break;
                 if (!written) return print(written.error()), kSystemFailure;
-                capped = capped || player->meshOnDevice()->capped;
+                capped = capped || player->meshOnDevice(render.show)->capped;
             }
             progress.next(!there);
         }

@@ -1,6 +1,7 @@
 #include "runtime/particles/particle_fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace fw {
@@ -55,9 +56,21 @@ uint64_t ParticleFields::slots() const {
     return sum;
 }
 
-Result<bool> ParticleFields::make(const Program& program, double seconds, const ValuesAt& values,
-                                  const Buffer& volumes, const std::function<bool(int, int)>& progress) {
-    bool any = false;
+std::vector<ParticleCloud> ParticleFields::clouds() const {
+    std::vector<ParticleCloud> made;
+    for (const Part& part : parts) {
+        // As recordParticleVolume() has it; a threshold that no particle reaches alone leaves a small one.
+        const double share = std::sqrt(std::max(1.0 - std::cbrt(part.threshold), 0.04));
+        made.push_back({&part.simulation.places(), part.simulation.velocities(), part.simulation.slots(),
+                        float(share * part.radius)});
+    }
+    return made;
+}
+
+Result<ParticleChanges> ParticleFields::make(const Program& program, double seconds, const ValuesAt& values,
+                                             const Buffer& volumes, bool surfaces,
+                                             const std::function<bool(int, int)>& progress) {
+    ParticleChanges changes;
     const std::vector<double> now = parts.empty() ? std::vector<double>() : values(seconds);
     for (Part& part : parts) {
         const ParticleField& field = *part.simulation.recipe();
@@ -68,7 +81,9 @@ Result<bool> ParticleFields::make(const Program& program, double seconds, const 
         }
         const double radius = evaluate(field.ir, field.radius, now, {}),
                      threshold = evaluate(field.ir, field.threshold, now, {});
-        if (!*moved && radius == part.radius && threshold == part.threshold) continue;
+        const bool same = radius == part.radius && threshold == part.threshold;
+        changes.places |= *moved || !same;
+        if (same && surfaces == part.surface && !(*moved && surfaces)) continue;
         if (!(radius > 0.0) || !(threshold > 0.0))
             return atNode(Error{.message = "the radius and the threshold must be above 0"}, field);
         if (!kernels) kernels = createParticleVolumeKernels(*device);
@@ -78,16 +93,16 @@ Result<bool> ParticleFields::make(const Program& program, double seconds, const 
                                           .method = field.method,
                                           .trueDistance = field.trueDistance};
         Commands commands(*device);
-        if (const Done recorded =
-                recordParticleVolume(commands, *kernels, buffers, config, part.simulation.places(),
-                                     part.simulation.slots(), volumes, firstTexel(program, part.volume));
+        if (const Done recorded = recordParticleVolume(
+                commands, *kernels, buffers, config, part.simulation.places(),
+                surfaces ? part.simulation.slots() : 0, volumes, firstTexel(program, part.volume));
             !recorded)
             return atNode(recorded.error(), field);
         submit(commands);
-        part.radius = radius, part.threshold = threshold;
-        any = true;
+        part.radius = radius, part.threshold = threshold, part.surface = surfaces;
+        changes.fields = true;
     }
-    return any;
+    return changes;
 }
 
 Done makeParticles(Program& program, const Graph& graph, double seconds, const CompileOptions& options,
@@ -103,8 +118,8 @@ Done makeParticles(Program& program, const Graph& graph, double seconds, const C
     ParticleFields fields(device);
     fields.setProgram(played);
     const auto values = [&](double at) { return live->valuesAt(at); };
-    const Result<bool> made =
-        fields.make(played, timelineTime(live->timeline, seconds), values, volumes, progress);
+    const Result<ParticleChanges> made =
+        fields.make(played, timelineTime(live->timeline, seconds), values, volumes, true, progress);
     if (!made) {
         Error error = made.error();
         error.file = graph.path;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runtime/live_program.h"
+#include "runtime/particles/cloud.h"
 #include "runtime/particles/particle_volume.h"
 #include "runtime/particles/simulation.h"
 
@@ -16,6 +17,10 @@ bool lacksParticles(const Program& program);
 /// Of one of the program's volumes, in the buffer of all.
 uint32_t firstTexel(const Program& program, std::size_t volume);
 
+struct ParticleChanges {
+    bool places = false, fields = false;
+};
+
 class ParticleFields {
   public:
     explicit ParticleFields(const Device& device_) : device(&device_) {}
@@ -25,11 +30,14 @@ class ParticleFields {
     /// Of live values that were changed by hand: Simulation::valuesChanged().
     void valuesChanged();
     /// Brings all particles to a time and writes their samples into `volumes`, the texels of all volumes of
-    /// the program. Returns whether any changed. Errors as Simulation::goTo() and recordParticleVolume(),
-    /// with the node.
-    Result<bool> make(const Program& program, double seconds, const ValuesAt& values, const Buffer& volumes,
-                      const std::function<bool(int done, int all)>& progress = {});
+    /// the program: without `surfaces`, those of no particles. Says what changed. Errors as
+    /// Simulation::goTo() and recordParticleVolume(), with the node.
+    Result<ParticleChanges> make(const Program& program, double seconds, const ValuesAt& values,
+                                 const Buffer& volumes, bool surfaces = true,
+                                 const std::function<bool(int done, int all)>& progress = {});
 
+    /// The particles, for pictures of them.
+    std::vector<ParticleCloud> clouds() const;
     /// Particles of all simulations: slots, of which some may be empty.
     uint64_t slots() const;
 
@@ -38,6 +46,7 @@ class ParticleFields {
         std::size_t volume;  ///< among the program's
         Simulation simulation;
         double radius = 0.0, threshold = 0.0;  ///< that its samples were made with
+        bool surface = true;                   ///< whether they are of the particles
     };
     const Device* device;
     std::optional<ParticleVolumeKernels> kernels;  ///< made when first used

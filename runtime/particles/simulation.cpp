@@ -358,7 +358,7 @@ void Simulation::keep() {
     if (place != checkpoints.end() && place->steps == state.steps) return;
     checkpoints.insert(place,
                        {state.steps, state.slots, download<uint32_t>(*device, places(), 4ull * state.slots),
-                        download<uint32_t>(*device, velocities(), 4ull * state.slots)});
+                        download<uint32_t>(*device, motion(), 4ull * state.slots)});
     std::size_t bytes = 0;
     for (const Checkpoint& each : checkpoints) bytes += 32ull * each.slots;
     if (bytes <= kMostCheckpointBytes || checkpoints.size() < 3) return;
@@ -374,7 +374,7 @@ void Simulation::restore(const Checkpoint& from) {
         reserve(*device, state.velocities, 16ull * from.slots);
     }
     upload(*device, places(), from.places);
-    upload(*device, velocities(), from.velocities);
+    upload(*device, motion(), from.velocities);
 }
 
 }  // namespace fw

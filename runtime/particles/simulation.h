@@ -1,10 +1,10 @@
 // Particles over time: what a recipe (graph/particle_recipe.h) says, in steps of a sixtieth of a second.
 //
 // The state after so many steps is a pure function of the recipe and of the live values at the times of all
-// steps before. Going forward takes the steps in between; going back starts from the last checkpoint before:
-// copies of the state, of which one is kept each second at first, and of every second one fewer when they
-// take too much memory. Where a live value was changed by hand, the particles go on from where they are, and
-// the past is as the new values have it once it is played again.
+// steps before. Going forward takes the steps in between; a step that was taken before is fetched, or starts
+// from the last checkpoint before: copies of the state, of which each step keeps one, and every second is
+// dropped whenever they take too much memory. Where a live value was changed by hand, the particles go on
+// from where they are, and the past is as the new values have it once it is played again.
 //
 // Emitted particles are numbered in the order of their births; number n stands in slot n % slots, so that the
 // last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
@@ -50,6 +50,8 @@ class Simulation {
 
     /// Where they are: four floats each, the place and, of those that are born, the age.
     const Buffer& places() const { return fluid ? fluid->particles.places : state.places; }
+    /// How fast they are, likewise, metres per second; null if nothing moves them.
+    const Buffer* velocities() const { return rests() ? nullptr : &motion(); }
     uint32_t slots() const { return state.slots; }
     const ParticleFieldPtr& recipe() const { return field; }
 
@@ -71,7 +73,7 @@ class Simulation {
         FluidParticles particles;
     };
 
-    const Buffer& velocities() const { return fluid ? fluid->particles.velocities : state.velocities; }
+    const Buffer& motion() const { return fluid ? fluid->particles.velocities : state.velocities; }
     const ParticleStage& source() const { return field->particles.stages.front(); }
     /// Whether time changes nothing.
     bool rests() const;
@@ -99,7 +101,7 @@ class Simulation {
     State state;
     std::vector<double> born;            ///< how many were, after each step
     std::deque<Checkpoint> checkpoints;  ///< by their steps
-    int apart = 60;                      ///< steps between checkpoints
+    int apart = 1;                       ///< steps between checkpoints
 };
 
 }  // namespace fw

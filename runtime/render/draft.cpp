@@ -4,21 +4,6 @@
 
 namespace fw {
 
-namespace {
-
-void resizeLooks(Commands& commands, Draft& draft, VkExtent3D extent) {
-    if (draft.looks && draft.looks.extent.width == extent.width && draft.looks.extent.height == extent.height)
-        return;
-    draft.looks = {};
-    draft.looks = createImage(commands.device,
-                              {.extent = extent,
-                               .format = VK_FORMAT_R32G32_UINT,
-                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
-    imageBarrier(commands, draft.looks, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-}
-
-}  // namespace
-
 Draft createDraft(const Device& device) {
     Draft draft;
     const auto drawing = [&](std::vector<std::string> defines) {
@@ -42,7 +27,7 @@ Draft createDraft(const Device& device) {
 
 void drawDraft(Commands& commands, Draft& draft, DepthTarget& target, VkExtent3D extent,
                const glm::mat4& clip, const MesherBuffers& mesh, const Clusters* clusters, uint32_t colors) {
-    resizeLooks(commands, draft, extent);
+    resizeLooks(commands, draft.looks, extent);
     prepareDepth(commands, target, extent);
     beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_CLEAR, &draft.looks);
     if (clusters && colors > 0) {

@@ -40,6 +40,16 @@ bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat f
     return true;
 }
 
+void resizeLooks(Commands& commands, Image& looks, VkExtent3D extent) {
+    if (looks && looks.extent.width == extent.width && looks.extent.height == extent.height) return;
+    looks = {};
+    looks = createImage(commands.device,
+                        {.extent = extent,
+                         .format = VK_FORMAT_R32G32_UINT,
+                         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT});
+    imageBarrier(commands, looks, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+}
+
 DepthPipelines createDepthPipelines(const Device& device) {
     DepthPipelines pipelines;
     pipelines.draw = createGraphicsPipeline(device, {.shaders = {{.name = "render/depth.vert"}},

@@ -98,6 +98,9 @@ constexpr VkDeviceSize argumentsOf(uint32_t list) { return list * sizeof(gpu::Di
 /// The image for a binding, in VK_IMAGE_LAYOUT_GENERAL.
 Descriptor storage(uint32_t binding, const Image& image);
 
+/// Makes an R32G32_UINT image of this size, unless it is, that is drawn into and then read.
+void resizeLooks(Commands& commands, Image& looks, VkExtent3D extent);
+
 /// Makes the image anew if its size or format differ; whether it did. The new one is cleared.
 bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat format);
 

@@ -26,7 +26,9 @@ constexpr double kTrusted = 0.99;  // of the pixels that a field without a known
 constexpr int kRaysStill = 16, kRaysResting = 8;
 constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
-constexpr float kFogEnd = 12.0f;  // in the solid's radii
+constexpr float kFogEnd = 12.0f;      // in the solid's radii
+constexpr float kGravity = 9.81f;     // metres per second squared: what fell as far as the radius is fast
+constexpr float kPointPixels = 2.0f;  // half pixels that a point is wide from its middle
 
 glm::vec3 vector(const Triple& from) { return {float(from[0]), float(from[1]), float(from[2])}; }
 
@@ -163,7 +165,8 @@ void findPlaces(Commands& commands, Renderer& renderer, const RenderScene& scene
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
     const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
     const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
-    if (scene.draft || options.show == RENDER_WIREFRAME) return false;  // whose edges lie at the mesh's depth
+    // Edges lie at the mesh's depth, and particles are drawn beside the mesh.
+    if (scene.draft || options.show == RENDER_WIREFRAME || !scene.particles.empty()) return false;
     return options.reference || (scene.triangles > 0 && (measured || known));
 }
 
@@ -202,6 +205,13 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
                       scene.draft->colored ? scene.vertices : 0);
         else
             drawDepth(commands, renderer.depth, renderer.seen, extent, clip, scene.mesh, clusters);
+        if (!scene.particles.empty())
+            drawSprites(commands, renderer.sprites, renderer.seen, scene.particles,
+                        {.clip = clip,
+                         .eye = glm::vec4(frame.now.eye, 1),
+                         .fast = std::sqrt(2.0f * kGravity * frame.radius),
+                         .least = (frame.show == RENDER_SPHERES ? 1.0f : kPointPixels) * frame.now.pixel,
+                         .spheres = frame.show == RENDER_SPHERES});
         return;
     }
     gpu::TracePush rays = raysOf(frame.now);
@@ -217,6 +227,9 @@ void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene
         const bool any = frame.shadowSize > 0;
         drawDepth(commands, renderer.depth, renderer.shadow, {size, size, 1}, clip, scene.mesh,
                   any ? cull(commands, renderer, scene, clip, glm::vec4(-frame.sun, 0), false) : nullptr);
+        if (any && !scene.particles.empty() && frame.show == RENDER_SPHERES)
+            drawSprites(commands, renderer.sprites, renderer.shadow, scene.particles,
+                        {.clip = clip, .eye = glm::vec4(-frame.sun, 0), .shadow = true});
         return;
     }
     trace(commands, renderer, scene, renderer.shadow, {size, size, 1}, shadowRays(frame), kLiveCare);
@@ -408,14 +421,14 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
 
 void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) {
     const uint32_t view = renderer.described.show;
-    if (view < RENDER_STEPS || (scene.draft && view != RENDER_WIREFRAME)) return;
-    beginStage(commands, "view");
     if (view == RENDER_WIREFRAME) {
+        beginStage(commands, "view");
         const uint64_t most = commands.device.properties.limits.maxStorageBufferRange;
         if (scene.triangles > 0 && 12ull * scene.triangles <= most && 16ull * scene.vertices <= most)
             drawWireframe(commands, renderer, scene);
-        return;
     }
+    if (!showsField(view) || scene.draft) return;
+    beginStage(commands, "view");
     if (!renderer.show)
         renderer.show =
             createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});
@@ -536,6 +549,7 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     const gpu::RenderFrame& frame = renderer.described;
     if (scene.draft) renderer.described.ambientStrength = 0, renderer.described.lightCount = 0;
     if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(device);
+    if (!scene.particles.empty() && !renderer.sprites.draw) renderer.sprites = createSprites(device);
     uploadBytes(device, renderer.frame, &frame, sizeof frame);
     renderer.shadowStands = renderer.shadowStands && before.sun == frame.sun &&
                             before.shadowCentre == frame.shadowCentre &&
@@ -566,6 +580,8 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame,
                     fieldOf(renderer, scene));
     if (cancelled(commands)) return false;
+    if (!scene.particles.empty())
+        addSprites(commands, renderer.sprites, renderer.gbuffer, renderer.seen.depth, renderer.frame);
     beginStage(commands, "ambient");
     if (scene.draft)
         resizeHistory(commands, renderer.ambient, extent);

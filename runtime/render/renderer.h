@@ -28,6 +28,7 @@
 #include "runtime/render/draft.h"
 #include "runtime/render/picture.h"
 #include "runtime/render/places.h"
+#include "runtime/render/sprites.h"
 
 namespace fw {
 
@@ -40,12 +41,13 @@ struct MeshGrid {
 /// What is drawn.
 struct RenderScene {
     const MesherBuffers& mesh;
-    uint32_t vertices = 0, triangles = 0;  ///< of the mesh
-    MeshGrid grid;                         ///< that it was made on
-    float lipschitz = 1.0f;                ///< of the field; infinite if unknown
-    FieldBuffers buffers = {};             ///< of the field, without lists
-    const Families* families = nullptr;    ///< of the field, where it has some
-    SeenBounds bounds = {};                ///< of RenderOptions::framed
+    uint32_t vertices = 0, triangles = 0;           ///< of the mesh
+    MeshGrid grid;                                  ///< that it was made on
+    float lipschitz = 1.0f;                         ///< of the field; infinite if unknown
+    FieldBuffers buffers = {};                      ///< of the field, without lists
+    const Families* families = nullptr;             ///< of the field, where it has some
+    SeenBounds bounds = {};                         ///< of RenderOptions::framed
+    std::span<const ParticleCloud> particles = {};  ///< whose surfaces the field lacks, for their views
     /// If given, the mesh alone is drawn, in this material or its colours: the renderer need not have the
     /// field's kernels.
     std::optional<gpu::DraftMaterial> draft = {};
@@ -56,6 +58,11 @@ struct RenderScene {
 /// How depth is found. A field without a known Lipschitz constant is traced only if that was measured to show
 /// what drawing shows.
 enum class Primary { drawn, traced, measured };
+
+/// Views into the field: of those that shaders/render/render.h lists.
+constexpr bool showsField(uint32_t view) { return view >= RENDER_STEPS && view <= RENDER_CELLS; }
+/// Views of particles in place of their surface.
+constexpr bool showsParticles(uint32_t view) { return view == RENDER_POINTS || view == RENDER_SPHERES; }
 
 /// The plane of the views that show the field on one.
 struct Slice {
@@ -103,7 +110,7 @@ struct FieldKernels {
 
 struct FieldKernelOptions {
     bool lamps = false;  ///< the scene has some
-    bool show = false;   ///< for the views from RENDER_STEPS on
+    bool show = false;   ///< for showsField()
     Compile when = Compile::now;
     const std::atomic<bool>* cancel = nullptr;  ///< looked at between kernels if they are compiled behind
 };
@@ -116,7 +123,8 @@ struct Renderer {
     const Device* device = nullptr;
     std::string field;
     DepthPipelines depth;
-    Draft draft;  ///< made by the first one
+    Draft draft;      ///< made by the first one
+    Sprites sprites;  ///< ditto
     Clusters clusters;
     Places places;
     GBuffer gbuffer;

@@ -36,6 +36,8 @@ namespace fw::gpu {
 #define RENDER_EXACTNESS 7  // there: how far the gradient's length is from 1
 #define RENDER_CELLS 8      // of the mesher that hold surface
 #define RENDER_WIREFRAME 9
+#define RENDER_POINTS 10   // particles, in place of their surface
+#define RENDER_SPHERES 11  // ditto, each as large as its surface would be were it alone
 
 // How a picture is seen. A place in it is (x, y), each from -1 to 1, y upwards. It shows what lies along
 // forward + x right + y up; its depth is near / (distance along forward): 1 is near, 0 is nothing at all.
@@ -133,6 +135,15 @@ struct CullPush {
     vec4 eye;       // w 1: where rays begin; w 0: their common direction
     uint clusters;
     uint backs;  // 1: clusters that face away are left out
+};
+
+// Particles that are drawn.
+struct SpritePush {
+    vec4 toClip[4];  // rows of the matrix
+    vec4 eye;        // w 1: where rays begin; w 0: their common direction
+    float perFast;   // one over the speed at which they are white, seconds per metre
+    float radius;    // metres
+    float least;     // that of the picture, at a distance of 1 from the eye
 };
 
 // What a draft shows the solid in: as FieldMaterial of field.glsl.
