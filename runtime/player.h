@@ -137,6 +137,8 @@ class Player {
     /// call.
     bool compiling();
 
+    /// The samples of the particles' fields as they were made last, for the host.
+    std::vector<FieldVolumePtr> particleVolumes() const { return session.particleVolumes(); }
     /// Places for particles that fly now, of which some may be empty.
     uint64_t particles() const { return session.particleSlots(); }
 

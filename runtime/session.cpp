@@ -211,11 +211,17 @@ void Session::valuesChanged() {
     if (particles) particles->valuesChanged();
 }
 
+std::vector<FieldVolumePtr> Session::particleVolumes() const {
+    std::vector<FieldVolumePtr> made;
+    for (std::size_t i = 0; particles && i < current.ir.volumes().size(); ++i)
+        if (const FieldVolume& volume = *current.ir.volumes()[i]; volume.particles)
+            made.push_back(downloadVolume(*gpu, volume, volumes, firstTexel(current, i)));
+    return made;
+}
+
 Program Session::onHost() const {
     Program program = current;
-    for (std::size_t i = 0; particles && i < program.ir.volumes().size(); ++i)
-        if (const FieldVolumePtr volume = program.ir.volumes()[i]; volume->particles)
-            program.ir.replaceVolume(i, downloadVolume(*gpu, *volume, volumes, firstTexel(program, i)));
+    useParticles(program, particleVolumes());
     return program;
 }
 

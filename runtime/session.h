@@ -73,6 +73,9 @@ class Session {
                           const std::function<bool(int done, int all)>& progress = {});
     /// Of live values that were changed otherwise than by the time: Simulation::valuesChanged().
     void valuesChanged();
+    /// The samples of its particles as they were made last, for the host: of each of the program's volumes
+    /// that has some.
+    std::vector<FieldVolumePtr> particleVolumes() const;
     uint64_t particleSlots() const { return particles ? particles->slots() : 0; }
 
     /// Runs the mesher into device memory, and then the program's stages. Errors: a region without bounds

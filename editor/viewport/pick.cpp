@@ -12,6 +12,7 @@
 #include "graph/sockets.h"
 #include "graph/tape.h"
 #include "graph/timeline.h"
+#include "runtime/particles/particle_fields.h"
 #include "runtime/render/view.h"
 
 namespace fw::editor {
@@ -224,8 +225,9 @@ std::string pick(const Seen& seen, double x, double y) {
     options.live = probes.live();
     options.time = seconds;
     options.bake = boxInPlace;  // what is seen was measured, and is remembered
-    const Result<Program> program = compile(probes.graph(), options);
+    Result<Program> program = compile(probes.graph(), options);
     if (!program) return {};
+    useParticles(*program, seen.particles);
     const Ray ray = rayThrough(seen, x, y);
     const auto part = within(seen.region, ray);
     if (!part) return {};

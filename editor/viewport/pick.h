@@ -27,7 +27,8 @@ struct Seen {
     double seconds = 0.0;     ///< since the timeline's start
     Box region = {};          ///< what lies outside is not drawn
     Camera camera = {};
-    double aspect = 1.0;  ///< width by height
+    double aspect = 1.0;                         ///< width by height
+    std::vector<FieldVolumePtr> particles = {};  ///< as PreviewResult
 };
 
 /// The node's path, as the compiler names it (document/paths.h); empty where nothing is hit, or the graph has

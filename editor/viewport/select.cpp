@@ -78,7 +78,8 @@ void pickUnderMouse(Editor& editor, bool besides) {
               .seconds = viewport.seconds,
               .region = viewport.shown.region,
               .camera = viewport.shown.seen,
-              .aspect = double(viewport.aspect())};
+              .aspect = double(viewport.aspect()),
+              .particles = viewport.shown.particles};
     viewport.aside.ask([seen = std::move(seen), x, y, besides]() -> Aside::Answer {
         return [path = pick(seen, x, y), besides](Editor& to) { selectHit(to, path, besides); };
     });

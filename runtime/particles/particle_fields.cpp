@@ -105,6 +105,17 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
     return changes;
 }
 
+void useParticles(Program& program, std::span<const FieldVolumePtr> made) {
+    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i) {
+        const FieldVolumePtr volume = program.ir.volumes()[i];
+        if (!volume->particles || volume->made()) continue;
+        const auto its = std::ranges::find_if(made, [&](const FieldVolumePtr& other) {
+            return other->particles->node == volume->particles->node;
+        });
+        if (its != made.end()) program.ir.replaceVolume(i, *its);
+    }
+}
+
 Done makeParticles(Program& program, const Graph& graph, double seconds, const CompileOptions& options,
                    const Device& device, const std::function<bool(int, int)>& progress) {
     if (!lacksParticles(program)) return done();
@@ -125,14 +136,11 @@ Done makeParticles(Program& program, const Graph& graph, double seconds, const C
         error.file = graph.path;
         return error;
     }
-    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i) {
-        const FieldVolumePtr volume = program.ir.volumes()[i];
-        for (std::size_t k = 0; k < played.ir.volumes().size(); ++k) {
-            const FieldVolumePtr& its = played.ir.volumes()[k];
-            if (volume->particles && its->particles && its->particles->node == volume->particles->node)
-                program.ir.replaceVolume(i, downloadVolume(device, *its, volumes, firstTexel(played, k)));
-        }
-    }
+    std::vector<FieldVolumePtr> samples;
+    for (std::size_t i = 0; i < played.ir.volumes().size(); ++i)
+        if (const FieldVolume& volume = *played.ir.volumes()[i]; volume.particles)
+            samples.push_back(downloadVolume(device, volume, volumes, firstTexel(played, i)));
+    useParticles(program, samples);
     return done();
 }
 

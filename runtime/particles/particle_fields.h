@@ -54,6 +54,9 @@ class ParticleFields {
     std::vector<Part> parts;
 };
 
+/// Gives a program samples of its particles, by their nodes, where it lacks some.
+void useParticles(Program& program, std::span<const FieldVolumePtr> made);
+
 /// Gives a program that was compiled at a time the samples of its particles, which live in `graph`, on the
 /// host. Errors as compileLive() and ParticleFields::make().
 Done makeParticles(Program& program, const Graph& graph, double seconds, const CompileOptions& options,

@@ -11,7 +11,10 @@
 #include "graph/compile.h"
 #include "graph/json.h"
 #include "graph/region.h"
+#include "runtime/particles/particle_fields.h"
 #include "runtime/render/view.h"
+#include "tests/support/gpu.h"
+#include "tests/support/temp_dir.h"
 
 namespace fw::editor {
 namespace {
@@ -220,6 +223,28 @@ TEST(Aside, TheNewestQuestionIsAnswered) {
     while (aside.busy()) std::this_thread::yield();
     EXPECT_TRUE(aside.take());
     EXPECT_FALSE(aside.take());
+}
+
+TEST(Pick, ParticlesWhereTheyAreAndNotWhereTheyMightBe) {
+    const test::TempDir dir;
+    test::writeText(dir.path("one.xyz"), "0 0 0\n");
+    Graph graph = nodes(R"(
+      {"id": "file", "type": "particle_file", "inputs": {"path": "one.xyz"}},
+      {"id": "drop", "type": "particles_to_field", "inputs": {"particles": {"from": "file"}, "radius": 0.5,
+        "resolution": 32, "region_min": [-2, -2, -2], "region_max": [2, 2, 2]}},
+      {"id": "slab", "type": "box", "inputs": {"half_extents": [1.5, 0.1, 1.5]}},
+      {"id": "low", "type": "translate", "inputs": {"surface": {"from": "slab"}, "offset": [0, -1, 0]}},
+      {"id": "both", "type": "union", "inputs": {"a": {"from": "drop"}, "b": {"from": "low"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})");
+    graph.path = dir.path("a.field.json");
+    Seen seen = seenOf(graph);
+    Result<Program> program = compile(graph);
+    ASSERT_TRUE(program);
+    ASSERT_TRUE(makeParticles(*program, graph, 0.0, {}, test::device()));
+    EXPECT_EQ(at(seen, {1.2, -0.9, 1.2}), "drop");  // of which nothing is known yet
+    seen.particles = program->ir.volumes();
+    EXPECT_EQ(at(seen, {1.2, -0.9, 1.2}), "slab");
+    EXPECT_EQ(at(seen, {0, 0, 0}), "drop");
 }
 
 }  // namespace
