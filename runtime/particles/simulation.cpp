@@ -123,7 +123,9 @@ bool Simulation::rests() const { return source().kind == Kind::file && moves.emp
 
 Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
                               const std::function<bool(int done, int all)>& progress) {
-    const int wanted = rests() ? 0 : int(std::floor(std::clamp(seconds, 0.0, 1e6) / kSimulationStep + 1e-6));
+    if (!rests() && !(seconds <= kMostSimulated))
+        return Error{.message = "particles are simulated for ten hours at most: choose an earlier time"};
+    const int wanted = rests() ? 0 : int(std::floor(std::max(seconds, 0.0) / kSimulationStep + 1e-6));
     if (wanted == state.steps) return false;
     const auto after = std::ranges::upper_bound(checkpoints, wanted, {}, &Checkpoint::steps);
     if (after != checkpoints.begin()) {

@@ -23,6 +23,7 @@
 namespace fw {
 
 inline constexpr double kSimulationStep = 1.0 / 60.0;  ///< seconds
+inline constexpr double kMostSimulated = 36'000.0;     ///< seconds
 inline constexpr uint32_t kMostParticles = 4'000'000;  ///< at a time
 
 /// The live parameters' values at a time.
@@ -42,7 +43,7 @@ class Simulation {
     /// Goes to the last step at or before so many seconds; before the start there is nothing. `progress`,
     /// which may be empty, is told how many steps there are and how many are done, and ends the work by
     /// returning false. Returns whether the particles are others now. Errors: more particles than there may
-    /// be, and that it was ended.
+    /// be, a time beyond kMostSimulated, and that it was ended.
     Result<bool> goTo(double seconds, const ValuesAt& values,
                       const std::function<bool(int done, int all)>& progress = {});
     /// Of live values that changed otherwise than with the time: what was kept is out of date.

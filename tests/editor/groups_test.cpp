@@ -139,6 +139,21 @@ TEST(Group, ParametersTracksAndFramesFollow) {
     EXPECT_TRUE(alike(valuesOf(back), valuesOf(graph)));
 }
 
+TEST(Group, ASurfaceThatFeedsAnExposedNumberIsNoParameter) {
+    const Graph graph = graphOf(
+        R"({"id": "near", "type": "box"},
+           {"id": "ball", "type": "sphere", "inputs": {"radius": {"from": "near"}}},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}})",
+        R"(, "parameters": [{"name": "size", "node": "ball", "input": "radius"}])");
+    ASSERT_TRUE(structuralErrors(graph).empty()) << structuralErrors(graph)[0];
+    const Result<Edited> made = groupNodes(graph, "", NodeIds{"ball"});
+    ASSERT_TRUE(made) << format(made.error());
+    EXPECT_EQ(made->graph.groups[0].inputs[0].type, "surface");
+    EXPECT_TRUE(made->graph.parameters.empty());
+    EXPECT_TRUE(structuralErrors(made->graph).empty()) << structuralErrors(made->graph)[0];
+    EXPECT_TRUE(alike(valuesOf(made->graph), valuesOf(graph)));
+}
+
 TEST(Group, AParameterNodeInsideIsExposedByItsName) {
     const Graph graph = graphOf(
         R"({"id": "s", "type": "parameter", "inputs": {"name": "size", "value": 0.7, "max": 2}},

@@ -208,6 +208,15 @@ TEST(Simulation, AHoleLetsThemThrough) {
         });
 }
 
+TEST(Simulation, ATimeWithoutEndIsRefusedAtOnce) {
+    Played played(liveOf(R"("rate": 10)", ""));
+    for (const double seconds : {1e12, double(HUGE_VAL), std::nan("")}) EXPECT_THROW(played.goTo(seconds), SystemError);
+    EXPECT_TRUE(played.goTo(-1e12));
+    EXPECT_TRUE(played.goTo(0.5));
+    Played still(liveOf(R"("rate": 0, "burst": 10)", "none"));
+    EXPECT_THROW(still.goTo(1e12), SystemError);
+}
+
 TEST(Simulation, TooManyAreRefusedAndNoneIsFine) {
     Played player(liveOf(R"("rate": 10000000, "lifetime": 60)", ""));
     const Result<bool> gone =

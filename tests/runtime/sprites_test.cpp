@@ -20,15 +20,14 @@ class Drawn {
   public:
     explicit Drawn(const std::string& places, const std::string& stage = "") {
         test::writeText(dir.path("some.xyz"), places);
-        test::writeText(
-            dir.path("a.field.json"),
-            R"({"fieldwright": 1, "nodes": [
+        test::writeText(dir.path("a.field.json"),
+                        R"({"fieldwright": 1, "nodes": [
           {"id": "file", "type": "particle_file", "inputs": {"path": "some.xyz"}},
           {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "file"}, "radius": 0.4,
             "threshold": 0.125, "resolution": 48, "region_min": [-1, -1, -1], "region_max": [1, 1, 1]}},
-          )" + stage +
-                R"({"id": "out", "type": "output", "inputs": {"resolution": 48, "surface": {"from": ")" +
-                (stage.empty() ? "field" : "stage") + R"("}}}],
+          )" + stage + R"({"id": "out", "type": "output", "inputs": {"resolution": 48, ")" +
+                            (stage.find("polygonize") == std::string::npos ? "surface" : "mesh") +
+                            R"(": {"from": ")" + (stage.empty() ? "field" : "stage") + R"("}}}],
           "scene": {"camera": {"position": [0, 0, 4], "target": [0, 0, 0], "fov": 40}}})");
         Result<Player> made = Player::open(dir.path("a.field.json"), {.deviceOptions = {.validation = true}});
         EXPECT_TRUE(made) << (made ? "" : format(made.error()));
