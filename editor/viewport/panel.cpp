@@ -8,18 +8,13 @@ namespace fw::editor {
 
 namespace {
 
-constexpr std::pair<uint32_t, const char*> kViews[] = {{RENDER_PICTURE, "Lit"},
-                                                       {RENDER_AMBIENT, "Ambient occlusion"},
-                                                       {RENDER_NORMALS, "Normals"},
-                                                       {RENDER_BASE, "Colours"},
-                                                       {RENDER_SHADOW, "Shadow"},
-                                                       {RENDER_STEPS, "Steps"},
-                                                       {RENDER_SLICE, "Slice"},
-                                                       {RENDER_EXACTNESS, "Exactness"},
-                                                       {RENDER_CELLS, "Cells"},
-                                                       {RENDER_WIREFRAME, "Wireframe"},
-                                                       {RENDER_POINTS, "Particles as points"},
-                                                       {RENDER_SPHERES, "Particles as spheres"}};
+constexpr std::pair<uint32_t, const char*> kViews[] = {
+    {RENDER_PICTURE, "Lit"},     {RENDER_AMBIENT, "Ambient occlusion"},
+    {RENDER_NORMALS, "Normals"}, {RENDER_BASE, "Colours"},
+    {RENDER_SHADOW, "Shadow"},   {RENDER_STEPS, "Steps"},
+    {RENDER_SLICE, "Slice"},     {RENDER_EXACTNESS, "Exactness"},
+    {RENDER_CELLS, "Cells"},     {RENDER_WIREFRAME, "Wireframe"},
+    {RENDER_POINTS, "Points"},   {RENDER_SPHERES, "Spheres"}};
 constexpr int kResolutions[] = {0, 32, 64, 128, 192, 256, 384, 512};
 
 /// Where the plane is that the field is shown on.
