@@ -95,13 +95,15 @@ FluidKernels createFluidKernels(const Device& device, std::string_view obstacle)
     const std::array shaders = {predict,
                                 ShaderOptions{.name = "particles/reorder.comp"},
                                 ShaderOptions{.name = "particles/neighbours.comp"},
+                                ShaderOptions{.name = "particles/neighbours.comp", .defines = {"FAR_ONCE"}},
                                 ShaderOptions{.name = "particles/density_error.comp"},
                                 ShaderOptions{.name = "particles/give_way.comp"},
                                 ShaderOptions{.name = "particles/velocity.comp"},
                                 ShaderOptions{.name = "particles/smooth_velocity.comp"}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createCountingSort(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
-            std::move(made[3]),         std::move(made[4]), std::move(made[5]), std::move(made[6])};
+    return {createCountingSort(device), std::move(made[0]), std::move(made[1]),
+            std::move(made[2]),         std::move(made[3]), std::move(made[4]),
+            std::move(made[5]),         std::move(made[6]), std::move(made[7])};
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -131,7 +133,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     const Device& device = commands.device;
     if (const Done fit = fits(device, config, b.count, step); !fit) return fit.error();
     if (b.count == 0) return done();
-    const gpu::FluidPush push = pushOf(config, b.count, step);
+    gpu::FluidPush push = pushOf(config, b.count, step);
     for (Buffer* each :
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
         reserve(device, *each, 16ull * b.count);
@@ -154,9 +156,18 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
                                     Descriptor{3, b.planes}, Descriptor{4, b.sortedPlaces},
                                     Descriptor{5, b.sortedGuesses}, Descriptor{6, b.sortedPlanes}});
     beginStage(commands, "neighbours");
-    run(kernels.neighbours,
-        std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.cells.starts}, Descriptor{2, b.lists},
-                   Descriptor{3, b.counts}, Descriptor{4, b.far}});
+    // Written as words, of which not all may be bound at once; read as texels, which may.
+    const uint64_t listBytes = 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP;  // of a group
+    const auto most = uint32_t(device.properties.limits.maxStorageBufferRange / listBytes);
+    for (uint32_t group = 0; group < groups; group += most) {
+        const uint32_t some = std::min(most, groups - group);
+        push.from = group * FLUID_GROUP;
+        dispatch(commands, config.farOnce ? kernels.nearNeighbours : kernels.neighbours, spread(some), push,
+                 std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.cells.starts},
+                            Descriptor{2, b.lists, group * listBytes, some * listBytes},
+                            Descriptor{3, b.counts}, Descriptor{4, b.far}});
+    }
+    barrier(commands);
     beginStage(commands, "density");
     const std::array weighs = {Descriptor{0, b.sortedGuesses},
                                Descriptor{1, b.sortedPlanes},

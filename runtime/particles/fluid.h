@@ -40,7 +40,7 @@ namespace fw {
 
 struct FluidKernels {
     CountingSort sort;
-    Pipeline predict, reorder, neighbours, densityError, giveWay, velocity, smoothVelocity;
+    Pipeline predict, reorder, neighbours, nearNeighbours, densityError, giveWay, velocity, smoothVelocity;
 };
 /// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
 /// for none.

@@ -1,5 +1,5 @@
 // How far each particle must give way for its density to be that at rest, at most: Macklin and Mueller's lambda.
-#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
@@ -16,22 +16,24 @@ void main() {
     if (index >= push.particles) return;
     vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz);
     vec4 walls = wallsAt(p, uintBitsToFloat(imageLoad(planes, int(index))));
-    uint texels = (counts[index] + 3) / 4, t = 0;
-    float density = weightAt(1.0) + walls.w + far[index], squares = 0.0;
-    vec3 gradient = walls.xyz;
+    uint texels = (counts[index] + 3) / 4, turns = subgroupMax(texels), t = 0;  // all lanes end together
+    float weights = 1.0, squares = 0.0;
+    vec3 offs = vec3(0.0);
     int texel = firstTexel(index);
-    do {  // as long as any lane: one that is done goes on with itself, which adds nothing
+    do {  // a lane that is done while others go on adds nothing: it meets itself
         uvec4 four = t < texels ? imageLoad(lists, texel) : uvec4(index);
         for (int k = 0; k < 4; ++k) {
             vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(four[k])).xyz);
-            float u = left(off);
-            vec3 slope = slopeAt(u) * off;
-            density += four[k] != index ? weightAt(u) : 0.0;
-            squares += dot(slope, slope);
-            gradient += slope;
+            float apart = dot(off, off), u = max(1.0 - sqrt(apart) * push.perSupport, 0.0), u3 = u * u * u;
+            weights += four[k] != index ? u3 * u * (5.0 - 4.0 * u) : 0.0;
+            squares += u3 * u3 * apart;
+            offs += u3 * off;
         }
         texel += kNextTexel;
-    } while (subgroupAny(++t < texels));
+    } while (++t < turns);
+    float density = push.weight * weights + walls.w + far[index];
+    vec3 gradient = push.slope * offs + walls.xyz;
+    squares *= push.slope * push.slope;
     float lambda = -push.relaxation * max(density - 1.0, 0.0) / (squares + dot(gradient, gradient) + push.soft);
     // Each a little to the side of its own, so that particles in one place part.
     vec3 aside = vec3(index * uvec3(3518319155u, 2882110345u, 2360945575u)) * (1e-5 / 4294967296.0 * push.support);

@@ -5,7 +5,7 @@
 namespace fw::gpu {
 #endif
 
-#define FLUID_GROUP 64            // particles of a work group
+#define FLUID_GROUP 256           // particles of a work group
 #define FLUID_MOST_NEIGHBOURS 64  // that a particle feels; more than that are only where it is far too dense
 
 struct FluidPush {
@@ -13,6 +13,7 @@ struct FluidPush {
     vec3 perCell;  // cells a metre
     ivec3 cells;
     uint particles;
+    uint from;    // the first whose neighbours are listed
     vec3 lo, hi;  // the walls of the tank, metres
     vec3 gravity;
     float step;        // s

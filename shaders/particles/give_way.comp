@@ -1,5 +1,5 @@
 // Moves each particle as its own density and those of its neighbours ask. What two do to each other is equal and opposite.
-#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
@@ -15,7 +15,7 @@ void main() {
     vec4 own = uintBitsToFloat(imageLoad(weighed, int(index)));
     vec4 plane = uintBitsToFloat(imageLoad(planes, int(index)));
     vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz), shift = own.w * wallsAt(p, plane).xyz;
-    uint texels = (counts[index] + 3) / 4, t = 0;
+    uint texels = (counts[index] + 3) / 4, turns = subgroupMax(texels), t = 0;  // all lanes end together
     int texel = firstTexel(index);
     do {
         uvec4 four = t < texels ? imageLoad(lists, texel) : uvec4(index);
@@ -25,7 +25,7 @@ void main() {
             shift += (own.w + its.w) * slopeAt(left(off)) * off;
         }
         texel += kNextTexel;
-    } while (subgroupAny(++t < texels));
+    } while (++t < turns);
     p = inTank(p + shift);
     p += max(plane.w - dot(plane.xyz, p), 0.0) * plane.xyz;
     imageStore(guesses, int(index), floatBitsToUint(vec4(inTank(p), 0.0)));

@@ -1,6 +1,6 @@
 // Viscosity and surface tension: each pair's velocities come nearer to each other, and the pair itself does, by equal and
 // opposite amounts.
-#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
@@ -15,7 +15,7 @@ void main() {
     if (index >= push.particles) return;
     vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz), v = uintBitsToFloat(imageLoad(velocities, int(index)).xyz);
     vec3 change = vec3(0.0);
-    uint texels = (counts[index] + 3) / 4, t = 0;
+    uint texels = (counts[index] + 3) / 4, turns = subgroupMax(texels), t = 0;  // all lanes end together
     int texel = firstTexel(index);
     do {
         uvec4 four = t < texels ? imageLoad(lists, texel) : uvec4(index);
@@ -26,6 +26,6 @@ void main() {
             change += weightAt(left(off)) * (push.viscosity * faster - push.tension * off);
         }
         texel += kNextTexel;
-    } while (subgroupAny(++t < texels));
+    } while (++t < turns);
     imageStore(smoothed, int(index), floatBitsToUint(vec4(v + change, 0.0)));
 }

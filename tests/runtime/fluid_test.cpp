@@ -103,7 +103,7 @@ TEST_F(Fluid, NeighboursAreThoseOfAllPairs) {
                 double density = fluidLattice().weight;
                 std::set<uint32_t> found, wanted;
                 for (uint32_t k = 0; k < counts[i]; ++k)
-                    found.insert(lists[(i / 64 * 16 + k / 4) * 256 + i % 64 * 4 + k % 4]);
+                    found.insert(lists[(i / 256 * 16 + k / 4) * 1024 + i % 256 * 4 + k % 4]);
                 for (uint32_t j = 0; j < fluid.count; ++j) {
                     const double far = glm::distance(glm::dvec3(at[i]), glm::dvec3(at[j]));
                     if (j != i) density += perKernel * wendland(far / support);
