@@ -55,13 +55,13 @@ Done fits(const DensityConfig& config, const gpu::DensityPush& push, const Devic
     return done();
 }
 
-/// Along x, and along y or z.
-std::array<Pipeline, 2> createBlur(const Device& device, int reach) {
-    const std::string define = "REACH " + std::to_string(reach);
-    const std::array shaders = {ShaderOptions{.name = "particles/blur.comp", .defines = {define, "ALONG_X"}},
-                                ShaderOptions{.name = "particles/blur.comp", .defines = {define}}};
+std::array<Pipeline, 3> createBlur(const Device& device, int reach) {
+    std::array<ShaderOptions, 3> shaders;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        shaders[axis] = {.name = "particles/blur.comp",
+                         .defines = {"REACH " + std::to_string(reach), "AXIS " + std::to_string(axis)}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {std::move(made[0]), std::move(made[1])};
+    return {std::move(made[0]), std::move(made[1]), std::move(made[2])};
 }
 
 }  // namespace
@@ -175,17 +175,18 @@ void recordBlur(Run& run) {
     beginStage(run.commands, "blur");
     reserve(device, b.weights, 4 * (DENSITY_MOST_REACH + 1), Memory::upload);
     upload(device, b.weights, blurWeights(double(run.config.radius) / run.config.grid.cell));
-    std::array<Pipeline, 2>& blur = run.kernels.blurs[run.push.reach];
+    std::array<Pipeline, 3>& blur = run.kernels.blurs[run.push.reach];
     if (!blur[0]) blur = createBlur(device, run.push.reach);
-    reserve(device, b.blurred, 4ull * run.samples);
-    const Buffer* const steps[] = {&b.grid, &b.blurred, &b.grid, &b.density};
-    const glm::ivec3 texels(glm::ivec3((run.push.size.x + 3) / 4, run.push.size.y, run.push.size.z));
-    for (int& axis = run.push.axis = 0; axis < 3; ++axis) {
-        const Descriptor bound[] = {{0, *steps[axis]}, {1, *steps[axis + 1]}, {2, b.weights}};
-        const uint32_t lines = run.samples / 4 / uint32_t(texels[axis]);
-        dispatch(run.commands, blur[axis == 0 ? 0 : 1], {groupsFor(lines, DENSITY_LINES), 1, 1}, run.push,
-                 bound);
-        barrier(run.commands);
+    const glm::ivec3 texels((run.push.size.x + 7) / 8, run.push.size.y, run.push.size.z);
+    const uint32_t all = uint32_t(texels.x) * uint32_t(texels.y) * uint32_t(texels.z);
+    for (Buffer* each : {&b.blurredX, &b.blurredY}) reserve(device, *each, 16ull * all);
+    const Buffer* const steps[] = {&b.grid, &b.blurredX, &b.blurredY, &b.density};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto count = uint32_t(texels[axis]);
+        const uint32_t pieces = axis == 0 ? 1 : groupsFor(count, uint32_t(DENSITY_PIECE(run.push.reach)));
+        run.dispatchOver(all / count * pieces, blur[std::size_t(axis)],
+                         std::array{Descriptor{0, *steps[axis]}, Descriptor{1, *steps[axis + 1]},
+                                    Descriptor{2, b.weights}});
     }
 }
 

@@ -6,9 +6,9 @@ namespace fw::gpu {
 #endif
 
 #define DENSITY_GROUP 64       // particles or samples of a work group
-#define DENSITY_LINES 32       // lines of samples of a work group that blurs
 #define DENSITY_MOST_REACH 12  // weights of a blur beyond the middle one
 #define DENSITY_UNIT 65536.0   // of whole numbers that positions and weights are added up as
+#define DENSITY_PIECE(reach) (2 * (reach))  // samples of a line that a lane blurs: it reads twice as many
 
 struct DensityPush {
     ivec3 size;  // samples
@@ -18,7 +18,6 @@ struct DensityPush {
     ivec3 buckets;  // of the side `radius`, around all samples and a radius more
     float radius;   // metres
     vec3 first;     // corner of the first bucket
-    int axis;       // of a blur
     int reach;      // cells that a particle reaches from its own
 };
 

@@ -1,16 +1,22 @@
 // Particles to a density, the talk's three ways, beside what the slide says of them; and the fluid that makes
 // such particles.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <map>
+#include <optional>
 #include <random>
+#include <span>
 
 #include "graph/json.h"
 #include "runtime/particles/particle_volume.h"
 #include "runtime/player.h"
+#include "shaders/shared.h"
 #include "tests/bench/tables.h"
+
+#include "shaders/particles/density.h"
 
 namespace fw::bench {
 namespace {
@@ -21,10 +27,11 @@ constexpr double kLeastOverExact = 40;
 
 struct Way {
     const char* name;
-    DensityMethod method;
-    const char* slide;  // ms
+    std::optional<DensityMethod> method;  // none: the slide's own exact way
+    const char* slide;                    // ms
 };
-constexpr Way kWays[] = {{"exact", DensityMethod::exact, "> 200"},
+constexpr Way kWays[] = {{"exact", DensityMethod::exact, ""},
+                         {"exact, cells of one sample", {}, "> 200"},
                          {"proxies", DensityMethod::proxies, "> 100"},
                          {"blur", DensityMethod::blur, "< 2"}};
 
@@ -54,6 +61,37 @@ constexpr const char* kFluid = R"({"fieldwright": 1, "nodes": [
     {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "water"}, "radius": 0.08, "threshold": 0.7,
         "resolution": 64}},
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 64}}]})";
+
+/// The slide's exact way: cells as wide as a sample, where ours are as wide as a particle reaches.
+void recordSlideExact(Commands& commands, DensityKernels& kernels, const Pipeline& kernel, DensityBuffers& b,
+                      const DensityConfig& config, const Buffer& particles) {
+    const DensityGrid& grid = config.grid;
+    gpu::DensityPush push{};
+    push.size = grid.size;
+    push.particles = kParticles;
+    push.origin = grid.origin;
+    push.cell = push.radius = grid.cell;
+    push.reach = int(kRadiusInCells);
+    push.buckets = grid.size + 2 * push.reach + 3;  // rows are padded by up to three samples
+    push.first = grid.origin - (float(push.reach) + 0.5f) * grid.cell;
+    const auto buckets = uint32_t(push.buckets.x * push.buckets.y * push.buckets.z);
+    const auto samples = uint32_t((grid.size.x + 3) / 4 * 4 * grid.size.y * grid.size.z);
+    const auto run = [&](uint32_t items, const Pipeline& pipeline, std::span<const Descriptor> bound) {
+        dispatch(commands, pipeline, spread(groupsFor(items, DENSITY_GROUP)), push, bound);
+        barrier(commands);
+    };
+    reserve(commands.device, b.keys, 4ull * kParticles);
+    reserve(commands.device, b.sorted, 16ull * kParticles);
+    reserve(commands.device, b.density, 4ull * samples);
+    beginStage(commands, "sort");
+    run(kParticles, kernels.bucket, std::array{Descriptor{0, particles}, Descriptor{1, b.keys}});
+    sortByKey(commands, kernels.sort, b.buckets, b.keys, b.order, kParticles, buckets + 1);
+    run(kParticles, kernels.gather,
+        std::array{Descriptor{0, particles}, Descriptor{1, b.order}, Descriptor{2, b.sorted}});
+    beginStage(commands, "density");
+    run(samples, kernel,
+        std::array{Descriptor{0, b.sorted}, Descriptor{1, b.buckets.starts}, Descriptor{2, b.density}});
+}
 
 /// What becomes of a density: samples of a volume.
 void volumeTable(Bench& bench, ParticleVolumeKernels& kernels, const Buffer& particles) {
@@ -137,6 +175,7 @@ void particlesTable(Bench& bench) {
     const Device& device = bench.device();
     ParticleVolumeKernels volumeKernels = createParticleVolumeKernels(device);
     DensityKernels& kernels = volumeKernels.density;
+    const Pipeline slideExact = createComputePipeline(device, {.name = "bench/slide_exact.comp"});
     DensityBuffers buffers;
     const std::vector<glm::vec4> places = splash();
     Buffer particles = createBuffer(device, 16 * places.size());
@@ -152,13 +191,15 @@ void particlesTable(Bench& bench) {
         std::vector<float> exact;
         double slowest = 0.0;
         for (const Way& way : kWays) {
-            config.method = way.method;
+            config.method = way.method.value_or(DensityMethod::exact);
             const auto run = [&](bool timed) {
                 const auto start = Clock::now();
                 Commands commands(device, timed);
-                if (const Done recorded =
-                        recordDensity(commands, kernels, buffers, config, particles, kParticles);
-                    !recorded)
+                if (!way.method)
+                    recordSlideExact(commands, kernels, slideExact, buffers, config, particles);
+                else if (const Done recorded =
+                             recordDensity(commands, kernels, buffers, config, particles, kParticles);
+                         !recorded)
                     bench.fail(recorded.error().message);
                 submit(commands);
                 return std::pair(millisecondsSince(start), commands.stages);
@@ -172,6 +213,9 @@ void particlesTable(Bench& bench) {
                 const double off = std::abs(double(density[i]) - exact[i]);
                 most = std::max(most, double(exact[i])), worst = std::max(worst, off), squares += off * off;
             }
+            if (!way.method && !(worst < 1e-5 * most))
+                bench.fail("the slide's exact way is off by " + std::to_string(worst / most) +
+                           " of the densest");
             std::vector<std::string> row{way.name, count(samples), text(all)};
             for (const char* wanted : {"sort", "splat", "density", "blur"}) {
                 double sum = 0.0;
