@@ -205,6 +205,24 @@ TEST_F(Fluid, TheSameBytesEachTime) {
     }
 }
 
+TEST_F(Fluid, ListsNeedNotBeBoundAtOnce) {
+    Result<Device> tight = createDevice({});
+    ASSERT_TRUE(tight);
+    tight->properties.limits.maxStorageBufferRange = 1 << 17;  // of 512 particles' lists
+    const FluidKernels kernels = createFluidKernels(*tight, {});
+    const std::vector<glm::vec3> places = randomPlaces(1500, 0.6f, 7);
+    const FluidConfig config{.spacing = 0.1f};
+    const auto stepped = [&](const Device& on, const FluidKernels& with) {
+        FluidParticles fluid;
+        setFluid(on, fluid, places, {});
+        Commands commands(on);
+        EXPECT_TRUE(recordFluidStep(commands, with, fluid, config, 0.01f));
+        submit(commands);
+        return download<float>(on, fluid.places, 4 * places.size());
+    };
+    EXPECT_EQ(stepped(*tight, kernels), stepped(device(), kernelsFor()));
+}
+
 TEST_F(Fluid, GoesOnFromWhatWasRead) {
     const FluidConfig config{.spacing = 0.06f};
     FluidParticles fluid, again;
