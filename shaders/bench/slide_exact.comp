@@ -1,5 +1,5 @@
-// The slide's exact way: the particles of the cells around each sample, which are one sample wide: 9^3 of them for particles four
-// cells wide. Those of a row lie in one piece.
+// The slide's exact way: the particles of the cells around each sample, which are one sample wide: 9^3 of them for particles
+// four cells wide. Those of a row lie in one piece.
 #include "particles/density.glsl"
 
 layout(local_size_x = DENSITY_GROUP) in;

@@ -1,7 +1,7 @@
 // One blur of three, along AXIS (0, 1, 2 for x, y, z): each lane goes along a piece of a line with the values around it in
-// registers. The first blur is along x, of whole rows, reads whole numbers and goes by four samples; the others go by eight in x,
-// and the last writes floats. Pieces are short so that lanes after one another write next to one another: lines as long as the
-// grid take software devices more than twice as long. REACH is the number of weights beyond the middle one.
+// registers. The first blur is along x, of whole rows, reads whole numbers and goes by four samples; the others go by eight
+// in x, and the last writes floats. Pieces are short so that lanes after one another write next to one another: with whole
+// lines software devices take about twice as long. REACH is the number of weights beyond the middle one.
 #include "particles/density.glsl"
 
 #ifndef REACH
@@ -22,8 +22,8 @@ layout(binding = 1, scalar) writeonly buffer To { uvec2 to[]; };
 layout(binding = 1, scalar) writeonly buffer To { uvec4 to[]; };
 #endif
 
-// Samples between blurs, eight to a texel: floats without sign, of 5 bits of exponent and 11, from 2^-14, which stands for 0, to
-// 2^18, where they end. By arithmetic, for half floats are slow on software devices.
+// Samples between blurs, eight to a texel: floats without sign, of 5 bits of exponent and 11, from 2^-14, which stands for 0,
+// to 2^18, where they end: farther than half floats.
 const uint kLeast = 113 << 23;
 uvec2 shorten(vec4 v) {
     uvec4 bits = min((floatBitsToUint(v + uintBitsToFloat(kLeast)) - kLeast + 0x800) >> 12, uvec4(0xffff));
@@ -72,7 +72,10 @@ void main() {
 #if AXIS == 0
         vec4 sum = vec4(0.0);
         for (int c = 0; c < 4; ++c)
-            for (int k = -REACH; k <= REACH; ++k) sum[c] += w[abs(k)] * around[(4 * reach + c + k) / 4][(4 * reach + c + k) % 4];
+            for (int k = -REACH; k <= REACH; ++k) {
+                int other = 4 * reach + c + k;
+                sum[c] += w[abs(k)] * around[other / 4][other % 4];
+            }
         to[line * 2 * texels.x + i] = shorten(sum);
 #else
         mat2x4 sum = w[0] * around[reach];

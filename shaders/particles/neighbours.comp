@@ -1,5 +1,6 @@
-// Lists the near neighbours of each particle, and adds up the density of those that are farther, but not beyond the support, in the
-// nine rows of cells around it. What the ball of the kernel can reach of a row lies in one piece. Without FAR_ONCE all are near.
+// Lists the near neighbours of each particle, and adds up the density of those that are farther, but not beyond the support, in
+// the nine rows of cells around it. What the ball of the kernel can reach of a row lies in one piece. Without FAR_ONCE all are
+// near.
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
