@@ -5,9 +5,9 @@
 namespace fw::gpu {
 #endif
 
-#define DENSITY_GROUP 256      // particles or samples of a work group
-#define DENSITY_MOST_REACH 12  // weights of a blur beyond the middle one
-#define DENSITY_UNIT 65536.0   // of whole numbers that positions and weights are added up as
+#define DENSITY_GROUP 256                   // particles or samples of a work group
+#define DENSITY_MOST_REACH 12               // weights of a blur beyond the middle one
+#define DENSITY_UNIT 65536.0                // of whole numbers that positions and weights are added up as
 #define DENSITY_PIECE(reach) (2 * (reach))  // samples of a line that a lane blurs: it reads twice as many
 
 struct DensityPush {

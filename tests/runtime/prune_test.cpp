@@ -127,7 +127,8 @@ TEST(Prune, ThreeHundredBallsBlendedIntoTheGround) {
         ASSERT_TRUE(program.families.groups.begin()->second.chain());
         for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring})
             expectPruningChangesNothing(program, kBox, 60, method);
-        if (first[4] == 'p') expectStraightCodeAgrees(program, kBox, 60);  // once: its shader takes long to build
+        if (first[4] == 'p')
+            expectStraightCodeAgrees(program, kBox, 60);  // once: its shader takes long to build
     }
 }
 

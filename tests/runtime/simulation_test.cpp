@@ -210,7 +210,8 @@ TEST(Simulation, AHoleLetsThemThrough) {
 
 TEST(Simulation, ATimeWithoutEndIsRefusedAtOnce) {
     Played played(liveOf(R"("rate": 10)", ""));
-    for (const double seconds : {1e12, double(HUGE_VAL), std::nan("")}) EXPECT_THROW(played.goTo(seconds), SystemError);
+    for (const double seconds : {1e12, double(HUGE_VAL), std::nan("")})
+        EXPECT_THROW(played.goTo(seconds), SystemError);
     EXPECT_TRUE(played.goTo(-1e12));
     EXPECT_TRUE(played.goTo(0.5));
     Played still(liveOf(R"("rate": 0, "burst": 10)", "none"));

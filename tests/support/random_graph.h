@@ -13,7 +13,8 @@ namespace fw::test {
 /// expressions.
 Graph randomGraph(uint32_t seed, int maxNodes);
 
-/// What a random graph compiles to; none if it does not, or to more operations than a driver soon makes shaders of.
+/// What a random graph compiles to; none if it does not, or to more operations than a driver soon makes
+/// shaders of.
 std::optional<Program> randomProgram(uint32_t seed, int maxNodes);
 /// So many operations: such graphs are sound, and the nodes in them are covered by smaller ones.
 inline constexpr std::size_t kMostOperations = 3000;

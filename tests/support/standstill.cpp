@@ -1,5 +1,6 @@
-// A test that stands still ends the program by its name, rather than holding up whatever waits for it. It takes
-// twenty minutes, that no slow machine is taken for one; a driver's compiler can stand still on a shader.
+// A test that stands still ends the program by its name, rather than holding up whatever waits for it. It
+// takes twenty minutes, that no slow machine is taken for one; a driver's compiler can stand still on a
+// shader.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,7 +16,8 @@ std::string running;  // set between alarms alone: a handler of signals may read
 
 class StandstillListener : public testing::EmptyTestEventListener {
     void OnTestStart(const testing::TestInfo& info) override {
-        running = std::string(info.test_suite_name()) + "." + info.name() + " has not ended after 20 minutes\n";
+        running =
+            std::string(info.test_suite_name()) + "." + info.name() + " has not ended after 20 minutes\n";
         alarm(kSeconds);
     }
     void OnTestEnd(const testing::TestInfo&) override { alarm(0); }
