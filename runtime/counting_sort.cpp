@@ -43,7 +43,7 @@ void countKeys(Commands& commands, const KeyCounting& counting, CountingSortBuff
                const Descriptor& keysOfItems, uint32_t items, uint32_t keys) {
     const gpu::SortPush push{.items = items, .keys = keys};
     reserve(commands.device, buffers.counts, 4ull * keys);
-    reserve(commands.device, buffers.ranks, 4ull * std::max(items, 1u));
+    reserve(commands.device, buffers.ranks, 4ull * items);
     fill(commands, buffers.counts, 0);
     barrier(commands);
     const Descriptor bound[] = {keysOfItems, {1, buffers.counts}, {2, buffers.ranks}};
@@ -56,8 +56,8 @@ void sortByKey(Commands& commands, const CountingSort& sort, CountingSortBuffers
                const Buffer& keysOfItems, Buffer& order, uint32_t items, uint32_t keys) {
     countKeys(commands, sort.counting, buffers, {0, keysOfItems}, items, keys);
     const gpu::SortPush push{.items = items, .keys = keys};
-    reserve(commands.device, buffers.unsettled, 4ull * std::max(items, 1u));
-    reserve(commands.device, order, 4ull * std::max(items, 1u));
+    reserve(commands.device, buffers.unsettled, 4ull * items);
+    reserve(commands.device, order, 4ull * items);
     const Descriptor scattered[] = {
         {0, keysOfItems}, {1, buffers.starts}, {2, buffers.ranks}, {3, buffers.unsettled}};
     dispatch(commands, sort.scatter, spread(groupsFor(items, SORT_GROUP)), push, scattered);

@@ -212,11 +212,8 @@ void Session::valuesChanged() {
 }
 
 std::vector<FieldVolumePtr> Session::particleVolumes() const {
-    std::vector<FieldVolumePtr> made;
-    for (std::size_t i = 0; particles && i < current.ir.volumes().size(); ++i)
-        if (const FieldVolume& volume = *current.ir.volumes()[i]; volume.particles)
-            made.push_back(downloadVolume(*gpu, volume, volumes, firstTexel(current, i)));
-    return made;
+    if (!particles) return {};
+    return downloadParticles(*gpu, current, volumes);
 }
 
 Program Session::onHost() const {

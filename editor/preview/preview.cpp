@@ -284,11 +284,9 @@ bool Maker::draw() {
     if (options.scene.camera) result.seen = *options.scene.camera;
     result.current = good;
     result.draft = player->compiling();
-    if (due)
-        result.particles.clear();
-    else if (result.particles.empty())
-        result.particles = player->particleVolumes();
+    if (!due && result.particles.empty()) result.particles = player->particleVolumes();
     if (due) {
+        result.particles.clear();
         result.statistics.stages = {{"compile", loading}, {"mesh", meshing}, {"picture", drew}};
         result.statistics.milliseconds = millisecondsSince(since);
         adapt(loading + meshing + drew);

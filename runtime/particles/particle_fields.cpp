@@ -105,6 +105,15 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
     return changes;
 }
 
+std::vector<FieldVolumePtr> downloadParticles(const Device& device, const Program& program,
+                                              const Buffer& volumes) {
+    std::vector<FieldVolumePtr> made;
+    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i)
+        if (const FieldVolume& volume = *program.ir.volumes()[i]; volume.particles)
+            made.push_back(downloadVolume(device, volume, volumes, firstTexel(program, i)));
+    return made;
+}
+
 void useParticles(Program& program, std::span<const FieldVolumePtr> made) {
     for (std::size_t i = 0; i < program.ir.volumes().size(); ++i) {
         const FieldVolumePtr volume = program.ir.volumes()[i];
@@ -136,11 +145,7 @@ Done makeParticles(Program& program, const Graph& graph, double seconds, const C
         error.file = graph.path;
         return error;
     }
-    std::vector<FieldVolumePtr> samples;
-    for (std::size_t i = 0; i < played.ir.volumes().size(); ++i)
-        if (const FieldVolume& volume = *played.ir.volumes()[i]; volume.particles)
-            samples.push_back(downloadVolume(device, volume, volumes, firstTexel(played, i)));
-    useParticles(program, samples);
+    useParticles(program, downloadParticles(device, played, volumes));
     return done();
 }
 

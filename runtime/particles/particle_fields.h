@@ -54,6 +54,10 @@ class ParticleFields {
     std::vector<Part> parts;
 };
 
+/// The program's volumes of particles with their samples, read back from the texels of all its volumes.
+std::vector<FieldVolumePtr> downloadParticles(const Device& device, const Program& program,
+                                              const Buffer& volumes);
+
 /// Gives a program samples of its particles, by their nodes, where it lacks some.
 void useParticles(Program& program, std::span<const FieldVolumePtr> made);
 

@@ -124,7 +124,9 @@ bool Simulation::rests() const { return source().kind == Kind::file && moves.emp
 Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
                               const std::function<bool(int done, int all)>& progress) {
     if (!rests() && !(seconds <= kMostSimulated))
-        return Error{.message = "particles are simulated for ten hours at most: choose an earlier time"};
+        return Error{.message = "particles are simulated for " +
+                                std::to_string(int(kMostSimulated / 3600.0)) +
+                                " hours at most: choose an earlier time"};
     const int wanted = rests() ? 0 : int(std::floor(std::max(seconds, 0.0) / kSimulationStep + 1e-6));
     if (wanted == state.steps) return false;
     const auto after = std::ranges::upper_bound(checkpoints, wanted, {}, &Checkpoint::steps);

@@ -162,11 +162,15 @@ void findPlaces(Commands& commands, Renderer& renderer, const RenderScene& scene
                scene.content);
 }
 
+/// Whether the mesh must be drawn: a draft is, edges lie at its depth, and particles are drawn beside it.
+bool mustDraw(const RenderScene& scene, const RenderOptions& options) {
+    return scene.draft || options.show == RENDER_WIREFRAME || !scene.particles.empty();
+}
+
 bool wantsTracing(const RenderScene& scene, const RenderOptions& options, const Renderer& renderer) {
+    if (mustDraw(scene, options)) return false;
     const bool measured = options.primary == Primary::measured && renderer.tracing.value_or(false);
     const bool known = options.primary == Primary::traced && std::isfinite(scene.lipschitz);
-    // Edges lie at the mesh's depth, and particles are drawn beside the mesh.
-    if (scene.draft || options.show == RENDER_WIREFRAME || !scene.particles.empty()) return false;
     return options.reference || (scene.triangles > 0 && (measured || known));
 }
 
@@ -648,7 +652,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     renderer.ambient.options = ambient;
     gpu::View view = shows.view;
     view.jitter = jitterOf(renderer.rested, options);
-    if (options.primary == Primary::measured && !renderer.tracing && !scene.draft) {
+    if (options.primary == Primary::measured && !renderer.tracing && !mustDraw(scene, options)) {
         renderer.described = describe(renderer, scene, options, view, false, 0, kShadowSize);
         measurePrimary(renderer, scene);
     }

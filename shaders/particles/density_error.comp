@@ -24,10 +24,10 @@ void main() {
         uvec4 four = t < texels ? imageLoad(lists, texel) : uvec4(index);
         for (int k = 0; k < 4; ++k) {
             vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(four[k])).xyz);
-            float apart = dot(off, off), u = max(1.0 - sqrt(apart) * push.perSupport, 0.0), u3 = u * u * u;
-            weights += four[k] != index ? u3 * u * (5.0 - 4.0 * u) : 0.0;
-            squares += u3 * u3 * apart;
-            offs += u3 * off;
+            float apart = dot(off, off), u = leftOf(apart), slope = slopeShape(u);
+            weights += four[k] != index ? weightShape(u) : 0.0;
+            squares += slope * slope * apart;
+            offs += slope * off;
         }
         texel += kNextTexel;
     } while (++t < turns);

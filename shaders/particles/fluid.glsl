@@ -17,11 +17,11 @@ int firstTexel(uint index) {
     return int(index / FLUID_GROUP * (FLUID_GROUP * FLUID_MOST_NEIGHBOURS / 4) + index % FLUID_GROUP);
 }
 
-// Wendland's C2 kernel times a particle's volume, at the share `u` = 1 - r / support of the support that is left: what a particle
-// adds to the density; and what times the offset a - b is the gradient of that.
-float weightAt(float u) { return push.weight * (u * u) * (u * u) * (5.0 - 4.0 * u); }
-float slopeAt(float u) { return push.slope * u * u * u; }
-float left(vec3 off) { return max(1.0 - length(off) * push.perSupport, 0.0); }
+// Wendland's C2 kernel at the share `u` = 1 - r / support of the support that is left. Times push.weight, the shape of the weight is
+// what a particle adds to the density; that of the slope, times push.slope and the offset a - b, is the gradient of that.
+float weightShape(float u) { return (u * u) * (u * u) * (5.0 - 4.0 * u); }
+float slopeShape(float u) { return u * u * u; }
+float leftOf(float squared) { return max(1.0 - sqrt(squared) * push.perSupport, 0.0); }
 
 // What walls add to the density at the distances d before them, each as if it were full of particles: the integral of the kernel
 // beyond its plane; and how that falls off with d.

@@ -14,7 +14,7 @@ void main() {
     if (index >= push.particles) return;
     vec4 own = uintBitsToFloat(imageLoad(weighed, int(index)));
     vec4 plane = uintBitsToFloat(imageLoad(planes, int(index)));
-    vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz), shift = own.w * wallsAt(p, plane).xyz;
+    vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz), shift = vec3(0.0);
     uint texels = (counts[index] + 3) / 4, turns = subgroupMax(texels), t = 0;  // all lanes end together
     int texel = firstTexel(index);
     do {
@@ -22,11 +22,11 @@ void main() {
         for (int k = 0; k < 4; ++k) {
             vec4 its = uintBitsToFloat(imageLoad(weighed, int(four[k])));
             vec3 off = own.xyz - its.xyz;
-            shift += (own.w + its.w) * slopeAt(left(off)) * off;
+            shift += (own.w + its.w) * slopeShape(leftOf(dot(off, off))) * off;
         }
         texel += kNextTexel;
     } while (++t < turns);
-    p = inTank(p + shift);
+    p = inTank(p + push.slope * shift + own.w * wallsAt(p, plane).xyz);
     p += max(plane.w - dot(plane.xyz, p), 0.0) * plane.xyz;
     imageStore(guesses, int(index), floatBitsToUint(vec4(inTank(p), 0.0)));
 }

@@ -45,7 +45,7 @@ void main() {
                 float apart = dot(off, off);
                 bool other = i < end && i != index, near = other && apart < nearest && found < FLUID_MOST_NEIGHBOURS;
 #ifdef FAR_ONCE
-                farther += other && apart >= nearest ? weightAt(max(1.0 - sqrt(apart) * push.perSupport, 0.0)) : 0.0;
+                farther += other && apart >= nearest ? weightShape(leftOf(apart)) : 0.0;
 #endif
                 older = near ? uvec3(newest.w, older.xy) : older;
                 newest = near ? uvec4(i, newest.xyz) : newest;
@@ -62,6 +62,6 @@ void main() {
     } while (++row < 9);
     uvec3 rest = mix(uvec3(index), newest.xyz, greaterThan(uvec3(waiting), uvec3(0, 1, 2)));
     if (waiting > 0 || found == 0) lists[texel] = uvec4(rest, index);
-    far[index] = farther;
+    far[index] = push.weight * farther;
     counts[index] = found;
 }

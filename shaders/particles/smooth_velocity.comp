@@ -23,9 +23,9 @@ void main() {
             int other = int(four[k]);
             vec3 off = p - uintBitsToFloat(imageLoad(guesses, other).xyz);
             vec3 faster = uintBitsToFloat(imageLoad(velocities, other).xyz) - v;
-            change += weightAt(left(off)) * (push.viscosity * faster - push.tension * off);
+            change += weightShape(leftOf(dot(off, off))) * (push.viscosity * faster - push.tension * off);
         }
         texel += kNextTexel;
     } while (++t < turns);
-    imageStore(smoothed, int(index), floatBitsToUint(vec4(v + change, 0.0)));
+    imageStore(smoothed, int(index), floatBitsToUint(vec4(v + push.weight * change, 0.0)));
 }

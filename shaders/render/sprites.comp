@@ -1,7 +1,11 @@
 // Where a particle is seen, the G-buffer gets what it shows.
+#define FIELD_MATERIAL
 #include "shared.h"
 #include "render/render.h"
+#include "field.glsl"
+#include "lib/octahedral.glsl"
 #include "render/view.glsl"
+#include "render/gbuffer.glsl"
 
 layout(local_size_x = RENDER_TILE * RENDER_TILE) in;
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
@@ -21,6 +25,7 @@ void main() {
     float toGround = groundAlong(frame.now, rayOf(frame.now, placeOf(pixel, frame.size)));
     bool hidden = toGround > 0.0 && toGround * depth < frame.now.near;
     uvec2 look = imageLoad(looks, at).xy;
-    uvec4 surface = uvec4(floatBitsToUint(depth), look.x, look.y & 0xffffff, packUnorm4x8(vec4(0.0, 0.0, 0.0, 0.5)));
+    vec3 color = unpackUnorm4x8(look.y).rgb;
+    uvec4 surface = packSurface(depth, unpackOctahedral(look.x), FieldMaterial(color * color, 0.5, 0.0, vec3(0.0)));
     if (inPicture && look.y != 0 && !hidden) imageStore(surfaces, at, surface);
 }

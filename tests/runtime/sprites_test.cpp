@@ -15,19 +15,20 @@ namespace {
 constexpr int kSide = 200;                                     // pixels
 constexpr double kDistance = 4.0, kHalf = 0.3639702342662024;  // of the camera; tan 20 degrees
 
-/// A graph of the particles in `places`, seen from the front, with `stage` between the solid and the output.
+/// A graph of the particles in `places`, seen from the front, and `more` nodes; `shown` is what the output
+/// shows.
 class Drawn {
   public:
-    explicit Drawn(const std::string& places, const std::string& stage = "") {
+    explicit Drawn(const std::string& places, const std::string& more = "",
+                   const std::string& shown = R"("surface": {"from": "field"})") {
         test::writeText(dir.path("some.xyz"), places);
         test::writeText(dir.path("a.field.json"),
                         R"({"fieldwright": 1, "nodes": [
           {"id": "file", "type": "particle_file", "inputs": {"path": "some.xyz"}},
           {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "file"}, "radius": 0.4,
             "threshold": 0.125, "resolution": 48, "region_min": [-1, -1, -1], "region_max": [1, 1, 1]}},
-          )" + stage + R"({"id": "out", "type": "output", "inputs": {"resolution": 48, ")" +
-                            (stage.find("polygonize") == std::string::npos ? "surface" : "mesh") +
-                            R"(": {"from": ")" + (stage.empty() ? "field" : "stage") + R"("}}}],
+          )" + more + R"({"id": "out", "type": "output", "inputs": {"resolution": 48, )" +
+                            shown + R"(}}],
           "scene": {"camera": {"position": [0, 0, 4], "target": [0, 0, 0], "fov": 40}}})");
         Result<Player> made = Player::open(dir.path("a.field.json"), {.deviceOptions = {.validation = true}});
         EXPECT_TRUE(made) << (made ? "" : format(made.error()));
@@ -92,17 +93,19 @@ TEST(Sprites, TheNearerHidesTheFarther) {
     EXPECT_EQ(blueOf(Drawn("0 0 0.5\n0 0 -0.5\n").picture(RENDER_SPHERES)).count, one);
     EXPECT_EQ(blueOf(Drawn("0 0 -0.5\n0 0 0.5\n").picture(RENDER_SPHERES)).count, one);
     // A wall before them, and a hole in it.
-    const auto wall = [](const std::string& inputs) {
-        return R"({"id": "wall", "type": "box", "inputs": {"half_extents": [0.9, 0.9, 0.05]}},
+    const auto behindWall = [](const std::string& radius) {
+        return Drawn("0 0 0\n",
+                     R"({"id": "wall", "type": "box", "inputs": {"half_extents": [0.9, 0.9, 0.05]}},
           {"id": "front", "type": "translate", "inputs": {"surface": {"from": "wall"}, "offset": [0, 0, 0.8]}},
           {"id": "hole", "type": "cylinder", "inputs": {"radius": )" +
-               inputs + R"(, "half_height": 3}},
+                         radius + R"(, "half_height": 3}},
           {"id": "through", "type": "rotate", "inputs": {"surface": {"from": "hole"}, "angles": [90, 0, 0]}},
           {"id": "cut", "type": "subtract", "inputs": {"a": {"from": "front"}, "b": {"from": "through"}}},
-          {"id": "stage", "type": "union", "inputs": {"a": {"from": "field"}, "b": {"from": "cut"}}},)";
+          {"id": "both", "type": "union", "inputs": {"a": {"from": "field"}, "b": {"from": "cut"}}},)",
+                     R"("surface": {"from": "both"})");
     };
-    EXPECT_EQ(blueOf(Drawn("0 0 0\n", wall("0.001")).picture(RENDER_SPHERES)).count, 0);
-    EXPECT_GT(blueOf(Drawn("0 0 0\n", wall("0.6")).picture(RENDER_SPHERES)).count, 500);
+    EXPECT_EQ(blueOf(behindWall("0.001").picture(RENDER_SPHERES)).count, 0);
+    EXPECT_GT(blueOf(behindWall("0.6").picture(RENDER_SPHERES)).count, 500);
 }
 
 TEST(Sprites, SurfacesComeBackAndMeshesAlwaysHaveThem) {
@@ -117,11 +120,24 @@ TEST(Sprites, SurfacesComeBackAndMeshesAlwaysHaveThem) {
 }
 
 TEST(Sprites, AreDrawnBesideDrafts) {
-    const std::string stage =
-        R"({"id": "mesh", "type": "polygonize", "inputs": {"surface": {"from": "field"}}},
-        {"id": "stage", "type": "smooth", "inputs": {"mesh": {"from": "mesh"}, "iterations": 2}},)";
+    Drawn smoothed("0 0 0\n",
+                   R"({"id": "mesh", "type": "polygonize", "inputs": {"surface": {"from": "field"}}},
+        {"id": "smooth", "type": "smooth", "inputs": {"mesh": {"from": "mesh"}, "iterations": 2}},)",
+                   R"("mesh": {"from": "smooth"})");
     const double count = blueOf(Drawn("0 0 0\n").picture(RENDER_SPHERES)).count;
-    EXPECT_NEAR(blueOf(Drawn("0 0 0\n", stage).picture(RENDER_SPHERES)).count, count, 0.02 * count);
+    EXPECT_NEAR(blueOf(smoothed.picture(RENDER_SPHERES)).count, count, 0.02 * count);
+}
+
+TEST(Sprites, AreDrawnByALiveViewThatMeasuresHow) {
+    Drawn drawn("0 0 0\n", R"({"id": "ball", "type": "sphere", "inputs": {"radius": 0.2}},
+        {"id": "both", "type": "union", "inputs": {"a": {"from": "field"}, "b": {"from": "ball"}}},)",
+                R"("surface": {"from": "both"})");
+    ASSERT_TRUE(drawn.player);
+    Picture picture;
+    const Result<bool> shown = drawn.player->show(
+        {.width = kSide, .height = kSide, .primary = Primary::measured, .show = RENDER_SPHERES}, picture);
+    ASSERT_TRUE(shown) << format(shown.error());
+    EXPECT_GT(blueOf(picture).count, 500);
 }
 
 TEST(Sprites, WithoutParticlesThePictureIsThatOfTheSolid) {
