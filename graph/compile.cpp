@@ -9,6 +9,7 @@
 #include "graph/language/lower.h"
 #include "graph/named_parameters.h"
 #include "graph/node_type.h"
+#include "graph/region.h"
 
 namespace fw {
 
@@ -26,8 +27,8 @@ struct Lowered {
 };
 using LoweredNodes = std::unordered_map<std::string, Lowered>;
 
-/// A particle should be some cells wide.
-constexpr double kMostCellOfRadius = 0.6;
+/// How many cells a particle should reach at least, and reaches at most where the grid is found.
+constexpr double kFewRadiusCells = 1.7, kManyRadiusCells = 8.0;
 
 bool isSurface(const OutputSpec& output) { return output.type == Type::surface; }
 
@@ -551,37 +552,42 @@ class Compiler {
                              const std::vector<Value>& inputs) {
         const std::optional<ParticleStage> own = particleStage(node, prefix, type, inputs);
         const Value& from = inputOf(type, inputs, "particles");
-        const auto resolution = knownNumber(node, prefix, type, inputs, "resolution");
+        auto resolution = knownNumber(node, prefix, type, inputs, "resolution");
         if (!own || !from.particles || !resolution) return failure(type.outputs);
         std::vector<double> values;
         for (const LiveParameter& parameter : live) values.push_back(parameter.value);
-        Box region;
-        if (node.input("region_min") && node.input("region_max")) {
+        const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
+        Box region = particleBounds(state.ir, *from.particles, values, radius);
+        bool found = true;
+        for (const auto& [name, corner] :
+             {std::pair("region_min", &region.lo), std::pair("region_max", &region.hi)}) {
+            if (!node.input(name)) continue;
+            found = false;
             for (int i = 0; i < 3; ++i) {
-                const auto lo = knownNumber(node, prefix, type, inputs, "region_min", i),
-                           hi = knownNumber(node, prefix, type, inputs, "region_max", i);
-                if (!lo || !hi) return failure(type.outputs);
-                region.lo[std::size_t(i)] = *lo, region.hi[std::size_t(i)] = *hi;
+                const auto given = knownNumber(node, prefix, type, inputs, name, i);
+                if (!given) return failure(type.outputs);
+                (*corner)[std::size_t(i)] = *given;
             }
-        } else {
-            region = particleBounds(state.ir, *from.particles, values,
-                                    StageNumbers(state.ir, *own, values).scalar("radius"));
         }
+        if (found)
+            resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / radius));
         const Result<FieldVolumePtr> volume =
             particleVolume(state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
         if (!volume) {
-            report(node, prefix, node.input("region_min") ? "region_min" : "particles", volume.error());
+            report(node, prefix, found ? "particles" : "region_min", volume.error());
             return failure(type.outputs);
         }
-        const double cell = (*volume)->grid.cell,
-                     radius = StageNumbers(state.ir, *own, values).scalar("radius");
-        if (cell > kMostCellOfRadius * radius)
+        const double cell = (*volume)->grid.cell;
+        const double enough = std::ceil(*resolution * cell * kFewRadiusCells / radius);
+        if (enough > *resolution)
             notes.push_back(located(
                 node, prefix, "resolution",
-                {.message = "cells of " + shortNumber(cell) + " m are wide for particles that reach " +
-                            shortNumber(radius) + " m: raise the resolution to " +
-                            shortNumber(std::ceil(*resolution * cell / (kMostCellOfRadius * radius))) +
-                            ", or give the grid a smaller region",
+                {.message =
+                     "cells of " + shortNumber(cell) + " m are wide for particles that reach " +
+                     shortNumber(radius) + " m: " +
+                     (enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
+                                                        : "raise the radius") +
+                     ", or give the grid a smaller region",
                  .severity = Error::Severity::warning}));
         return sampled(node, prefix, type, inputs, *volume, tricubicChannel);
     }

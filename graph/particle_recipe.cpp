@@ -8,6 +8,7 @@
 
 #include "graph/compile.h"
 #include "graph/hash.h"
+#include "graph/region.h"
 #include "graph/volume.h"
 
 namespace fw {
@@ -87,14 +88,11 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
                                       const ParticleStage& toField, const Box& region, int resolution) {
     VolumeGrid grid;
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
         if (!(region.lo[axis] < region.hi[axis]) || !std::isfinite(region.hi[axis] - region.lo[axis]))
             return Error{.message = "the grid has no extent along " + std::string(1, "xyz"[axis]) +
                                     ": give region_min its least corner and region_max its greatest"};
-        longest = std::max(longest, region.hi[axis] - region.lo[axis]);
-    }
-    grid.cell = longest / resolution;
+    grid.cell = longestSide(region) / resolution;
     for (int axis = 0; axis < 3; ++axis) {
         const double side = region.hi[axis] - region.lo[axis];
         const int cells = std::max(int(std::ceil(side / grid.cell - 1e-6)), 1);

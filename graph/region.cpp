@@ -81,10 +81,6 @@ bool holdsUp(const Box& bound, const Box& cell) {
     return false;
 }
 
-double longestSide(const Box& box) {
-    return std::max({box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
-}
-
 /// The hull of what is left of `start` when cells that are provably empty are dropped and those at the hull's
 /// faces are split, round by round; none if nothing is left. Ends after `patience` rounds that did not move
 /// the hull (three rounds halve the cells), or after `budget` interval evaluations.
@@ -150,6 +146,10 @@ bool reachesBeyond(const Field& field, const Box& box) {
 
 }  // namespace
 
+double longestSide(const Box& box) {
+    return std::max({0.0, box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
+}
+
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
     const Field field{ir, distance, parameters};
     if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
@@ -174,9 +174,7 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
 }
 
 Box padded(const Box& box, int resolution, double cells) {
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, box.hi[axis] - box.lo[axis]);
-    const double cell = longest / std::max(resolution - 2.0 * cells, 1.0);
+    const double cell = longestSide(box) / std::max(resolution - 2.0 * cells, 1.0);
     Box result = box;
     for (int axis = 0; axis < 3; ++axis) result.lo[axis] -= cells * cell, result.hi[axis] += cells * cell;
     return result;

@@ -26,6 +26,9 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
 
 inline constexpr double kFarthest = 16384.0;
 
+/// The box's longest side; 0 if none has a length.
+double longestSide(const Box& box);
+
 /// `box` grown on every side by `cells` cells of the grid that has `resolution` cells along the longest side
 /// of the result.
 Box padded(const Box& box, int resolution, double cells);

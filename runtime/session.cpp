@@ -21,12 +21,6 @@ constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
 
-double longestSide(const Box& box) {
-    double longest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, box.hi[axis] - box.lo[axis]);
-    return longest;
-}
-
 }  // namespace
 
 Result<Box> meshRegion(const Program& program, const MeshRequest& request) {

@@ -126,7 +126,9 @@ std::vector<NodeType> particleNodes() {
                            "offsets, shells and "
                            "blends that reach far."),
                     integer("resolution", 96, kLeastParticleResolution, kMostParticleResolution,
-                            "Cells along the grid's longest side. A radius is best two to six cells."),
+                            "Cells along the grid's longest side. A radius is best two to six cells, and is "
+                            "eight at most in a "
+                            "grid that is found."),
                     corner(
                         "region_min",
                         "Lowest corner of the grid; found from where the particles come from if not given."),

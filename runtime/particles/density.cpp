@@ -39,9 +39,10 @@ gpu::DensityPush pushOf(const DensityConfig& config, uint32_t particles) {
 Done fits(const DensityConfig& config, const gpu::DensityPush& push, const Device& device) {
     const int most = config.method == DensityMethod::blur ? DENSITY_MOST_REACH : kMostProxyReach;
     if (config.method != DensityMethod::exact && push.reach > most)
-        return Error{.message = "particles " + std::to_string(push.reach) +
-                                " cells wide are too wide for this way: " + std::to_string(most) +
-                                " is the most, so lower the resolution or the radius"};
+        return Error{.message = "the radius is " + std::to_string(push.reach) + " cells, and " +
+                                std::to_string(most) + " is the most of the method " +
+                                kDensityMethodNames[std::size_t(config.method)] +
+                                ": lower the resolution or the radius, or take the method exact"};
     const uint64_t range = device.properties.limits.maxStorageBufferRange;
     const double samples = double(samplesOf(config.grid));
     const double buckets = double(push.buckets.x) * push.buckets.y * push.buckets.z;

@@ -266,9 +266,8 @@ Done Simulation::makeRoom(const StageNumbers& emitter, double all) {
     const double oldest = anyDied ? born[std::size_t(state.steps - int(lived))] : 0.0;
     const double needed = all - std::floor(oldest) + 1.0;
     if (needed > double(kMostParticles))
-        return Error{.message = "there would be " + std::to_string(uint64_t(needed)) +
-                                " particles at a time, and " + std::to_string(kMostParticles) +
-                                " is the most: lower the rate, the burst or the lifetime",
+        return Error{.message = "there would be more than " + std::to_string(kMostParticles) +
+                                " particles at a time: lower the rate, the burst or the lifetime",
                      .node = source().node};
     if (needed <= double(state.slots)) return done();
     // What it will come to, if nothing changes; and no step by step.

@@ -152,6 +152,22 @@ std::string placesIn(const std::string& bytes, const std::string& name) {
     return text;
 }
 
+TEST(Particles, AGridThatIsFoundIsAsFineAsItsParticlesAsk) {
+    const auto grid = [](const std::string& inputs) {
+        return compile(graphOf(R"({"id": "drop", "type": "emitter", "inputs": {"shape": "point"}},)" +
+                               field("drop", R"(, "radius": 0.5, "resolution": 200)" + inputs)))
+            ->ir.volumes()[0]
+            ->grid;
+    };
+    EXPECT_LE(0.5, (8.0 + 1e-6) * grid("").cell);
+    EXPECT_EQ(grid(R"(, "region_min": [-1, -1, -1], "region_max": [1, 1, 1])").cell, 2.0 / 200);
+    // One corner alone moves that one.
+    const VolumeGrid found = grid(""), cut = grid(R"(, "region_min": [-9, -9, -9])");
+    EXPECT_NEAR(cut.origin[0], -9.0, cut.cell);
+    EXPECT_NEAR(cut.origin[1] + cut.cell * (cut.size[1] - 1),
+                found.origin[1] + found.cell * (found.size[1] - 1), cut.cell + found.cell);
+}
+
 TEST(Particles, FilesOfPlaces) {
     EXPECT_EQ(placesIn("x,y,z\n1,2,3\r\n4;5;6;0.5\n\n# end\n-7 8e-1 9 red\n", "a.csv"),
               "1 2 3;4 5 6;-7 0.8 9;");

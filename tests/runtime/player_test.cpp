@@ -459,6 +459,20 @@ TEST(Player, ParametersOfParticlesAreSetWhileTheyFly) {
     EXPECT_EQ(volume(), slab);
 }
 
+TEST(Player, OneParticleIsABallWithoutFurtherWords) {
+    Played played(R"({"fieldwright": 1, "nodes": [
+        {"id": "drop", "type": "emitter", "inputs": {"shape": "point", "burst": 1, "rate": 0, "velocity": [0, 0, 0],
+            "spread": 0}},
+        {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "drop"}}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 48}}]})");
+    const Mesh mesh = meshOf(*played.player);
+    const Report report = reportOnMesh(mesh.positions, mesh.indices);
+    EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.flippedEdges, 0u);
+    const double radius = 0.15 * std::sqrt(1.0 - std::cbrt(0.3)),
+                 ball = 4.0 / 3.0 * 3.14159265 * radius * radius * radius;
+    EXPECT_NEAR(report.volume, ball, 0.1 * ball);  // the blur is some per cent off
+}
+
 TEST(Player, ParticlesThatCannotBeAreRefusedAndLongWorkEnds) {
     Played many(rain(R"(, "burst": 1000000)"));
     ASSERT_TRUE(many->set("rate", 90e6));
