@@ -141,8 +141,8 @@ bool exchange(Editor& editor) {
         !kept)
         say(editor, format(kept.error()));
     const bool noticed = watchFile(editor);
-    const bool thumbnail =
-        editor.thumbnails.follow(editor.shell, editor.graph, editor.drawn, !editor.document.inGesture());
+    const bool thumbnail = editor.thumbnails.follow(editor.shell, editor.graph, editor.drawn,
+                                                    view.shown.particles, !editor.document.inGesture());
     std::optional<PreviewResult> result = editor.preview.take();
     if (!result || result->document != view.document) return noticed || thumbnail;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);

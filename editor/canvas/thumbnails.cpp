@@ -19,7 +19,7 @@ void Thumbnails::clear(Shell& shell) {
 }
 
 bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph, uint64_t current,
-                        bool rests) {
+                        const std::vector<FieldVolumePtr>& particles, bool rests) {
     bool fresh = false;
     if (working.valid() && working.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         const Result<Thumbnail> result = working.get();
@@ -28,6 +28,8 @@ bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph,
             Shown& there = found->second;
             there.revision = revision;
             there.problem = result ? "" : result.error().message;
+            there.moves = !result || result->particles;
+            there.particles = std::move(given);
             if (result) there.made = result->made;
             if (result && !result->picture.pixels.empty())
                 there.texture = shell.show(there.texture, result->picture);
@@ -36,10 +38,11 @@ bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph,
     }
     if (working.valid() || !rests) return fresh;
     for (const auto& [node, there] : shown) {
-        if (there.revision == current) continue;
-        path = node, revision = current;
-        working = std::async(std::launch::async, [graph, node = node, made = there.made] {
-            Result<Thumbnail> result = thumbnail(*graph, node, made);
+        const bool moved = there.moves && !particles.empty() && there.particles != particles;
+        if (there.revision == current && !moved) continue;
+        path = node, revision = current, given = particles;
+        working = std::async(std::launch::async, [graph, particles, node = node, made = there.made] {
+            Result<Thumbnail> result = thumbnail(*graph, node, particles, made);
             Shell::wake();
             return result;
         });

@@ -19,7 +19,9 @@ struct Thumbnails {
         uint64_t revision = 0;  ///< of the document that it was last made of
         uint64_t made = 0;      ///< as Thumbnail::made
         ImTextureID texture = nullptr;
-        std::string problem;  ///< why there is none
+        std::string problem;                    ///< why there is none
+        bool moves = false;                     ///< whether other particles may change it
+        std::vector<FieldVolumePtr> particles;  ///< that it was made with
     };
     std::map<std::string, Shown> shown;  ///< by the node's path, "group/node"
 
@@ -28,12 +30,15 @@ struct Thumbnails {
     /// Takes away all.
     void clear(Shell& shell);
     /// Takes the picture that was made, and begins the next that is out of date unless `rests` is false.
-    /// Whether there is something new to be drawn.
-    bool follow(Shell& shell, const std::shared_ptr<const Graph>& graph, uint64_t revision, bool rests);
+    /// `particles` are those of the viewport's picture; none while it is being made. Whether there is
+    /// something new to be drawn.
+    bool follow(Shell& shell, const std::shared_ptr<const Graph>& graph, uint64_t revision,
+                const std::vector<FieldVolumePtr>& particles, bool rests);
 
   private:
     std::string path;  ///< of the one under way
     uint64_t revision = 0;
+    std::vector<FieldVolumePtr> given;
     std::future<Result<Thumbnail>> working;
 };
 

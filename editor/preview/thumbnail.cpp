@@ -13,6 +13,7 @@
 #include "graph/image.h"
 #include "graph/region.h"
 #include "graph/tape.h"
+#include "runtime/particles/particle_fields.h"
 #include "runtime/render/view.h"
 
 namespace fw::editor {
@@ -155,12 +156,17 @@ Picture draw(Field& field, const Box& box) {
 
 }  // namespace
 
-Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path, uint64_t made) {
+Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path,
+                            std::span<const FieldVolumePtr> particles, uint64_t made) {
     const auto [scope, id] = placeOf(graph, path);
     if (!findNode(nodesOf(graph, scope), id)) return Error{.message = "there is no such node"};
-    const Result<Program> program = compile(showingNode(graph, path), {.bake = draftInPlace});
+    Result<Program> program = compile(showingNode(graph, path), {.bake = draftInPlace});
     if (!program) return program.error();
-    if (program->structureHash == made) return Thumbnail{made};
+    const bool ofParticles = lacksParticles(*program);
+    if (!ofParticles && program->structureHash == made) return Thumbnail{made};
+    if (ofParticles && particles.empty()) return Thumbnail{.made = made, .particles = true};
+    useParticles(*program, particles);
+    if (lacksParticles(*program)) return Error{.message = "its particles are not in the picture: connect it"};
     const std::vector<double> parameters = program->parameters();
     const Region region = findRegion(program->ir, program->distance(), parameters);
     if (region.extent == Extent::empty)
@@ -173,7 +179,7 @@ Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path, uint64_t 
                 size, program->exactness.lipschitz};
     field.machine.interval(field.tape, box);
     field.tape = field.machine.shortened(field.tape);
-    return Thumbnail{program->structureHash, draw(field, box)};
+    return Thumbnail{program->structureHash, draw(field, box), ofParticles};
 }
 
 }  // namespace fw::editor

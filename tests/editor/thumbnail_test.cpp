@@ -5,7 +5,9 @@
 
 #include "editor/preview/pinned.h"
 #include "graph/compile.h"
+#include "runtime/particles/particle_fields.h"
 #include "tests/editor/graphs.h"
+#include "tests/support/gpu.h"
 
 namespace fw::editor {
 namespace {
@@ -80,14 +82,14 @@ TEST(Thumbnail, IsMadeAnewOnlyIfTheNodeChanged) {
     InputValue radius;
     radius.value = 0.7;
     edited.groups[0].nodes[1].set("radius", radius);
-    const Result<Thumbnail> same = thumbnail(edited, "box", first->made);
+    const Result<Thumbnail> same = thumbnail(edited, "box", {}, first->made);
     ASSERT_TRUE(same);
     EXPECT_EQ(same->made, first->made);
     EXPECT_TRUE(same->picture.pixels.empty());
     InputValue extents;
     extents.value = std::vector<double>{1, 2, 3};
     edited.node("box")->set("half_extents", extents);
-    const Result<Thumbnail> other = thumbnail(edited, "box", first->made);
+    const Result<Thumbnail> other = thumbnail(edited, "box", {}, first->made);
     ASSERT_TRUE(other);
     EXPECT_NE(other->made, first->made);
     EXPECT_NE(other->picture.pixels, first->picture.pixels);
@@ -102,6 +104,28 @@ TEST(Thumbnail, WhatHasNoEndIsSeenAndWhatIsNothingSaysSo) {
     EXPECT_FALSE(thumbnail(graph(), "nothing"));
     EXPECT_FALSE(thumbnail(graph(), "no_such_node"));
     EXPECT_FALSE(thumbnail(graph(), "inner/in")) << "gives no surface";
+}
+
+TEST(Thumbnail, ShowsTheParticlesOfThePicture) {
+    const Graph graph = test::parsed(R"({"fieldwright": 1, "nodes": [
+        {"id": "drop", "type": "emitter", "inputs": {"shape": "point", "burst": 1, "velocity": [0, 0, 0]}},
+        {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "drop"},
+          "region_min": [-1, -1, -1], "region_max": [1, 1, 1], "radius": 0.5, "resolution": 32}},
+        {"id": "other", "type": "particles_to_field", "inputs": {"particles": {"from": "drop"}}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}]})");
+    const Result<Thumbnail> before = thumbnail(graph, "field");
+    ASSERT_TRUE(before) << format(before.error());
+    EXPECT_TRUE(before->particles);
+    EXPECT_TRUE(before->picture.pixels.empty());
+    Result<Program> program = compile(graph);
+    ASSERT_TRUE(program);
+    ASSERT_TRUE(makeParticles(*program, graph, 0.0, {}, fw::test::device()));
+    const Result<Thumbnail> ball = thumbnail(graph, "field", program->ir.volumes(), before->made);
+    ASSERT_TRUE(ball) << format(ball.error());
+    std::size_t seen = 0;
+    meanColor(ball->picture, seen);
+    EXPECT_NEAR(double(seen) / (kThumbnailSide * kThumbnailSide), 0.5, 0.25) << "a ball, not its grid";
+    EXPECT_FALSE(thumbnail(graph, "other", program->ir.volumes())) << "is not in the picture";
 }
 
 }  // namespace
