@@ -45,7 +45,7 @@ class Gallery : public testing::TestWithParam<fs::path> {
     std::optional<Player> player;
 };
 
-/// What takes long to compare: of every third sample, of all with FIELDWRIGHT_LONG.
+/// What takes long to compare: of every fifth sample, of all with FIELDWRIGHT_LONG.
 class GalleryAmbient : public Gallery {};
 
 std::vector<fs::path> someSamples() {
