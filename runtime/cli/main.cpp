@@ -308,8 +308,9 @@ int run(int count, char** arguments) {
     bench::BenchOptions benchOptions;
     CLI::App* benchCommand =
         app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md");
-    benchCommand->add_option("TABLE", benchNames,
-                             "all (default), or some of: mesher talk process live compile light peaks");
+    std::string tables;
+    for (const std::string& name : bench::benchNames()) tables += " " + name;
+    benchCommand->add_option("TABLE", benchNames, "all (default), or some of:" + tables);
     benchCommand->add_flag("--markdown", benchOptions.markdown, "Print the tables as the page has them");
     benchCommand->add_option("--size", benchOptions.sizes, "Cells along an edge (default: each table's own)")
         ->check(whole(8, 2048));
