@@ -91,8 +91,10 @@ void checkInput(const Graph& graph, const Scope& top, const Track& track, Findin
         return findings.warning(place, nameOf(track) + " has no effect: the input is linked");
     const NodeType* type = top.types[i];
     const Type kind = socket->type.value_or(Type::string);
+    // What has no default shapes a grid, which is known when the graph is compiled.
+    const bool shapesGrid = socket->spec && socket->spec->value.kind == InputDefault::Kind::none;
     if ((kind != Type::scalar && kind != Type::vec2 && kind != Type::vec3) ||
-        type->category == Category::mesh)
+        type->category == Category::mesh || shapesGrid)
         return findings.error(place, nameOf(track) +
                                          ": this input cannot move over time: a number or a vector "
                                          "can that shapes the field");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <unordered_map>
 
 #include "graph/check.h"
@@ -102,6 +103,7 @@ class Compiler {
     std::vector<LiveParameter> live;
     std::map<std::string, NodeExactness, std::less<>> exactness;
     std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
+    std::set<std::string, std::less<>> nearFields = {};  ///< particles_to_field without true distances
 
   private:
     void report(const Node& node, const std::string& prefix, const std::string& input, Error error) {
@@ -295,6 +297,12 @@ class Compiler {
             else if (inputsExact || result.spoiler.empty())
                 result.spoiler = prefix + node.id;
         }
+        if (type->id == "offset" && nearFields.contains(result.spoiler))
+            notes.push_back(located(node, prefix, "surface",
+                                    {.message = "the particles of node '" + result.spoiler +
+                                                "' have distances near their surface alone, so this grows by "
+                                                "more than it should: set that node's distance to true",
+                                     .severity = Error::Severity::warning}));
         if (type->id == "mesh_file") return meshFile(node, prefix, *type, inputs);
         if (type->id == "mesh_to_field") return meshToField(node, prefix, *type, inputs);
         if (type->id == "particles_to_field") return particlesToField(node, prefix, *type, inputs);
@@ -589,6 +597,7 @@ class Compiler {
                                                         : "raise the radius") +
                      ", or give the grid a smaller region",
                  .severity = Error::Severity::warning}));
+        if (inputOf(type, inputs, "distance").text == "near") nearFields.insert(prefix + node.id);
         return sampled(node, prefix, type, inputs, *volume, tricubicChannel);
     }
 

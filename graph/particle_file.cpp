@@ -1,10 +1,13 @@
 #include "graph/particle_file.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "graph/asset_file.h"
 #include "graph/hash.h"
@@ -17,35 +20,73 @@ namespace {
 
 constexpr AssetKind kParticles = {"particle file", kMostMeshFileBytes};
 
-/// The line's first three numbers.
-std::optional<glm::vec3> placeIn(std::string_view line) {
-    std::string apart(line);
-    for (char& c : apart)
-        if (c == ',' || c == ';') c = ' ';
-    Scanner words{apart};
+/// The line's fields: between semicolons, or else commas, or else blanks; without quotes about them.
+std::vector<std::string_view> fieldsOf(std::string_view line) {
+    std::vector<std::string_view> fields;
+    const char mark = line.find(';') != line.npos ? ';' : ',';
+    if (line.find(mark) == line.npos) {
+        Scanner words{line};
+        for (std::string_view word = words.word(); !word.empty(); word = words.word()) fields.push_back(word);
+        return fields;
+    }
+    for (std::size_t end = 0; end != line.npos; line.remove_prefix(end == line.npos ? 0 : end + 1)) {
+        end = line.find(mark);
+        std::string_view field = Scanner{line.substr(0, end)}.word();
+        if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+            field = field.substr(1, field.size() - 2);
+        fields.push_back(field);
+    }
+    return fields;
+}
+
+/// Which fields are x, y and z.
+using Columns = std::array<std::size_t, 3>;
+
+std::optional<glm::vec3> placeIn(std::span<const std::string_view> fields, const Columns& columns) {
     glm::vec3 place;
     for (int k = 0; k < 3; ++k) {
-        const std::optional<float> number = words.number<float>();
+        const std::size_t column = columns[std::size_t(k)];
+        const auto number =
+            column < fields.size() ? Scanner::numberIn<float>(fields[column]) : std::optional<float>();
         if (!number) return std::nullopt;
         place[k] = *number;
     }
     return place;
 }
 
-/// Those in a text: in each line, or in an OBJ file in each line of a vertex.
-Result<std::vector<glm::vec3>> placesInText(const std::string& bytes, const std::string& path, bool obj) {
+/// As a line of names says; the first three if it names none of them.
+Columns columnsIn(std::span<const std::string_view> names) {
+    Columns columns{0, 1, 2}, named = columns;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto found = std::ranges::find_if(names, [&](std::string_view name) {
+            return name.size() == 1 && std::tolower(static_cast<unsigned char>(name[0])) == "xyz"[k];
+        });
+        if (found == names.end()) return columns;
+        named[k] = std::size_t(found - names.begin());
+    }
+    return named;
+}
+
+/// Those in a text: in each line after one of names, which may be missing, or in an OBJ file in each line of
+/// a vertex.
+Result<std::vector<glm::vec3>> placesInText(std::string_view bytes, const std::string& path, bool obj) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
     std::vector<glm::vec3> places;
+    Columns columns = obj ? Columns{1, 2, 3} : Columns{0, 1, 2};
+    bool first = !obj;
     Scanner scanner{bytes};
     for (int line = 1; !scanner.atEnd(); ++line) {
-        const std::string_view text = scanner.line();
-        Scanner words{text};
-        const std::string_view first = words.word();
-        if (first.empty() || first[0] == '#' || (obj && first != "v")) continue;
-        if (const std::optional<glm::vec3> place = placeIn(obj ? words.rest : text))
+        const std::vector<std::string_view> fields = fieldsOf(scanner.line());
+        if (fields.empty() || fields[0].starts_with('#') || (obj && fields[0] != "v")) continue;
+        if (const std::optional<glm::vec3> place = placeIn(fields, columns))
             places.push_back(*place);
-        else if (obj || !places.empty() || Scanner::numberIn<float>(first))
+        else if (first && !Scanner::numberIn<float>(fields[0]))
+            columns = columnsIn(fields);
+        else
             return assetProblem(path, kParticles,
                                 "has no three numbers in line " + std::to_string(line) + ": write x y z");
+        first = false;
     }
     return places;
 }

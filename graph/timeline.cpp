@@ -73,7 +73,7 @@ double eased(Ease ease, double x) {
 }
 
 double timelineTime(const Timeline& timeline, double seconds) {
-    if (timeline.tracks.empty()) return seconds;
+    if (timeline.endless) return seconds;
     const double length = timeline.length;
     switch (timeline.loop) {
         case Loop::once: return std::clamp(seconds, 0.0, length);

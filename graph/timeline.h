@@ -76,7 +76,8 @@ struct Timeline {
     double length = kDefaultTimelineLength;  ///< seconds
     Loop loop = Loop::repeat;
     double framesPerSecond = 30.0;
-    std::vector<Track> tracks;
+    std::vector<Track> tracks = {};
+    bool endless = false;  ///< the document has none: time goes on
     bool operator==(const Timeline&) const = default;
 };
 
@@ -85,8 +86,7 @@ struct Timeline {
 /// null. Whether keys and targets make sense is for check().
 Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings = nullptr);
 
-/// The time on the timeline, 0 to length, that `seconds` after its start show. Of a timeline without tracks:
-/// `seconds`.
+/// The time on the timeline, 0 to length, that `seconds` after its start show; of an endless one: `seconds`.
 double timelineTime(const Timeline& timeline, double seconds);
 
 /// The track's value at a time on the timeline. The track has keys, in the order of their times.

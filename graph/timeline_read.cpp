@@ -214,7 +214,7 @@ const std::vector<std::string>& loopNames() {
 }
 
 Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings) {
-    if (graph.timeline->is_null()) return Timeline{};
+    if (graph.timeline->is_null()) return Timeline{.endless = true};
     Reader reader(graph, warnings);
     if (!reader.read()) return std::move(reader.error);
     return std::move(reader.timeline);

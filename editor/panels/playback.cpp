@@ -10,9 +10,8 @@ namespace {
 
 /// The time on the bar after so many seconds of play. It wraps even where nothing but the `time` node moves.
 double timeOnBar(const Timeline& timeline, double seconds) {
-    if (!timeline.tracks.empty()) return timelineTime(timeline, seconds);
-    Timeline bar{timeline.length, timeline.loop, timeline.framesPerSecond, {}};
-    bar.tracks.resize(1);
+    Timeline bar = timeline;
+    bar.endless = false;
     return timelineTime(bar, seconds);
 }
 

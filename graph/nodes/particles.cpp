@@ -23,8 +23,10 @@ std::vector<NodeType> particleNodes() {
     };
     const InputSpec gravity =
         measured(vector("gravity", {0, -9.81, 0}, "The acceleration of everything."), "m/s²");
-    const InputSpec collide =
-        surfaceInput("collide", "What is in the way: any surface, which may move with the time.");
+    const InputSpec collide = surfaceInput(
+        "collide",
+        "What is in the way: any surface, which may move with the time. A fluid leaks through walls much "
+        "thinner than its spacing.");
     const InputSpec seed = integer("seed", 0, 0, 1'000'000, "Another number gives other chances.");
     return {
         {.id = "emitter",
@@ -49,8 +51,8 @@ std::vector<NodeType> particleNodes() {
          .label = "Particle file",
          .category = Category::particles,
          .doc = "Reads the places of particles: the vertices of a .ply or .obj file, or x, y and z in each "
-                "line of a .csv, "
-                ".txt or .xyz file, in the folder of the graph's file or in one below it.",
+                "line of a .csv, .txt or .xyz file, whose first line may name the columns, in the folder of "
+                "the graph's file or in one below it.",
          .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
          .outputs = {{"particles", Type::particles}},
          .aliases = {"point_cloud"}},

@@ -65,7 +65,7 @@ class Stage {
     void describe() {
         const Timeline& timeline = player.timeline();
         viewer.length = timeline.length;
-        viewer.loop = timeline.tracks.empty() ? Loop::repeat : timeline.loop;
+        viewer.loop = timeline.loop;
         viewer.framesPerSecond = timeline.framesPerSecond;
         viewer.moves = player.moves();
         const std::vector<std::string> files = player.files();

@@ -110,7 +110,9 @@ Result<std::vector<glm::vec3>> placesIn(const Program& source, const StageNumber
                 if (distances[x] < 0.0) places.emplace_back(row[x][0], row[x][1], row[x][2]);
         }
     if (places.empty())
-        return Error{.message = "no place of the source is in the tank: move or enlarge one of them"};
+        return Error{
+            .message =
+                "no place of the source is in the tank: move or enlarge one of them, or lower the spacing"};
     if (places.size() > kMostParticles)
         return Error{.message = "the source holds " + std::to_string(places.size()) + " particles, and " +
                                 std::to_string(kMostParticles) + " is the most: raise the spacing"};

@@ -150,7 +150,6 @@ void Viewer::pass(double elapsed) {
 double Viewer::shownTime() const {
     Timeline timeline;
     timeline.length = length, timeline.loop = loop;
-    timeline.tracks.resize(1);
     return timelineTime(timeline, seconds);
 }
 

@@ -152,6 +152,29 @@ std::string placesIn(const std::string& bytes, const std::string& name) {
     return text;
 }
 
+TEST(Particles, ATrackCannotMoveTheirGrid) {
+    const std::string error = firstError(
+        graphOf(kEmitter + field("rain", R"(, "region_min": [-1, -1, -1], "region_max": [1, 1, 1])"),
+                R"(, "timeline": {"tracks": [{"node": "field", "input": "region_max",
+                    "keys": [{"time": 0, "value": [1, 1, 1]}, {"time": 1, "value": [2, 2, 2]}]}]})"));
+    EXPECT_NE(error.find("cannot move over time"), std::string::npos) << error;
+}
+
+TEST(Particles, AnOffsetOfDistancesNearTheSurfaceIsWarnedOf) {
+    const auto notes = [](const std::string& distance) {
+        return compile(graphOf(kEmitter + R"({"id": "rough", "type": "particles_to_field", "inputs": {
+            "particles": {"from": "rain"}, "distance": ")" +
+                               distance + R"("}},
+            {"id": "field", "type": "offset", "inputs": {"surface": {"from": "rough"}}},)"))
+            ->notes;
+    };
+    const std::vector<Error> near = notes("near");
+    ASSERT_FALSE(near.empty());
+    EXPECT_EQ(near.back().node, "field");
+    EXPECT_NE(near.back().message.find("'rough'"), std::string::npos) << near.back().message;
+    for (const Error& note : notes("true")) EXPECT_NE(note.node, "field") << note.message;
+}
+
 TEST(Particles, AGridThatIsFoundIsAsFineAsItsParticlesAsk) {
     const auto grid = [](const std::string& inputs) {
         return compile(graphOf(R"({"id": "drop", "type": "emitter", "inputs": {"shape": "point"}},)" +
@@ -172,6 +195,13 @@ TEST(Particles, FilesOfPlaces) {
     EXPECT_EQ(placesIn("x,y,z\n1,2,3\r\n4;5;6;0.5\n\n# end\n-7 8e-1 9 red\n", "a.csv"),
               "1 2 3;4 5 6;-7 0.8 9;");
     EXPECT_EQ(placesIn("1 2 3", "a.XYZ"), "1 2 3;");
+    EXPECT_EQ(placesIn("\xEF\xBB\xBF"
+                       "1,2,3\n",
+                       "a.csv"),
+              "1 2 3;");
+    EXPECT_EQ(placesIn("id,x,Y,z\n7,1,2,3\n", "a.csv"), "1 2 3;");
+    EXPECT_EQ(placesIn("\"Z\";\"x\";\"y\"\n\"3\";\"1\"; 2 ;\n", "a.csv"), "1 2 3;");
+    EXPECT_EQ(placesIn("east north up\n1 2 3\n", "a.txt"), "1 2 3;");
     EXPECT_EQ(placesIn("v 1 2 3\nv 4 5 6\n", "a.obj"), "1 2 3;4 5 6;");
     EXPECT_EQ(
         placesIn(
@@ -180,7 +210,12 @@ TEST(Particles, FilesOfPlaces) {
             "a.ply"),
         "1 2 3;4 5 6;");
     for (const auto& [bytes, name, what] : {std::tuple{"", "a.csv", "has no places"},
-                                            {"a b c\nd e f\n", "a.csv", "has no places"},
+                                            {"a b c\n", "a.csv", "has no places"},
+                                            {"a b c\nd e f\n", "a.csv", "line 2"},
+                                            {"0,,0,5\n", "a.csv", "line 1"},
+                                            {"0,5;0,5;0,5\n", "a.csv", "has no places"},
+                                            {"x,y,z\n0,5;0,5;0,5\n", "a.csv", "line 2"},
+                                            {"x y z\n0m 0m 0m\n", "a.txt", "line 2"},
                                             {"1 2 3\n1 2\n", "a.txt", "line 2"},
                                             {"1 2\n", "a.txt", "line 1"},
                                             {"1 2 3", "a.vdb", "no format"},

@@ -66,7 +66,7 @@ std::string radius(const std::string& keys, const std::string& more = "") {
 TEST(Timeline, ReadsWhatIsThereAndDefaultsWhatIsNot) {
     const Timeline none = timelineOf("{}");
     EXPECT_EQ(none, Timeline{});
-    EXPECT_EQ(readTimeline(Graph{})->tracks.size(), 0u);
+    EXPECT_EQ(*readTimeline(Graph{}), Timeline{.endless = true});
     const Timeline timeline = timelineOf(R"({"length": 8, "loop": "ping-pong", "fps": 24, "tracks": [
         {"node": "ball", "input": "radius", "interpolation": "cubic", "ease": "in", "keys": [
           {"time": 0, "value": 1}, {"time": 2.5, "value": 2, "interpolation": "step", "ease": "none"}]},
@@ -184,7 +184,9 @@ TEST(Timeline, AClosedTrackIsSmoothAcrossTheSeam) {
 TEST(Timeline, Loops) {
     Timeline timeline;
     timeline.length = 4;
-    EXPECT_EQ(timelineTime(timeline, 9.0), 9.0);  // nothing to loop
+    timeline.endless = true;
+    EXPECT_EQ(timelineTime(timeline, 9.0), 9.0);
+    timeline.endless = false;
     timeline.tracks.push_back(trackOf({keyAt(0, 0, Interpolation::linear)}));
     timeline.loop = Loop::once;
     for (const auto& [seconds, expected] : {std::pair{-1.0, 0.0}, {1.0, 1.0}, {4.0, 4.0}, {9.0, 4.0}})
