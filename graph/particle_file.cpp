@@ -39,6 +39,8 @@ std::vector<std::string_view> fieldsOf(std::string_view line) {
     return fields;
 }
 
+bool isFinite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
 /// Which fields are x, y and z.
 using Columns = std::array<std::size_t, 3>;
 
@@ -79,13 +81,17 @@ Result<std::vector<glm::vec3>> placesInText(std::string_view bytes, const std::s
     for (int line = 1; !scanner.atEnd(); ++line) {
         const std::vector<std::string_view> fields = fieldsOf(scanner.line());
         if (fields.empty() || fields[0].starts_with('#') || (obj && fields[0] != "v")) continue;
-        if (const std::optional<glm::vec3> place = placeIn(fields, columns))
+        if (const std::optional<glm::vec3> place = placeIn(fields, columns)) {
+            if (!isFinite(*place))
+                return assetProblem(path, kParticles,
+                                    "has a place that is not a number in line " + std::to_string(line));
             places.push_back(*place);
-        else if (first && !Scanner::numberIn<float>(fields[0]))
+        } else if (first && !Scanner::numberIn<float>(fields[0])) {
             columns = columnsIn(fields);
-        else
+        } else {
             return assetProblem(path, kParticles,
                                 "has no three numbers in line " + std::to_string(line) + ": write x y z");
+        }
         first = false;
     }
     return places;
@@ -115,9 +121,8 @@ Result<std::vector<glm::vec3>> parseParticlePlaces(const std::string& bytes, con
         return assetProblem(path, kParticles,
                             "has " + std::to_string(places.size()) +
                                 " particles: " + std::to_string(kMostFileParticles) + " is the most");
-    for (const glm::vec3& p : places)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return assetProblem(path, kParticles, "has a place that is not a number");
+    if (!std::ranges::all_of(places, isFinite))
+        return assetProblem(path, kParticles, "has a place that is not a number");
     return places;
 }
 

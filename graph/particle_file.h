@@ -23,12 +23,12 @@ struct ParticlePlaces {
 using ParticlePlacesPtr = std::shared_ptr<const ParticlePlaces>;
 
 /// Reads a .ply or .obj file, faces or not, or a .csv, .txt or .xyz one: three numbers in each line, between
-/// blanks, commas or semicolons; what follows them, lines that begin with # and a first line of names are
-/// passed over. `path` is relative to the folder of the file `graphPath`, as openAsset() has it. The Error
-/// has a message only.
+/// blanks, commas or semicolons, the first ones or those in the columns that a first line names x, y and z;
+/// other columns and lines that begin with # are passed over. `path` is relative to the folder of the file
+/// `graphPath`, as openAsset() has it. The Error has a message only.
 Result<ParticlePlacesPtr> readParticlePlaces(const std::string& graphPath, const std::string& path);
 
-/// Of the bytes of such a file; `ending` is ".ply" and so on.
+/// Of the bytes of such a file, whose name's end tells the format.
 Result<std::vector<glm::vec3>> parseParticlePlaces(const std::string& bytes, const std::string& path);
 
 }  // namespace fw

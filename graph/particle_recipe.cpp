@@ -15,6 +15,8 @@ namespace fw {
 
 namespace {
 
+constexpr double kMostSwirl = 1.75;  // of shaders/particles/move.comp, along an axis
+
 struct Bounds {
     glm::dvec3 lo, hi;
 };
@@ -35,7 +37,7 @@ std::pair<double, double> flight(double v, double a, double life) {
 Bounds emitted(const StageNumbers& emitter, const glm::dvec3& least, const glm::dvec3& most) {
     const glm::dvec3 place = emitter.vector("position"), size = emitter.vector("size"),
                      velocity = emitter.vector("velocity");
-    const double life = emitter.scalar("lifetime"), spread = emitter.scalar("spread");
+    const double life = std::max(emitter.scalar("lifetime"), 0.0), spread = emitter.scalar("spread");
     Bounds bounds{place - size, place + size};
     for (int axis = 0; axis < 3; ++axis) {
         bounds.lo[axis] += flight(velocity[axis] - spread, least[axis], life).first;
@@ -57,7 +59,8 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
         if (stage.kind == ParticleStage::Kind::dynamics) {
             const StageNumbers forces(ir, stage, parameters);
             const glm::dvec3 gravity = forces.vector("gravity");
-            const double any = std::abs(forces.scalar("turbulence")) + std::abs(forces.scalar("attraction"));
+            const double any = kMostSwirl * std::max(forces.scalar("turbulence"), 0.0) +
+                               std::abs(forces.scalar("attraction"));
             least += gravity - any, most += gravity + any;
         }
     switch (source.kind) {

@@ -8,7 +8,9 @@
 // Lifetime: recipes are shared and never change.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -61,7 +63,8 @@ using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
 
 inline constexpr int kLeastParticleResolution = 8, kMostParticleResolution = 512;
 
-/// Reads a stage's numbers, with the live parameters' values.
+/// Reads a stage's numbers, with the live parameters' values. Whatever is wired to an input, they are fit to
+/// be reckoned with as floats: what is not a number counts as 0, and what is beyond 1e30 either way as that.
 class StageNumbers {
   public:
     StageNumbers(const Ir& ir_, const ParticleStage& stage_, std::span<const double> parameters_)
@@ -73,7 +76,9 @@ class StageNumbers {
 
   private:
     double component(std::string_view input, std::size_t i) const {
-        return evaluate(ir, stage.numbers.find(input)->second[i], parameters, {});
+        constexpr double kMost = 1e30;
+        const double value = evaluate(ir, stage.numbers.find(input)->second[i], parameters, {});
+        return std::isnan(value) ? 0.0 : std::clamp(value, -kMost, kMost);
     }
     const Ir& ir;
     const ParticleStage& stage;

@@ -34,6 +34,15 @@ bool sameWish(const PreviewWish& a, const PreviewWish& b) {
            a.resolution == b.resolution;
 }
 
+/// By what the wish under way was overtaken.
+struct Overtaken {
+    std::atomic<bool> byAny = false;      ///< a newer wish waits
+    std::atomic<bool> byEarlier = false;  ///< one of an earlier time: particles need not go as far
+    /// One of another graph that no hand is moving, so that a draft will come before this picture is done.
+    std::atomic<bool> byOther = false;
+    void operator=(bool value) { byAny = byEarlier = byOther = value; }
+};
+
 bool isPowerOfTwo(int number) { return number > 0 && (number & (number - 1)) == 0; }
 
 }  // namespace
@@ -47,9 +56,7 @@ struct Preview::Shared {
     std::optional<PreviewWish> next, last;  ///< to be worked on; the newest that was asked for
     std::optional<PreviewResult> ready;
     PreviewResult told;  ///< the last result but for its picture
-    /// A newer wish waits; one of another graph that no hand is moving, so that a draft will come before this
-    /// picture is done.
-    std::atomic<bool> overtaken = false, replaced = false;
+    Overtaken overtaken;
     std::atomic<double> baked = 1.0;      ///< of a mesh that is being made a field; 1: none is
     std::atomic<double> simulated = 1.0;  ///< of the steps of particles up to the time; 1: all
     bool stop = false, working = true;
@@ -80,15 +87,13 @@ namespace {
 /// The preview's side: what is shown, and what is still to be done for it.
 class Maker {
   public:
-    Maker(Device opened, std::function<void(PreviewResult)> publish_, const std::atomic<bool>& overtaken_,
-          const std::atomic<bool>& replaced_, std::function<void(double)> baking_,
-          std::function<void(double)> simulating_)
+    Maker(Device opened, std::function<void(PreviewResult)> publish_, const Overtaken& overtaken_,
+          std::function<void(double)> baking_, std::function<void(double)> simulating_)
         : device(std::move(opened)),
           publish(std::move(publish_)),
           baking(std::move(baking_)),
           simulating(std::move(simulating_)),
-          overtaken(overtaken_),
-          replaced(replaced_) {}
+          overtaken(overtaken_) {}
 
     void take(PreviewWish newer);
     /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
@@ -109,7 +114,7 @@ class Maker {
     std::optional<Device> device;  ///< until the player has it
     std::function<void(PreviewResult)> publish;
     std::function<void(double)> baking, simulating;
-    const std::atomic<bool>&overtaken, &replaced;
+    const Overtaken& overtaken;
     std::optional<Player> player;
     PreviewWish wish;
     std::deque<std::string> live;  ///< held last first
@@ -136,8 +141,9 @@ PlayerOptions Maker::playerOptions() const {
     options.compileBehind = options.checked = true;
     options.baking = baking;
     options.simulating = [this](int done, int all) {
-        if (all >= kToldSteps) simulating(double(done) / all);
-        return !replaced;
+        const bool many = all >= kToldSteps;
+        if (many) simulating(double(done) / all);
+        return !overtaken.byOther && !(many && overtaken.byEarlier);
     };
     options.fieldViews = showsField(wish.view);
     return options;
@@ -257,15 +263,15 @@ bool Maker::draw() {
                           .slice = wish.slice};
     // What is asked for on and on, as while a hand moves, gets its pictures nevertheless.
     if (!due)
-        options.cancel = &overtaken;
+        options.cancel = &overtaken.byAny;
     else if (!player->compiling())
-        options.cancel = &replaced;
+        options.cancel = &overtaken.byOther;
     const auto start = Clock::now();
     const Result<MesherResult> mesh = player->meshOnDevice(wish.view);
     const double meshing = millisecondsSince(start);
     if (!mesh) {
         simulating(1.0);
-        if (!replaced) refuse(mesh.error()), tell();
+        if (!overtaken.byOther && !overtaken.byEarlier) refuse(mesh.error()), tell();
         return false;
     }
     if (!aim(options)) return tell(), false;
@@ -330,7 +336,7 @@ void Preview::Shared::work() {
     Result<Device> device = createDevice(deviceOptions);
     if (!device) throw SystemError(device.error().message);
     Maker maker(
-        std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken, replaced,
+        std::move(*device), [this](PreviewResult result) { publish(std::move(result)); }, overtaken,
         [this](double share) { tell(baked, share); }, [this](double share) { tell(simulated, share); });
     bool more = false;
     for (;;) {
@@ -348,7 +354,7 @@ void Preview::Shared::work() {
             if (stop) return;
             working = true;
             newer = std::exchange(next, std::nullopt);
-            overtaken = replaced = false;
+            overtaken = false;
         }
         if (newer) maker.take(std::move(*newer));
         more = maker.work();
@@ -385,7 +391,8 @@ Preview::Preview(DeviceOptions device, std::function<void()> changed) : shared(s
 Preview::~Preview() {
     {
         std::lock_guard lock(shared->mutex);
-        shared->stop = shared->overtaken = shared->replaced = true;
+        shared->stop = true;
+        shared->overtaken = true;
     }
     shared->asked.notify_all();
     shared->thread.join();
@@ -394,8 +401,10 @@ Preview::~Preview() {
 void Preview::ask(PreviewWish wish) {
     std::lock_guard lock(shared->mutex);
     if (shared->last && sameWish(*shared->last, wish)) return;
-    shared->overtaken = true;
-    if (shared->last && shared->last->graph != wish.graph && wish.held.empty()) shared->replaced = true;
+    shared->overtaken.byAny = true;
+    if (shared->last && shared->last->graph != wish.graph && wish.held.empty())
+        shared->overtaken.byOther = true;
+    if (shared->last && wish.seconds < shared->last->seconds) shared->overtaken.byEarlier = true;
     shared->last = wish;
     shared->next = std::move(wish);
     shared->asked.notify_all();

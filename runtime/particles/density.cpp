@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -15,15 +16,23 @@ namespace fw {
 
 namespace {
 
-constexpr int kMostProxyReach =
-    20;  // cells: a sample looks at (2 * 20 + 1)^3 of them, which some devices end at
+/// Cells: a sample looks at (2 * 20 + 1)^3 of them, and some devices end loops of more turns.
+constexpr int kMostProxyReach = 20;
 
 uint32_t samplesOf(const DensityGrid& grid) {
     return uint32_t((grid.size.x + 3) / 4 * 4) * uint32_t(grid.size.y) * uint32_t(grid.size.z);
 }
 
+/// In double: not yet known to be few enough for whole numbers.
+double reachOf(const DensityConfig& config) { return std::ceil(double(config.radius) / config.grid.cell); }
+glm::dvec3 bucketsOf(const DensityConfig& config) {
+    return glm::floor(glm::dvec3(config.grid.size - 1) * (double(config.grid.cell) / config.radius) + 1.01) +
+           2.0;
+}
+
 gpu::DensityPush pushOf(const DensityConfig& config, uint32_t particles) {
     const DensityGrid& grid = config.grid;
+    constexpr uint32_t kMostSum = std::numeric_limits<uint32_t>::max();
     gpu::DensityPush push{};
     push.size = grid.size;
     push.particles = particles;
@@ -31,21 +40,30 @@ gpu::DensityPush pushOf(const DensityConfig& config, uint32_t particles) {
     push.cell = grid.cell;
     push.radius = config.radius;
     push.first = grid.origin - 1.01f * config.radius;
-    push.buckets = glm::ivec3(glm::floor(glm::vec3(grid.size - 1) * (grid.cell / config.radius) + 1.01f)) + 2;
-    push.reach = int(std::ceil(config.radius / grid.cell));
+    if (config.method == DensityMethod::exact)
+        push.buckets = bucketsOf(config);
+    else
+        push.reach = int(reachOf(config));
+    // All of them may be in one place.
+    push.unit = std::min(float(DENSITY_MOST_UNIT), float(kMostSum / std::max(particles, 1u)));
     return push;
 }
 
-Done fits(const DensityConfig& config, const gpu::DensityPush& push, const Device& device) {
+Done fits(const DensityConfig& config, const Device& device) {
+    if (!(config.radius > 0.0f) || !std::isfinite(config.radius))
+        return Error{.message = "the radius must be a finite number above 0"};
     const int most = config.method == DensityMethod::blur ? DENSITY_MOST_REACH : kMostProxyReach;
-    if (config.method != DensityMethod::exact && push.reach > most)
-        return Error{.message = "the radius is " + std::to_string(push.reach) + " cells, and " +
-                                std::to_string(most) + " is the most of the method " +
+    const double reach = reachOf(config);
+    if (config.method != DensityMethod::exact && !(reach <= most))
+        return Error{.message = "the radius is " +
+                                (reach < 1e6 ? std::to_string(int(reach)) : "more than a million") +
+                                " cells, and " + std::to_string(most) + " is the most of the method " +
                                 kDensityMethodNames[std::size_t(config.method)] +
                                 ": lower the resolution or the radius, or take the method exact"};
     const uint64_t range = device.properties.limits.maxStorageBufferRange;
     const double samples = double(samplesOf(config.grid));
-    const double buckets = double(push.buckets.x) * push.buckets.y * push.buckets.z;
+    const glm::dvec3 sides = bucketsOf(config);
+    const double buckets = sides.x * sides.y * sides.z;
     const double needed = std::max(samples * (config.method == DensityMethod::proxies ? 16 : 4),
                                    config.method == DensityMethod::exact ? 4 * (buckets + 1) : 0.0);
     if (needed > double(range) || samples > double(device.properties.limits.maxTexelBufferElements))
@@ -195,8 +213,8 @@ void recordBlur(Run& run) {
 
 Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& buffers,
                    const DensityConfig& config, const Buffer& particles, uint32_t count) {
+    if (const Done fit = fits(config, commands.device); !fit) return fit.error();
     Run run{commands, kernels, buffers, config, particles, pushOf(config, count), samplesOf(config.grid)};
-    if (const Done fit = fits(config, run.push, commands.device); !fit) return fit.error();
     reserve(commands.device, buffers.density, 4ull * run.samples);
     if (count == 0) {
         fill(commands, buffers.density, 0);

@@ -3,17 +3,19 @@
 //
 // The three ways of Matt Swoboda's "Advanced Procedural Rendering in DirectX 11" (GDC 2012), "SDFs From
 // Particle Systems":
-//  * exact: particles sorted into buckets, all in the buckets around a sample summed. Here buckets are as
-//  large as R, so
-//    that 27 of them matter, not 729 cells; three in a row lie in one piece.
-//  * proxies: each particle adds its place and a count to its cell of the grid; then each sample sums over
-//  the cells
-//    around it, taking each for its particles' mean. Off where a cell's particles are apart.
-//  * blur: each particle adds its weight to the eight samples around it, and three blurs, one along each
-//  axis, spread it.
-//    A product of three weights is not the density's formula: the weights are those whose products are
-//    nearest to it, as the power method finds them (the best separable one in the sense of least squares).
-//    How far off each is, is measured by the tests and the benchmark.
+//
+// Exact: particles sorted into buckets, all in the buckets around a sample summed. Here buckets are as large
+// as R, so that 27 of them matter, not 729 cells; three in a row lie in one piece.
+//
+// Proxies: each particle adds its place and a count to its cell of the grid; then each sample sums over the
+// cells around it, taking each for its particles' mean. Off where a cell's particles are apart.
+//
+// Blur: each particle adds its weight to the eight samples around it, and three blurs, one along each axis,
+// spread it. A product of three weights is not the density's formula: the weights are those whose products
+// are nearest to it, as the power method finds them (the best separable one in the sense of least squares).
+//
+// How far off the two are, is measured by the tests and the benchmark.
+//
 // Deviations: sums in the grid are of whole numbers, so that the same particles give the same bytes on every
 // run; and between the blurs samples are of 16 bits, at most a 4,096th off.
 //
@@ -59,7 +61,8 @@ struct DensityConfig {
 
 /// Records the density of so many particles at each sample, into buffers.density. `particles` has four floats
 /// each, of which the first three are the place; those that are not numbers are left out. Errors: a radius of
-/// more than 12 cells by blur, 20 by proxies; a grid that is more than the device can bind.
+/// 0 or without end, of more than 12 cells by blur or 20 by proxies; a grid that is more than the device can
+/// bind.
 Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& buffers,
                    const DensityConfig& config, const Buffer& particles, uint32_t count);
 

@@ -74,16 +74,17 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
     const std::vector<double> now = parts.empty() ? std::vector<double>() : values(seconds);
     for (Part& part : parts) {
         const ParticleField& field = *part.simulation.recipe();
+        const double madeWith = std::exchange(part.radius, 0.0);  // no samples, should anything go wrong
         const Result<bool> moved = part.simulation.goTo(seconds, values, progress);
-        if (!moved) {
-            part.radius = 0.0;  // some steps may have been taken, of which there are no samples
-            return atNode(moved.error(), field);
-        }
+        if (!moved) return atNode(moved.error(), field);
         const double radius = evaluate(field.ir, field.radius, now, {}),
                      threshold = evaluate(field.ir, field.threshold, now, {});
-        const bool same = radius == part.radius && threshold == part.threshold;
+        const bool same = radius == madeWith && threshold == part.threshold;
         changes.places |= *moved || !same;
-        if (same && surfaces == part.surface && !(*moved && surfaces)) continue;
+        if (same && surfaces == part.surface && !(*moved && surfaces)) {
+            part.radius = radius;
+            continue;
+        }
         if (!(radius > 0.0) || !(threshold > 0.0))
             return atNode(Error{.message = "the radius and the threshold must be above 0"}, field);
         if (!kernels) kernels = createParticleVolumeKernels(*device);

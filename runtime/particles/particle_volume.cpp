@@ -33,6 +33,12 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
                           const ParticleVolumeConfig& config, const Buffer& particles, uint32_t count,
                           const Buffer& volumes, uint32_t first) {
     const Device& device = commands.device;
+    const uint32_t most = device.properties.limits.maxStorageBufferRange;
+    if (volumes.size > most)
+        return Error{.message = "the samples of all fields on grids are " +
+                                std::to_string(volumes.size >> 20) + " MiB, and this device can use " +
+                                std::to_string(most >> 20) +
+                                " where particles are among them: lower the resolution"};
     const VolumeGrid& grid = config.grid;
     const DensityConfig density{.grid = {.origin = grid.origin, .cell = float(grid.cell), .size = grid.size},
                                 .radius = float(config.radius),
@@ -63,10 +69,6 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
     run(kernels.level, blocks, std::array{Descriptor{0, b.density.density}, Descriptor{1, b.least}});
     if (config.trueDistance) {
         const auto samples = uint32_t(grid.samples());
-        if (16.0 * samples > double(device.properties.limits.maxStorageBufferRange))
-            return Error{.message =
-                             "true distances of so many samples are more than this device can use: lower the "
-                             "resolution"};
         reserve(device, b.nearest, 16ull * samples);
         run(kernels.seed, samples, std::array{Descriptor{0, b.density.density}, Descriptor{1, b.nearest}});
         beginStage(commands, "sweep");

@@ -15,7 +15,7 @@
 // True distances, for who asks for them, come from the same values: those beside the surface tell its nearest
 // points, which sweeps hand on (graph/mesh_field.h). They take several times as long.
 //
-// Samples at the grid's border are outside, half a cell at least, so that what reaches beyond the grid is
+// Samples at the grid's border are outside, so that what reaches beyond the grid is
 // closed there. Of particles beyond the grid only the exact way knows.
 //
 // Lifetime: kernels serve all volumes; buffers grow.
@@ -47,7 +47,8 @@ struct ParticleVolumeConfig {
 };
 
 /// Records the samples and blocks of a volume of so many particles (four floats each), into `volumes`: the
-/// texels of all volumes of a program, of which `first` is its own first. Errors as recordDensity().
+/// texels of all volumes of a program, of which `first` is its own first. Errors as recordDensity(), and
+/// that all texels are more than the device can bind.
 Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, ParticleVolumeBuffers& buffers,
                           const ParticleVolumeConfig& config, const Buffer& particles, uint32_t count,
                           const Buffer& volumes, uint32_t first);

@@ -20,7 +20,9 @@ namespace fw {
 namespace {
 
 constexpr std::size_t kMostCheckpointBytes = 256u << 20;
-constexpr int kCalmSteps = 30;  // of a fluid, before the start
+constexpr int kCalmSteps = 30;          // of a fluid, before the start
+constexpr double kLeastSpacing = 1e-6;  // metres
+constexpr double kMostSubsteps = 64;
 
 using Kind = ParticleStage::Kind;
 
@@ -36,11 +38,12 @@ Obstacle obstacleOf(const Device& device, std::shared_ptr<const Program> program
     return obstacle;
 }
 
-/// The live values are the first ones of the graph's program.
+/// Of the live values, those that the obstacle knows of are the first ones: others may have been added since,
+/// and taken away those that it does not read.
 void setParameters(const Device& device, const Obstacle& obstacle, const std::vector<double>& values) {
     std::vector<float> numbers = obstacle.program->numbers();
-    for (std::size_t slot = 0; slot < obstacle.program->live.size(); ++slot)
-        numbers[slot] = float(values[slot]);
+    const std::size_t live = std::min(obstacle.program->live.size(), values.size());
+    for (std::size_t slot = 0; slot < live; ++slot) numbers[slot] = float(values[slot]);
     upload(device, obstacle.parameters, numbers);
 }
 
@@ -80,8 +83,8 @@ namespace {
 Result<std::vector<glm::vec3>> placesIn(const Program& source, const StageNumbers& numbers,
                                         const std::vector<double>& values) {
     constexpr double kMostPlaces = 64e6;  // that are looked at
-    const std::span<const double> live(values.data(), source.live.size());
-    const double spacing = std::max(numbers.scalar("spacing"), 1e-6);
+    const std::span<const double> live(values.data(), std::min(source.live.size(), values.size()));
+    const double spacing = std::max(numbers.scalar("spacing"), kLeastSpacing);
     const glm::dvec3 lo = numbers.vector("tank_min"), hi = numbers.vector("tank_max");
     const Region region = findRegion(source.ir, source.distance(), live);
     glm::dvec3 first, count;
@@ -94,6 +97,7 @@ Result<std::vector<glm::vec3>> placesIn(const Program& source, const StageNumber
                                      std::floor((hi[axis] - lo[axis]) / spacing + 1e-6));
         count[axis] = region.extent == Extent::empty ? 0.0 : std::max(last - first[axis], 0.0);
     }
+    if (!(count.x * count.y * count.z > 0.0)) count = glm::dvec3(0.0);
     if (count.x * count.y * count.z > kMostPlaces)
         return Error{.message = "the spacing is too small for the source's size: raise it"};
     std::vector<glm::vec3> places;
@@ -143,7 +147,7 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
         if (const Done stepped = state.steps < 0 ? start(now) : step(now); !stepped) return stepped.error();
         ++state.steps;
         if (state.steps % apart == 0) keep();
-        if (progress && !progress(state.steps - first, wanted - first))
+        if (progress && state.steps > first && !progress(state.steps - first, wanted - first))
             return Error{.message = "the simulation was cancelled"};
     }
     return true;
@@ -156,6 +160,8 @@ void Simulation::valuesChanged() {
 }
 
 Done Simulation::start(const std::vector<double>& values) {
+    checkpoints.clear();  // of a past with other values
+    apart = 1;
     if (source().kind == Kind::fluid) return fill(values);
     const StageNumbers numbers(field->ir, source(), values);
     if (source().kind == Kind::file) {
@@ -230,7 +236,7 @@ Done Simulation::fill(const std::vector<double>& values) {
 
 FluidConfig Simulation::configOf(const std::vector<double>& values) const {
     const StageNumbers numbers(field->ir, source(), values);
-    FluidConfig config{.spacing = float(numbers.scalar("spacing")),
+    FluidConfig config{.spacing = float(std::max(numbers.scalar("spacing"), kLeastSpacing)),
                        .lo = numbers.vector("tank_min"),
                        .hi = numbers.vector("tank_max"),
                        .gravity = numbers.vector("gravity"),
@@ -246,12 +252,14 @@ FluidConfig Simulation::configOf(const std::vector<double>& values) const {
 
 Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
     const FluidConfig config = configOf(values);
-    int parts = int(StageNumbers(field->ir, source(), values).scalar("substeps"));
+    int parts =
+        int(std::clamp(StageNumbers(field->ir, source(), values).scalar("substeps"), 0.0, kMostSubsteps));
     if (parts <= 0) {
         // At the end of a fall through the tank, half a spacing each.
         const double speed =
             std::sqrt(2.0 * glm::dot(glm::abs(config.gravity), glm::abs(config.hi - config.lo)));
-        parts = std::clamp(int(std::ceil(speed * kSimulationStep / (0.5 * config.spacing))), 1, 8);
+        parts =
+            int(std::min(std::max(1.0, std::ceil(speed * kSimulationStep / (0.5 * config.spacing))), 8.0));
     }
     for (int part = 0; part < parts; ++part)
         if (const Done recorded = recordFluidStep(commands, fluid->kernels, fluid->particles, config,
@@ -305,7 +313,7 @@ void Simulation::emit(Commands& commands, const StageNumbers& emitter, double be
     push.count = uint32_t(count);
     push.slots = state.slots;
     push.number = uint32_t(first);
-    push.seed = uint32_t(emitter.scalar("seed"));
+    push.seed = uint32_t(int64_t(std::clamp(emitter.scalar("seed"), -1e9, 1e9)));
     push.position = emitter.vector("position");
     push.shape = int(std::ranges::find(kShapes, source().words.find("shape")->second) - kShapes);
     push.size = emitter.vector("size");

@@ -40,10 +40,10 @@ class Simulation {
   public:
     Simulation(const Device& device, ParticleFieldPtr field);
 
-    /// Goes to the last step at or before so many seconds; before the start there is nothing. `progress`,
+    /// Goes to the last step at or before so many seconds, or to the start. `progress`,
     /// which may be empty, is told how many steps there are and how many are done, and ends the work by
-    /// returning false. Returns whether the particles are others now. Errors: more particles than there may
-    /// be, a time beyond kMostSimulated, and that it was ended.
+    /// returning false; the start alone is no step. Returns whether the particles are others now. Errors:
+    /// more particles than there may be, a time beyond kMostSimulated, and that it was ended.
     Result<bool> goTo(double seconds, const ValuesAt& values,
                       const std::function<bool(int done, int all)>& progress = {});
     /// Of live values that changed otherwise than with the time: what was kept is out of date.

@@ -38,7 +38,7 @@ SAMPLES read(int texel, bool within) {
     uvec4 words = imageLoad(from, within ? texel : 0);
     words = within ? words : uvec4(0);
 #if AXIS == 0
-    return vec4(words) * (1.0 / DENSITY_UNIT);
+    return vec4(words) * (1.0 / push.unit);
 #else
     return mat2x4(lengthen(words.xy), lengthen(words.zw));
 #endif

@@ -11,11 +11,10 @@ void main() {
     uint index = item();
     if (index >= sampleCount()) return;
     vec3 p = (push.origin + push.cell * vec3(placeOf(index)) - push.first) / push.radius;
-    ivec3 own = ivec3(p);
+    ivec3 own = clamp(ivec3(p), ivec3(1), push.buckets - 2);  // but for rounding, all are a bucket away from the sides
     float sum = 0.0;
     int row = 0;
     do {
-        // All samples are a bucket away from the sides at least.
         ivec3 b = own + ivec3(-1, row % 3 - 1, row / 3 - 1);
         int bucket = (b.z * push.buckets.y + b.y) * push.buckets.x + b.x;
         uint i = starts[bucket], last = starts[bucket + 3];

@@ -15,7 +15,7 @@ void main() {
         ivec3 off = ivec3(i % side, i / side % side, i / (side * side)) - push.reach, cell = at + off;
         bool within = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, push.size));
         uvec4 own = imageLoad(grid, within ? indexOf(cell) : 0);
-        vec3 mean = vec3(own.xyz) / (DENSITY_UNIT * max(float(own.w), 1.0)) - 0.5;
+        vec3 mean = vec3(own.xyz) / (push.unit * max(float(own.w), 1.0)) - 0.5;
         vec3 away = (vec3(off) + mean) * perRadius;
         float s = max(1.0 - dot(away, away), 0.0);
         sum += within ? float(own.w) * s * s * s : 0.0;

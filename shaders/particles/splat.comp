@@ -14,7 +14,7 @@ void main() {
     at += 0.5;  // a cell is what is nearer to its sample than to another
     bool within = all(greaterThanEqual(at, vec3(0.0))) && all(lessThan(at, vec3(push.size)));
     ivec3 cell = ivec3(within ? at : vec3(0.0));
-    uvec4 added = uvec4((at - vec3(cell)) * DENSITY_UNIT, 1);
+    uvec4 added = uvec4((at - vec3(cell)) * push.unit, 1);
     if (within)
         for (int k = 0; k < 4; ++k) atomicAdd(grid[4 * indexOf(cell) + k], added[k]);
 #else
@@ -24,7 +24,7 @@ void main() {
         ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2), cell = ivec3(low) + corner;
         vec3 weights = mix(1.0 - t, t, vec3(corner));
         bool stored = within && all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, push.size));
-        if (stored) atomicAdd(grid[indexOf(cell)], uint(weights.x * weights.y * weights.z * DENSITY_UNIT + 0.5));
+        if (stored) atomicAdd(grid[indexOf(cell)], uint(weights.x * weights.y * weights.z * push.unit + 0.5));
     }
 #endif
 }

@@ -405,10 +405,24 @@ TEST(Preview, ItCanEndAtAnyTime) {
     }
 }
 
-TEST(Preview, TellsHowFarParticlesAre) {
-    const Graph graph = test::graphOf(R"({"id": "jet", "type": "emitter", "inputs": {"rate": 500}},
+Graph jet() {
+    return test::graphOf(R"({"id": "jet", "type": "emitter", "inputs": {"rate": 500}},
         {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "jet"}, "resolution": 24, "radius": 1}},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}})");
+}
+
+TEST(Preview, ParticlesOfAnEarlierTimeDoNotWaitForThoseOfALater) {
+    const auto graph = std::make_shared<const Graph>(jet());
+    Previewed previewed;
+    previewed.ask({.graph = graph, .revision = 1, .seconds = 30'000.0});  // would take an hour
+    previewed.until([&](const PreviewResult&) { return previewed.preview.simulating().has_value(); });
+    previewed.ask({.graph = graph, .revision = 1, .seconds = 1.0});
+    EXPECT_TRUE(previewed.full().findings.empty());
+    EXPECT_FALSE(previewed.preview.simulating());
+}
+
+TEST(Preview, TellsHowFarParticlesAre) {
+    const Graph graph = jet();
     std::mutex mutex;
     std::vector<double> shares;
     std::optional<Preview> preview;

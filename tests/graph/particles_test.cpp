@@ -219,7 +219,7 @@ TEST(Particles, FilesOfPlaces) {
                                             {"1 2 3\n1 2\n", "a.txt", "line 2"},
                                             {"1 2\n", "a.txt", "line 1"},
                                             {"1 2 3", "a.vdb", "no format"},
-                                            {"1 2 nan", "a.csv", "not a number"},
+                                            {"1 2 3\n1 2 nan", "a.csv", "not a number in line 2"},
                                             {"f 1 2 3", "a.obj", "a.obj"},
                                             {"1 2 3\n4 5 1e99\n", "a.csv", "line 2"}}) {
         const std::string found = placesIn(bytes, name);

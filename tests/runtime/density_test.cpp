@@ -187,6 +187,51 @@ TEST_F(DensityOnDevice, TooWideParticlesAreRefused) {
     }
 }
 
+TEST_F(DensityOnDevice, WhateverTheRadiusIs) {
+    const Places places = {glm::vec4(0.0f)};
+    const float none = std::nanf(""), endless = INFINITY;
+    for (const DensityMethod method : {DensityMethod::exact, DensityMethod::proxies, DensityMethod::blur})
+        for (const float radius :
+             {0.0f, -1.0f, none, endless, 1e-45f, 1e-38f, 1e-20f, 1e-6f, 10.0f, 1e6f, 1e10f, 3e38f}) {
+            const DensityConfig config{kGrid, radius, method};
+            DensityBuffers buffers;
+            Buffer particles = createBuffer(device(), 16);
+            upload(device(), particles, places);
+            Commands commands(device());
+            const Done recorded = recordDensity(commands, kernels(), buffers, config, particles, 1);
+            if (!recorded) {
+                EXPECT_NE(recorded.error().message.find("radius"), std::string::npos);
+                continue;
+            }
+            submit(commands);
+            const auto pitch = std::size_t(kGrid.size.x + 3) / 4 * 4;
+            for (const float value : download<float>(device(), buffers.density, pitch))
+                ASSERT_TRUE(value >= 0.0f && value <= 1.0f) << radius;
+        }
+}
+
+TEST_F(DensityOnDevice, ManyInOnePlaceAreAllCounted) {
+    const Places places(150'000, glm::vec4(0.01f, 0.0f, -0.02f, 0.0f));
+    const double many = double(places.size());
+    for (const DensityMethod method : {DensityMethod::proxies, DensityMethod::blur}) {
+        const DensityConfig config{kGrid, 0.2f, method};
+        const double allowed = method == DensityMethod::proxies ? 1e-3 : 0.25;
+        EXPECT_LT(worstOf(densityOf(kernels(), places, config), densityByFormula(places, config)),
+                  allowed * many);
+    }
+}
+
+TEST_F(DensityOnDevice, FarFromTheOriginAsWell) {
+    // Where floats are a quarter of a metre apart, as in the coordinates of surveys.
+    const glm::vec3 far(500'000.0f, 4'000'000.0f, 120.0f);
+    const DensityGrid grid{.origin = far - 10.0f, .cell = 0.5f, .size = {41, 41, 41}};
+    Places places = inBall(2000, 12.0f, 8);
+    for (glm::vec4& place : places) place += glm::vec4(far, 0.0f);
+    for (const float radius : {0.7f, 2.0f, 30.0f})
+        for (const float value : densityOf(kernels(), places, {grid, radius, DensityMethod::exact}))
+            ASSERT_TRUE(value >= 0.0f && value <= 2000.0f) << radius;
+}
+
 TEST(BlurWeights, AreThoseWhoseProductsAreNearest) {
     for (const double radius : {1.0, 2.5, 4.0, 9.3}) {
         const std::vector<float> w = blurWeights(radius);

@@ -201,6 +201,20 @@ TEST_F(ParticleFieldOnDevice, TheDeviceReadsItAsTheHostDoes) {
     }
 }
 
+TEST_F(ParticleFieldOnDevice, MoreThanTheDeviceCanBindIsRefused) {
+    const uint64_t most = device().properties.limits.maxStorageBufferRange;
+    if (most > 1u << 30) GTEST_SKIP() << "this device can bind more than is good for a test";
+    const Program program = programOf(16);
+    Buffer particles = createBuffer(device(), 16), volumes = createBuffer(device(), most + 16);
+    ParticleVolumeBuffers buffers;
+    Commands commands(device());
+    const Done recorded = recordParticleVolume(
+        commands, kernels(), buffers, {.grid = program.ir.volumes()[0]->grid}, particles, 1, volumes, 0);
+    ASSERT_FALSE(recorded);
+    EXPECT_NE(recorded.error().message.find("lower the resolution"), std::string::npos)
+        << recorded.error().message;
+}
+
 TEST_F(ParticleFieldOnDevice, TheBorderIsClosedAndNoneIsEmpty) {
     const Program program = programOf(24);
     const FieldVolume& unmade = *program.ir.volumes()[0];

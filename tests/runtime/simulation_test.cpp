@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 
 #include "graph/json.h"
 #include "runtime/live_program.h"
@@ -142,16 +143,67 @@ TEST(Simulation, MovingValuesAreTakenStepByStep) {
     EXPECT_NEAR(double(player.alive().size()), 300, 8);
 }
 
+/// A timeline that makes the input live.
+std::string trackOf(const std::string& node, const std::string& input, const std::string& value) {
+    return R"(, "timeline": {"length": 4, "tracks": [{"node": ")" + node + R"(", "input": ")" + input +
+           R"(", "keys": [{"time": 0, "value": )" + value + "}]}]}";
+}
+
 TEST(Simulation, ChangedValuesBearOnWhatComes) {
-    Played player(liveOf(R"("rate": 60, "lifetime": 20, "velocity": [0, 0, 0], "spread": 0)", ""));
-    player.goTo(1.0);
-    EXPECT_EQ(player.alive().size(), 60u);
-    player.live.inputs["rain.rate"];  // not live: nothing to change
+    Played player(liveOf(R"("rate": 60, "lifetime": 20, "velocity": [0, 0, 0], "spread": 0)", "", "",
+                         trackOf("rain", "rate", "60")));
+    player.live.motions.clear();
+    double& rate = player.live.inputs.at("rain.rate").value[0];
     const ValuesAt values = [&](double at) { return player.live.valuesAt(at); };
+    const auto aliveAt = [&](double seconds) {
+        if (!player.simulation.goTo(seconds, values)) throw SystemError("it went nowhere");
+        return player.alive().size();
+    };
+    EXPECT_EQ(aliveAt(1.0), 60u);
+    rate = 120.0;
     player.simulation.valuesChanged();
     EXPECT_FALSE(*player.simulation.goTo(1.0, values));  // it goes on from where it is
-    EXPECT_TRUE(*player.simulation.goTo(0.5, values));   // and is played from the start
-    EXPECT_EQ(player.alive().size(), 30u);
+    EXPECT_EQ(aliveAt(2.0), 180u);
+    EXPECT_EQ(aliveAt(0.5), 60u);  // and what was before is played anew from the start,
+    EXPECT_EQ(aliveAt(2.0), 240u);
+    EXPECT_EQ(aliveAt(1.5), 180u);  // of which nothing is left of before
+    rate = 0.0;
+    player.simulation.valuesChanged();
+    EXPECT_EQ(aliveAt(0.0), 0u);
+    EXPECT_EQ(aliveAt(2.0), 0u);
+}
+
+/// Whatever the live values are, at the start or later, it goes on or says why not.
+void expectNoHarm(const LiveProgram& live) {
+    ASSERT_FALSE(live.program.live.empty());
+    for (const double value : {double(NAN), double(INFINITY), -double(INFINITY), 1e300, -1e300, 1e-300, -3.0})
+        for (const double from : {0.0, 0.05}) {
+            Simulation simulation(device(), live.program.ir.volumes()[0]->particles);
+            const std::vector<double> values(live.program.live.size(), value);
+            const Result<bool> gone = simulation.goTo(
+                from + 0.05, [&](double at) { return at < from ? live.valuesAt(at) : values; });
+            if (!gone) { EXPECT_FALSE(gone.error().message.empty()); }
+        }
+}
+
+TEST(Simulation, ValuesThatAreNoNumbersDoNoHarm) {
+    const std::string one = "3", three = "[0.1, 0.2, 0.3]";
+    using Inputs = std::map<std::string, std::string>;
+    for (const auto& [input, value] : Inputs{{"position", three},
+                                             {"size", three},
+                                             {"velocity", three},
+                                             {"rate", one},
+                                             {"lifetime", one},
+                                             {"spread", one}})
+        expectNoHarm(liveOf(R"("rate": 300, "burst": 10)", "", "", trackOf("rain", input, value)));
+    for (const auto& [input, value] : Inputs{{"gravity", three},
+                                             {"attractor", three},
+                                             {"attraction", one},
+                                             {"drag", one},
+                                             {"turbulence", one},
+                                             {"turbulence_size", one},
+                                             {"friction", "0.5"}})
+        expectNoHarm(liveOf(R"("rate": 300)", R"("turbulence": 1)", "", trackOf("fall", input, value)));
 }
 
 /// Particles that rain on a surface for some seconds: none may be in it, and how many got below.
@@ -228,6 +280,9 @@ TEST(Simulation, TooManyAreRefusedAndNoneIsFine) {
         EXPECT_NE(gone.error().message.find("lower the rate"), std::string::npos) << gone.error().message;
     }
     Played none(liveOf(R"("rate": 0)", ""));
+    const auto noStep = [](int, int) { return ADD_FAILURE() << "the start is no step", false; };
+    EXPECT_TRUE(none.simulation.goTo(
+        0.0, [&](double at) { return none.live.valuesAt(at); }, noStep));
     none.goTo(2.0);
     EXPECT_TRUE(none.alive().empty());
     int told = 0;
@@ -242,7 +297,8 @@ TEST(Simulation, TooManyAreRefusedAndNoneIsFine) {
 }
 
 /// A column of water beside a ball, in a tank of 2 by 1 by 1 m.
-LiveProgram water(const std::string& inputs = "", const std::string& source = "column") {
+LiveProgram water(const std::string& inputs = "", const std::string& source = "column",
+                  const std::string& keys = "") {
     const std::string text = R"({"fieldwright": 1, "nodes": [
         {"id": "cube", "type": "box", "inputs": {"half_extents": [0.4, 0.4, 0.5]}},
         {"id": "column", "type": "translate", "inputs": {"surface": {"from": "cube"}, "offset": [-0.6, 0.4, 0]}},
@@ -252,7 +308,8 @@ LiveProgram water(const std::string& inputs = "", const std::string& source = "c
             "tank_min": [-1, 0, -0.5], "tank_max": [1, 1.5, 0.5])" +
                              inputs + R"(}},
         {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "fluid"}, "radius": 0.16}},
-        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}]})";
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}])" +
+                             keys + "}";
     Result<Graph> graph = parseGraph(text, "test.field.json", nullptr);
     if (!graph) throw SystemError(format(graph.error()));
     Result<LiveProgram> live = compileLive(std::move(*graph), {});
@@ -283,6 +340,12 @@ TEST(Simulation, WaterFlowsAroundWhatIsInItsWay) {
     Played other(water());
     other.goTo(2.0);
     expectSame(other.places(), last);
+}
+
+TEST(Simulation, NorDoTheyToWater) {
+    for (const char* input : {"viscosity", "tension", "spacing"})
+        expectNoHarm(water("", "column", trackOf("fluid", input, "1")));
+    expectNoHarm(water("", "column", trackOf("fluid", "gravity", "[0, -9, 0]")));
 }
 
 TEST(Simulation, WaterThatCannotBeIsRefused) {
