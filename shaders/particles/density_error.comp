@@ -7,7 +7,7 @@ layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer guesses;
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer planes;
 layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
-layout(binding = 4, rgba32ui) restrict writeonly uniform uimageBuffer weighed;  // floats: the guess, about, and lambda
+layout(binding = 4, scalar) writeonly buffer Weighed { vec4 weighed[]; };  // the guess, about, and lambda
 layout(binding = 5, scalar) writeonly buffer Densities { float densities[]; };
 layout(binding = 6, scalar) readonly buffer Far { float far[]; };  // density of those that are not listed
 
@@ -37,6 +37,6 @@ void main() {
     float lambda = -push.relaxation * max(density - 1.0, 0.0) / (squares + dot(gradient, gradient) + push.soft);
     // Each a little to the side of its own, so that particles in one place part.
     vec3 aside = vec3(index * uvec3(3518319155u, 2882110345u, 2360945575u)) * (1e-5 / 4294967296.0 * push.support);
-    imageStore(weighed, int(index), floatBitsToUint(vec4(p + aside, lambda)));
+    weighed[index] = vec4(p + aside, lambda);
     densities[index] = density;
 }

@@ -7,7 +7,8 @@ layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer weighed;
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer planes;
 layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
-layout(binding = 4, rgba32ui) restrict uniform uimageBuffer guesses;
+layout(binding = 4, rgba32ui) readonly uniform uimageBuffer guesses;
+layout(binding = 5, scalar) writeonly buffer Moved { vec4 moved[]; };  // the same
 
 void main() {
     uint index = item();
@@ -28,5 +29,5 @@ void main() {
     } while (++t < turns);
     p = inTank(p + push.slope * shift + own.w * wallsAt(p, plane).xyz);
     p += max(plane.w - dot(plane.xyz, p), 0.0) * plane.xyz;
-    imageStore(guesses, int(index), floatBitsToUint(vec4(inTank(p), 0.0)));
+    moved[index] = vec4(inTank(p), 0.0);
 }

@@ -6,8 +6,8 @@
 layout(local_size_x = FLUID_GROUP) in;
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer places;      // floats: metres
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer velocities;  // floats: m/s
-layout(binding = 2, rgba32ui) restrict writeonly uniform uimageBuffer guesses;
-layout(binding = 3, rgba32ui) restrict writeonly uniform uimageBuffer planes;  // floats: the normal, and the distance from the origin
+layout(binding = 2, scalar) writeonly buffer Guesses { vec4 guesses[]; };
+layout(binding = 3, scalar) writeonly buffer Planes { vec4 planes[]; };  // floats: the normal, and the distance from the origin
 layout(binding = 4, scalar) writeonly buffer Keys { uint keys[]; };
 
 void main() {
@@ -26,7 +26,7 @@ void main() {
     plane = vec4(normal, dot(normal, p) - distance);
     p = inTank(p + max(-distance, 0.0) * normal);
 #endif
-    imageStore(guesses, int(index), floatBitsToUint(vec4(p, 0.0)));
-    imageStore(planes, int(index), floatBitsToUint(plane));
+    guesses[index] = vec4(p, 0.0);
+    planes[index] = plane;
     keys[index] = cellIndex(cellOf(p));
 }

@@ -6,15 +6,15 @@ layout(binding = 0, scalar) readonly buffer Order { uint order[]; };
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer places;
 layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer guesses;
 layout(binding = 3, rgba32ui) restrict readonly uniform uimageBuffer planes;
-layout(binding = 4, rgba32ui) restrict writeonly uniform uimageBuffer sortedPlaces;
-layout(binding = 5, rgba32ui) restrict writeonly uniform uimageBuffer sortedGuesses;
-layout(binding = 6, rgba32ui) restrict writeonly uniform uimageBuffer sortedPlanes;
+layout(binding = 4, scalar) writeonly buffer SortedPlaces { uvec4 sortedPlaces[]; };
+layout(binding = 5, scalar) writeonly buffer SortedGuesses { uvec4 sortedGuesses[]; };
+layout(binding = 6, scalar) writeonly buffer SortedPlanes { uvec4 sortedPlanes[]; };
 
 void main() {
     uint index = item();
     if (index >= push.particles) return;
-    int from = int(order[index]), to = int(index);
-    imageStore(sortedPlaces, to, imageLoad(places, from));
-    imageStore(sortedGuesses, to, imageLoad(guesses, from));
-    imageStore(sortedPlanes, to, imageLoad(planes, from));
+    int from = int(order[index]);
+    sortedPlaces[index] = imageLoad(places, from);
+    sortedGuesses[index] = imageLoad(guesses, from);
+    sortedPlanes[index] = imageLoad(planes, from);
 }

@@ -8,7 +8,7 @@ layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer guesses;
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer velocities;
 layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
-layout(binding = 4, rgba32ui) restrict writeonly uniform uimageBuffer smoothed;
+layout(binding = 4, scalar) writeonly buffer Smoothed { vec4 smoothed[]; };
 
 void main() {
     uint index = item();
@@ -27,5 +27,5 @@ void main() {
         }
         texel += kNextTexel;
     } while (++t < turns);
-    imageStore(smoothed, int(index), floatBitsToUint(vec4(v + push.weight * change, 0.0)));
+    smoothed[index] = vec4(v + push.weight * change, 0.0);
 }
