@@ -16,8 +16,7 @@ namespace fw {
 namespace {
 
 constexpr uint64_t kMostTriangles = 1u << 24;
-constexpr uint64_t kWholeTexels = 16;  // bytes behind a list that is also read as texels
-constexpr float kStill = 1.0f / 16;    // of a cell; of half a cell after a subdivision, and so on
+constexpr float kStill = 1.0f / 16;  // of a cell; of half a cell after a subdivision, and so on
 
 /// A power of two that is at least as large.
 float powerAbove(float size) { return std::exp2(std::ceil(std::log2(std::max(size, 1e-30f)))); }
@@ -29,8 +28,7 @@ struct Most {
 Most mostOf(const Device& device) {
     const uint64_t range = device.properties.limits.maxStorageBufferRange;
     const uint64_t texels = device.properties.limits.maxTexelBufferElements;
-    return {std::min(kMostTriangles, (range - kWholeTexels) / 12),
-            std::min(range / sizeof(gpu::MeshVertex), texels)};
+    return {std::min(kMostTriangles, range / 12), std::min(range / sizeof(gpu::MeshVertex), texels)};
 }
 
 std::string thousands(uint64_t count) {
@@ -73,8 +71,7 @@ void sortCorners(Commands& commands, Run& run) {
     MeshStageBuffers& b = run.buffers;
     const gpu::MeshPush push = run.push();
     reserve(device, b.edgeCounts, 4ull * push.vertices);
-    for (Buffer* perCorner : {&b.next, &b.previous})
-        reserve(device, *perCorner, 12ull * push.triangles + kWholeTexels);
+    for (Buffer* perCorner : {&b.next, &b.previous}) reserve(device, *perCorner, 12ull * push.triangles);
     beginStage(commands, "sort");
     const VkDeviceSize triangles = 12ull * push.triangles;
     countKeys(commands, run.config.pipelines->counting, b.corners, {0, run.mesh.triangles, 0, triangles},

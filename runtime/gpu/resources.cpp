@@ -8,6 +8,8 @@
 namespace fw {
 namespace {
 
+constexpr VkDeviceSize kTexel = 16;  // bytes
+
 std::string mebibytes(VkDeviceSize size) { return std::to_string((size + (1 << 20) - 1) >> 20) + " MiB"; }
 
 /// The first memory type that has the first of `wishes` that any type has; wishes are ordered from best to
@@ -68,7 +70,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     Buffer buffer;
     buffer.device = device.handle;
     buffer.record = device.record;
-    buffer.size = std::max<VkDeviceSize>((size + 3) / 4 * 4, 4);
+    buffer.size = std::max((size + kTexel - 1) / kTexel * kTexel, kTexel);
     if (buffer.size > device.largestAllocation)
         throw SystemError("device '" + device.name() + "' cannot hold a buffer of " + mebibytes(size) +
                           ", its limit is " + mebibytes(device.largestAllocation) +
@@ -107,12 +109,12 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory))
         check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
               "mapping a buffer");
-    const VkDeviceSize texels = buffer.size / 16;
-    if (texels && texels <= device.properties.limits.maxTexelBufferElements) {
+    const VkDeviceSize texels = buffer.size / kTexel;
+    if (texels <= device.properties.limits.maxTexelBufferElements) {
         auto view = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
         view.buffer = buffer.handle;
         view.format = VK_FORMAT_R32G32B32A32_UINT;
-        view.range = texels * 16;
+        view.range = buffer.size;
         check(vkCreateBufferView(device.handle, &view, nullptr, &buffer.texels),
               "creating a view of a buffer");
     }

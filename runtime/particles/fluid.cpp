@@ -176,8 +176,9 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
                                Descriptor{4, b.weighed},
                                Descriptor{5, b.densities},
                                Descriptor{6, b.far}};
-    const std::array moves = {Descriptor{0, b.weighed}, Descriptor{1, b.sortedPlanes},  Descriptor{2, b.lists},
-                              Descriptor{3, b.counts},  Descriptor{4, b.sortedGuesses}, Descriptor{5, b.sortedGuesses}};
+    const std::array moves = {Descriptor{0, b.weighed},       Descriptor{1, b.sortedPlanes},
+                              Descriptor{2, b.lists},         Descriptor{3, b.counts},
+                              Descriptor{4, b.sortedGuesses}, Descriptor{5, b.sortedGuesses}};
     for (int i = 0; i < config.iterations; ++i) {
         run(kernels.densityError, weighs);
         run(kernels.giveWay, moves);

@@ -5,16 +5,22 @@
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = SORT_SUM_LANES) in;
-layout(binding = 0, scalar) readonly buffer Counts { uint counts[]; };
+layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer counts;  // of four keys each
 
+const int kTexelsOfLane = SORT_SUM_EACH / 4;
 uint groupsOfCounts() { return (push.keys + SORT_SUM_LANES * SORT_SUM_EACH - 1) / (SORT_SUM_LANES * SORT_SUM_EACH); }
-/// The first of the keys that this lane sums.
-uint firstOfLane() { return (linearGroup() * SORT_SUM_LANES + gl_LocalInvocationIndex) * SORT_SUM_EACH; }
-uint countAt(uint key) { return key < push.keys ? counts[key] : 0; }
-uint sumFrom(uint first) {
-    uint key = first, sum = 0;
+int texelsOfCounts() { return int((push.keys + 3) / 4); }
+int firstOfLane() { return int(linearGroup() * SORT_SUM_LANES + gl_LocalInvocationIndex) * kTexelsOfLane; }
+uvec4 countsAt(int texel) {
+    uvec4 keys = 4 * uint(texel) + uvec4(0, 1, 2, 3), four = imageLoad(counts, min(texel, texelsOfCounts() - 1));
+    return mix(uvec4(0), four, lessThan(keys, uvec4(push.keys)));
+}
+uint sumOf(uvec4 four) { return four.x + four.y + four.z + four.w; }
+uint sumOfLane() {
+    int i = 0;
+    uint sum = 0;
     do {
-        sum += countAt(key);
-    } while (++key < first + SORT_SUM_EACH);
+        sum += sumOf(countsAt(firstOfLane() + i));
+    } while (++i < kTexelsOfLane);
     return sum;
 }

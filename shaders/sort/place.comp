@@ -2,14 +2,14 @@
 #include "sort/counts.glsl"
 
 layout(binding = 4, scalar) readonly buffer Sums { uvec4 sums[]; };
-layout(binding = 5, scalar) writeonly buffer Starts { uint starts[]; };
+layout(binding = 5, scalar) writeonly buffer Starts { uvec4 starts[]; };  // of four keys each
 
 void main() {
-    uint first = firstOfLane(), total, key = first;
-    uint before = sumBefore(sumFrom(first), total) + sums[min(linearGroup(), groupsOfCounts() - 1)].x;
+    uint total, before = sumBefore(sumOfLane(), total) + sums[min(linearGroup(), groupsOfCounts() - 1)].x;
+    int texel = firstOfLane(), end = texel + kTexelsOfLane;
     do {
-        uint own = countAt(key);
-        if (key < push.keys) starts[key] = before;
-        before += own;
-    } while (++key < first + SORT_SUM_EACH);
+        uvec4 own = countsAt(texel);
+        if (texel < texelsOfCounts()) starts[texel] = before + uvec4(0, own.x, own.x + own.y, own.x + own.y + own.z);
+        before += sumOf(own);
+    } while (++texel < end);
 }

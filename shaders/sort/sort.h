@@ -5,7 +5,7 @@
 namespace fw::gpu {
 #endif
 
-#define SORT_GROUP 64           // items of a work group
+#define SORT_GROUP 256          // items of a work group
 #define SORT_SUM_LANES 256      // of a work group that sums counts,
 #define SORT_SUM_EACH 16        // and counts of a lane
 #define SORT_MOST_SETTLED 2048  // items of a key that are put in order

@@ -4,7 +4,7 @@
 layout(binding = 4, scalar) writeonly buffer Sums { uvec4 sums[]; };
 
 void main() {
-    uint first = firstOfLane(), total;
-    sumBefore(sumFrom(first), total);
-    if (gl_LocalInvocationIndex == 0 && first < push.keys) sums[linearGroup()] = uvec4(total, 0, 0, 0);
+    uint total;
+    sumBefore(sumOfLane(), total);
+    if (gl_LocalInvocationIndex == 0 && firstOfLane() < texelsOfCounts()) sums[linearGroup()] = uvec4(total, 0, 0, 0);
 }
