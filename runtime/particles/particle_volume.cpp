@@ -66,7 +66,9 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
         barrier(commands);
     };
     beginStage(commands, "distance");
-    run(kernels.level, blocks, std::array{Descriptor{0, b.density.density}, Descriptor{1, b.least}});
+    run(kernels.level, blocks,
+        std::array{Descriptor{0, b.density.density}, Descriptor{1, b.least},
+                   Descriptor{2, b.density.density}});
     if (config.trueDistance) {
         const auto samples = uint32_t(grid.samples());
         reserve(device, b.nearest, 16ull * samples);

@@ -339,7 +339,8 @@ void Simulation::move(Commands& commands, const std::vector<double>& values) {
     push.swirls = 1.0f;
     push.moves = 1;
     const auto run = [&](const Pipeline& kernel, const Obstacle* obstacle) {
-        std::vector<Descriptor> bound{{0, state.places}, {1, state.velocities}};
+        std::vector<Descriptor> bound{
+            {0, state.places}, {1, state.velocities}, {2, state.places}, {3, state.velocities}};
         if (obstacle) addField(bound, obstacle->buffers());
         dispatch(commands, kernel, spread(groupsFor(state.slots, MOTION_GROUP)), push, bound);
         barrier(commands);

@@ -5,8 +5,8 @@
 
 layout(local_size_x = MOTION_GROUP) in;
 layout(push_constant, scalar) uniform PushConstants { EmitPush push; };
-layout(binding = 0, rgba32ui) restrict writeonly uniform uimageBuffer places;      // floats: metres, and the age in seconds
-layout(binding = 1, rgba32ui) restrict writeonly uniform uimageBuffer velocities;  // floats: m/s
+layout(binding = 0, scalar) writeonly buffer Places { vec4 places[]; };  // metres, and the age in seconds
+layout(binding = 1, scalar) writeonly buffer Velocities { vec4 velocities[]; };  // m/s
 
 const float kPi = 3.14159265;
 uint state;
@@ -38,7 +38,7 @@ void main() {
     vec3 velocity = push.velocity + push.spread * pow(chance(), 1.0 / 3.0) * direction();
     float age = max(push.age - push.sooner * float(index), 0.0);
     vec3 place = push.position + push.size * unit + age * velocity;
-    int slot = int((push.first + index) % push.slots);
-    imageStore(places, slot, floatBitsToUint(vec4(place, age)));
-    imageStore(velocities, slot, floatBitsToUint(vec4(velocity, 0.0)));
+    uint slot = (push.first + index) % push.slots;
+    places[slot] = vec4(place, age);
+    velocities[slot] = vec4(velocity, 0.0);
 }

@@ -2,7 +2,8 @@
 #include "particles/volume.glsl"
 
 layout(local_size_x = VOLUME_GROUP) in;
-layout(binding = 0, rgba32ui) restrict uniform uimageBuffer density;  // floats; becomes the distance
+layout(binding = 0, rgba32ui) readonly uniform uimageBuffer density;  // floats
+layout(binding = 2, scalar) writeonly buffer Distance { vec4 distances[]; };  // in its place
 layout(binding = 1, scalar) writeonly buffer Least { float least[]; };
 
 vec4 distanceAt(vec4 density) {
@@ -30,7 +31,7 @@ void main() {
             if (border || x == 0 || x >= push.size.x - 1) f[k] = max(f[k], 0.5);
             lowest = there ? min(lowest, f[k]) : lowest;
         }
-        if (there) imageStore(density, texel, floatBitsToUint(f));
+        if (there) distances[texel] = f;
     } while (++row < 16);
     least[index] = lowest;
 }

@@ -14,8 +14,10 @@
 
 layout(local_size_x = MOTION_GROUP) in;
 layout(push_constant, scalar) uniform PushConstants { MotionPush push; };
-layout(binding = 0, rgba32ui) restrict uniform uimageBuffer places;      // floats: metres, and the age in seconds
-layout(binding = 1, rgba32ui) restrict uniform uimageBuffer velocities;  // floats: m/s
+layout(binding = 0, rgba32ui) readonly uniform uimageBuffer places;      // floats: metres, and the age in seconds
+layout(binding = 1, rgba32ui) readonly uniform uimageBuffer velocities;  // floats: m/s
+layout(binding = 2, scalar) writeonly buffer NextPlaces { vec4 nextPlaces[]; };  // the same, and so are these
+layout(binding = 3, scalar) writeonly buffer NextVelocities { vec4 nextVelocities[]; };
 
 // A flow without sources, after Arnold, Beltrami and Childress: three octaves that move against each other.
 vec3 swirl(vec3 p, float time) {
@@ -66,6 +68,6 @@ void main() {
     p += left * velocity;
 #endif
     if (place.w > push.lifetime) p = vec3(uintBitsToFloat(0x7fc00000u));
-    imageStore(places, int(index), floatBitsToUint(vec4(p, place.w)));
-    imageStore(velocities, int(index), floatBitsToUint(vec4(velocity, 0.0)));
+    nextPlaces[index] = vec4(p, place.w);
+    nextVelocities[index] = vec4(velocity, 0.0);
 }

@@ -5,7 +5,7 @@
 
 layout(local_size_x = VOLUME_GROUP) in;
 layout(binding = 0, scalar) readonly buffer Field { float field[]; };  // rows padded to texels
-layout(binding = 1, rgba32ui) restrict writeonly uniform uimageBuffer state;
+layout(binding = 1, scalar) writeonly buffer State { vec4 state[]; };
 
 float at(ivec3 place) { return field[(place.z * push.size.y + place.y) * 4 * texels().x + place.x]; }
 
@@ -26,5 +26,5 @@ void main() {
     }
     float slope = max(length(gradient), 1e-3);
     vec3 point = vec3(place) - clamp(here / slope, -1.5, 1.5) * gradient / slope;
-    imageStore(state, int(index), uvec4(floatBitsToUint(beside ? point : vec3(BAKE_UNREACHED)), 0));
+    state[index] = vec4(beside ? point : vec3(BAKE_UNREACHED), 0.0);
 }
