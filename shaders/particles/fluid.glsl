@@ -1,5 +1,8 @@
 // Of all kernels of the fluid (runtime/particles/fluid.h says how): the kernel W, the cells, the lists, the walls. Densities are
 // in units of the density at rest.
+//
+// Kernels write words and read texels: for software devices imageStore() takes three times as long as a store to a buffer, and
+// a load from a buffer twice as long as imageLoad().
 #include "shared.h"
 #include "particles/fluid.h"
 

@@ -10,8 +10,8 @@ layout(binding = 2, scalar) writeonly buffer Lists { uvec4 lists[]; };  // from 
 layout(binding = 3, scalar) writeonly buffer Counts { uint counts[]; };
 layout(binding = 4, scalar) writeonly buffer Far { float far[]; };
 
-// To store a neighbour takes software devices as long as to find it, and as a texel longer still, so they are stored four at a
-// time, as words: up to seven wait, the newest first.
+// To store a neighbour takes software devices as long as to find it, so they are stored four at a time: up to seven wait, the
+// newest first.
 uvec4 newest;
 uvec3 older;
 
