@@ -38,13 +38,15 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
     const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
     const Region found = findRegion(program.ir, program.distance(), program.parameters());
     switch (found.extent) {
-        case Extent::empty:
-            if (std::ranges::any_of(program.ir.volumes(), [](const auto& v) { return bool(v->particles); }))
-                return problem(
-                    "the solid is empty: there may be no particles yet; look at a later time (--time)");
+        case Extent::empty: {
+            const bool particles =
+                std::ranges::any_of(program.ir.volumes(), [](const auto& v) { return bool(v->particles); });
             return problem(
-                "the solid is empty: no point within 16 km of the origin has a negative distance (give a "
-                "region if it lies farther out)");
+                std::string(
+                    "the solid is empty: no point within 16 km of the origin has a negative distance (give a "
+                    "region if it lies farther out") +
+                (particles ? "; if there are no particles yet, look at a later time, --time)" : ")"));
+        }
         case Extent::unbounded:
             return problem(
                 "the solid has no bounds within 16 km of the origin: give a region (region_min and "
