@@ -337,6 +337,33 @@ TEST(Preview, NothingOfAnotherDocumentIsShown) {
     EXPECT_FALSE(other.findings.empty());
 }
 
+/// What a preview tells of its work until the picture is there: shares, 1 where it tells none.
+std::vector<double> toldBy(std::optional<double> (Preview::*share)() const, const Graph& graph,
+                           double seconds) {
+    std::mutex mutex;
+    std::vector<double> shares;
+    std::optional<Preview> preview;
+    preview.emplace(DeviceOptions{.validation = true}, [&] {
+        std::lock_guard lock(mutex);
+        shares.push_back(((*preview).*share)().value_or(1.0));
+    });
+    EXPECT_FALSE(((*preview).*share)());
+    preview->ask({.graph = std::make_shared<const Graph>(graph),
+                  .revision = 1,
+                  .seconds = seconds,
+                  .width = 160,
+                  .height = 120});
+    std::optional<PreviewResult> result;
+    for (int i = 0; i < 6000 && !(result && result->current); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (auto newer = preview->take()) result = std::move(newer);
+    }
+    EXPECT_TRUE(result && result->current && result->findings.empty());
+    EXPECT_FALSE(((*preview).*share)());
+    std::lock_guard lock(mutex);
+    return shares;
+}
+
 TEST(Preview, TellsHowMuchOfAMeshsFieldIsMade) {
     const fw::test::TempDir folder;
     const TriangleMesh cube = fw::test::cubeFile();
@@ -358,24 +385,7 @@ TEST(Preview, TellsHowMuchOfAMeshsFieldIsMade) {
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}})");
     graph.path = folder.path("g.field.json");
 
-    std::mutex mutex;
-    std::vector<double> shares;
-    std::optional<Preview> preview;
-    preview.emplace(DeviceOptions{.validation = true}, [&] {
-        std::lock_guard lock(mutex);
-        shares.push_back(preview->baking().value_or(1.0));
-    });
-    EXPECT_FALSE(preview->baking());
-    preview->ask({.graph = std::make_shared<const Graph>(graph), .revision = 1, .width = 160, .height = 120});
-    std::optional<PreviewResult> result;
-    for (int i = 0; i < 6000 && !(result && result->current); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        if (auto newer = preview->take()) result = std::move(newer);
-    }
-    ASSERT_TRUE(result && result->current);
-    EXPECT_TRUE(result->findings.empty());
-    EXPECT_FALSE(preview->baking());
-    std::lock_guard lock(mutex);
+    const std::vector<double> shares = toldBy(&Preview::baking, graph, 0.0);
     ASSERT_GT(shares.size(), 3u);
     EXPECT_EQ(shares.front(), 0.0);
     EXPECT_TRUE(std::ranges::is_sorted(shares));
@@ -422,28 +432,7 @@ TEST(Preview, ParticlesOfAnEarlierTimeDoNotWaitForThoseOfALater) {
 }
 
 TEST(Preview, TellsHowFarParticlesAre) {
-    const Graph graph = jet();
-    std::mutex mutex;
-    std::vector<double> shares;
-    std::optional<Preview> preview;
-    preview.emplace(DeviceOptions{.validation = true}, [&] {
-        std::lock_guard lock(mutex);
-        shares.push_back(preview->simulating().value_or(1.0));
-    });
-    preview->ask({.graph = std::make_shared<const Graph>(graph),
-                  .revision = 1,
-                  .seconds = 3.0,
-                  .width = 160,
-                  .height = 120});
-    std::optional<PreviewResult> result;
-    for (int i = 0; i < 6000 && !(result && result->current); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        if (auto newer = preview->take()) result = std::move(newer);
-    }
-    ASSERT_TRUE(result && result->current);
-    EXPECT_TRUE(result->findings.empty());
-    EXPECT_FALSE(preview->simulating());
-    std::lock_guard lock(mutex);
+    const std::vector<double> shares = toldBy(&Preview::simulating, jet(), 3.0);
     const auto told = std::ranges::count_if(shares, [](double share) { return share < 1.0; });
     EXPECT_GT(told, 5);
     EXPECT_LT(*std::ranges::min_element(shares), 0.2);
