@@ -32,7 +32,7 @@ glm::dvec3 bucketsOf(const DensityConfig& config) {
 
 gpu::DensityPush pushOf(const DensityConfig& config, uint32_t particles) {
     const DensityGrid& grid = config.grid;
-    constexpr uint32_t kMostSum = std::numeric_limits<uint32_t>::max();
+    constexpr uint32_t kMostSum = std::numeric_limits<uint32_t>::max() - 1;
     gpu::DensityPush push{};
     push.size = grid.size;
     push.particles = particles;

@@ -20,6 +20,12 @@ void main() {
 #else
     bool within = all(greaterThan(at, vec3(-1.0))) && all(lessThan(at, vec3(push.size)));
     vec3 low = floor(within ? at : vec3(-2.0)), t = at - low;
+    // Atomics wait for memory one by one, loads do so together: these have it fetched. They decide nothing, since no sum has all
+    // its bits set, as push.unit is.
+    uint fetched = 0;
+    for (int row = 0; row < 4; ++row)
+        fetched = max(fetched, grid[indexOf(clamp(ivec3(low) + ivec3(0, row & 1, row >> 1), ivec3(0), push.size - 1))]);
+    within = within && fetched != 0xffffffffu;
     for (int k = 0; k < 8; ++k) {
         ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2), cell = ivec3(low) + corner;
         vec3 weights = mix(1.0 - t, t, vec3(corner));
