@@ -566,6 +566,16 @@ class Compiler {
         for (const LiveParameter& parameter : live) values.push_back(parameter.value);
         const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
         Box region = particleBounds(state.ir, *from.particles, values, radius);
+        for (std::size_t i = 0; i < options.moments.size(); ++i) {
+            for (std::size_t slot = 0; slot < live.size(); ++slot) {
+                const auto moving = options.moments[i].find(live[slot].name);
+                if (moving != options.moments[i].end())
+                    values[slot] = moving->second.at(std::size_t(live[slot].component));
+            }
+            const Box then = particleBounds(state.ir, *from.particles, values,
+                                            StageNumbers(state.ir, *own, values).scalar("radius"));
+            region = i == 0 ? then : joined(region, then);
+        }
         bool found = true;
         for (const auto& [name, corner] :
              {std::pair("region_min", &region.lo), std::pair("region_max", &region.hi)}) {

@@ -45,6 +45,9 @@ struct CompileOptions {
     std::set<std::string> live = {};
     /// Keep every exposed parameter live, under its own name.
     bool liveExposed = false;
+    /// Values that live inputs come to have, at so many moments, by their names in `live`: what has to hold
+    /// at all of them, as the grids of particles, is made so. None: as they are now.
+    std::vector<std::map<std::string, std::vector<double>>> moments = {};
     double time = 0.0;                 ///< seconds, folded unless live
     MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
 };

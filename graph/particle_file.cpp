@@ -86,7 +86,7 @@ Result<std::vector<glm::vec3>> placesInText(std::string_view bytes, const std::s
                 return assetProblem(path, kParticles,
                                     "has a place that is not a number in line " + std::to_string(line));
             places.push_back(*place);
-        } else if (first && !Scanner::numberIn<float>(fields[0])) {
+        } else if (first && fields[0].find_first_of("0123456789+-.") != 0) {  // not a number, however large
             columns = columnsIn(fields);
         } else {
             return assetProblem(path, kParticles,

@@ -35,9 +35,10 @@ std::pair<double, double> flight(double v, double a, double life) {
 }
 
 Bounds emitted(const StageNumbers& emitter, const glm::dvec3& least, const glm::dvec3& most) {
-    const glm::dvec3 place = emitter.vector("position"), size = emitter.vector("size"),
+    const glm::dvec3 place = emitter.vector("position"), size = glm::max(emitter.vector("size"), 0.0),
                      velocity = emitter.vector("velocity");
-    const double life = std::max(emitter.scalar("lifetime"), 0.0), spread = emitter.scalar("spread");
+    const double life = std::max(emitter.scalar("lifetime"), 0.0),
+                 spread = std::max(emitter.scalar("spread"), 0.0);
     Bounds bounds{place - size, place + size};
     for (int axis = 0; axis < 3; ++axis) {
         bounds.lo[axis] += flight(velocity[axis] - spread, least[axis], life).first;

@@ -146,6 +146,15 @@ bool reachesBeyond(const Field& field, const Box& box) {
 
 }  // namespace
 
+Box joined(const Box& a, const Box& b) {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
+        box.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
+    }
+    return box;
+}
+
 double longestSide(const Box& box) {
     return std::max({0.0, box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
 }

@@ -26,6 +26,9 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
 
 inline constexpr double kFarthest = 16384.0;
 
+/// The least box that has both.
+Box joined(const Box& a, const Box& b);
+
 /// The box's longest side; 0 if none has a length.
 double longestSide(const Box& box);
 

@@ -72,6 +72,16 @@ double eased(Ease ease, double x) {
     return x;
 }
 
+std::vector<double> momentsOf(const Timeline& timeline) {
+    constexpr int kSteps = 16;  // and the keys, up to as many again
+    std::set<double> times;
+    for (int i = 0; i <= kSteps; ++i) times.insert(timeline.length * i / kSteps);
+    for (const Track& track : timeline.tracks)
+        for (const Key& key : track.keys)
+            if (times.size() < 2 * kSteps && key.time <= timeline.length) times.insert(key.time);
+    return {times.begin(), times.end()};
+}
+
 double timelineTime(const Timeline& timeline, double seconds) {
     if (timeline.endless) return seconds;
     const double length = timeline.length;

@@ -89,6 +89,9 @@ Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings =
 /// The time on the timeline, 0 to length, that `seconds` after its start show; of an endless one: `seconds`.
 double timelineTime(const Timeline& timeline, double seconds);
 
+/// Times on the timeline at which is looked at what has to last for all of it, as the bounds of a solid.
+std::vector<double> momentsOf(const Timeline& timeline);
+
 /// The track's value at a time on the timeline. The track has keys, in the order of their times.
 std::vector<double> evaluate(const Track& track, double time);
 

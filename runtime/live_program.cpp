@@ -34,6 +34,18 @@ Result<LiveProgram> compileLive(Graph graph, CompileOptions options, const std::
     made.timeline = std::move(*timeline);
     options.live.merge(animatedInputs(graph, made.timeline));
     options.live.insert("time");
+    options.moments.clear();
+    for (const double time : momentsOf(made.timeline)) {
+        auto& values = options.moments.emplace_back();
+        values["time"] = {time};
+        for (const Track& track : made.timeline.tracks) {
+            const std::optional<AnimatedInput> input = animatedInput(graph, track);
+            if (!input) continue;
+            const auto [numbers, fresh] = values.try_emplace(input->node + "." + input->input);
+            if (fresh) numbers->second = inputNumbers(*graph.node(input->node), input->input);
+            applyTrack(track, *input, time, numbers->second);
+        }
+    }
     const std::set<std::string> moving = options.live;
     options.live.insert(exposed.begin(), exposed.end());
     Result<Program> program = compile(graph, options);

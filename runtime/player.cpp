@@ -16,8 +16,6 @@ namespace fw {
 
 namespace {
 
-/// Where bounds are looked for: this many steps over the timeline, and its keys up to as many again.
-constexpr int kRegionSteps = 16;
 /// Steps over the timeline and cells of the meshes that a picture frames.
 constexpr int kOutlineSteps = 16, kOutlineResolution = 40;
 
@@ -48,25 +46,6 @@ MeshFieldBaker toldBaker(const Device& device, const std::function<void(double)>
 
 bool hasLamps(const Graph& graph) {
     return graph.scene->is_object() && graph.scene->contains("lights") && !(*graph.scene)["lights"].empty();
-}
-
-/// Times on the timeline at which the solid's bounds are looked for.
-std::vector<double> regionTimes(const Timeline& timeline) {
-    std::set<double> times;
-    for (int i = 0; i <= kRegionSteps; ++i) times.insert(timeline.length * i / kRegionSteps);
-    for (const Track& track : timeline.tracks)
-        for (const Key& key : track.keys)
-            if (times.size() < 2 * kRegionSteps && key.time <= timeline.length) times.insert(key.time);
-    return {times.begin(), times.end()};
-}
-
-Box joined(const Box& a, const Box& b) {
-    Box box;
-    for (int axis = 0; axis < 3; ++axis) {
-        box.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
-        box.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
-    }
-    return box;
 }
 
 }  // namespace
@@ -134,7 +113,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         prepared.region = *box;
         return done();
     }
-    const std::vector<double> times = regionTimes(prepared.timeline);
+    const std::vector<double> times = momentsOf(prepared.timeline);
     std::vector<Region> found(times.size());
     const auto search = [&](std::size_t first, std::size_t step) {
         for (std::size_t i = first; i < times.size(); i += step)
@@ -156,6 +135,10 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
         const Result<Box> box = meshRegion(program, request);
         return problem(prepared.graph, box.error().message + " (at " + std::to_string(times[i]) + " s)");
+    }
+    if (!all && prepared.timeline.tracks.empty()) {
+        const Result<Box> box = meshRegion(program, request);
+        if (!box) return problem(prepared.graph, box.error().message);
     }
     if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
     prepared.region = padded(*all, resolution, 1.5);

@@ -108,33 +108,37 @@ std::vector<NodeType> particleNodes() {
          .doc = "Makes a solid of particles, for booleans and everything else that works on surfaces: where "
                 "the density, the "
                 "sum of (1 - r²/R²)³ over all particles, exceeds a threshold.",
-         .inputs = {positionInput(), particles,
-                    positiveLength("radius", 0.15, "R: how far a particle's density reaches."),
-                    [] {
-                        InputSpec threshold = scalar(
-                            "threshold", 0.3,
-                            "The density at the surface. A particle alone has 1 in its middle, and is not "
-                            "seen above that.");
-                        threshold.positive = true;
-                        threshold.max = 100;
-                        return threshold;
-                    }(),
-                    choice("method", {std::begin(kDensityMethodNames), std::end(kDensityMethodNames)},
-                           "How densities are added up. Blur is fast and some per cent off; exact asks every "
-                           "particle; proxies asks "
-                           "cells for the mean of theirs."),
-                    choice("distance", {"near", "true"},
-                           "Where values are distances: near the surface, which is fast; or everywhere, for "
-                           "offsets, shells and "
-                           "blends that reach far."),
-                    integer("resolution", 96, kLeastParticleResolution, kMostParticleResolution,
-                            "Cells along the grid's longest side. A radius is best two to six cells, and is "
-                            "eight at most in a "
-                            "grid that is found."),
-                    corner(
-                        "region_min",
-                        "Lowest corner of the grid; found from where the particles come from if not given."),
-                    corner("region_max", "Highest corner of the grid. What leaves it is cut off.")},
+         .inputs =
+             {positionInput(), particles,
+              positiveLength("radius", 0.15, "R: how far a particle's density reaches."),
+              [] {
+                  InputSpec threshold =
+                      scalar("threshold", 0.3,
+                             "The density at the surface. A particle alone has 1 in its middle, and is not "
+                             "seen above that.");
+                  threshold.positive = true;
+                  threshold.max = 100;
+                  return threshold;
+              }(),
+              choice(
+                  "method", {std::begin(kDensityMethodNames), std::end(kDensityMethodNames)},
+                  "How densities are added up. Blur is fast and some per cent off, but where dozens crowd "
+                  "within a radius its solids come out a fifth too large, and like boxes; exact asks every "
+                  "particle; proxies asks cells for the mean of theirs."),
+              choice(
+                  "distance", {"near", "true"},
+                  "Where values are distances: near the surface, which is fast; or everywhere in the grid, "
+                  "for offsets, shells and blends that reach far. Give the grid room for them by its "
+                  "corners: beyond it they are rough."),
+              integer("resolution", 96, kLeastParticleResolution, kMostParticleResolution,
+                      "Cells along the grid's longest side. A radius is best two to six cells, and is "
+                      "eight at most in a "
+                      "grid that is found."),
+              corner(
+                  "region_min",
+                  "Lowest corner of the grid; found from where the particles come from, at all times of the "
+                  "timeline, if not given."),
+              corner("region_max", "Highest corner of the grid. What leaves it is cut off.")},
          .outputs = {{"surface", Type::surface}},
          .aliases = {"metaballs", "blobs"}},
     };

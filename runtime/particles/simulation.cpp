@@ -316,9 +316,9 @@ void Simulation::emit(Commands& commands, const StageNumbers& emitter, double be
     push.seed = uint32_t(int64_t(std::clamp(emitter.scalar("seed"), -1e9, 1e9)));
     push.position = emitter.vector("position");
     push.shape = int(std::ranges::find(kShapes, source().words.find("shape")->second) - kShapes);
-    push.size = emitter.vector("size");
+    push.size = glm::max(emitter.vector("size"), 0.0);
     push.velocity = emitter.vector("velocity");
-    push.spread = float(emitter.scalar("spread"));
+    push.spread = float(std::max(emitter.scalar("spread"), 0.0));
     if (state.steps >= 0) {
         push.sooner = float(kSimulationStep / (after - before));
         push.age = float(kSimulationStep * (1.0 - (double(first) + 1.0 - before) / (after - before)));

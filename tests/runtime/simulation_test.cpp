@@ -260,6 +260,26 @@ TEST(Simulation, AHoleLetsThemThrough) {
         });
 }
 
+TEST(Simulation, AGridThatIsFoundHasRoomForAllTimes) {
+    const auto reachOf = [](const LiveProgram& live) {
+        const VolumeGrid& grid = live.program.ir.volumes()[0]->grid;
+        return std::pair(grid.origin.x, grid.origin.x + grid.cell * (grid.size.x - 1));
+    };
+    const std::string still = R"("rate": 60, "lifetime": 1, "velocity": [0, 1, 0], "spread": 0)";
+    const auto [low, high] =
+        reachOf(liveOf(still, "none", "",
+                       R"(, "timeline": {"length": 4, "tracks": [{"node": "rain", "input": "position.x",
+        "keys": [{"time": 0, "value": -2}, {"time": 4, "value": 3}]}]})"));
+    EXPECT_LT(low, -2.1);
+    EXPECT_GT(high, 3.1);
+    const auto [first, last] =
+        reachOf(liveOf(still + R"(, "position": {"from": "place"})", "none",
+                       R"({"id": "clock", "type": "time"}, {"id": "place", "type": "combine_xyz",
+        "inputs": {"x": {"from": "clock"}}},)"));
+    EXPECT_LT(first, -0.1);
+    EXPECT_GT(last, kDefaultTimelineLength);
+}
+
 TEST(Simulation, ATimeWithoutEndIsRefusedAtOnce) {
     Played played(liveOf(R"("rate": 10)", ""));
     for (const double seconds : {1e12, double(HUGE_VAL), std::nan("")})
