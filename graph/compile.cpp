@@ -561,7 +561,8 @@ class Compiler {
         const std::optional<ParticleStage> own = particleStage(node, prefix, type, inputs);
         const Value& from = inputOf(type, inputs, "particles");
         auto resolution = knownNumber(node, prefix, type, inputs, "resolution");
-        if (!own || !from.particles || !resolution) return failure(type.outputs);
+        const auto margin = knownNumber(node, prefix, type, inputs, "margin");
+        if (!own || !from.particles || !resolution || !margin) return failure(type.outputs);
         std::vector<double> values;
         for (const LiveParameter& parameter : live) values.push_back(parameter.value);
         const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
@@ -587,6 +588,7 @@ class Compiler {
                 (*corner)[std::size_t(i)] = *given;
             }
         }
+        for (std::size_t axis = 0; axis < 3; ++axis) region.lo[axis] -= *margin, region.hi[axis] += *margin;
         if (found)
             resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / radius));
         const Result<FieldVolumePtr> volume =

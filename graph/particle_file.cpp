@@ -105,7 +105,7 @@ Result<std::vector<glm::vec3>> parseParticlePlaces(const std::string& bytes, con
     const bool ply = ending == ".ply", obj = ending == ".obj";
     std::vector<glm::vec3> places;
     if (ply) {
-        Result<TriangleMesh> mesh = readPlyMesh({bytes, path, path});
+        Result<TriangleMesh> mesh = readPlyMesh({bytes, path, path, kParticles});
         if (!mesh) return mesh.error();
         places = std::move(mesh->positions);
     } else if (obj || ending == ".csv" || ending == ".txt" || ending == ".xyz") {

@@ -12,8 +12,6 @@ namespace fw {
 
 namespace {
 
-constexpr AssetKind kMesh = {"mesh", kMostMeshFileBytes};
-
 struct Format {
     std::string_view ending;
     Result<TriangleMesh> (*read)(const MeshFile& file);
@@ -54,8 +52,8 @@ uint64_t hashOf(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Error meshProblem(const std::string& path, const std::string& what) {
-    return assetProblem(path, kMesh, what);
+Error meshProblem(const MeshFile& file, const std::string& what) {
+    return assetProblem(file.path, file.kind, what);
 }
 
 Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
@@ -63,12 +61,11 @@ Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
     for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const auto format = std::ranges::find(kFormats, ending, &Format::ending);
     if (format == std::end(kFormats))
-        return meshProblem(file.path,
-                           "is of no format that is read: use a .glb, .gltf, .obj, .stl or .ply file");
-    if (file.bytes.empty()) return meshProblem(file.path, "is an empty file");
+        return meshProblem(file, "is of no format that is read: use a .glb, .gltf, .obj, .stl or .ply file");
+    if (file.bytes.empty()) return meshProblem(file, "is an empty file");
     Result<TriangleMesh> mesh = format->read(file);
     if (!mesh) return mesh;
-    if (mesh->indices.empty()) return meshProblem(file.path, "has no faces");
+    if (mesh->indices.empty()) return meshProblem(file, "has no faces");
     dropUnused(*mesh);
     mesh->file = file.file;
     mesh->hash = hashOf(*mesh);
@@ -77,7 +74,7 @@ Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
 
 Result<TriangleMeshPtr> readTriangleMesh(const std::string& graphPath, const std::string& path) {
     return readAsset<TriangleMesh>(
-        graphPath, path, kMesh,
+        graphPath, path, kMeshAsset,
         [&](const std::string& bytes, const std::string& file) -> Result<TriangleMeshPtr> {
             Result<TriangleMesh> mesh = parseTriangleMesh({bytes, path, file});
             if (!mesh) return mesh.error();

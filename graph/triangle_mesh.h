@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/asset_file.h"
 #include "graph/result.h"
 
 namespace fw {
@@ -31,11 +32,14 @@ struct TriangleMesh {
 };
 using TriangleMeshPtr = std::shared_ptr<const TriangleMesh>;
 
+inline constexpr AssetKind kMeshAsset = {"mesh", kMostMeshFileBytes};
+
 /// What a format's reader is given: the file's bytes, its path as the graph has it, and where it lies.
 struct MeshFile {
     const std::string& bytes;
     const std::string& path;
     const std::string& file;
+    AssetKind kind = kMeshAsset;  ///< what messages call it
 };
 
 /// The readers of each format. A PLY file may be without faces. Errors, with a message only: what is
@@ -55,6 +59,6 @@ Result<TriangleMesh> parseTriangleMesh(const MeshFile& file);
 Result<TriangleMeshPtr> readTriangleMesh(const std::string& graphPath, const std::string& path);
 
 /// "the mesh 'a.glb' " and what is wrong with it.
-Error meshProblem(const std::string& path, const std::string& what);
+Error meshProblem(const MeshFile& file, const std::string& what);
 
 }  // namespace fw

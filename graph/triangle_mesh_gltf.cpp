@@ -423,7 +423,7 @@ Result<TriangleMesh> readGltfMesh(const MeshFile& file) {
     try {
         const tinygltf::Model model = parse(file);
         return Reader(model).run();
-    } catch (const Fault& fault) { return meshProblem(file.path, fault.what); }
+    } catch (const Fault& fault) { return meshProblem(file, fault.what); }
 }
 
 }  // namespace fw

@@ -177,7 +177,7 @@ class Reader {
 Result<TriangleMesh> readObjMesh(const MeshFile& file) {
     try {
         return Reader(file).run();
-    } catch (const Fault& fault) { return meshProblem(file.path, fault.what); }
+    } catch (const Fault& fault) { return meshProblem(file, fault.what); }
 }
 
 }  // namespace fw

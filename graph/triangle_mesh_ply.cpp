@@ -242,7 +242,7 @@ class Reader {
 Result<TriangleMesh> readPlyMesh(const MeshFile& file) {
     try {
         return Reader(file.bytes).run();
-    } catch (const Fault& fault) { return meshProblem(file.path, fault.what); }
+    } catch (const Fault& fault) { return meshProblem(file, fault.what); }
 }
 
 }  // namespace fw

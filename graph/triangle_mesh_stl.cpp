@@ -77,7 +77,7 @@ Result<TriangleMesh> readStlMesh(const MeshFile& file) {
         fault = "is cut off, or is no STL file";  // it only began as text does
     else if (none && fault.empty())
         fault = "has no triangles";
-    if (!fault.empty()) return meshProblem(file.path, fault);
+    if (!fault.empty()) return meshProblem(file, fault);
     for (uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
     return mesh;
 }

@@ -315,7 +315,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
     gpu::DraftMaterial look = material();
     look.colored = result.colors && 12ull * result.vertices <= gpu->properties.limits.maxStorageBufferRange;
     std::vector<ParticleCloud> clouds;
-    if (particles && showsParticles(options.show)) clouds = particles->clouds();
+    if (particles && showsParticles(options.show)) clouds = particles->clouds(current);
     const RenderScene scene{.mesh = buffers,
                             .vertices = result.vertices,
                             .triangles = result.triangles,

@@ -83,7 +83,9 @@ std::vector<NodeType> particleNodes() {
                 "around what is in the "
                 "way. Particles keep their density by moving apart, as often in a step as it takes.",
          .inputs =
-             {surfaceInput("source", "Where there is fluid at the start; it may reach beyond the tank."),
+             {surfaceInput("source",
+                           "Where there is fluid at the start; it may reach beyond the tank, and into what "
+                           "is in the way."),
               positiveLength(
                   "spacing", 0.05,
                   "Between particles: the fluid's finest detail. Half of it means eight times as many."),
@@ -128,8 +130,9 @@ std::vector<NodeType> particleNodes() {
               choice(
                   "distance", {"near", "true"},
                   "Where values are distances: near the surface, which is fast; or everywhere in the grid, "
-                  "for offsets, shells and blends that reach far. Give the grid room for them by its "
-                  "corners: beyond it they are rough."),
+                  "for offsets, shells and blends that reach far: beyond it they are rough."),
+              length("margin", 0.0,
+                     "How much farther the grid reaches, to every side: room for true distances."),
               integer("resolution", 96, kLeastParticleResolution, kMostParticleResolution,
                       "Cells along the grid's longest side. A radius is best two to six cells, and is "
                       "eight at most in a "

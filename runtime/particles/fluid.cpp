@@ -194,4 +194,18 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     return done();
 }
 
+Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                    FluidConfig config) {
+    constexpr int kTurns = 30;
+    constexpr float kStep = 1.0f / 240;
+    config.gravity = glm::vec3(0.0f);
+    for (int turn = 0; turn < kTurns; ++turn) {
+        if (const Done recorded = recordFluidStep(commands, kernels, fluid, config, kStep); !recorded)
+            return recorded;
+        fill(commands, fluid.velocities, 0);
+        barrier(commands);
+    }
+    return done();
+}
+
 }  // namespace fw

@@ -97,4 +97,9 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
                      const FluidConfig& config, float step);
 
+/// Records how particles that were just set settle, without weight, and come to rest: a lattice that fills a
+/// corner is too dense by 5 % beside each wall, and would spring apart. Errors as recordFluidStep().
+Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                    FluidConfig config);
+
 }  // namespace fw

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
+
+#include "graph/affine.h"
 
 namespace fw {
 
@@ -11,6 +14,29 @@ namespace {
 Error atNode(Error error, const ParticleField& field) {
     if (error.node.empty()) error.node = field.node;
     return error;
+}
+
+/// Where the program shows a volume: at least one place, that of no change.
+std::vector<glm::mat4> placesOf(const Program& program, std::size_t volume) {
+    constexpr std::size_t kMost = 64;
+    const std::vector<double> parameters = program.parameters();
+    std::set<std::array<IrId, 3>> seen;
+    std::vector<glm::mat4> places;
+    for (IrId id = 0; id < program.ir.size() && places.size() < kMost; ++id) {
+        const IrNode& node = program.ir[id];
+        if (node.op != Op::volume) continue;
+        const std::array<IrId, 3> at = {node.operands[0], node.operands[1], node.operands[2]};
+        if (program.ir.layer(node).volume->volume != program.ir.volumes()[volume].get() ||
+            !seen.insert(at).second)
+            continue;
+        const std::optional<Affine> toField = affineOf(program.ir, at, parameters);
+        if (!toField) continue;
+        const Affine toWorld = inverse(*toField);
+        glm::mat4& place = places.emplace_back(glm::dmat4(toWorld.linear));
+        place[3] = glm::vec4(toWorld.offset, 1);
+    }
+    if (places.empty()) places.emplace_back(1.0f);
+    return places;
 }
 
 }  // namespace
@@ -56,13 +82,17 @@ uint64_t ParticleFields::slots() const {
     return sum;
 }
 
-std::vector<ParticleCloud> ParticleFields::clouds() const {
+std::vector<ParticleCloud> ParticleFields::clouds(const Program& program) const {
     std::vector<ParticleCloud> made;
     for (const Part& part : parts) {
         // As recordParticleVolume() has it; a threshold that no particle reaches alone leaves a small one.
         const double share = std::sqrt(std::max(1.0 - std::cbrt(part.threshold), 0.04));
-        made.push_back({&part.simulation.places(), part.simulation.velocities(), part.simulation.slots(),
-                        float(share * part.radius)});
+        for (const glm::mat4& toWorld : placesOf(program, part.volume))
+            made.push_back({.places = &part.simulation.places(),
+                            .velocities = part.simulation.velocities(),
+                            .slots = part.simulation.slots(),
+                            .radius = float(share * part.radius),
+                            .toWorld = toWorld});
     }
     return made;
 }

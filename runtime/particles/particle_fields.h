@@ -36,8 +36,9 @@ class ParticleFields {
                                  const Buffer& volumes, bool surfaces = true,
                                  const std::function<bool(int done, int all)>& progress = {});
 
-    /// The particles, for pictures of them.
-    std::vector<ParticleCloud> clouds() const;
+    /// The particles, for pictures of them: wherever the program samples their field after moving, turning
+    /// or scaling it. What else was done to it, as repeating, they do not follow.
+    std::vector<ParticleCloud> clouds(const Program& program) const;
     /// Particles of all simulations: slots, of which some may be empty.
     uint64_t slots() const;
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "graph/check_value.h"
 #include "graph/compile.h"
 #include "graph/glsl.h"
 #include "graph/region.h"
@@ -20,7 +21,6 @@ namespace fw {
 namespace {
 
 constexpr std::size_t kMostCheckpointBytes = 256u << 20;
-constexpr int kCalmSteps = 30;          // of a fluid, before the start
 constexpr double kLeastSpacing = 1e-6;  // metres
 constexpr double kMostSubsteps = 64;
 
@@ -79,9 +79,17 @@ Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
 
 namespace {
 
-/// A fluid's places at the start: even spacing in the tank, where the source is.
-Result<std::vector<glm::vec3>> placesIn(const Program& source, const StageNumbers& numbers,
-                                        const std::vector<double>& values) {
+/// The distance to a surface at each of the places, with the live values of the graph.
+void distancesAt(const Program& surface, const std::vector<double>& values, std::span<const Point> places,
+                 std::span<double> distances) {
+    const std::span live(values.data(), std::min(surface.live.size(), values.size()));
+    evaluate(surface.ir, surface.distance(), live, places, distances);
+}
+
+/// A fluid's places at the start: even spacing in the tank, where the source is, and no nearer to the
+/// obstacle, if there is one, than each other's half.
+Result<std::vector<glm::vec3>> placesIn(const Program& source, const Program* obstacle,
+                                        const StageNumbers& numbers, const std::vector<double>& values) {
     constexpr double kMostPlaces = 64e6;  // that are looked at
     const std::span<const double> live(values.data(), std::min(source.live.size(), values.size()));
     const double spacing = std::max(numbers.scalar("spacing"), kLeastSpacing);
@@ -102,21 +110,25 @@ Result<std::vector<glm::vec3>> placesIn(const Program& source, const StageNumber
         return Error{.message = "the spacing is too small for the source's size: raise it"};
     std::vector<glm::vec3> places;
     std::vector<Point> row(std::size_t(count.x));
-    std::vector<double> distances(row.size());
+    std::vector<double> distances(row.size()), room(row.size(), spacing);
     for (double z = 0; z < count.z; ++z)
         for (double y = 0; y < count.y; ++y) {
             for (std::size_t x = 0; x < row.size(); ++x) {
                 const glm::dvec3 p = lo + spacing * (first + glm::dvec3(double(x), y, z) + 0.5);
                 row[x] = {p.x, p.y, p.z};
             }
-            evaluate(source.ir, source.distance(), live, row, distances);
+            distancesAt(source, values, row, distances);
+            if (std::ranges::none_of(distances, [](double distance) { return distance < 0.0; })) continue;
+            if (obstacle) distancesAt(*obstacle, values, row, room);
             for (std::size_t x = 0; x < row.size(); ++x)
-                if (distances[x] < 0.0) places.emplace_back(row[x][0], row[x][1], row[x][2]);
+                if (distances[x] < 0.0 && room[x] >= 0.5 * spacing)
+                    places.emplace_back(row[x][0], row[x][1], row[x][2]);
         }
     if (places.empty())
         return Error{
             .message =
-                "no place of the source is in the tank: move or enlarge one of them, or lower the spacing"};
+                "no place of the source is in the tank and free: move or enlarge one of them, or lower the "
+                "spacing"};
     if (places.size() > kMostParticles)
         return Error{.message = "the source holds " + std::to_string(places.size()) + " particles, and " +
                                 std::to_string(kMostParticles) + " is the most: raise the spacing"};
@@ -143,8 +155,13 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
     if (wanted < state.steps) state.steps = -1;
     const int first = std::max(state.steps, 0);
     while (state.steps < wanted) {
-        const std::vector<double> now = values((state.steps + 1) * kSimulationStep);
-        if (const Done stepped = state.steps < 0 ? start(now) : step(now); !stepped) return stepped.error();
+        const double time = (state.steps + 1) * kSimulationStep;
+        const std::vector<double> now = values(time);
+        if (const Done stepped = state.steps < 0 ? start(now) : step(now); !stepped) {
+            Error error = stepped.error();
+            if (time > 0.0) error.message += " (at " + shortNumber(time) + " s)";
+            return error;
+        }
         ++state.steps;
         if (state.steps % apart == 0) keep();
         if (progress && state.steps > first && !progress(state.steps - first, wanted - first))
@@ -210,24 +227,16 @@ Done Simulation::step(const std::vector<double>& values) {
 
 Done Simulation::fill(const std::vector<double>& values) {
     const StageNumbers numbers(field->ir, source(), values);
+    const Program* const obstacle = fluid->obstacle ? fluid->obstacle->program.get() : nullptr;
     const Result<std::vector<glm::vec3>> places =
-        placesIn(*source().fields.find("source")->second, numbers, values);
+        placesIn(*source().fields.find("source")->second, obstacle, numbers, values);
     if (!places) return Error{.message = places.error().message, .node = source().node};
     state.slots = uint32_t(places->size());
     setFluid(*device, fluid->particles, *places, {});
-    // Beside walls a lattice is a little too dense, and would leap: it is given time to settle, without
-    // weight.
-    FluidConfig config = configOf(values);
-    config.gravity = glm::vec3(0.0f);
     Commands commands(*device);
-    for (int turn = 0; turn < kCalmSteps; ++turn) {
-        if (const Done recorded = recordFluidStep(commands, fluid->kernels, fluid->particles, config,
-                                                  float(kSimulationStep / 4));
-            !recorded)
-            return Error{.message = recorded.error().message, .node = source().node};
-        fw::fill(commands, fluid->particles.velocities, 0);
-        barrier(commands);
-    }
+    if (const Done settled = recordSettling(commands, fluid->kernels, fluid->particles, configOf(values));
+        !settled)
+        return Error{.message = settled.error().message, .node = source().node};
     submit(commands);
     upload(*device, fluid->particles.velocities,
            std::vector(places->size(), glm::vec4(glm::vec3(numbers.vector("velocity")), 0.0f)));

@@ -1,5 +1,6 @@
 #include "runtime/render/sprites.h"
 
+#include <cmath>
 #include <glm/matrix.hpp>
 
 namespace fw {
@@ -29,15 +30,21 @@ void drawSprites(Commands& commands, Sprites& sprites, DepthTarget& target,
                  VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     beginDrawing(commands, target.attachment, VK_ATTACHMENT_LOAD_OP_LOAD,
                  options.shadow ? nullptr : &sprites.looks);
-    gpu::SpritePush push{};
-    push.eye = options.eye;
-    push.least = options.least;
-    const glm::mat4 rows = glm::transpose(options.clip);
-    for (int i = 0; i < 4; ++i) push.toClip[i] = rows[i];
     for (const ParticleCloud& cloud : clouds) {
         if (cloud.slots == 0) continue;
+        // Each cloud is drawn where it is simulated, by an eye that is moved instead: what a scale stretches
+        // is right then, too.
+        gpu::SpritePush push{};
+        const glm::mat4 rows = glm::transpose(options.clip * cloud.toWorld);
+        for (int i = 0; i < 4; ++i) push.toClip[i] = rows[i];
+        const glm::mat3 linear(cloud.toWorld), back = glm::inverse(linear);
+        push.eye = glm::vec4(back * (glm::vec3(options.eye) - options.eye.w * glm::vec3(cloud.toWorld[3])),
+                             options.eye.w);
+        for (int i = 0; i < 3; ++i) push.normals[i] = back[i];
+        push.least = options.least;
         push.radius = options.spheres ? cloud.radius : 0.0f;
-        push.perFast = cloud.velocities ? 1.0f / options.fast : 0.0f;
+        const float scale = std::cbrt(std::abs(glm::determinant(linear)));
+        push.perFast = cloud.velocities ? scale / options.fast : 0.0f;
         const VkDeviceSize bytes = 16ull * cloud.slots;
         const Descriptor bound[] = {{0, *cloud.places, 0, bytes},
                                     {1, cloud.velocities ? *cloud.velocities : *cloud.places, 0, bytes}};

@@ -75,7 +75,7 @@ void main() {
 #endif
     bool there = s.depth > 0.0;
     vec3 p = frame.now.eye + ray * (frame.now.near / (there ? s.depth : 1.0));
-    bool occluded = there && (!s.ground || nearSolid(p, 0.0));
+    bool occluded = there && nearSolid(p, 0.0);
     float open = mix(1.0, occluded ? opennessOf(imageLoad(history, at).x) : 1.0, frame.ambientStrength);
     float sunlit = frame.shadowSize != 0 && there ? sunSeen(p, s.n, pixel) : 1.0;
 

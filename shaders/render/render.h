@@ -139,11 +139,12 @@ struct CullPush {
 
 // Particles that are drawn.
 struct SpritePush {
-    vec4 toClip[4];  // rows of the matrix
-    vec4 eye;        // w 1: where rays begin; w 0: their common direction
-    float perFast;   // one over the speed at which they are white, seconds per metre
-    float radius;    // metres
-    float least;     // that of the picture, at a distance of 1 from the eye
+    vec4 toClip[4];   // rows of the matrix
+    vec4 eye;         // w 1: where rays begin; w 0: their common direction
+    vec3 normals[3];  // the products of these with a normal are one in the picture's space, of any length
+    float perFast;    // one over the speed at which they are white, seconds per metre
+    float radius;     // metres
+    float least;      // that of the picture, at a distance of 1 from the eye
 };
 
 // What a draft shows the solid in: as FieldMaterial of field.glsl.

@@ -22,6 +22,7 @@ void main() {
     gl_FragDepth = place.z / place.w;
 #ifndef SHADOW
     vec3 color = mix(kAtRest, vec3(kFast), min(speed, 1.0));
-    packedLook = uvec2(packOctahedral(n), packUnorm4x8(vec4(sqrt(color), 1.0)));
+    vec3 seen = normalize(vec3(dot(push.normals[0], n), dot(push.normals[1], n), dot(push.normals[2], n)));
+    packedLook = uvec2(packOctahedral(seen), packUnorm4x8(vec4(sqrt(color), 1.0)));
 #endif
 }

@@ -27,5 +27,6 @@ void main() {
     uvec2 look = imageLoad(looks, at).xy;
     vec3 color = unpackUnorm4x8(look.y).rgb;
     uvec4 surface = packSurface(depth, unpackOctahedral(look.x), FieldMaterial(color * color, 0.5, 0.0, vec3(0.0)));
-    if (inPicture && look.y != 0 && !hidden) imageStore(surfaces, at, surface);
+    surface = hidden ? packGround(frame.now.near / toGround) : surface;
+    if (inPicture && look.y != 0) imageStore(surfaces, at, surface);
 }

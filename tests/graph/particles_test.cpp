@@ -110,6 +110,7 @@ TEST(Particles, WhatCannotBeIsRefusedWithItsNode) {
     says(kEmitter + field("rain", R"(, "region_min": [0, 0, 0], "region_max": [1, 0, 1])"),
          "no extent along y");
     says(kEmitter + field("rain", R"(, "resolution": 4)"), "at least 8");
+    says(kEmitter + field("rain", R"(, "margin": -1)"), "at least 0");
     says(kEmitter +
              R"({"id": "first", "type": "particles_to_field", "inputs": {"particles": {"from": "rain"}}},
          {"id": "fall", "type": "particle_dynamics", "inputs": {"particles": {"from": "rain"}, "collide": {"from": "first"}}},)" +
@@ -184,6 +185,10 @@ TEST(Particles, AGridThatIsFoundIsAsFineAsItsParticlesAsk) {
     };
     EXPECT_LE(0.5, (8.0 + 1e-6) * grid("").cell);
     EXPECT_EQ(grid(R"(, "region_min": [-1, -1, -1], "region_max": [1, 1, 1])").cell, 2.0 / 200);
+    // More room, at every side.
+    const VolumeGrid roomy = grid(R"(, "margin": 2)");
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(roomy.origin[axis], grid("").origin[axis] - 2.0, roomy.cell + grid("").cell) << axis;
     // One corner alone moves that one.
     const VolumeGrid found = grid(""), cut = grid(R"(, "region_min": [-9, -9, -9])");
     EXPECT_NEAR(cut.origin[0], -9.0, cut.cell);
@@ -222,6 +227,7 @@ TEST(Particles, FilesOfPlaces) {
                                             {"1e39,0,0\n0,0,0", "a.csv", "three numbers in line 1"},
                                             {"1 2 3\n1 2 nan", "a.csv", "not a number in line 2"},
                                             {"f 1 2 3", "a.obj", "a.obj"},
+                                            {"ply\n", "a.ply", "the particle file"},
                                             {"1 2 3\n4 5 1e99\n", "a.csv", "line 2"}}) {
         const std::string found = placesIn(bytes, name);
         EXPECT_NE(found.find(what), std::string::npos) << bytes << ": " << found;

@@ -79,6 +79,47 @@ TEST(Sprites, SpheresAreAsLargeAsTheSurfaceAboutOneParticle) {
     EXPECT_NEAR(blue.y, 0.5 * kSide - 0.25 * perMetre, 1.0);
 }
 
+TEST(Sprites, FollowWhatMovesTurnsAndScalesTheirField) {
+    const double perMetre = 0.5 * kSide / (kDistance * kHalf);
+    const auto discOf = [&](double radius) { return 3.14159265 * std::pow(radius * perMetre, 2.0); };
+    const double radius = 0.4 * std::sqrt(1.0 - std::cbrt(0.125));
+    // Half as large, turned from x to y, then moved.
+    const std::string nodes =
+        R"({"id": "placed", "type": "transform", "inputs": {"surface": {"from": "field"},
+        "scale": 0.5, "rotation": [0, 0, 90], "translation": [-0.5, 0.25, 0]}},)";
+    const Blue once =
+        blueOf(Drawn("0.5 0 0\n", nodes, R"("surface": {"from": "placed"})").picture(RENDER_SPHERES));
+    EXPECT_NEAR(once.count, discOf(0.5 * radius), 0.06 * discOf(0.5 * radius));
+    EXPECT_NEAR(once.x, 0.5 * kSide - 0.5 * perMetre, 1.0);
+    EXPECT_NEAR(once.y, 0.5 * kSide - 0.5 * perMetre, 1.0);
+    // And at both places that it is shown at.
+    const std::string both = nodes + R"({"id": "both", "type": "union", "inputs": {"a": {"from": "field"},
+        "b": {"from": "placed"}}},)";
+    const Blue twice =
+        blueOf(Drawn("0.5 0 0\n", both, R"("surface": {"from": "both"})").picture(RENDER_SPHERES));
+    EXPECT_NEAR(twice.count, once.count + discOf(radius), 0.05 * twice.count);
+    // What is stretched along x is an ellipsoid.
+    const std::string stretched =
+        R"({"id": "half", "type": "expression", "code": "return p * vec3(0.5, 1, 1);"},
+        {"id": "wide", "type": "warp", "inputs": {"surface": {"from": "field"}, "p": {"from": "half"}}},)";
+    const Blue wide =
+        blueOf(Drawn("0.2 0 0\n", stretched, R"("surface": {"from": "wide"})").picture(RENDER_SPHERES));
+    EXPECT_NEAR(wide.count, 2.0 * discOf(radius), 0.06 * wide.count);
+    EXPECT_NEAR(wide.x, 0.5 * kSide + 0.4 * perMetre, 1.0);
+}
+
+TEST(Sprites, BeyondTheGridAreLitAndBelowTheGroundHidden) {
+    const double inside = blueOf(Drawn("0.7 0 0\n").picture(RENDER_SPHERES)).count;
+    EXPECT_NEAR(blueOf(Drawn("1.1 0 0\n").picture(RENDER_SPHERES)).count, inside, 0.08 * inside);
+    const Picture none = Drawn("0 -9 0\n").picture(RENDER_SPHERES),
+                  below = Drawn("0 -1.5 0\n").picture(RENDER_SPHERES);
+    ASSERT_EQ(none.pixels.size(), below.pixels.size());
+    int unlike = 0;
+    for (std::size_t i = 0; i < none.pixels.size(); ++i)
+        unlike += std::abs(int(none.pixels[i]) - int(below.pixels[i])) > 12;
+    EXPECT_EQ(unlike, 0);
+}
+
 TEST(Sprites, PointsAreSmallHoweverNear) {
     const Blue far = blueOf(Drawn("0 0 -1\n").picture(RENDER_POINTS));
     const Blue near = blueOf(Drawn("0 0 1\n").picture(RENDER_POINTS));
