@@ -91,9 +91,14 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
 
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
                                       const ParticleStage& toField, const Box& region, int resolution) {
+    constexpr double kMostSide = 1e32;  // metres: it is a float on the device
     VolumeGrid grid;
+    if (longestSide(region) > kMostSide)
+        return Error{.message =
+                         "the grid is more than 1e32 m wide: give region_min and region_max nearer "
+                         "corners"};
     for (int axis = 0; axis < 3; ++axis)
-        if (!(region.lo[axis] < region.hi[axis]) || !std::isfinite(region.hi[axis] - region.lo[axis]))
+        if (!(region.lo[axis] < region.hi[axis]))
             return Error{.message = "the grid has no extent along " + std::string(1, "xyz"[axis]) +
                                     ": give region_min its least corner and region_max its greatest"};
     grid.cell = longestSide(region) / resolution;

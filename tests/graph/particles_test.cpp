@@ -109,6 +109,9 @@ TEST(Particles, WhatCannotBeIsRefusedWithItsNode) {
     says(kEmitter + field("rain", R"(, "radius": 0)"), "above 0");
     says(kEmitter + field("rain", R"(, "region_min": [0, 0, 0], "region_max": [1, 0, 1])"),
          "no extent along y");
+    says(kEmitter + field("rain", R"(, "region_min": [-1e300, 0, 0], "region_max": [1e300, 1, 1])"),
+         "nearer corners");
+    says(kEmitter + field("rain", R"(, "margin": 1e300)"), "nearer corners");
     says(kEmitter + field("rain", R"(, "resolution": 4)"), "at least 8");
     says(kEmitter + field("rain", R"(, "margin": -1)"), "at least 0");
     says(kEmitter +
