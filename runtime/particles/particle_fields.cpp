@@ -177,6 +177,7 @@ Done makeParticles(Program& program, const Graph& graph, double seconds, const C
         return error;
     }
     useParticles(program, downloadParticles(device, played, volumes));
+    program.notes = played.notes;  // of grids with room for all times
     return done();
 }
 

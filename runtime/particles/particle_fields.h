@@ -63,7 +63,7 @@ std::vector<FieldVolumePtr> downloadParticles(const Device& device, const Progra
 void useParticles(Program& program, std::span<const FieldVolumePtr> made);
 
 /// Gives a program that was compiled at a time the samples of its particles, which live in `graph`, on the
-/// host. Errors as compileLive() and ParticleFields::make().
+/// host, and the notes of the program that is played. Errors as compileLive() and ParticleFields::make().
 Done makeParticles(Program& program, const Graph& graph, double seconds, const CompileOptions& options,
                    const Device& device, const std::function<bool(int done, int all)>& progress = {});
 

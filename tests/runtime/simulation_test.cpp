@@ -13,6 +13,7 @@
 
 #include "graph/json.h"
 #include "runtime/live_program.h"
+#include "runtime/mesh_program.h"
 #include "tests/support/gpu.h"
 
 namespace fw {
@@ -278,6 +279,18 @@ TEST(Simulation, AGridThatIsFoundHasRoomForAllTimes) {
         "inputs": {"x": {"from": "clock"}}},)"));
     EXPECT_LT(first, -0.1);
     EXPECT_GT(last, kDefaultTimelineLength);
+}
+
+TEST(Simulation, CellsOfAGridForAllTimesAreWarnedOfAtAnyTime) {
+    const LiveProgram live =
+        liveOf(R"("shape": "point", "rate": 60, "lifetime": 1, "velocity": [0, 1, 0])", "none", "",
+               R"(, "timeline": {"length": 4, "tracks": [{"node": "rain", "input": "position.x",
+        "keys": [{"time": 0, "value": 0}, {"time": 4, "value": 30}]}]})");
+    const Result<Program> program = compileAtTime(live.graph, 1.0, {}, [] { return &device(); });
+    ASSERT_TRUE(program);
+    ASSERT_EQ(program->notes.size(), 1u);
+    EXPECT_NE(program->notes[0].message.find("wide for particles"), std::string::npos)
+        << program->notes[0].message;
 }
 
 TEST(Simulation, ATimeWithoutEndIsRefusedAtOnce) {
