@@ -565,17 +565,22 @@ class Compiler {
         if (!own || !from.particles || !resolution || !margin) return failure(type.outputs);
         std::vector<double> values;
         for (const LiveParameter& parameter : live) values.push_back(parameter.value);
-        const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
-        Box region = particleBounds(state.ir, *from.particles, values, radius);
+        Box region;
+        double least = std::numeric_limits<double>::infinity(), most = 0.0;  // of the radius
+        const auto lookAt = [&](bool first) {
+            const double radius = StageNumbers(state.ir, *own, values).scalar("radius");
+            const Box then = particleBounds(state.ir, *from.particles, values, radius);
+            region = first ? then : joined(region, then);
+            least = std::min(least, radius), most = std::max(most, radius);
+        };
+        if (options.moments.empty()) lookAt(true);
         for (std::size_t i = 0; i < options.moments.size(); ++i) {
             for (std::size_t slot = 0; slot < live.size(); ++slot) {
                 const auto moving = options.moments[i].find(live[slot].name);
                 if (moving != options.moments[i].end())
                     values[slot] = moving->second.at(std::size_t(live[slot].component));
             }
-            const Box then = particleBounds(state.ir, *from.particles, values,
-                                            StageNumbers(state.ir, *own, values).scalar("radius"));
-            region = i == 0 ? then : joined(region, then);
+            lookAt(i == 0);
         }
         bool found = true;
         for (const auto& [name, corner] :
@@ -590,7 +595,7 @@ class Compiler {
         }
         for (std::size_t axis = 0; axis < 3; ++axis) region.lo[axis] -= *margin, region.hi[axis] += *margin;
         if (found)
-            resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / radius));
+            resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / most));
         const Result<FieldVolumePtr> volume =
             particleVolume(state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
         if (!volume) {
@@ -598,13 +603,13 @@ class Compiler {
             return failure(type.outputs);
         }
         const double cell = (*volume)->grid.cell;
-        const double enough = std::ceil(*resolution * cell * kFewRadiusCells / radius);
+        const double enough = std::ceil(*resolution * cell * kFewRadiusCells / least);
         if (enough > *resolution)
             notes.push_back(located(
                 node, prefix, "resolution",
                 {.message =
                      "cells of " + shortNumber(cell) + " m are wide for particles that reach " +
-                     shortNumber(radius) + " m: " +
+                     shortNumber(least) + " m: " +
                      (enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
                                                         : "raise the radius") +
                      ", or give the grid a smaller region",

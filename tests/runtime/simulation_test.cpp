@@ -22,7 +22,7 @@ namespace {
 using test::device;
 
 LiveProgram liveOf(const std::string& emitter, const std::string& dynamics, const std::string& more = "",
-                   const std::string& keys = "") {
+                   const std::string& keys = "", double radius = 0.15) {
     const std::string text =
         R"({"fieldwright": 1, "nodes": [{"id": "rain", "type": "emitter", "inputs": {)" + emitter + "}}," +
         more +
@@ -31,8 +31,8 @@ LiveProgram liveOf(const std::string& emitter, const std::string& dynamics, cons
              : R"({"id": "fall", "type": "particle_dynamics", "inputs": {"particles": {"from": "rain"})" +
                    std::string(dynamics.empty() ? "" : ",") + dynamics + "}},") +
         R"({"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": ")" +
-        (dynamics == "none" ? "rain" : "fall") +
-        R"("}}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}])" + keys + "}";
+        (dynamics == "none" ? "rain" : "fall") + R"("}, "radius": )" + std::to_string(radius) +
+        R"(}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}])" + keys + "}";
     Result<Graph> graph = parseGraph(text, "test.field.json", nullptr);
     if (!graph) throw SystemError(format(graph.error()));
     Result<LiveProgram> live = compileLive(std::move(*graph), {});
@@ -279,6 +279,16 @@ TEST(Simulation, AGridThatIsFoundHasRoomForAllTimes) {
         "inputs": {"x": {"from": "clock"}}},)"));
     EXPECT_LT(first, -0.1);
     EXPECT_GT(last, kDefaultTimelineLength);
+}
+
+TEST(Simulation, AGridThatIsFoundIsAsFineAsTheRadiiOfAllTimesAsk) {
+    // The graph's own radius is never used.
+    const LiveProgram live =
+        liveOf(R"("shape": "point", "rate": 0, "burst": 5, "velocity": [0, 0, 0], "spread": 0)", "none", "",
+               trackOf("field", "radius", "0.05"), 1.0);
+    const VolumeGrid& grid = live.program.ir.volumes()[0]->grid;
+    EXPECT_GT(0.05, 4.0 * grid.cell);
+    EXPECT_TRUE(live.program.notes.empty());
 }
 
 TEST(Simulation, CellsOfAGridForAllTimesAreWarnedOfAtAnyTime) {
