@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -541,9 +542,12 @@ class Run {
         const double count = isPoints                      ? value.points->size() / 2.0
                              : value.type == Type::surface ? 0
                                                            : componentCount(value.type);
-        if (!(at >= 0.0 && at < count))
-            fail(place, "index " + std::to_string(static_cast<long long>(at)) + " is outside 0 to " +
+        if (!(at >= 0.0 && at < count)) {
+            char text[32];
+            std::snprintf(text, sizeof text, "%.15g", at);
+            fail(place, "index " + std::string(text) + " is outside 0 to " +
                             std::to_string(static_cast<long long>(count) - 1));
+        }
         const auto i = static_cast<std::size_t>(at);
         if (isPoints)
             return Value{Type::vec2,

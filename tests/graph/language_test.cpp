@@ -254,6 +254,9 @@ TEST(Language, Diagnostics) {
     expectError("float if = 1;", "is a word of the language");
     expectError("return min(1);", "takes 2 to 8 arguments");
     expectError("return pow(1, 2, 3);", "takes 2 arguments");
+    expectError("return p[3];", "index 3 is outside 0 to 2");
+    expectError("return p[5128 * 1e21];", "index 5.128e+24 is outside 0 to 2");
+    expectError("return p[-1.5];", "index -1.5 is outside 0 to 2");
     expectError("break; return 1;", "inside a loop");
     expectError("return /* open", "no end");
 }
