@@ -9,7 +9,7 @@
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/shell/theme.h"
-#include "graph/named_parameters.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw::editor {
 

@@ -10,7 +10,7 @@
 #include "editor/files/arrangement.h"
 #include "editor/panels/tour.h"
 #include "editor/shell/loss.h"
-#include "runtime/export/output_file.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::editor {
 

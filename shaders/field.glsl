@@ -1,5 +1,5 @@
 // The field that a shader samples. This default is the reference tower of docs/benchmarks.md, so that every
-// shader compiles alone; at run time text generated from a graph (graph/glsl.cpp) answers this #include instead.
+// shader compiles alone; at run time text generated from a graph (graph/emit/glsl.cpp) answers this #include instead.
 //
 // A shader asks for what it needs by defining, before the include, any of
 //   FIELD_VALUE     float fieldValue(vec3 p)                    distance: < 0 inside, >= 0 outside
@@ -7,7 +7,7 @@
 //   FIELD_INTERVAL  vec2 fieldInterval(vec3 lo, vec3 hi)        (least, greatest) bound of the value over a box
 //   FIELD_ROWS      FieldPlane fieldPlane(float z); FieldRow fieldRow(FieldPlane plane, float x);
 //                   float fieldAt(FieldRow row, float y)        the value, with what does not depend on y hoisted
-//   FIELD_PRUNED    with some of the above: of the members of families (graph/families.h) those alone are evaluated that are
+//   FIELD_PRUNED    with some of the above: of the members of families (graph/ir/families.h) those alone are evaluated that are
 //                   listed for a place, which bool fieldChoose(uint place) sets: false if it is known to hold no surface
 //   FIELD_PRUNE     with FIELD_PRUNED and FIELD_INTERVAL: void fieldPrune(vec3 lo, vec3 hi, uint place), which writes the
 //                   place's lists, out of those chosen; the shader declares uint fieldAllocate(uint entries) and

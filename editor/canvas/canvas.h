@@ -20,7 +20,7 @@
 #include "editor/canvas/fields.h"
 #include "editor/canvas/thumbnails.h"
 #include "editor/shell/shell.h"
-#include "graph/compile.h"
+#include "graph/compile/compile.h"
 
 namespace fw::editor {
 

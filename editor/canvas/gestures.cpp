@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "editor/canvas/canvas.h"
-#include "graph/reference.h"
+#include "graph/library/reference.h"
 
 namespace fw::editor {
 

@@ -6,8 +6,8 @@
 #include "editor/document/layout.h"
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
-#include "graph/json.h"
-#include "graph/json_tokens.h"
+#include "graph/document/json.h"
+#include "graph/document/json_tokens.h"
 
 namespace fw::editor {
 

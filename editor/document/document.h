@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "graph/graph.h"
+#include "graph/document/graph.h"
 
 namespace fw::editor {
 

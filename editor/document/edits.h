@@ -15,9 +15,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "graph/graph.h"
-#include "graph/result.h"
-#include "graph/sockets.h"
+#include "graph/base/result.h"
+#include "graph/document/graph.h"
+#include "graph/document/sockets.h"
 
 namespace fw::editor {
 

@@ -6,8 +6,8 @@
 #include "editor/document/references.h"
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
-#include "graph/check_value.h"
-#include "graph/named_parameters.h"
+#include "graph/document/input_value.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw::editor {
 

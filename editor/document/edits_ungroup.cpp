@@ -13,10 +13,10 @@
 #include "editor/document/references.h"
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
-#include "graph/check_value.h"
-#include "graph/compile.h"
-#include "graph/named_parameters.h"
-#include "graph/timeline.h"
+#include "graph/compile/compile.h"
+#include "graph/document/input_value.h"
+#include "graph/document/named_parameters.h"
+#include "graph/document/timeline.h"
 
 namespace fw::editor {
 

@@ -5,7 +5,7 @@
 
 #include "editor/document/references.h"
 #include "editor/document/wiring.h"
-#include "graph/check_value.h"
+#include "graph/document/input_value.h"
 
 namespace fw::editor {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "graph/node_type.h"
+#include "graph/library/node_type.h"
 
 namespace fw::editor {
 

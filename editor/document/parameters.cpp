@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "editor/document/references.h"
-#include "graph/named_parameters.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw::editor {
 

@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "editor/document/wiring.h"
-#include "graph/named_parameters.h"
-#include "graph/timeline.h"
+#include "graph/document/named_parameters.h"
+#include "graph/document/timeline.h"
 
 namespace fw::editor {
 

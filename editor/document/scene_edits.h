@@ -1,11 +1,11 @@
-// Edits of the document's scene (graph/scene.h). It stays the JSON that it is in the file: keys that the
-// program does not know are kept where they are.
+// Edits of the document's scene (graph/document/scene.h). It stays the JSON that it is in the file: keys that
+// the program does not know are kept where they are.
 #pragma once
 
 #include <string_view>
 
 #include "editor/document/edits.h"
-#include "graph/scene.h"
+#include "graph/document/scene.h"
 
 namespace fw::editor {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <tuple>
 
-#include "graph/check.h"
+#include "graph/check/check.h"
 
 namespace fw::editor {
 

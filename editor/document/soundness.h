@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "graph/graph.h"
-#include "graph/result.h"
+#include "graph/base/result.h"
+#include "graph/document/graph.h"
 
 namespace fw::editor {
 

@@ -1,5 +1,5 @@
-// Edits of the document's timeline (graph/timeline.h). It stays the JSON that it is in the file: keys that
-// the program does not know are kept where they are.
+// Edits of the document's timeline (graph/document/timeline.h). It stays the JSON that it is in the file:
+// keys that the program does not know are kept where they are.
 //
 // `track` and `key` are indices into what readTimeline() gives; a timeline that it cannot read is left as it
 // is. Times are seconds.
@@ -9,7 +9,7 @@
 #include <span>
 
 #include "editor/document/edits.h"
-#include "graph/timeline.h"
+#include "graph/document/timeline.h"
 
 namespace fw::editor {
 

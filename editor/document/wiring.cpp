@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "graph/check_value.h"
+#include "graph/base/words.h"
 
 namespace fw::editor {
 

@@ -7,8 +7,8 @@
 
 #include "editor/document/meshes.h"
 #include "editor/editor.h"
-#include "graph/json_tokens.h"
-#include "graph/triangle_mesh.h"
+#include "graph/assets/triangle_mesh.h"
+#include "graph/document/json_tokens.h"
 
 namespace fw::editor {
 

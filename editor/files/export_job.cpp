@@ -6,11 +6,11 @@
 #include <thread>
 #include <utility>
 
-#include "graph/check.h"
-#include "graph/glsl.h"
-#include "runtime/clock.h"
-#include "runtime/mesh_field_baker.h"
-#include "runtime/mesh_program.h"
+#include "graph/check/check.h"
+#include "graph/emit/glsl.h"
+#include "runtime/bake/mesh_field_baker.h"
+#include "runtime/play/mesh_program.h"
+#include "runtime/system/clock.h"
 
 namespace fw::editor {
 

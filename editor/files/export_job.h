@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "graph/graph.h"
+#include "graph/document/graph.h"
 #include "runtime/export/export.h"
-#include "runtime/mesh_report.h"
-#include "runtime/session.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/play/session.h"
 
 namespace fw::editor {
 

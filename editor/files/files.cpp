@@ -5,8 +5,8 @@
 #include "editor/document/layout.h"
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
-#include "graph/json.h"
-#include "graph/node_type.h"
+#include "graph/document/json.h"
+#include "graph/library/node_type.h"
 
 namespace fw::editor {
 

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "runtime/export/output_file.h"
-#include "runtime/user_folder.h"
+#include "runtime/system/output_file.h"
+#include "runtime/system/user_folder.h"
 
 namespace fw::editor {
 

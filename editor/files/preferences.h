@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/graph.h"
-#include "graph/result.h"
+#include "graph/base/result.h"
+#include "graph/document/graph.h"
 
 namespace fw::editor {
 

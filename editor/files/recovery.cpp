@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "graph/json.h"
-#include "runtime/export/output_file.h"
-#include "runtime/user_folder.h"
+#include "graph/document/json.h"
+#include "runtime/system/output_file.h"
+#include "runtime/system/user_folder.h"
 
 namespace fw::editor {
 

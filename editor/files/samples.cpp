@@ -6,7 +6,7 @@
 
 #include "editor/files/browser.h"
 #include "editor/shell/theme.h"
-#include "graph/image.h"
+#include "graph/assets/image.h"
 
 namespace fw::editor {
 

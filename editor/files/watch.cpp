@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 
 namespace fw::editor {
 

@@ -6,7 +6,7 @@
 #include "editor/document/paths.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
-#include "graph/reference.h"
+#include "graph/library/reference.h"
 
 namespace fw::editor {
 

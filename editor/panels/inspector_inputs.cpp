@@ -7,7 +7,7 @@
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
-#include "graph/named_parameters.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw::editor {
 

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "editor/canvas/fields.h"
-#include "graph/scene.h"
-#include "graph/timeline.h"
+#include "graph/document/scene.h"
+#include "graph/document/timeline.h"
 
 namespace fw::editor {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "editor/shell/theme.h"
-#include "graph/image.h"
+#include "graph/assets/image.h"
 
 namespace fw::editor {
 

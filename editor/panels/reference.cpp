@@ -1,5 +1,5 @@
 // The node reference: what the library's table says of a type, as a page.
-#include "graph/reference.h"
+#include "graph/library/reference.h"
 
 #include <spawn.h>
 

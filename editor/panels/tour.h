@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "graph/graph.h"
+#include "graph/document/graph.h"
 
 namespace fw::editor {
 

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "graph/evaluate.h"
-#include "graph/graph.h"
+#include "graph/document/graph.h"
+#include "graph/evaluate/evaluate.h"
 
 namespace fw::editor {
 

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "editor/preview/pinned.h"
-#include "graph/check.h"
-#include "runtime/clock.h"
-#include "runtime/player.h"
+#include "graph/check/check.h"
+#include "runtime/play/player.h"
+#include "runtime/system/clock.h"
 
 namespace fw::editor {
 

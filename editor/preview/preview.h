@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/compile.h"
-#include "runtime/session.h"
+#include "graph/compile/compile.h"
+#include "runtime/play/session.h"
 
 namespace fw::editor {
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "graph/graph.h"
-#include "graph/volume.h"
+#include "graph/assets/volume.h"
+#include "graph/document/graph.h"
 #include "runtime/render/picture.h"
 
 namespace fw::editor {

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "graph/node_type.h"
+#include "graph/library/node_type.h"
 
 namespace fw::editor {
 

@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "graph/named_parameters.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw::editor {
 

@@ -13,7 +13,7 @@
 
 #include "editor/canvas/view.h"
 #include "editor/viewport/placement.h"
-#include "graph/scene.h"
+#include "graph/document/scene.h"
 #include "runtime/render/view.h"
 
 namespace fw::editor {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "graph/timeline.h"
+#include "graph/document/timeline.h"
 
 namespace fw::editor {
 

@@ -14,9 +14,9 @@
 #include <optional>
 #include <string>
 
-#include "graph/evaluate.h"
-#include "graph/graph.h"
-#include "graph/scene.h"
+#include "graph/document/graph.h"
+#include "graph/document/scene.h"
+#include "graph/evaluate/evaluate.h"
 
 namespace fw::editor {
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "editor/document/paths.h"
-#include "graph/named_parameters.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw::editor {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "graph/result.h"
+#include "graph/base/result.h"
 
 namespace fw::language {
 

@@ -1,4 +1,5 @@
 #include "graph/language/lower.h"
+#include "graph/base/words.h"
 
 #include <algorithm>
 #include <cmath>

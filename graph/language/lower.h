@@ -22,11 +22,14 @@
 #include <utility>
 #include <vector>
 
-#include "graph/ir.h"
+#include "graph/ir/ir.h"
 #include "graph/language/parser.h"
-#include "graph/mesh_recipe.h"
-#include "graph/node_type.h"
-#include "graph/particle_recipe.h"
+#include "graph/library/node_type.h"
+
+namespace fw {
+struct MeshRecipe;
+struct ParticleRecipe;
+}  // namespace fw
 
 namespace fw::language {
 

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "graph/language/lexer.h"
-#include "graph/types.h"
+#include "graph/library/types.h"
 
 namespace fw::language {
 

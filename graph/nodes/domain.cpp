@@ -228,7 +228,7 @@ return s;)",
         // cell, so
         // those of all other cells are half a period away, which bounds the distance. Cells are counted from
         // seven
-        // before their own: the same sum for each of them, so that the copies are alike (graph/families.h)
+        // before their own: the same sum for each of them, so that the copies are alike (graph/ir/families.h)
         // and a
         // brick pays only for those near it.
         {.id = "scatter",

@@ -2,7 +2,7 @@
 // and range. Not for use outside graph/nodes/.
 #pragma once
 
-#include "graph/node_type.h"
+#include "graph/nodes/node_types.h"
 
 namespace fw {
 

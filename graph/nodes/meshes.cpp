@@ -1,5 +1,5 @@
 // Triangle meshes made elsewhere, and the fields that are made of them.
-#include "graph/mesh_field.h"
+#include "graph/assets/mesh_field.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {

@@ -1,6 +1,6 @@
 // Particles: where they come from, what moves them, and the fields that are made of them.
+#include "graph/compile/particle_recipe.h"
 #include "graph/nodes/inputs.h"
-#include "graph/particle_recipe.h"
 
 namespace fw {
 

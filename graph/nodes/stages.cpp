@@ -1,5 +1,5 @@
 // Stages that turn a field into triangles, and the nodes that give a graph its structure.
-#include "graph/compile.h"
+#include "graph/compile/compile.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "graph/compile.h"
-#include "graph/graph.h"
-#include "graph/result.h"
+#include "graph/base/result.h"
+#include "graph/compile/compile.h"
+#include "graph/document/graph.h"
 #include "runtime/gpu/device.h"
-#include "runtime/mesh_requirements.h"
+#include "runtime/measure/mesh_requirements.h"
 
 namespace fw::cli {
 

@@ -4,10 +4,10 @@
 
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/tiled_export.h"
-#include "runtime/clock.h"
 #include "runtime/export/export.h"
-#include "runtime/export/output_file.h"
-#include "runtime/field_measure.h"
+#include "runtime/measure/field_measure.h"
+#include "runtime/system/clock.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::cli {
 

@@ -2,17 +2,17 @@
 #include <cstdio>
 #include <string>
 
-#include "graph/check.h"
-#include "graph/glsl.h"
-#include "graph/json.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
+#include "graph/document/timeline.h"
+#include "graph/emit/glsl.h"
 #include "graph/language/lower.h"
-#include "graph/named_parameters.h"
-#include "graph/reference.h"
-#include "graph/timeline.h"
+#include "graph/library/reference.h"
+#include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/commands.h"
 #include "runtime/gpu/shader.h"
-#include "runtime/mesh_field_baker.h"
-#include "runtime/mesh_program.h"
+#include "runtime/play/mesh_program.h"
 
 namespace fw::cli {
 

@@ -12,12 +12,13 @@
 #include <map>
 #include <new>
 
-#include "graph/node_type.h"
-#include "graph/timeline.h"
+#include "graph/base/words.h"
+#include "graph/document/timeline.h"
+#include "graph/library/node_type.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
-#include "runtime/export/output_file.h"
+#include "runtime/system/output_file.h"
 #include "runtime/window/viewer.h"
 #include "tests/bench/bench.h"
 

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cstdio>
 
-#include "graph/glsl.h"
-#include "runtime/mesh_field_baker.h"
+#include "graph/emit/glsl.h"
+#include "runtime/bake/mesh_field_baker.h"
 
 namespace fw::cli {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
-#include "runtime/clock.h"
-#include "runtime/mesh_program.h"
-#include "runtime/player.h"
+#include "runtime/play/mesh_program.h"
+#include "runtime/play/player.h"
+#include "runtime/system/clock.h"
 
 namespace fw::cli {
 

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <map>
 
-#include "graph/json.h"
-#include "graph/named_parameters.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
 #include "runtime/cli/mesh_graph.h"
-#include "runtime/clock.h"
-#include "runtime/file_watch.h"
+#include "runtime/system/clock.h"
+#include "runtime/system/file_watch.h"
 #include "runtime/window/overlay.h"
 #include "runtime/window/window.h"
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "runtime/cli/commands.h"
-#include "runtime/clock.h"
 #include "runtime/render/renderer.h"
+#include "runtime/system/clock.h"
 
 namespace fw::cli {
 

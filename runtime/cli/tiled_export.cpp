@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "runtime/export/export.h"
-#include "runtime/tiled_mesh.h"
+#include "runtime/play/tiled_mesh.h"
 
 namespace fw::cli {
 namespace {

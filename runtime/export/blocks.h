@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "runtime/export/output_file.h"
+#include "runtime/system/output_file.h"
 
 namespace fw {
 

@@ -10,11 +10,11 @@
 #include <optional>
 #include <utility>
 
-#include "graph/image.h"
-#include "graph/json_tokens.h"
-#include "runtime/corners.h"
+#include "graph/assets/image.h"
+#include "graph/document/json_tokens.h"
 #include "runtime/export/formats.h"
-#include "runtime/mesh_requirements.h"
+#include "runtime/measure/mesh_requirements.h"
+#include "runtime/mesh/corners.h"
 
 namespace fw {
 namespace {
@@ -279,13 +279,6 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     }
     if (!failure.empty()) return refuse("cannot write: " + failure);
     return commitAll(path, *file, nullptr);
-}
-
-std::string lowerExtension(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension;
 }
 
 Done checkPiecesPath(const std::string& path) {

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/result.h"
-#include "runtime/mesh.h"
+#include "graph/base/result.h"
+#include "runtime/mesh/mesh.h"
 
 namespace fw {
 

@@ -9,9 +9,9 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "runtime/export/output_file.h"
-#include "runtime/export/read_back.h"
-#include "runtime/mesh.h"
+#include "runtime/measure/read_back.h"
+#include "runtime/mesh/mesh.h"
+#include "runtime/system/output_file.h"
 
 namespace fw {
 
@@ -75,9 +75,6 @@ std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::strin
 /// `voxel` is the length of a voxel's side in metres. Returns the same.
 std::string writeVdb(const WeldedMesh& solid, float voxel, const std::string& name,
                      const std::atomic<bool>* cancel, OutputFile& file);
-
-/// The ending of a path's name with its point, in small letters: ".glb".
-std::string lowerExtension(const std::string& path);
 
 /// "Fieldwright 0.1.0"
 std::string generatorName();

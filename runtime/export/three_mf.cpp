@@ -1,4 +1,4 @@
-// 3MF, written and read back with lib3mf: the core specification, vertex colours as its materials extension
+// 3MF, written with lib3mf: the core specification, vertex colours as its materials extension
 // has them, UUIDs as its production extension.
 //
 // Millimetres, which is what slicers reckon in: positions are times 1000, written to 1e-6 mm. +Y stays up.
@@ -10,59 +10,22 @@
 // lib3mf does not escape metadata, so the name stands at the object alone. It ends the process where its
 // output fails while it closes the archive, so the archive, which is compressed, is gathered in memory and
 // then written.
-#include <Model/COM/NMR_DLLInterfaces.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 
-#include "runtime/corners.h"
 #include "runtime/export/fingerprint.h"
 #include "runtime/export/formats.h"
-#include "runtime/export/readers.h"
+#include "runtime/measure/lib3mf_calls.h"
+#include "runtime/mesh/corners.h"
 
 namespace fw {
 namespace {
 
-using namespace NMR;
+using namespace lib3mf;
 
 constexpr double kMillimetres = 1000.0;  // in a metre
-
-struct Release {
-    void operator()(PLib3MFBase* object) const { lib3mf_release(object); }
-};
-/// What lib3mf has made.
-using Object = std::unique_ptr<PLib3MFBase, Release>;
-
-/// Calls of lib3mf up to the first that fails; later ones are given null objects, which they refuse.
-struct Calls {
-    std::string failure;
-
-    bool check(LIB3MFRESULT code, const Object& object) {
-        if (code == LIB3MF_OK || !failure.empty()) return failure.empty();
-        LPCSTR text = nullptr;
-        DWORD number = 0;
-        if (object) lib3mf_getlasterror(object.get(), &number, &text);
-        char fallback[32];
-        std::snprintf(fallback, sizeof fallback, "lib3mf failed (%x)", static_cast<unsigned>(code));
-        failure = text && *text ? text : fallback;
-        return false;
-    }
-    /// What `function`, called on `object` with `arguments`, puts behind the pointer it is given last.
-    template <class Function, class... Arguments>
-    Object make(Function function, const Object& object, Arguments... arguments) {
-        PLib3MFBase* made = nullptr;
-        check(function(object.get(), arguments..., &made), object);
-        return Object(made);
-    }
-};
-
-Object emptyModel(Calls& calls) {
-    PLib3MFBase* made = nullptr;
-    calls.check(lib3mf_createmodel(&made), nullptr);
-    return Object(made);
-}
 
 /// An archive that lib3mf writes; its counts are put in behind.
 struct Archive {
@@ -167,59 +130,6 @@ std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::strin
                 writer);
     file.write(archive.bytes);
     return cancel && *cancel ? std::string() : calls.failure;
-}
-
-Result<WeldedMesh> read3mf(const Bytes& bytes, const Fault& fault) {
-    if (bytes.empty()) return fault("not a 3MF: it is empty");
-    Calls calls;
-    const Object model = emptyModel(calls), reader = calls.make(lib3mf_model_queryreader, model, "3mf");
-    calls.check(lib3mf_reader_setstrictmodeactive(reader.get(), 1), reader);
-    calls.check(lib3mf_reader_readfrombuffer(reader.get(), const_cast<BYTE*>(bytes.data()), bytes.size()),
-                reader);
-    DWORD unit = 0;
-    calls.check(lib3mf_model_getunit(model.get(), &unit), model);
-    if (!calls.failure.empty()) return fault("not a 3MF as it should be: " + calls.failure);
-    constexpr double kMetres[] = {1e-6, 1e-3, 1e-2, 0.0254, 0.3048, 1.0};  // in the order of eModelUnit
-    if (unit >= std::size(kMetres)) return fault("it is in an unknown unit");
-
-    Welder welder(1024);
-    WeldedMesh mesh;
-    const Object items = calls.make(lib3mf_model_getbuilditems, model);
-    BOOL more = 0;
-    while (calls.check(lib3mf_builditemiterator_movenext(items.get(), &more), items) && more) {
-        const Object item = calls.make(lib3mf_builditemiterator_getcurrent, items);
-        const Object object = calls.make(lib3mf_builditem_getobjectresource, item);
-        BOOL moved = 0, solid = 0;
-        calls.check(lib3mf_builditem_hasobjecttransform(item.get(), &moved), item);
-        if (moved) return fault("items with transforms are not read back");
-        calls.check(lib3mf_object_ismeshobject(object.get(), &solid), object);
-        if (!solid) return fault("objects made of components are not read back");
-        DWORD count = 0, triangleCount = 0;
-        calls.check(lib3mf_meshobject_getvertexcount(object.get(), &count), object);
-        calls.check(lib3mf_meshobject_gettrianglecount(object.get(), &triangleCount), object);
-        std::vector<MODELMESHVERTEX> vertices(count);
-        std::vector<MODELMESHTRIANGLE> triangles(triangleCount);
-        calls.check(lib3mf_meshobject_getvertices(object.get(), vertices.data(), count, nullptr), object);
-        calls.check(
-            lib3mf_meshobject_gettriangleindices(object.get(), triangles.data(), triangleCount, nullptr),
-            object);
-        if (!calls.failure.empty()) break;
-        std::vector<uint32_t> numbers;
-        for (const MODELMESHVERTEX& v : vertices) {
-            const glm::vec3 p(glm::dvec3(v.m_fPosition[0], v.m_fPosition[1], v.m_fPosition[2]) *
-                              kMetres[unit]);
-            if (!finite(p)) return fault("a vertex is not finite");
-            numbers.push_back(welder.add(p));
-        }
-        for (const MODELMESHTRIANGLE& triangle : triangles)
-            for (const DWORD index : triangle.m_nIndices) {
-                if (index >= numbers.size()) return fault("a triangle names a vertex that is not there");
-                mesh.indices.push_back(numbers[index]);
-            }
-    }
-    if (!calls.failure.empty()) return fault(calls.failure);
-    mesh.positions = welder.take();
-    return mesh;
 }
 
 }  // namespace fw

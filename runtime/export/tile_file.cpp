@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <unordered_map>
 
-#include "runtime/export/output_file.h"
-#include "runtime/mesher.h"
+#include "runtime/mesher/mesher.h"
+#include "runtime/system/output_file.h"
 
 namespace fw {
 namespace {

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/result.h"
+#include "graph/base/result.h"
 #include "runtime/export/export.h"
 #include "shaders/shared.h"
 

@@ -10,7 +10,7 @@
 #include <cassert>
 #include <filesystem>
 
-#include "graph/triangle_tree.h"
+#include "graph/assets/triangle_tree.h"
 #include "runtime/export/fingerprint.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/vdb/level_set.h"

@@ -1,5 +1,5 @@
 #include "runtime/gpu/commands.h"
-#include "runtime/clock.h"
+#include "runtime/system/clock.h"
 
 #include <algorithm>
 

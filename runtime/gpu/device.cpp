@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <set>
 
-#include "runtime/gpu/cache_file.h"
+#include "runtime/system/cache_file.h"
 
 namespace fw {
 namespace {

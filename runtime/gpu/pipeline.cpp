@@ -6,9 +6,9 @@
 #include <optional>
 #include <thread>
 
-#include "runtime/clock.h"
 #include "runtime/gpu/commands.h"
 #include "runtime/gpu/shader.h"
+#include "runtime/system/clock.h"
 
 namespace fw {
 namespace {

@@ -27,8 +27,8 @@
 #include <map>
 #include <vector>
 
-#include "graph/particle_recipe.h"
-#include "runtime/counting_sort.h"
+#include "graph/compile/particle_recipe.h"
+#include "runtime/gpu/counting_sort.h"
 
 namespace fw {
 

@@ -33,8 +33,8 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
-#include "runtime/counting_sort.h"
-#include "runtime/field_buffers.h"
+#include "runtime/gpu/counting_sort.h"
+#include "runtime/gpu/field_buffers.h"
 
 namespace fw {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "graph/affine.h"
+#include "graph/evaluate/affine.h"
 
 namespace fw {
 

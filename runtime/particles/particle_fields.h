@@ -4,7 +4,7 @@
 // are the same.
 #pragma once
 
-#include "runtime/live_program.h"
+#include "graph/compile/live_program.h"
 #include "runtime/particles/cloud.h"
 #include "runtime/particles/particle_volume.h"
 #include "runtime/particles/simulation.h"

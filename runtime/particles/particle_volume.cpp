@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "runtime/sweep.h"
+#include "runtime/bake/sweep.h"
 #include "shaders/shared.h"
 
 #include "shaders/particles/volume.h"

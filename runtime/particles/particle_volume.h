@@ -1,4 +1,5 @@
-// From a density on a grid to the samples of a volume (graph/volume.h), which the field of a program reads.
+// From a density on a grid to the samples of a volume (graph/assets/volume.h), which the field of a program
+// reads.
 //
 // Theory. A particle alone has the density (1 - r^2 / R^2)^3, so that s, the density's cube root, tells how
 // far away it is: r = R sqrt(1 - s). Where the threshold's cube root is t, the distance to the surface is R
@@ -13,7 +14,7 @@
 // too much: steps along a ray need it, and ambient occlusion.
 //
 // True distances, for who asks for them, come from the same values: those beside the surface tell its nearest
-// points, which sweeps hand on (graph/mesh_field.h). They take several times as long.
+// points, which sweeps hand on (graph/assets/mesh_field.h). They take several times as long.
 //
 // Samples at the grid's border are outside, so that what reaches beyond the grid is
 // closed there. Of particles beyond the grid only the exact way knows.
@@ -21,7 +22,7 @@
 // Lifetime: kernels serve all volumes; buffers grow.
 #pragma once
 
-#include "graph/volume.h"
+#include "graph/assets/volume.h"
 #include "runtime/particles/density.h"
 
 namespace fw {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "graph/check_value.h"
-#include "graph/compile.h"
-#include "graph/glsl.h"
-#include "graph/region.h"
+#include "graph/base/words.h"
+#include "graph/compile/compile.h"
+#include "graph/emit/glsl.h"
+#include "graph/evaluate/region.h"
 #include "shaders/shared.h"
 
 #include "shaders/particles/motion.h"

@@ -1,4 +1,5 @@
-// Particles over time: what a recipe (graph/particle_recipe.h) says, in steps of a sixtieth of a second.
+// Particles over time: what a recipe (graph/compile/particle_recipe.h) says, in steps of a sixtieth of a
+// second.
 //
 // The state after so many steps is a pure function of the recipe and of the live values at the times of all
 // steps before. Going forward takes the steps in between; a step that was taken before is fetched, or starts
@@ -16,8 +17,8 @@
 #include <deque>
 #include <functional>
 
-#include "graph/particle_recipe.h"
-#include "runtime/field_buffers.h"
+#include "graph/compile/particle_recipe.h"
+#include "runtime/gpu/field_buffers.h"
 #include "runtime/particles/fluid.h"
 
 namespace fw {

@@ -12,7 +12,7 @@
 #include <glm/mat4x4.hpp>
 #include <optional>
 
-#include "runtime/mesher.h"
+#include "runtime/mesher/mesher.h"
 // after mesher.h
 #include "shaders/render/render.h"
 

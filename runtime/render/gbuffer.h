@@ -13,7 +13,7 @@
 #include <glm/mat4x4.hpp>
 #include <string_view>
 
-#include "runtime/mesher.h"
+#include "runtime/mesher/mesher.h"
 #include "runtime/render/clusters.h"
 #include "runtime/render/view.h"
 

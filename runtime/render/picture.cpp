@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <new>
 
-#include "runtime/export/output_file.h"
+#include "runtime/system/output_file.h"
 
 namespace fw {
 

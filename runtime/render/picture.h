@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/result.h"
+#include "graph/base/result.h"
 
 namespace fw {
 

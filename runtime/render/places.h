@@ -1,4 +1,4 @@
-// Pictures of fields with many members (graph/families.h).
+// Pictures of fields with many members (graph/ir/families.h).
 //
 // A ray asks for the field at any place, near the surface and far from it, where a minimum of a thousand
 // members costs all of them. So space is parted into boxes around the region (shaders/render/places.glsl),
@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "runtime/field_buffers.h"
+#include "runtime/gpu/field_buffers.h"
 
 namespace fw {
 

@@ -7,7 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <span>
 
-#include "graph/scene.h"
+#include "graph/document/scene.h"
 #include "shaders/shared.h"
 // after shared.h
 #include "shaders/render/render.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "graph/scene.h"
-#include "graph/timeline.h"
+#include "graph/document/scene.h"
+#include "graph/document/timeline.h"
 
 namespace fw {
 

@@ -1,6 +1,6 @@
 // Plays a graph: one line about the mesh for every half second of its timeline. Arguments after the file set
 // exposed parameters: embed GRAPH [NAME VALUE]...
-#include <fieldwright/runtime/player.h>
+#include <fieldwright/runtime/play/player.h>
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Of all kernels that make a mesh a field (graph/mesh_field.h says how). Coordinates are cells of the grid.
+// Of all kernels that make a mesh a field (graph/assets/mesh_field.h says how). Coordinates are cells of the grid.
 #include "shared.h"
 #include "bake/bake.h"
 #include "lib/groups.glsl"

@@ -1,4 +1,4 @@
-// What the kernels of runtime/mesh_field_baker.h share with C++. After shared.h.
+// What the kernels of runtime/bake/mesh_field_baker.h share with C++. After shared.h.
 #ifndef FW_BAKE_H
 #define FW_BAKE_H
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// A sample's words from its nearest point: distance and gradient, as graph/volume.h has them, and with COLORS the colour.
+// A sample's words from its nearest point: distance and gradient, as graph/assets/volume.h has them, and with COLORS the colour.
 // Looks whether signs contradict each other.
 #include "bake/bake.glsl"
 #ifdef COLORS

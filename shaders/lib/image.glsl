@@ -1,4 +1,4 @@
-// Images of the field: the float twin of graph/image.cpp, which says what a layer is. All images lie in one
+// Images of the field: the float twin of graph/assets/image.cpp, which says what a layer is. All images lie in one
 // buffer of words, four bytes a texel; the text generated for a field declares it as fieldImages before it includes
 // this, and calls these with an image's place and size.
 

@@ -1,4 +1,4 @@
-// Intervals in float, vec2(least, greatest): the GPU twin of graph/interval.h. "Everything" is ±1e30 so that no
+// Intervals in float, vec2(least, greatest): the GPU twin of graph/base/interval.h. "Everything" is ±1e30 so that no
 // infinity or NaN arises, and what transcendental functions may err by on a GPU is added as slack.
 //
 // Sums, products and roots are not rounded outwards one by one, which would triple the code and its compile time:

@@ -1,4 +1,4 @@
-// Lattice noises: the float twins of graph/noise.cpp, which says where they come from. Each *Gradient function
+// Lattice noises: the float twins of graph/ir/noise.cpp, which says where they come from. Each *Gradient function
 // returns (d/dx, d/dy, d/dz, value).
 
 uvec3 latticeHash(ivec3 lattice, float seed) {

@@ -1,4 +1,4 @@
-// The quadratic smooth minimum, whose corner where a = b is filled k / 4 deep: graph/ops.cpp on the GPU. Operands that
+// The quadratic smooth minimum, whose corner where a = b is filled k / 4 deep: graph/ir/ops.cpp on the GPU. Operands that
 // are k apart are not changed by one bit.
 #ifndef FW_SMOOTH_MINIMUM_GLSL
 #define FW_SMOOTH_MINIMUM_GLSL

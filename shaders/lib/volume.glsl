@@ -1,4 +1,4 @@
-// Volumes of the field: the float twin of graph/volume.cpp, which says what a volume is and how its texels lie. The text generated for a field declares it as fieldVolumes before it includes this,
+// Volumes of the field: the float twin of graph/assets/volume.cpp, which says what a volume is and how its texels lie. The text generated for a field declares it as fieldVolumes before it includes this,
 // and calls these with a volume's place and grid.
 
 struct VolumeGrid {
@@ -136,7 +136,7 @@ vec2 volumeRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, vec4 spr
 }
 
 // The least and the greatest distance among the samples from `lo` to `hi`, or some more: by the samples themselves, or by the blocks
-// that follow those of particles (graph/volume.h), the smallest of which at most three along each axis are needed.
+// that follow those of particles (graph/assets/volume.h), the smallest of which at most three along each axis are needed.
 vec2 volumeBlocks(VolumeGrid grid, ivec3 lo, ivec3 hi) {
     ivec3 many = grid.size, extent = hi - lo;
     int longest = max(extent.x, max(extent.y, extent.z)), shift = 0, first = 0;
@@ -160,7 +160,7 @@ vec2 volumeBlocks(VolumeGrid grid, ivec3 lo, ivec3 hi) {
 }
 
 // Contains every value of the volume of particles over a box, whose value at the centre is given; `rise` is what values are beyond
-// their samples. As particleRange() of graph/volume.cpp.
+// their samples. As particleRange() of graph/assets/volume.cpp.
 vec2 volumeBlockRange(VolumeGrid grid, float centre, vec2 x, vec2 y, vec2 z, float rise) {
     vec3 lo = vec3(x.x, y.x, z.x), hi = vec3(x.y, y.y, z.y);
     vec3 least = grid.origin, most = grid.origin + grid.cell * vec3(grid.size - 1);

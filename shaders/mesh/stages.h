@@ -1,4 +1,4 @@
-// What the kernels of runtime/mesh_stages.h share with C++. After shared.h.
+// What the kernels of runtime/stages/mesh_stages.h share with C++. After shared.h.
 #ifndef FW_MESH_STAGES_H
 #define FW_MESH_STAGES_H
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// The field as pictures ask for it, at any place: of its families' members (graph/families.h) those alone that can matter there.
+// The field as pictures ask for it, at any place: of its families' members (graph/ir/families.h) those alone that can matter there.
 // For that the space in and about the region is parted into a grid of RENDER_PLACES boxes along each axis. places.comp makes
 // their lists, out of those of grids of half as many boxes, and so on; a place is numbered with its grid. Coordinates are from
 // the region's middle, in halves of its sides. In place of field.glsl, and after render.h.

@@ -1,4 +1,4 @@
-// What the kernels of runtime/counting_sort.h share with C++. After shared.h.
+// What the kernels of runtime/gpu/counting_sort.h share with C++. After shared.h.
 #ifndef FW_SORT_H
 #define FW_SORT_H
 #ifdef __cplusplus

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/mesh.h"
+#include "runtime/mesh/mesh.h"
 #include "tests/bench/fields.h"
 
 namespace fw::bench {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <thread>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {

@@ -1,6 +1,6 @@
 #include "tests/bench/case_table.h"
 
-#include "runtime/marching_cubes_table.h"
+#include "runtime/mesher/marching_cubes_table.h"
 
 namespace fw::bench {
 

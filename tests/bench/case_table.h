@@ -1,8 +1,8 @@
 // The 256 cell patterns of marching cubes as flat lists of triangle corners, for the baseline and the talk's
 // stages.
 //
-// The polygons are those of the mesher (runtime/marching_cubes_table.h), cut into fans, so that every program
-// that is compared makes the same triangles.
+// The polygons are those of the mesher (runtime/mesher/marching_cubes_table.h), cut into fans, so that every
+// program that is compared makes the same triangles.
 #pragma once
 
 #include <array>

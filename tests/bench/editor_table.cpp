@@ -3,8 +3,8 @@
 #include <random>
 
 #include "editor/preview/preview.h"
-#include "graph/json.h"
-#include "graph/named_parameters.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {

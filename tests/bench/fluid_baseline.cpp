@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "runtime/clock.h"
+#include "runtime/system/clock.h"
 #include "tests/bench/two_threads.h"
 
 namespace fw::bench {

@@ -9,7 +9,7 @@
 #include "editor/document/edits.h"
 #include "editor/editor.h"
 #include "editor/files/files.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {

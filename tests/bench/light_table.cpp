@@ -2,9 +2,9 @@
 // what a frame costs, and how the geometry is used again between its passes.
 #include <cmath>
 
-#include "graph/evaluate.h"
-#include "graph/glsl.h"
-#include "runtime/session.h"
+#include "graph/emit/glsl.h"
+#include "graph/evaluate/evaluate.h"
+#include "runtime/play/session.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {

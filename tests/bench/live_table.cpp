@@ -2,11 +2,11 @@
 #include <cmath>
 #include <random>
 
-#include "graph/glsl.h"
-#include "graph/json.h"
-#include "graph/named_parameters.h"
-#include "runtime/mesher.h"
-#include "runtime/mesher_host.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
+#include "graph/emit/glsl.h"
+#include "runtime/mesher/host.h"
+#include "runtime/mesher/mesher.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/verify.h"
 

@@ -11,9 +11,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "graph/triangle_tree.h"
-#include "runtime/mesh_field_baker.h"
-#include "runtime/session.h"
+#include "graph/assets/triangle_tree.h"
+#include "runtime/bake/mesh_field_baker.h"
+#include "runtime/play/session.h"
 #include "shaders/shared.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/vdb/mesh_to_volume.h"

@@ -2,9 +2,9 @@
 #include <fstream>
 #include <map>
 
-#include "graph/glsl.h"
-#include "runtime/mesh_stages.h"
-#include "runtime/mesher.h"
+#include "graph/emit/glsl.h"
+#include "runtime/mesher/mesher.h"
+#include "runtime/stages/mesh_stages.h"
 #include "tests/bench/baseline.h"
 #include "tests/bench/peaks.h"
 #include "tests/bench/tables.h"

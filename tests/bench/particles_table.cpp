@@ -10,9 +10,9 @@
 #include <random>
 #include <span>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "runtime/particles/particle_volume.h"
-#include "runtime/player.h"
+#include "runtime/play/player.h"
 #include "shaders/shared.h"
 #include "tests/bench/tables.h"
 

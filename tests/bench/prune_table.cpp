@@ -4,12 +4,12 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "graph/glsl.h"
-#include "runtime/mesher.h"
-#include "runtime/session.h"
+#include "graph/emit/glsl.h"
+#include "runtime/mesher/mesher.h"
+#include "runtime/play/session.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/verify.h"
-#include "tests/support/expression_graph.h"
+#include "tests/support/graph/expression_graph.h"
 
 namespace fw::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/clock.h"
+#include "runtime/system/clock.h"
 
 namespace fw::bench {
 

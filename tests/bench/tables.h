@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "graph/compile.h"
+#include "graph/compile/compile.h"
 #include "runtime/gpu/device.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/fields.h"

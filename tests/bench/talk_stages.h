@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "runtime/gpu/commands.h"
-#include "runtime/mesh.h"
+#include "runtime/mesh/mesh.h"
 #include "shaders/bench/talk.h"
 
 namespace fw::bench {

@@ -1,8 +1,8 @@
 // The table of the slide "Performance": what a mesh costs to make, and what each further pass over it costs.
 #include <cstddef>
 
-#include "graph/glsl.h"
-#include "runtime/mesher.h"
+#include "graph/emit/glsl.h"
+#include "runtime/mesher/mesher.h"
 #include "tests/bench/baseline.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/talk_stages.h"

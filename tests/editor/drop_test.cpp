@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include "editor/document/meshes.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 #include "tests/editor/graphs.h"
-#include "tests/support/triangle_meshes.h"
+#include "tests/support/graph/triangle_meshes.h"
 
 namespace fw::editor::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "editor/canvas/fields.h"
-#include "graph/json.h"
-#include "graph/timeline.h"
+#include "graph/document/json.h"
+#include "graph/document/timeline.h"
 #include "tests/editor/program.h"
 
 namespace fw::editor::test {

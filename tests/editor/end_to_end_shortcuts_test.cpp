@@ -7,7 +7,7 @@
 
 #include "editor/commands.h"
 #include "editor/document/frames.h"
-#include "graph/named_parameters.h"
+#include "graph/document/named_parameters.h"
 #include "tests/editor/program.h"
 
 namespace fw::editor::test {

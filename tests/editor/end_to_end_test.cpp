@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/editor/program.h"
 
 namespace fw::editor::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "editor/canvas/fields.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/editor/program.h"
 #include "tests/support/command.h"
 

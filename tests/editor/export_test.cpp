@@ -8,9 +8,9 @@
 
 #include "editor/files/export_job.h"
 #include "editor/panels/export_dialog.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/support/command.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw::editor {
 namespace {

@@ -11,8 +11,8 @@
 #include "editor/files/browser.h"
 #include "editor/files/preferences.h"
 #include "editor/files/recovery.h"
-#include "graph/json.h"
-#include "tests/support/temp_dir.h"
+#include "graph/document/json.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw::editor {
 namespace {

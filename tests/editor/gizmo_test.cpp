@@ -9,8 +9,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "graph/compile.h"
-#include "graph/json.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
 
 namespace fw::editor {
 namespace {

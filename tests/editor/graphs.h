@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "graph/check.h"
-#include "graph/json.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
 
 namespace fw::editor::test {
 

@@ -8,10 +8,10 @@
 
 #include "editor/document/edits.h"
 #include "editor/document/frames.h"
-#include "graph/compile.h"
-#include "graph/evaluate.h"
-#include "graph/named_parameters.h"
-#include "graph/timeline.h"
+#include "graph/compile/compile.h"
+#include "graph/document/named_parameters.h"
+#include "graph/document/timeline.h"
+#include "graph/evaluate/evaluate.h"
 #include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 

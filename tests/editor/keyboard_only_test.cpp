@@ -9,7 +9,7 @@
 #include "editor/commands.h"
 #include "editor/files/arrangement.h"
 #include "editor/panels/side.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 
 namespace fw::editor::test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "editor/document/connections.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 
 namespace fw::editor {
 namespace {

@@ -14,7 +14,7 @@
 #include "editor/document/layers.h"
 #include "editor/document/wiring.h"
 #include "tests/editor/random_edits.h"
-#include "tests/support/random_graph.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw::editor {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "editor/editor.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/support/virtual_display.h"
 
 namespace fw::editor {

@@ -5,8 +5,8 @@
 #include "editor/document/expression_inputs.h"
 #include "editor/document/group_sockets.h"
 #include "editor/document/parameters.h"
-#include "graph/compile.h"
-#include "graph/timeline.h"
+#include "graph/compile/compile.h"
+#include "graph/document/timeline.h"
 #include "tests/editor/graphs.h"
 
 namespace fw::editor {

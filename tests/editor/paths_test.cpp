@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "graph/compile.h"
+#include "graph/compile/compile.h"
 #include "tests/editor/graphs.h"
 
 namespace fw::editor {

@@ -8,13 +8,13 @@
 #include "editor/document/edits.h"
 #include "editor/document/paths.h"
 #include "editor/viewport/aside.h"
-#include "graph/compile.h"
-#include "graph/json.h"
-#include "graph/region.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/evaluate/region.h"
 #include "runtime/particles/particle_fields.h"
 #include "runtime/render/view.h"
 #include "tests/support/gpu.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw::editor {
 namespace {

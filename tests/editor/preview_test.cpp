@@ -13,11 +13,11 @@
 #include <thread>
 
 #include "editor/preview/pinned.h"
-#include "runtime/player.h"
+#include "runtime/play/player.h"
 #include "tests/editor/graphs.h"
 #include "tests/support/gpu.h"
-#include "tests/support/temp_dir.h"
-#include "tests/support/triangle_meshes.h"
+#include "tests/support/graph/temp_dir.h"
+#include "tests/support/graph/triangle_meshes.h"
 
 namespace fw::editor {
 namespace {

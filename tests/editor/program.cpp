@@ -15,7 +15,7 @@
 
 #include "editor/canvas/canvas.h"
 #include "editor/shell/theme.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 
 namespace fw::editor::test {
 

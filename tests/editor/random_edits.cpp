@@ -8,8 +8,8 @@
 
 #include "editor/document/clipboard.h"
 #include "editor/document/wiring.h"
-#include "graph/node_type.h"
-#include "tests/support/random_graph.h"
+#include "graph/library/node_type.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw::editor::test {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "editor/document/edits.h"
-#include "graph/check.h"
-#include "graph/json.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
 
 namespace fw::editor::test {
 

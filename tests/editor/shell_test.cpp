@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "editor/shell/theme.h"
-#include "runtime/clock.h"
+#include "runtime/system/clock.h"
 #include "tests/support/virtual_display.h"
 
 namespace fw::editor {

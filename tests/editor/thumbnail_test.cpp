@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "editor/preview/pinned.h"
-#include "graph/compile.h"
+#include "graph/compile/compile.h"
 #include "runtime/particles/particle_fields.h"
 #include "tests/editor/graphs.h"
 #include "tests/support/gpu.h"

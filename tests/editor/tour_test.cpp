@@ -6,8 +6,8 @@
 #include "editor/document/document.h"
 #include "editor/document/edits.h"
 #include "editor/files/samples.h"
-#include "graph/check.h"
-#include "graph/json.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
 
 namespace fw::editor {
 namespace {

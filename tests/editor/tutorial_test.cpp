@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "editor/canvas/fields.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 
 namespace fw::editor::test {

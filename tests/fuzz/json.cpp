@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "graph/check.h"
-#include "graph/json.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
 #include "tests/fuzz/require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {

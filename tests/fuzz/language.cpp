@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "graph/evaluate.h"
+#include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
 #include "tests/fuzz/require.h"
 

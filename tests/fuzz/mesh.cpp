@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "graph/triangle_mesh.h"
+#include "graph/assets/triangle_mesh.h"
 #include "tests/fuzz/require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "graph/particle_file.h"
+#include "graph/assets/particle_file.h"
 #include "tests/fuzz/require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {

@@ -10,7 +10,7 @@
 
 #include "editor/document/clipboard.h"
 #include "editor/document/soundness.h"
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "tests/fuzz/require.h"
 
 namespace {

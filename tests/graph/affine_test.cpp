@@ -1,12 +1,12 @@
 // Which maps of the position are affine, and what they are.
-#include "graph/affine.h"
+#include "graph/evaluate/affine.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "graph/evaluate.h"
+#include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
 
 namespace fw {

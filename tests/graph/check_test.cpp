@@ -1,12 +1,12 @@
-#include "graph/check.h"
+#include "graph/check/check.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "graph/json.h"
-#include "graph/sockets.h"
+#include "graph/document/json.h"
+#include "graph/document/sockets.h"
 
 namespace fw {
 namespace {

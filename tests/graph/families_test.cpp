@@ -1,14 +1,14 @@
 // Families: what is found alike in the IR, and that the table has the members' numbers.
-#include "graph/families.h"
+#include "graph/ir/families.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "graph/compile.h"
-#include "graph/glsl.h"
-#include "tests/support/expression_graph.h"
+#include "graph/compile/compile.h"
+#include "graph/emit/glsl.h"
+#include "tests/support/graph/expression_graph.h"
 
 namespace fw {
 namespace {

@@ -1,5 +1,5 @@
 // Images: reading them, what is refused, sampling, and graphs that use them.
-#include "graph/image.h"
+#include "graph/assets/image.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <random>
 
-#include "graph/check.h"
-#include "graph/compile.h"
-#include "graph/json.h"
-#include "graph/region.h"
-#include "tests/support/picture_file.h"
-#include "tests/support/temp_dir.h"
+#include "graph/check/check.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/evaluate/region.h"
+#include "tests/support/graph/picture_file.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "graph/evaluate.h"
-#include "graph/ir.h"
+#include "graph/evaluate/evaluate.h"
+#include "graph/ir/ir.h"
 
 namespace fw {
 namespace {

@@ -1,11 +1,11 @@
-#include "graph/json.h"
+#include "graph/document/json.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "graph/node_type.h"
+#include "graph/library/node_type.h"
 
 namespace fw {
 namespace {

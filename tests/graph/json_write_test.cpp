@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 
 namespace fw {
 namespace {

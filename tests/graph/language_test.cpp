@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "graph/evaluate.h"
+#include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
 
 namespace fw {

@@ -1,5 +1,5 @@
 // Meshes as fields, on the host: distances, what is inside, what is said of it; and the nodes.
-#include "graph/mesh_field.h"
+#include "graph/assets/mesh_field.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "graph/compile.h"
-#include "graph/evaluate.h"
-#include "graph/json.h"
-#include "tests/support/temp_dir.h"
-#include "tests/support/triangle_meshes.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/evaluate/evaluate.h"
+#include "tests/support/graph/temp_dir.h"
+#include "tests/support/graph/triangle_meshes.h"
 
 namespace fw {
 namespace {

@@ -2,9 +2,9 @@
 // may pass, and what check() says where it cannot be.
 #include <gtest/gtest.h>
 
-#include "graph/check.h"
-#include "graph/compile.h"
-#include "graph/json.h"
+#include "graph/check/check.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
 
 namespace fw {
 namespace {

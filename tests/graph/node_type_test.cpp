@@ -1,5 +1,6 @@
 // Invariants of the node table that need no compiler, and its look-ups.
-#include "graph/node_type.h"
+#include "graph/library/node_type.h"
+#include "graph/base/words.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "graph/compile.h"
-#include "graph/evaluate.h"
-#include "graph/json.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/evaluate/evaluate.h"
 
 namespace fw {
 namespace {

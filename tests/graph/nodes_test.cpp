@@ -7,10 +7,10 @@
 #include <cmath>
 #include <random>
 
-#include "graph/compile.h"
-#include "graph/evaluate.h"
-#include "graph/graph.h"
-#include "graph/node_type.h"
+#include "graph/compile/compile.h"
+#include "graph/document/graph.h"
+#include "graph/evaluate/evaluate.h"
+#include "graph/library/node_type.h"
 
 namespace fw {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 
 namespace fw {
 namespace {

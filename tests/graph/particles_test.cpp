@@ -6,12 +6,12 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "graph/check.h"
-#include "graph/compile.h"
-#include "graph/json.h"
-#include "graph/particle_recipe.h"
-#include "graph/region.h"
-#include "tests/support/volume_intervals.h"
+#include "graph/check/check.h"
+#include "graph/compile/compile.h"
+#include "graph/compile/particle_recipe.h"
+#include "graph/document/json.h"
+#include "graph/evaluate/region.h"
+#include "tests/support/graph/volume_intervals.h"
 
 namespace fw {
 namespace {
@@ -258,7 +258,7 @@ FieldVolumePtr roughVolume(const glm::ivec3& size, uint32_t seed) {
     }
     const std::vector<uint32_t> blocks = blockRanges(grid, words);
     words.insert(words.end(), blocks.begin(), blocks.end());
-    const FieldVolume unmade(grid, program.ir.volumes()[0]->particles);
+    const FieldVolume unmade(grid, program.ir.volumes()[0]->particles, program.ir.volumes()[0]->hash);
     EXPECT_FALSE(unmade.made());
     return std::make_shared<const FieldVolume>(unmade, std::move(words));
 }

@@ -1,5 +1,5 @@
 // The generated reference of the node library.
-#include "graph/reference.h"
+#include "graph/library/reference.h"
 
 #include <gtest/gtest.h>
 

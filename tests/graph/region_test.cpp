@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "graph/evaluate/region.h"
 #include "graph/language/lower.h"
-#include "graph/region.h"
 
 namespace fw {
 namespace {

@@ -7,10 +7,10 @@
 #include <random>
 #include <sstream>
 
-#include "graph/check.h"
-#include "graph/compile.h"
-#include "graph/json.h"
-#include "graph/region.h"
+#include "graph/check/check.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/evaluate/region.h"
 
 namespace fw {
 namespace {

@@ -1,14 +1,14 @@
 // The document's scene: every key read, every wrong one refused with its name and place, the schema's ranges
 // and defaults those of the reader, tracks of the timeline on keys that the document does not have.
-#include "graph/scene.h"
+#include "graph/document/scene.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "graph/check.h"
-#include "graph/json.h"
-#include "graph/schema.h"
-#include "graph/timeline.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
+#include "graph/document/schema.h"
+#include "graph/document/timeline.h"
 
 namespace fw {
 namespace {

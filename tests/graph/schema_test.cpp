@@ -1,7 +1,7 @@
 // graph/field.schema.json is the text of fileSchema(). After a change of the node library write it anew with
 //   FIELDWRIGHT_UPDATE_SCHEMA=1 build/ci/graph_tests --gtest_filter='Schema.*'
 
-#include "graph/schema.h"
+#include "graph/document/schema.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <regex>
 #include <set>
 
-#include "graph/json.h"
-#include "graph/node_type.h"
+#include "graph/document/json.h"
+#include "graph/library/node_type.h"
 
 namespace fw {
 namespace {

@@ -1,11 +1,11 @@
 // Meshes made ready to bound a solid: what is found, what is turned, which normals decide.
-#include "graph/solid_mesh.h"
+#include "graph/assets/solid_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "tests/support/triangle_meshes.h"
+#include "tests/support/graph/triangle_meshes.h"
 
 namespace fw {
 namespace {

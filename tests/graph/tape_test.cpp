@@ -1,12 +1,12 @@
 // Tapes: the full one has the evaluators' values, a shortened one the same bits within its box.
-#include "graph/tape.h"
+#include "graph/evaluate/tape.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "graph/compile.h"
-#include "tests/support/random_graph.h"
+#include "graph/compile/compile.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw {
 namespace {

@@ -1,6 +1,7 @@
 // The timeline: what curves pass through, what reading and check() say of bad ones, what a document is at a
 // time.
-#include "graph/timeline.h"
+#include "graph/document/timeline.h"
+#include "graph/compile/compile.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "graph/check.h"
-#include "graph/json.h"
-#include "graph/named_parameters.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
 
 namespace fw {
 namespace {

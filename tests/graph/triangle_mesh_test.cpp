@@ -1,5 +1,5 @@
 // Mesh files: what is read of each format, what of real files, and how damaged ones are refused.
-#include "graph/triangle_mesh.h"
+#include "graph/assets/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

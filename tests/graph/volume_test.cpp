@@ -1,5 +1,5 @@
 // Volumes: a sample's value and gradient, what intervals contain, what lies beyond the grid.
-#include "graph/volume.h"
+#include "graph/assets/volume.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "graph/image.h"
-#include "tests/support/volume_intervals.h"
+#include "graph/assets/image.h"
+#include "tests/support/graph/volume_intervals.h"
 
 namespace fw {
 namespace {

@@ -15,9 +15,9 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-#include "graph/compile.h"
-#include "graph/glsl.h"
-#include "graph/json.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/emit/glsl.h"
 #include "tests/support/gpu.h"
 
 namespace fw {

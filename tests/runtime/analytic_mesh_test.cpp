@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "graph/check.h"
+#include "graph/check/check.h"
 #include "runtime/export/export.h"
-#include "runtime/mesh_report.h"
-#include "runtime/session.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/play/session.h"
 #include "tests/support/gpu.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -7,9 +7,9 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
+#include "runtime/play/session.h"
 #include "runtime/render/view.h"
-#include "runtime/session.h"
 #include "tests/support/gpu.h"
 
 namespace fw {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "tests/support/command.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

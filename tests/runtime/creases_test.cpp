@@ -1,5 +1,5 @@
 // Doubling vertices on creases: who is doubled, what normals they get, and that the surface stays the same.
-#include "runtime/creases.h"
+#include "runtime/mesh/creases.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "runtime/mesh_report.h"
+#include "runtime/measure/mesh_report.h"
 #include "tests/support/meshes.h"
 
 namespace fw {

@@ -1,11 +1,11 @@
 // Decimation: fewer triangles, closed and manifold, no farther from the field than was asked for.
-#include "runtime/decimate.h"
+#include "runtime/stages/decimate.h"
 
 #include <gtest/gtest.h>
 
-#include "graph/json.h"
-#include "runtime/field_measure.h"
-#include "runtime/session.h"
+#include "graph/document/json.h"
+#include "runtime/measure/field_measure.h"
+#include "runtime/play/session.h"
 #include "tests/support/meshes.h"
 
 namespace fw {

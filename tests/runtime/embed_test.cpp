@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

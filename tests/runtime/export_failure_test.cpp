@@ -15,9 +15,9 @@
 #include <limits>
 
 #include "runtime/export/export.h"
-#include "runtime/export/output_file.h"
+#include "runtime/system/output_file.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -15,12 +15,12 @@
 #include <set>
 #include <sstream>
 
-#include "graph/image.h"
-#include "runtime/creases.h"
-#include "runtime/export/read_back.h"
-#include "runtime/mesh_report.h"
+#include "graph/assets/image.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/measure/read_back.h"
+#include "runtime/mesh/creases.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

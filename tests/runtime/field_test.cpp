@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <random>
 
-#include "graph/check.h"
-#include "graph/glsl.h"
-#include "graph/json.h"
-#include "graph/node_type.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
+#include "graph/emit/glsl.h"
+#include "graph/library/node_type.h"
 #include "tests/support/device_field.h"
-#include "tests/support/random_graph.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw {
 namespace {

@@ -17,9 +17,9 @@
 #include <random>
 #include <set>
 
-#include "graph/compile.h"
-#include "graph/glsl.h"
-#include "tests/support/expression_graph.h"
+#include "graph/compile/compile.h"
+#include "graph/emit/glsl.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
 #include "tests/support/plot.h"
 

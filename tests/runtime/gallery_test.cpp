@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "graph/image.h"
-#include "runtime/player.h"
+#include "graph/assets/image.h"
+#include "runtime/play/player.h"
 #include "tests/support/golden.h"
 #include "tests/support/gpu.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "graph/json.h"
-#include "runtime/session.h"
+#include "graph/document/json.h"
+#include "runtime/play/session.h"
 #include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
 

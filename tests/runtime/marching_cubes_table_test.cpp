@@ -1,5 +1,5 @@
 // The derived table: every pattern, and every pair of patterns that share a face.
-#include "runtime/marching_cubes_table.h"
+#include "runtime/mesher/marching_cubes_table.h"
 
 #include <gtest/gtest.h>
 

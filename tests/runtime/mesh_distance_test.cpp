@@ -9,9 +9,9 @@
 #include <numbers>
 #include <random>
 
-#include "graph/json.h"
-#include "graph/triangle_tree.h"
-#include "runtime/field_measure.h"
+#include "graph/assets/triangle_tree.h"
+#include "graph/document/json.h"
+#include "runtime/measure/field_measure.h"
 #include "tests/support/meshes.h"
 
 namespace fw {

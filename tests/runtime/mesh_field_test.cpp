@@ -1,6 +1,6 @@
 // Meshes as fields on the device: distances and signs against the exact ones, samples against the reference,
 // solids that come back out, and what is kept on the disk.
-#include "graph/mesh_field.h"
+#include "graph/assets/mesh_field.h"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +14,16 @@
 #include <optional>
 #include <random>
 
-#include "graph/json.h"
-#include "graph/parallel.h"
-#include "runtime/mesh_field_baker.h"
-#include "runtime/mesh_report.h"
-#include "runtime/player.h"
+#include "graph/base/parallel.h"
+#include "graph/document/json.h"
+#include "runtime/bake/mesh_field_baker.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/play/player.h"
 #include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
-#include "tests/support/temp_dir.h"
-#include "tests/support/triangle_meshes.h"
-#include "tests/support/volume_intervals.h"
+#include "tests/support/graph/temp_dir.h"
+#include "tests/support/graph/triangle_meshes.h"
+#include "tests/support/graph/volume_intervals.h"
 
 namespace fw {
 namespace {

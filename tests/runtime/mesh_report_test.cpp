@@ -1,5 +1,5 @@
 // The report's counts against meshes whose topology and size are known.
-#include "runtime/mesh_report.h"
+#include "runtime/measure/mesh_report.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <random>
 
 #include "runtime/export/export.h"
-#include "runtime/export/read_back.h"
+#include "runtime/measure/read_back.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

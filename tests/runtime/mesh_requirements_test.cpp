@@ -1,11 +1,11 @@
 // What a mesh is required to be: how it is written, what it means, and what the command does of it.
-#include "runtime/mesh_requirements.h"
+#include "runtime/measure/mesh_requirements.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -1,6 +1,6 @@
 // Smoothing, subdivision and normals on the device: the formula, topology, distance, colours, limits; and
 // that sessions, pictures and players show what they did.
-#include "runtime/mesh_stages.h"
+#include "runtime/stages/mesh_stages.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +9,16 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "graph/glsl.h"
-#include "graph/json.h"
-#include "runtime/mesh_report.h"
-#include "runtime/mesher_host.h"
-#include "runtime/player.h"
-#include "runtime/session.h"
-#include "tests/support/expression_graph.h"
+#include "graph/document/json.h"
+#include "graph/emit/glsl.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/mesher/host.h"
+#include "runtime/play/player.h"
+#include "runtime/play/session.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
 #include "tests/support/meshes.h"
-#include "tests/support/random_graph.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw {
 namespace {

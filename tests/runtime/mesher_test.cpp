@@ -1,6 +1,6 @@
 // The mesher: closed, oriented and manifold for any signs; the same bytes on every run; accurate; capped;
 // grown.
-#include "runtime/mesher.h"
+#include "runtime/mesher/mesher.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "runtime/marching_cubes_table.h"
-#include "runtime/mesh_report.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/mesher/marching_cubes_table.h"
 #include "tests/support/gpu.h"
 
 namespace fw {

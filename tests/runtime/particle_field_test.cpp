@@ -8,11 +8,11 @@
 #include <optional>
 #include <random>
 
-#include "graph/json.h"
+#include "graph/document/json.h"
 #include "runtime/particles/particle_volume.h"
 #include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
-#include "tests/support/volume_intervals.h"
+#include "tests/support/graph/volume_intervals.h"
 
 namespace fw {
 namespace {

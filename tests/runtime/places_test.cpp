@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "graph/json.h"
-#include "runtime/session.h"
-#include "tests/support/expression_graph.h"
+#include "graph/document/json.h"
+#include "runtime/play/session.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
 
 namespace fw {

@@ -1,6 +1,6 @@
 // The Player: a frame depends on its time alone, a seek never compiles, what is wrong is said and changes
 // nothing.
-#include "runtime/player.h"
+#include "runtime/play/player.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +12,10 @@
 #include <random>
 #include <thread>
 
-#include "graph/json.h"
-#include "runtime/mesh_report.h"
-#include "tests/support/picture_file.h"
-#include "tests/support/temp_dir.h"
+#include "graph/document/json.h"
+#include "runtime/measure/mesh_report.h"
+#include "tests/support/graph/picture_file.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <random>
 
-#include "graph/glsl.h"
-#include "graph/json.h"
-#include "runtime/mesh_program.h"
-#include "runtime/mesh_report.h"
-#include "runtime/mesher.h"
-#include "runtime/session.h"
+#include "graph/document/json.h"
+#include "graph/emit/glsl.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/mesher/mesher.h"
+#include "runtime/play/mesh_program.h"
+#include "runtime/play/session.h"
 #include "tests/support/device_field.h"
-#include "tests/support/expression_graph.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
-#include "tests/support/random_graph.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw {
 namespace {

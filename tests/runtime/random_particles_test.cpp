@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "graph/check.h"
-#include "graph/json.h"
-#include "graph/node_type.h"
-#include "runtime/mesh_program.h"
+#include "graph/check/check.h"
+#include "graph/document/json.h"
+#include "graph/library/node_type.h"
+#include "runtime/play/mesh_program.h"
 #include "tests/support/gpu.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -8,14 +8,14 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
-#include "graph/glsl.h"
-#include "graph/image.h"
-#include "graph/json.h"
+#include "graph/assets/image.h"
+#include "graph/document/json.h"
+#include "graph/emit/glsl.h"
+#include "runtime/play/session.h"
 #include "runtime/render/renderer.h"
 #include "runtime/render/view.h"
-#include "runtime/session.h"
 #include "tests/support/gpu.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -1,13 +1,13 @@
 // A session whose program is replaced while it works: a mesh at once, the kernels' own mesh when they are
 // ready.
-#include "runtime/session.h"
+#include "runtime/play/session.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "graph/json.h"
-#include "runtime/mesh_report.h"
+#include "graph/document/json.h"
+#include "runtime/measure/mesh_report.h"
 #include "tests/support/gpu.h"
 
 namespace fw {

@@ -11,9 +11,9 @@
 #include <glm/vec4.hpp>
 #include <map>
 
-#include "graph/json.h"
-#include "runtime/live_program.h"
-#include "runtime/mesh_program.h"
+#include "graph/compile/live_program.h"
+#include "graph/document/json.h"
+#include "runtime/play/mesh_program.h"
 #include "tests/support/gpu.h"
 
 namespace fw {

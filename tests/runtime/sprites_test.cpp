@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "graph/json.h"
-#include "runtime/player.h"
-#include "tests/support/temp_dir.h"
+#include "graph/document/json.h"
+#include "runtime/play/player.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <random>
 
-#include "graph/compile.h"
-#include "graph/glsl.h"
-#include "graph/json.h"
-#include "runtime/mesher.h"
+#include "graph/compile/compile.h"
+#include "graph/document/json.h"
+#include "graph/emit/glsl.h"
+#include "runtime/mesher/mesher.h"
 #include "tests/bench/baseline.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/table.h"

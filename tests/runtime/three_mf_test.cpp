@@ -6,12 +6,12 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "runtime/corners.h"
 #include "runtime/export/export.h"
 #include "runtime/export/formats.h"
-#include "runtime/mesh_report.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/mesh/corners.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "graph/json.h"
-#include "runtime/mesh_report.h"
-#include "runtime/tiled_mesh.h"
+#include "graph/document/json.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/play/tiled_mesh.h"
 #include "tests/support/command.h"
 #include "tests/support/gpu.h"
-#include "tests/support/random_graph.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/random_graph.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "runtime/export/export.h"
-#include "runtime/mesh_report.h"
+#include "runtime/measure/mesh_report.h"
 #include "tests/support/command.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 #include "tests/support/virtual_display.h"
 
 namespace fw {

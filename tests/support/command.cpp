@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw::test {
 

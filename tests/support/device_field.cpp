@@ -1,6 +1,6 @@
 #include "tests/support/device_field.h"
 
-#include "graph/glsl.h"
+#include "graph/emit/glsl.h"
 #include "tests/support/gpu.h"
 
 namespace fw::test {

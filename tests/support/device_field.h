@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "graph/compile.h"
-#include "runtime/field_buffers.h"
+#include "graph/compile/compile.h"
+#include "runtime/gpu/field_buffers.h"
 
 namespace fw::test {
 

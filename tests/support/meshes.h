@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "runtime/mesh.h"
+#include "runtime/mesh/mesh.h"
 
 namespace fw::test {
 

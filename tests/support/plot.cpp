@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw::test {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "runtime/render/picture.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/graph/temp_dir.h"
 
 namespace fw::test {
 

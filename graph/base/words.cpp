@@ -1,0 +1,88 @@
+#include "graph/base/words.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include "graph/base/result.h"
+
+namespace fw {
+
+namespace {
+
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b` (the
+/// restricted Damerau-Levenshtein distance).
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> beforeLast, last(b.size() + 1), row(b.size() + 1);
+    std::iota(last.begin(), last.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); i++) {
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); j++) {
+            row[j + 1] = std::min({last[j] + (a[i] != b[j]), last[j + 1] + 1, row[j] + 1});
+            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) {
+                row[j + 1] = std::min(row[j + 1], beforeLast[j - 1] + 1);
+            }
+        }
+        beforeLast = std::move(last);
+        last = row;
+    }
+    return last[b.size()];
+}
+
+/// Keeps the nearest of the names offered, if it is near enough to be what was meant.
+struct Nearest {
+    std::string_view wanted;
+    std::string_view best = {};
+    std::size_t distance = std::string_view::npos;
+
+    void offer(std::string_view name) {
+        // A third of the longer word may be wrong: "sphre" finds sphere, "abc" does not find box.
+        const std::size_t limit = (std::max(wanted.size(), name.size()) + 1) / 3;
+        const std::size_t shortest =
+            wanted.size() > name.size() ? wanted.size() - name.size() : name.size() - wanted.size();
+        if (shortest > limit) return;
+        const std::size_t d = editDistance(wanted, name);
+        if (d <= limit && d < distance) best = name, distance = d;
+    }
+};
+
+}  // namespace
+
+std::string nearestName(std::string_view name, std::span<const std::string> names) {
+    Nearest nearest{name};
+    for (const std::string& candidate : names) nearest.offer(candidate);
+    return std::string(nearest.best);
+}
+
+std::string shortNumber(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size() && i < 40; ++i) {
+        const std::string name = inQuotes(names[i]);
+        text.append(i == 0 ? "" : ", ").append(name, 1, name.size() - 2);
+    }
+    return names.size() > 40 ? text + ", …" : text;
+}
+
+std::string arrows(const std::vector<std::string_view>& names) {
+    constexpr std::size_t kLongestPath = 12;
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += " -> ";
+        if (names.size() > kLongestPath && i == kLongestPath / 2) {
+            const std::size_t skipped = names.size() - kLongestPath + 1;
+            text += "(" + std::to_string(skipped) + " more) -> ";
+            i += skipped;
+        }
+        const std::string name = inQuotes(names[i]);
+        text.append(name, 1, name.size() - 2);
+    }
+    return text;
+}
+
+}  // namespace fw

@@ -1,0 +1,23 @@
+// Words of messages: names that were nearly right, lists, numbers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fw {
+
+/// The entry of `names` nearest to `name` by edit distance; empty if none is near.
+std::string nearestName(std::string_view name, std::span<const std::string> names);
+
+/// A number for reading, six digits.
+std::string shortNumber(double value);
+
+/// "a, b, c", cut after 40.
+std::string listed(const std::vector<std::string>& names);
+
+/// "a -> b -> c -> a"; a long one is shortened in the middle.
+std::string arrows(const std::vector<std::string_view>& names);
+
+}  // namespace fw

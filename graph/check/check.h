@@ -1,0 +1,13 @@
+// Every finding about a document: what its structure lacks (rules/structure.h), and code that does not
+// compile.
+#pragma once
+
+#include "graph/rules/structure.h"
+
+namespace fw {
+
+/// All findings, errors and warnings; empty if there are none. At most 1,000 of the structure, the last of
+/// which then says that there are more. Code is compiled only where the structure is sound.
+std::vector<Error> check(const Graph& graph);
+
+}  // namespace fw

@@ -1,0 +1,40 @@
+// Where a mesh comes from: a file, or a field by what polygonize says and the stages behind it. Plain values;
+// none of them is part of a program's code.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "graph/base/box.h"
+
+namespace fw {
+
+enum class MeshMethod : unsigned char { marchingCubes, dualContouring };
+inline constexpr const char* kMeshMethodNames[] = {"marching-cubes", "dual-contouring"};
+
+/// What is done to a mesh.
+struct MeshStage {
+    enum class Kind : unsigned char { smooth, subdivide, decimate } kind = Kind::smooth;
+    int times = 1;        ///< iterations of smooth, levels of subdivide, at least 0
+    bool project = true;  ///< of subdivide: new vertices are led onto the field
+    double error = 0.0;   ///< of decimate: metres that the result may be away from the field
+    bool operator==(const MeshStage&) const = default;
+};
+/// Whether the stage needs the field.
+inline bool projectsVertices(const MeshStage& stage) {
+    return stage.kind == MeshStage::Kind::subdivide && stage.project && stage.times > 0;
+}
+
+struct TriangleMesh;
+
+struct MeshRecipe {
+    /// The mesh itself, where a file has it: the rest then says nothing.
+    std::shared_ptr<const TriangleMesh> read = {};
+    int resolution = 0;  ///< cells along the longest side; 0: the output's, and so with method and region
+    MeshMethod method = MeshMethod::marchingCubes;
+    std::optional<Box> region = {};
+    std::vector<MeshStage> stages = {};  ///< in order
+};
+
+}  // namespace fw

@@ -1,0 +1,99 @@
+// Where particles come from, what moves them, and how they become a field: plain values that the particle
+// nodes of a graph compile to, and that a simulation runs by (runtime/particles/simulation.h).
+//
+// A recipe is a chain of stages, the source first. Its numbers are values of the graph like any other, read
+// anew at each step, so that they can be live, animated or wired; only what gives the field's grid its shape
+// is known when the graph is compiled.
+//
+// Lifetime: recipes are shared and never change.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/assets/particle_file.h"
+#include "graph/assets/volume.h"
+#include "graph/evaluate/evaluate.h"
+#include "graph/ir/ir.h"
+
+namespace fw {
+
+struct Program;
+
+/// One node of the chain.
+struct ParticleStage {
+    enum class Kind : unsigned char { emitter, file, dynamics, fluid } kind = Kind::emitter;
+    std::string node = {};  ///< its id, with those of the groups that it is in
+    /// By the input's name: its components in the recipe's `ir`.
+    std::map<std::string, std::array<IrId, 3>, std::less<>> numbers = {};
+    std::map<std::string, std::string, std::less<>> words = {};  ///< choices
+    /// By the input's name: those that are connected. Their live slots are the first ones of the graph's
+    /// program.
+    std::map<std::string, std::shared_ptr<const Program>, std::less<>> fields = {};
+    ParticlePlacesPtr places = {};  ///< of a file
+};
+
+struct ParticleRecipe {
+    std::vector<ParticleStage> stages;
+};
+
+enum class DensityMethod : unsigned char { blur, exact, proxies };
+inline constexpr const char* kDensityMethodNames[] = {"blur", "exact", "proxies"};
+
+/// Particles as a field: density on a grid, and a surface where it is `threshold`.
+struct ParticleField {
+    Ir ir;  ///< of all numbers: of the stages, and of the two below
+    ParticleRecipe particles;
+    IrId radius = 0, threshold = 0;
+    DensityMethod method = DensityMethod::blur;
+    bool trueDistance = false;  ///< everywhere, and not near the surface alone
+    std::string node;           ///< of the particles_to_field
+    uint64_t hash = 0;          ///< equal for equal recipes, whatever the live values
+};
+using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
+
+inline constexpr int kLeastParticleResolution = 8, kMostParticleResolution = 512;
+
+/// Reads a stage's numbers, with the live parameters' values. Whatever is wired to an input, they are fit to
+/// be reckoned with as floats: what is not a number counts as 0, and what is beyond 1e30 either way as that.
+class StageNumbers {
+  public:
+    StageNumbers(const Ir& ir_, const ParticleStage& stage_, std::span<const double> parameters_)
+        : ir(ir_), stage(stage_), parameters(parameters_) {}
+    double scalar(std::string_view input) const { return component(input, 0); }
+    glm::dvec3 vector(std::string_view input) const {
+        return {component(input, 0), component(input, 1), component(input, 2)};
+    }
+
+  private:
+    double component(std::string_view input, std::size_t i) const {
+        constexpr double kMost = 1e30;
+        const double value = evaluate(ir, stage.numbers.find(input)->second[i], parameters, {});
+        return std::isnan(value) ? 0.0 : std::clamp(value, -kMost, kMost);
+    }
+    const Ir& ir;
+    const ParticleStage& stage;
+    std::span<const double> parameters;
+};
+
+/// The volume of particles on cubic cells, so many along the longest side of the region, without samples.
+/// `ir` is that of the recipe's numbers and of those of the particles_to_field. Errors, with a message only:
+/// a region without extent.
+Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
+                                      const ParticleStage& toField, const Box& region, int resolution);
+
+/// Where the particles can be: the box of a file's places, a fluid's tank, or what an emitter's particles
+/// reach in their lives under the gravity behind it, with nothing in their way; enlarged by `radius`.
+Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const double> parameters,
+                   double radius);
+
+}  // namespace fw

@@ -1,0 +1,109 @@
+#include "graph/document/input_value.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graph/base/result.h"
+#include "graph/base/words.h"
+
+namespace fw {
+
+namespace {
+
+std::string plural(std::size_t count, std::string_view word) {
+    return std::to_string(count) + " " + std::string(word) + (count == 1 ? "" : "s");
+}
+
+bool isKind(Type type, const InputValue& value) {
+    const double* number = std::get_if<double>(&value.value);
+    const auto* array = std::get_if<std::vector<double>>(&value.value);
+    switch (type) {
+        case Type::boolean: return std::holds_alternative<bool>(value.value);
+        case Type::integer: return number && (!std::isfinite(*number) || *number == std::round(*number));
+        case Type::scalar: return number;
+        case Type::vec2: return array && !value.pairs && array->size() == 2;
+        case Type::vec3: return array && !value.pairs && array->size() == 3;
+        case Type::string:
+        case Type::image: return std::holds_alternative<std::string>(value.value);
+        case Type::points: return array && value.pairs;
+        case Type::surface:
+        case Type::mesh:
+        case Type::particles: return false;
+    }
+    return false;
+}
+
+std::optional<std::string> rangeProblem(const InputSpec& spec, double value) {
+    if (!(spec.positive && value <= 0) && value >= spec.min && value <= spec.max) return {};
+    std::vector<std::string> bounds;
+    if (spec.positive) bounds.push_back("above 0");
+    if (std::isfinite(spec.min) && !(spec.positive && spec.min <= 0))
+        bounds.push_back("at least " + shortNumber(spec.min));
+    if (std::isfinite(spec.max)) bounds.push_back("at most " + shortNumber(spec.max));
+    std::string text = "the value " + shortNumber(value) + " is out of range: it must be " + bounds[0];
+    for (std::size_t i = 1; i < bounds.size(); ++i) text += " and " + bounds[i];
+    return text;
+}
+
+std::optional<std::string> optionProblem(const InputSpec& spec, const std::string& word) {
+    if (spec.options.empty() ||
+        std::find(spec.options.begin(), spec.options.end(), word) != spec.options.end())
+        return {};
+    const std::string near = nearestName(std::string_view(word).substr(0, 64), spec.options);
+    return inQuotes(word) + " is none of its options" +
+           (near.empty() ? "" : "; did you mean '" + near + "'?") + "; they are " + listed(spec.options);
+}
+
+}  // namespace
+
+std::optional<std::string> valueProblem(Type type, const InputSpec* spec, const InputValue& value) {
+    if (!isKind(type, value)) return "expected " + std::string(expectedOf(type)) + ", not " + describe(value);
+    if (const auto* word = std::get_if<std::string>(&value.value))
+        return spec ? optionProblem(*spec, *word) : std::nullopt;
+    std::vector<double> numbers;
+    if (const double* number = std::get_if<double>(&value.value)) numbers.assign(1, *number);
+    if (const auto* several = std::get_if<std::vector<double>>(&value.value)) numbers = *several;
+    for (const double number : numbers) {
+        if (!std::isfinite(number)) return "the value is not a finite number: give it a number";
+        if (type == Type::integer && std::abs(number) > 2147483647.0)
+            return "the whole number " + shortNumber(number) + " is beyond 32 bits: make it smaller";
+        if (!spec) continue;
+        if (auto problem = rangeProblem(*spec, number)) return problem;
+    }
+    return {};
+}
+
+std::string_view expectedOf(Type type) {
+    switch (type) {
+        case Type::boolean: return "true or false";
+        case Type::integer: return "a whole number";
+        case Type::scalar: return "a number or a link";
+        case Type::vec2: return "two numbers [x, y] or a link";
+        case Type::vec3: return "three numbers [x, y, z] or a link";
+        case Type::surface: return "a link to a node with a surface, {\"from\": \"node\"}";
+        case Type::string: return "a string";
+        case Type::points: return "an array of [x, y] pairs";
+        case Type::image: return "the path of a picture, a string";
+        case Type::mesh: return "a link to a node with a mesh, {\"from\": \"node\"}";
+        case Type::particles: return "a link to a node with particles, {\"from\": \"node\"}";
+    }
+    return "";
+}
+
+std::string describe(const InputValue& input) {
+    const struct {
+        const InputValue& input;
+        std::string operator()(double value) const { return "the number " + shortNumber(value); }
+        std::string operator()(bool value) const { return value ? "true" : "false"; }
+        std::string operator()(const std::string& value) const { return "the string " + inQuotes(value); }
+        std::string operator()(const std::vector<double>& numbers) const {
+            if (numbers.empty()) return "an empty array";
+            return input.pairs ? "an array of " + plural(numbers.size() / 2, "pair")
+                               : "an array of " + plural(numbers.size(), "number");
+        }
+        std::string operator()(const Link& link) const { return "a link to " + inQuotes(link.node); }
+    } text{input};
+    return std::visit(text, input.value);
+}
+
+}  // namespace fw

@@ -1,0 +1,37 @@
+// The numbers of a document that whoever plays it may change, by their names.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "graph/base/result.h"
+#include "graph/document/graph.h"
+
+namespace fw {
+
+/// A parameter that whoever plays the graph may change: an exposed one, or a node of type parameter.
+struct NamedParameter {
+    std::string name;
+    std::string node, input;
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+};
+
+/// All of them, the exposed ones first; of two with one name the first counts.
+std::vector<NamedParameter> namedParameters(const Graph& graph);
+
+/// The one with this name.
+std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view name);
+
+/// The number or numbers that a node gives for an input, else its default; empty if there are none.
+std::vector<double> inputNumbers(const Node& node, std::string_view input);
+
+/// Sets the exposed parameter `name` to the numbers in `text` ("1.5" or "1,2,3"). Errors: no such parameter
+/// (with the nearest name), not a number, out of its range.
+Done setParameter(Graph& graph, const std::string& name, const std::string& text);
+/// The same with the numbers themselves.
+Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers);
+
+}  // namespace fw

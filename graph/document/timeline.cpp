@@ -1,0 +1,226 @@
+#include "graph/document/timeline.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "graph/document/named_parameters.h"
+#include "graph/library/node_type.h"
+
+namespace fw {
+
+namespace {
+
+/// Inputs that must be above zero are kept at least here, where a curve dips below.
+constexpr double kLeastPositive = 1e-6;
+
+/// 0, 1, 2 for the names of a vector's components; -1 for any other text.
+int componentNamed(std::string_view text) { return text == "x" ? 0 : text == "y" ? 1 : text == "z" ? 2 : -1; }
+
+/// The slope of component `c` at key `i`: of the parabola through it and its neighbours, of the segment at an
+/// end.
+double slopeAt(const Track& track, std::size_t i, std::size_t c) {
+    const std::vector<Key>& keys = track.keys;
+    const std::size_t last = keys.size() - 1;
+    const bool seam = track.closed && (i == 0 || i == last) && keys.size() > 2;
+    const auto rate = [&](std::size_t from) {
+        return (keys[from + 1].value[c] - keys[from].value[c]) / (keys[from + 1].time - keys[from].time);
+    };
+    const auto width = [&](std::size_t from) { return keys[from + 1].time - keys[from].time; };
+    if (!seam && i == 0) return rate(0);
+    if (!seam && i == last) return rate(last - 1);
+    const std::size_t before = seam ? last - 1 : i - 1, after = seam ? 0 : i;
+    const double h0 = width(before), h1 = width(after);
+    return (rate(before) * h1 + rate(after) * h0) / (h0 + h1);
+}
+
+double hermite(double a, double b, double slopeA, double slopeB, double u) {
+    const double u2 = u * u, u3 = u2 * u;
+    return a * (2 * u3 - 3 * u2 + 1) + b * (3 * u2 - 2 * u3) + slopeA * (u3 - 2 * u2 + u) +
+           slopeB * (u3 - u2);
+}
+
+/// The input's name without the component that may follow it.
+std::pair<std::string, int> splitComponent(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    const int component = dot == std::string::npos ? -1 : componentNamed(name.substr(dot + 1));
+    return component < 0 ? std::pair(name, -1) : std::pair(name.substr(0, dot), component);
+}
+
+/// Index of a list's entry from the text of a path; none if the text is no number or the list is shorter.
+std::optional<std::size_t> entryOf(const Json& list, std::string_view text) {
+    std::size_t index = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (const int component = componentNamed(text); component >= 0)
+        index = static_cast<std::size_t>(component);
+    else if (failure != std::errc() || end != text.data() + text.size())
+        return std::nullopt;
+    return index < list.size() ? std::optional(index) : std::nullopt;
+}
+
+}  // namespace
+
+double eased(Ease ease, double x) {
+    switch (ease) {
+        case Ease::none: return x;
+        case Ease::in: return x * x;
+        case Ease::out: return x * (2.0 - x);
+        case Ease::inOut: return x * x * (3.0 - 2.0 * x);
+    }
+    return x;
+}
+
+std::vector<double> momentsOf(const Timeline& timeline) {
+    constexpr int kSteps = 16;  // and the keys, up to as many again
+    std::set<double> times;
+    for (int i = 0; i <= kSteps; ++i) times.insert(timeline.length * i / kSteps);
+    for (const Track& track : timeline.tracks)
+        for (const Key& key : track.keys)
+            if (times.size() < 2 * kSteps && key.time <= timeline.length) times.insert(key.time);
+    return {times.begin(), times.end()};
+}
+
+double timelineTime(const Timeline& timeline, double seconds) {
+    if (timeline.endless) return seconds;
+    const double length = timeline.length;
+    switch (timeline.loop) {
+        case Loop::once: return std::clamp(seconds, 0.0, length);
+        case Loop::repeat: return seconds - length * std::floor(seconds / length);
+        case Loop::pingPong: {
+            const double x = seconds - 2.0 * length * std::floor(seconds / (2.0 * length));
+            return x <= length ? x : 2.0 * length - x;
+        }
+    }
+    return seconds;
+}
+
+std::vector<double> evaluate(const Track& track, double time) {
+    const std::vector<Key>& keys = track.keys;
+    const auto next = std::upper_bound(keys.begin(), keys.end(), time,
+                                       [](double t, const Key& key) { return t < key.time; });
+    if (next == keys.begin()) return keys.front().value;
+    const Key& from = *(next - 1);
+    if (next == keys.end() || from.interpolation == Interpolation::step) return from.value;
+    const double width = next->time - from.time;
+    const double u = eased(from.ease, std::clamp((time - from.time) / width, 0.0, 1.0));
+    std::vector<double> value = from.value;
+    const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
+    for (std::size_t c = 0; c < value.size(); ++c) {
+        const double a = from.value[c], b = next->value[c];
+        value[c] = from.interpolation == Interpolation::linear
+                       ? (1.0 - u) * a + u * b
+                       : hermite(a, b, width * slopeAt(track, i, c), width * slopeAt(track, i + 1, c), u);
+    }
+    return value;
+}
+
+std::optional<AnimatedInput> animatedInput(const Graph& graph, const Track& track) {
+    AnimatedInput found;
+    if (track.target == Track::Target::scene) return std::nullopt;
+    if (track.target == Track::Target::parameter) {
+        std::optional<NamedParameter> parameter = findParameter(graph, track.name);
+        if (!parameter) {
+            const auto [name, component] = splitComponent(track.name);
+            parameter = findParameter(graph, name);
+            found.component = component;
+        }
+        if (!parameter) return std::nullopt;
+        found.node = parameter->node, found.input = parameter->input;
+        found.min = parameter->min, found.max = parameter->max;
+    } else {
+        found.node = track.node;
+        std::tie(found.input, found.component) = splitComponent(track.name);
+    }
+    const Node* node = graph.node(found.node);
+    if (!node) return std::nullopt;
+    const NodeType* type = findNodeType(node->type);
+    if (const int index = type ? inputIndex(*type, found.input) : -1; index >= 0) {
+        const InputSpec& spec = type->inputs[static_cast<std::size_t>(index)];
+        found.min = std::max({found.min, spec.min, spec.positive ? kLeastPositive : spec.min});
+        found.max = std::min(found.max, spec.max);
+    }
+    return found;
+}
+
+std::set<std::string> animatedInputs(const Graph& graph, const Timeline& timeline) {
+    std::set<std::string> names;
+    for (const Track& track : timeline.tracks)
+        if (const auto input = animatedInput(graph, track)) names.insert(input->node + "." + input->input);
+    return names;
+}
+
+void applyTrack(const Track& track, const AnimatedInput& input, double time, std::vector<double>& numbers) {
+    const std::vector<double> value = evaluate(track, time);
+    for (std::size_t c = 0; c < numbers.size(); ++c) {
+        if (input.component >= 0 && c != static_cast<std::size_t>(input.component)) continue;
+        const bool one = input.component >= 0 || value.size() == 1;
+        if (!one && c >= value.size()) break;
+        numbers[c] = std::min(std::max(value[one ? 0 : c], input.min), input.max);
+    }
+}
+
+Json* sceneValue(Json& scene, std::string_view path) {
+    if (scene.is_null()) scene = Json::object();
+    Json* at = &scene;
+    while (!path.empty()) {
+        const std::size_t dot = path.find('.');
+        const std::string_view step = path.substr(0, dot);
+        path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+        if (at->is_null() && step.find_first_of("0123456789") == 0)
+            return nullptr;  // an entry of a list that is not there
+        if (at->is_null()) *at = Json::object();
+        if (at->is_object()) {
+            at = &(*at)[std::string(step)];
+        } else if (at->is_array()) {
+            const std::optional<std::size_t> entry = entryOf(*at, step);
+            if (!entry) return nullptr;
+            at = &(*at)[*entry];
+        } else {
+            return nullptr;
+        }
+    }
+    return at;
+}
+
+void setNumbers(Json& value, const std::vector<double>& numbers) {
+    if (numbers.size() == 1)
+        value = numbers[0];
+    else
+        value = numbers;
+}
+
+Json sceneAt(const Graph& graph, const Timeline& timeline, double time) {
+    Json scene = graph.scene;
+    for (const Track& track : timeline.tracks) {
+        if (track.target != Track::Target::scene) continue;
+        Json* value = sceneValue(scene, track.name);
+        if (!value) continue;
+        setNumbers(*value, evaluate(track, time));
+    }
+    return scene;
+}
+
+Graph atTime(const Graph& graph, const Timeline& timeline, double time) {
+    Graph result = graph;
+    for (const Track& track : timeline.tracks) {
+        const auto animated = animatedInput(graph, track);
+        if (!animated) continue;
+        Node* node = result.node(animated->node);
+        const InputValue* given = node->input(animated->input);
+        if (given && std::holds_alternative<Link>(given->value)) continue;
+        std::vector<double> numbers = inputNumbers(*node, animated->input);
+        applyTrack(track, *animated, time, numbers);
+        InputValue value = given ? *given : InputValue{};
+        if (numbers.size() == 1)
+            value.value = numbers[0];
+        else
+            value.value = std::move(numbers);
+        node->set(animated->input, std::move(value));
+    }
+    result.scene = sceneAt(graph, timeline, time);
+    return result;
+}
+
+}  // namespace fw

@@ -1,0 +1,128 @@
+// The `timeline` of a document: tracks of keys, which move numbers of the graph and of its scene over time.
+//
+//     "timeline": {
+//       "length": 4, "loop": "repeat", "fps": 30,
+//       "tracks": [
+//         {"node": "blend", "input": "t", "interpolation": "cubic", "keys": [
+//           {"time": 0, "value": 0}, {"time": 2, "value": 1, "ease": "in-out"}, {"time": 4, "value": 0}]},
+//         {"parameter": "hole", "keys": [{"time": 0, "value": 0.1}, {"time": 4, "value": 0.5}]},
+//         {"scene": "camera.position", "keys": [{"time": 0, "value": [4, 2, 4]}]}
+//       ]
+//     }
+//
+// A track moves an input of a node, a named parameter, or a value of the scene by its dotted path; behind a
+// vector `.x`, `.y` or `.z` names one component, and a number an entry of a list ("lights.0.color").
+// Between two keys the interpolation and the easing of the former hold; a track may give both for all of its
+// keys. Before the first key and after the last the track rests.
+//
+// Cubic segments are Hermite curves with the slopes of the parabola through each key and its neighbours
+// (Catmull-Rom for uneven times), so a curve may pass beyond its keys. What drives an input is then kept in
+// the input's range, and in the parameter's. A track of a repeating timeline that ends on the value it began
+// with, at both ends of the timeline, is smooth across the seam.
+//
+// A Timeline is a value, read from a Graph and independent of it. The graph keeps the JSON.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/base/result.h"
+#include "graph/document/graph.h"
+
+namespace fw {
+
+inline constexpr double kDefaultTimelineLength = 10.0;  ///< seconds, of a document without keys
+inline constexpr double kMostTimelineLength = 86'400.0;
+inline constexpr std::size_t kMaxTracks = 1'000;
+inline constexpr double kMostFramesPerSecond = 1000.0;
+
+enum class Interpolation : unsigned char { step, linear, cubic };
+enum class Ease : unsigned char { none, in, out, inOut };
+
+/// What follows the end of the timeline: it rests there, begins again, or runs back and forth.
+enum class Loop : unsigned char { once, repeat, pingPong };
+
+/// As files have them, in the order of the values.
+const std::vector<std::string>& interpolationNames();
+const std::vector<std::string>& easeNames();
+const std::vector<std::string>& loopNames();
+
+struct Key {
+    double time = 0.0;          ///< seconds
+    std::vector<double> value;  ///< 1 to 4 numbers, as many as the track's other keys have
+    Interpolation interpolation = Interpolation::linear;  ///< from here to the next key
+    Ease ease = Ease::none;
+    TextPosition place = {};
+    bool operator==(const Key&) const = default;
+};
+
+struct Track {
+    enum class Target : unsigned char { input, parameter, scene };
+    Target target = Target::input;
+    std::string node;  ///< of an input
+    std::string name;  ///< of the input or the parameter, or the path into the scene
+    std::vector<Key> keys;
+    bool closed = false;  ///< smooth from the last key to the first
+    TextPosition place = {};
+    bool operator==(const Track&) const = default;
+};
+
+struct Timeline {
+    double length = kDefaultTimelineLength;  ///< seconds
+    Loop loop = Loop::repeat;
+    double framesPerSecond = 30.0;
+    std::vector<Track> tracks = {};
+    bool endless = false;  ///< the document has none: time goes on
+    bool operator==(const Timeline&) const = default;
+};
+
+/// The document's timeline; one without tracks if it has none. Errors: what is missing or of the wrong form,
+/// with its place. Unknown keys are kept in the graph, and each adds a warning to `warnings`, which may be
+/// null. Whether keys and targets make sense is for check().
+Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings = nullptr);
+
+/// The time on the timeline, 0 to length, that `seconds` after its start show; of an endless one: `seconds`.
+double timelineTime(const Timeline& timeline, double seconds);
+
+/// Times on the timeline at which is looked at what has to last for all of it, as the bounds of a solid.
+std::vector<double> momentsOf(const Timeline& timeline);
+
+/// The track's value at a time on the timeline. The track has keys, in the order of their times.
+std::vector<double> evaluate(const Track& track, double time);
+
+/// 0 to 1 for 0 to 1.
+double eased(Ease ease, double x);
+
+/// An input that a track moves.
+struct AnimatedInput {
+    std::string node, input;
+    int component = -1;  ///< of a vector; all if negative
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+};
+
+/// The input that the track moves, directly or through a parameter; none if it moves the scene or nothing.
+std::optional<AnimatedInput> animatedInput(const Graph& graph, const Track& track);
+
+/// "node.input" of every input that a track moves: what compile() is to keep live.
+std::set<std::string> animatedInputs(const Graph& graph, const Timeline& timeline);
+
+/// Sets the numbers of an animated input to what its track gives at a time on the timeline, within the range.
+void applyTrack(const Track& track, const AnimatedInput& input, double time, std::vector<double>& numbers);
+
+/// The document with every animated input and value of the scene as they are at a time on the timeline.
+Graph atTime(const Graph& graph, const Timeline& timeline, double time);
+
+/// The document's `scene` alone at that time; null if it has none and no track moves it.
+Json sceneAt(const Graph& graph, const Timeline& timeline, double time);
+
+/// The value at the end of a dotted path into the scene, made (as objects) as far as it is missing; nullptr
+/// if the path leads through a number or beyond the end of a list.
+Json* sceneValue(Json& scene, std::string_view path);
+/// A key's value as JSON: the number, or the list of several.
+void setNumbers(Json& value, const std::vector<double>& numbers);
+
+}  // namespace fw

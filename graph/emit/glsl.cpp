@@ -1,0 +1,221 @@
+#include "graph/emit/glsl.h"
+
+#include <algorithm>
+
+#include "graph/emit/glsl_families.h"
+#include "graph/emit/glsl_statements.h"
+
+namespace fw {
+
+namespace {
+
+class Emitter : GlslStatements {
+  public:
+    explicit Emitter(const Program& program_)
+        : GlslStatements(program_), program(program_), ir(program_.ir) {}
+
+    std::string run() {
+        for (IrId id = 0; id < ir.size(); ++id) {
+            const Op op = ir[id].op;
+            usesNoise |= op == Op::gradientNoise || op == Op::simplexNoise || op == Op::worleyNoise ||
+                         op == Op::cellHash;
+            usesSmoothMinimum |= op == Op::smoothMinimum;
+        }
+        parameters();
+        images();
+        volumes();
+        if (usesNoise) text += "#include \"lib/noise.glsl\"\n";
+        if (usesSmoothMinimum) text += "#include \"lib/smooth_minimum.glsl\"\n";
+        text +=
+            "float fieldPower(float a, float b) { return a > 0.0 ? pow(a, b) : b > 0.0 ? 0.0 : b < 0.0 ? "
+            "1e30 : 1.0; }\n"
+            "float fieldArcTangent2(float y, float x) { return y == 0.0 && x == 0.0 ? 0.0 : atan(y, x); }\n";
+        if (program.families.empty()) {
+            text += "#ifdef FIELD_PRUNED\nbool fieldChoose(uint place) { return true; }\n#endif\n";
+            valueFunction();
+            gradientFunction();
+            intervalFunction();
+            rows();
+        } else {
+            text += emitFamilies(program);
+        }
+        material();
+        return std::move(text);
+    }
+
+  private:
+    void parameters() {
+        text += "struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };\n";
+        const bool tablesAlone = program.live.empty() && !program.families.empty();
+        if (tablesAlone) text += "#ifndef FIELD_PRUNED\n";
+        if (tablesAlone || !program.live.empty())
+            text += "layout(set = 0, binding = " + std::to_string(kFieldParametersBinding) +
+                    ", std430) readonly buffer FieldParameters { float fieldParameters[]; };\n";
+        if (tablesAlone) text += "#endif\n";
+        for (std::size_t slot = 0; slot < program.live.size(); ++slot)
+            text += "float fieldP" + std::to_string(slot) + ";\n";
+        text += "void fieldBegin() {\n";
+        for (std::size_t slot = 0; slot < program.live.size(); ++slot)
+            text +=
+                "    fieldP" + std::to_string(slot) + " = fieldParameters[" + std::to_string(slot) + "];\n";
+        text += "}\n";
+    }
+    /// Two functions for each layer that is sampled, its place, size and bounds folded in.
+    void images() {
+        if (ir.images().empty()) return;
+        const bool paint = paintOnly(Op::image);
+        if (paint) text += "#ifdef FIELD_MATERIAL\n";
+        text += "layout(set = 0, binding = " + std::to_string(kFieldImagesBinding) +
+                ", std430) readonly buffer FieldImages { uint fieldImages[]; };\n"
+                "#include \"lib/image.glsl\"\n";
+        const std::vector<bool> sampled = layersOf(Op::image, ir.images().size() * kImageLayers);
+        std::size_t first = 0;
+        for (std::size_t number = 0; number < sampled.size(); ++number) {
+            const FieldImage& image = *ir.images()[number / kImageLayers];
+            const ImageLayer& layer = image.layers[number % kImageLayers];
+            if (sampled[number]) {
+                const std::string where = std::to_string(first) + "u, ivec2(" + std::to_string(image.width) +
+                                          ", " + std::to_string(image.height) + "), ";
+                const std::string channel = std::to_string(layer.channel);
+                text += "vec3 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
+                        where + "uv, " + channel + "); }\n" + "vec2 fieldImageRange" +
+                        std::to_string(number) + "(vec2 u, vec2 v) { return imageRange(" + where + "u, v, " +
+                        channel + ", " + pair(layer.slopeU, layer.slopeV) + ", " +
+                        pair(layer.least, layer.most) + "); }\n";
+            }
+            if (layer.channel + 1 == kImageLayers) first += image.texels.size();
+        }
+        if (paint) text += "#endif\n";
+    }
+    /// The same for volumes; of a colour, only the value is asked for in shaders.
+    void volumes() {
+        if (ir.volumes().empty()) return;
+        const bool paint = paintOnly(Op::volume);
+        if (paint) text += "#ifdef FIELD_MATERIAL\n";
+        text += "layout(set = 0, binding = " + std::to_string(kFieldVolumesBinding) +
+                ", rgba32ui) restrict readonly uniform uimageBuffer fieldVolumes;\n"
+                "#include \"lib/volume.glsl\"\n";
+        const std::vector<bool> sampled = layersOf(Op::volume, ir.volumes().size() * kVolumeLayers);
+        std::size_t first = 0;
+        for (std::size_t v = 0; v < ir.volumes().size(); ++v) {
+            const FieldVolume& volume = *ir.volumes()[v];
+            const VolumeGrid& grid = volume.grid;
+            const std::string gridName = "fieldVolumeGrid" + std::to_string(v);
+            const auto list = [&](const auto& of, auto literal) {
+                return "(" + literal(of[0]) + ", " + literal(of[1]) + ", " + literal(of[2]) + ")";
+            };
+            text += "const VolumeGrid " + gridName + " = VolumeGrid(" + std::to_string(first) + ", ivec3" +
+                    list(grid.size, [](int n) { return std::to_string(n); }) + ", vec3" +
+                    list(grid.origin, glslLiteral) + ", vec3" + list(grid.inset, glslLiteral) + ", " +
+                    glslLiteral(grid.cell) + ", " + glslLiteral(1.0 / grid.cell) + ");\n";
+            for (const VolumeLayer& layer : volume.layers) {
+                const std::size_t number = v * kVolumeLayers + std::size_t(layer.channel);
+                if (!sampled[number]) continue;
+                const std::string name = std::to_string(number);
+                const bool color = layer.channel >= redChannel;
+                text +=
+                    "vec4 fieldVolume" + name + "(vec3 p) { return " +
+                    (layer.channel == tricubicChannel ? "volumeTricubic(" + gridName + ", p"
+                     : layer.channel == trilinearChannel
+                         ? "volumeTrilinear(" + gridName + ", p"
+                         : "volumeColor(" + gridName + ", p, " + std::to_string(layer.channel - redChannel)) +
+                    "); }\nvec2 fieldVolumeRange" + name + "(vec2 x, vec2 y, vec2 z) { return " +
+                    (color ? "vec2(-1e-5, 1.00001)"
+                     : volume.particles
+                         ? "volumeBlockRange(" + gridName + ", fieldVolume" + name +
+                               "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " +
+                               glslLiteral(layer.rise) + ")"
+                         : "volumeRange(" + gridName + ", fieldVolume" + name +
+                               "(0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y)).w, x, y, z, " + "vec4(" +
+                               glslLiteral(layer.slope) + ", " + glslLiteral(layer.shift) + ", " +
+                               glslLiteral(layer.scatter) + ", " + glslLiteral(layer.rise) + "), " +
+                               pair(layer.least, layer.most) + ")") +
+                    "; }\n";
+            }
+            first += texelCount(volume);
+        }
+        if (paint) text += "#endif\n";
+    }
+    static std::string pair(double a, double b) {
+        return "vec2(" + glslLiteral(a) + ", " + glslLiteral(b) + ")";
+    }
+    /// Whether the distance has no such operation. A shader that samples nothing must not declare the buffer,
+    /// so that nothing need be bound there.
+    bool paintOnly(Op op) {
+        const IrId distance = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&distance, 1));
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (needed[id] && ir[id].op == op) return false;
+        return true;
+    }
+    /// Which of the layers that `op` can sample are.
+    std::vector<bool> layersOf(Op op, std::size_t count) const {
+        std::vector<bool> sampled(count, false);
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (ir[id].op == op) sampled[static_cast<std::size_t>(ir[id].number)] = true;
+        return sampled;
+    }
+
+    void valueFunction() {
+        const IrId root = program.distance();
+        text += "#ifdef FIELD_VALUE\nfloat fieldValue(vec3 p) {\n";
+        valueStatements(neededBy(std::span(&root, 1)));
+        text += "    return " + value(root) + ";\n}\n#endif\n";
+    }
+
+    void gradientFunction() {
+        const IrId root = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&root, 1));
+        Derivatives known = noDerivatives();
+        text += "#ifdef FIELD_GRADIENT\nvec4 fieldGradient(vec3 p) {\n";
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (needed[id] && !isInline(ir[id])) gradientStatement(id, known);
+        text += "    return vec4(";
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::string& slope = known[axis][root];
+            text += (slope.empty() ? "0.0" : slope) + ", ";
+        }
+        text += value(root) + ");\n}\n#endif\n";
+    }
+
+    void intervalFunction() {
+        const IrId root = program.distance();
+        const std::vector<bool> needed = neededBy(std::span(&root, 1));
+        text +=
+            "#ifdef FIELD_INTERVAL\n#include \"lib/interval.glsl\"\nvec2 fieldInterval(vec3 lo, vec3 hi) {\n";
+        for (IrId id = 0; id < ir.size(); ++id)
+            if (needed[id] && !isInline(ir[id])) intervalStatement(id);
+        text += "    vec3 reach = max(abs(lo), abs(hi));\n    return iMargin(" + interval(root) +
+                ", reach.x + reach.y + reach.z);\n}\n#endif\n";
+    }
+
+    void rows() {
+        GlslStages stages(*this, program, false);
+        text += "#ifdef FIELD_ROWS\n";
+        stages.planeFunction();
+        stages.rowFunction();
+        text += "float fieldAt(FieldRow row, float y) {\n";
+        stages.unpack(1, "row");
+        stages.define(2, "y");
+        text += "    return " + value(program.distance()) + ";\n}\n#endif\n";
+    }
+
+    void material() {
+        const std::span<const IrId> roots(program.surface.data() + 1, 8);
+        text += "#ifdef FIELD_MATERIAL\nFieldMaterial fieldMaterial(vec3 p) {\n";
+        valueStatements(neededBy(roots));
+        text += "    return FieldMaterial(vec3(" + value(roots[0]) + ", " + value(roots[1]) + ", " +
+                value(roots[2]) + "), " + value(roots[3]) + ", " + value(roots[4]) + ", vec3(" +
+                value(roots[5]) + ", " + value(roots[6]) + ", " + value(roots[7]) + "));\n}\n#endif\n";
+    }
+
+    const Program& program;
+    const Ir& ir;
+    bool usesNoise = false, usesSmoothMinimum = false;
+};
+
+}  // namespace
+
+std::string emitField(const Program& program) { return Emitter(program).run(); }
+
+}  // namespace fw

@@ -1,0 +1,39 @@
+// Where a solid lies: a box around f < 0, found by interval analysis.
+//
+// First each of the six directions is searched for the nearest half-space that is provably empty; this is
+// tight for shapes along the axes. Then an octree drops every cell that is provably outside, which tightens
+// the box around rotated and blended shapes, and finds one where half-spaces prove nothing (a twist mixes
+// coordinates, so over an endless box its interval is everything).
+#pragma once
+
+#include <span>
+
+#include "graph/base/result.h"
+#include "graph/evaluate/evaluate.h"
+
+namespace fw {
+
+enum class Extent : unsigned char { bounded, empty, unbounded };
+
+struct Region {
+    Extent extent = Extent::bounded;
+    Box box;  ///< contains the solid, if bounded; not padded
+};
+
+/// Searches within ±kFarthest metres of the origin. A solid that reaches farther, or repeats without end, is
+/// unbounded. `empty` is a proof that no point is inside, within that distance.
+Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters);
+
+inline constexpr double kFarthest = 16384.0;
+
+/// The least box that has both.
+Box joined(const Box& a, const Box& b);
+
+/// The box's longest side; 0 if none has a length.
+double longestSide(const Box& box);
+
+/// `box` grown on every side by `cells` cells of the grid that has `resolution` cells along the longest side
+/// of the result.
+Box padded(const Box& box, int resolution, double cells);
+
+}  // namespace fw

@@ -1,0 +1,78 @@
+#include "graph/library/node_type.h"
+
+#include <algorithm>
+#include <cassert>
+#include <unordered_map>
+
+#include "graph/base/words.h"
+
+namespace fw {
+namespace {
+
+/// Ids and aliases to indices in nodeTypes().
+std::unordered_map<std::string_view, std::size_t> indexNames() {
+    std::unordered_map<std::string_view, std::size_t> index;
+    const std::vector<NodeType>& types = nodeTypes();
+    for (std::size_t i = 0; i < types.size(); i++) {
+        bool unique = index.emplace(types[i].id, i).second;
+        for (const std::string& alias : types[i].aliases) unique = index.emplace(alias, i).second && unique;
+        assert(unique && "an id or alias names two node types");
+        (void)unique;
+    }
+    return index;
+}
+
+}  // namespace
+
+std::string_view categoryName(Category category) {
+    switch (category) {
+        case Category::shape: return "Shapes";
+        case Category::shape2d: return "2-D shapes";
+        case Category::combine: return "Combine";
+        case Category::domain: return "Domain";
+        case Category::field: return "Fields";
+        case Category::maths: return "Maths";
+        case Category::material: return "Material";
+        case Category::mesh: return "Mesh stages";
+        case Category::particles: return "Particles";
+        case Category::structure: return "Structure";
+    }
+    assert(!"every category has a name");
+    return "";
+}
+
+ExactnessRule always(Exactness exactness) {
+    return [exactness](const ExactnessArguments&) { return exactness; };
+}
+
+ExactnessRule sameAs(std::string input) {
+    return [input = std::move(input)](const ExactnessArguments& node) { return node.surface(input); };
+}
+
+const NodeType* findNodeType(std::string_view id) {
+    static const std::unordered_map<std::string_view, std::size_t> index = indexNames();
+    const auto found = index.find(id);
+    return found == index.end() ? nullptr : &nodeTypes()[found->second];
+}
+
+int inputIndex(const NodeType& type, std::string_view name) {
+    const auto found = std::ranges::find(type.inputs, name, &InputSpec::name);
+    return found == type.inputs.end() ? -1 : static_cast<int>(found - type.inputs.begin());
+}
+
+int outputIndex(const NodeType& type, std::string_view name) {
+    const auto found = std::ranges::find(type.outputs, name, &OutputSpec::name);
+    return found == type.outputs.end() ? -1 : static_cast<int>(found - type.outputs.begin());
+}
+
+std::string nearestNodeType(std::string_view id) {
+    std::vector<std::string> names;
+    for (const NodeType& type : nodeTypes()) {
+        names.push_back(type.id);
+        names.insert(names.end(), type.aliases.begin(), type.aliases.end());
+    }
+    const NodeType* type = findNodeType(nearestName(id, names));
+    return type ? type->id : std::string();
+}
+
+}  // namespace fw

@@ -1,0 +1,109 @@
+// The node library: one table, one entry a node type, its meaning written in the field language.
+//
+// Everything that knows node types reads this table: the checker, the compiler, the expression language
+// (every node type is a function there, its arguments in the order of `inputs`), the reference page, the JSON
+// schema and the editor. Adding a node is one entry in one of the files under nodes/.
+//
+// A body is field-language code (language/parser.h). Its inputs are names in scope, already evaluated at the
+// context position `p`; an input of type surface, scalar, vec2 or vec3 is also callable at another position:
+// `a(vec3(abs(p.x), p.yz))`. String, points and image inputs are visible as compile-time values.
+//
+// What a body returns becomes the node's only output; with several outputs it assigns each by name and
+// returns nothing. A scalar returned where the output is a surface gets the default material;
+// `with_distance(s, d)` is the surface `s` with its distance replaced; `mix(a, b, t)` and `c ? a : b` work on
+// whole surfaces.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/library/types.h"
+
+namespace fw {
+
+enum class Category : unsigned char {
+    shape,
+    shape2d,
+    combine,
+    domain,
+    field,
+    maths,
+    material,
+    mesh,
+    particles,
+    structure
+};
+inline constexpr int kCategories = int(Category::structure) + 1;
+std::string_view categoryName(Category category);
+
+/// Default of an input where the file gives none. `position` means: the context position.
+struct InputDefault {
+    enum class Kind : unsigned char { none, position, numbers, text } kind = Kind::none;
+    std::vector<double> numbers;  ///< one per component; for points x,y pairs
+    std::string text;
+};
+
+struct InputSpec {
+    std::string name;
+    Type type;
+    InputDefault value;
+    double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed, each component
+    double max = std::numeric_limits<double>::infinity();
+    std::vector<std::string> options = {};  ///< the allowed strings of an enum input
+    std::string unit = {};  ///< "m", "1/m", "degrees", "degrees/m", "color" (linear sRGB), "" for a number
+    std::string doc = {};
+    bool positive = false;  ///< must be > 0 (min alone allows equality)
+};
+
+struct OutputSpec {
+    std::string name;
+    Type type;
+};
+
+/// What an exactness rule may ask about the node it classifies. A rule assumes that `p` is the context
+/// position and that no number depends on position; where one does, whoever asks the rule lowers its answer
+/// to distorted().
+struct ExactnessArguments {
+    /// Exactness of the named surface input; that of empty space if unconnected.
+    std::function<Exactness(std::string_view)> surface;
+    /// Constant value of the named input's component; nullopt if it varies, is live or is linked to a field.
+    std::function<std::optional<double>(std::string_view, int component)> constant;
+    /// Chosen string of the named enum input.
+    std::function<std::string(std::string_view)> option;
+};
+using ExactnessRule = std::function<Exactness(const ExactnessArguments&)>;
+
+/// The rule of a shape whose class does not depend on its inputs.
+ExactnessRule always(Exactness exactness);
+/// The rule of a node that keeps the class of this surface input.
+ExactnessRule sameAs(std::string input);
+
+struct NodeType {
+    std::string id;
+    std::string label;
+    Category category;
+    std::string doc;  ///< first sentence is the tooltip; ends with a full stop
+    std::vector<InputSpec> inputs;
+    std::vector<OutputSpec> outputs;
+    ExactnessRule exactness = {};  ///< of the surface output; empty for nodes without one
+    std::string body = {};  ///< field language; empty for nodes the compiler treats itself (see compile.cpp)
+    std::vector<std::string> aliases = {};  ///< former ids, still read; also searched by the editor
+    bool open = false;  ///< the document decides what inputs and outputs there are beside those of the table
+};
+
+/// Every node type, in the order of the reference page (graph/nodes/node_types.cpp). Built once.
+const std::vector<NodeType>& nodeTypes();
+/// The entry with this id or alias; nullptr if there is none.
+const NodeType* findNodeType(std::string_view id);
+/// Index of the named input in `type.inputs`; -1 if there is none.
+int inputIndex(const NodeType& type, std::string_view name);
+/// Index of the named output in `type.outputs`; -1 if there is none.
+int outputIndex(const NodeType& type, std::string_view name);
+/// The id of the node type whose name is nearest by edit distance: for "did you mean". Empty if none is near.
+std::string nearestNodeType(std::string_view id);
+
+}  // namespace fw

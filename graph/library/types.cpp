@@ -1,0 +1,31 @@
+#include "graph/library/types.h"
+
+#include <cassert>
+
+namespace fw {
+
+std::string_view typeName(Type type) {
+    switch (type) {
+        case Type::boolean: return "bool";
+        case Type::integer: return "int";
+        case Type::scalar: return "float";
+        case Type::vec2: return "vec2";
+        case Type::vec3: return "vec3";
+        case Type::surface: return "surface";
+        case Type::string: return "string";
+        case Type::points: return "points";
+        case Type::image: return "image";
+        case Type::mesh: return "mesh";
+        case Type::particles: return "particles";
+    }
+    assert(!"every type has a name");
+    return "";
+}
+
+std::optional<Type> typeNamed(std::string_view name) {
+    for (int i = 0; i < kTypes; ++i)
+        if (typeName(static_cast<Type>(i)) == name) return static_cast<Type>(i);
+    return {};
+}
+
+}  // namespace fw

@@ -1,0 +1,192 @@
+#include "runtime/measure/field_measure.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "graph/base/parallel.h"
+#include "graph/evaluate/tape.h"
+
+namespace fw {
+
+namespace {
+
+constexpr int kNewtonSteps = 8;
+constexpr int kLeastPieces = 4096;     // of the region's longest side: what is shorter is not halved further
+constexpr double kWorthKeeping = 0.8;  // of its steps that a shortened tape may have
+constexpr int kLines = 12'000;
+
+std::vector<Point> positionsOf(std::span<const glm::dvec3> points) {
+    std::vector<Point> positions(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) positions[i] = {points[i].x, points[i].y, points[i].z};
+    return positions;
+}
+
+/// How far a point lies outside of the box, or, negative, from its nearest face.
+double beyond(const Box& box, const Point& p) {
+    double most = -INFINITY;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        most = std::max({most, box.lo[axis] - p[axis], p[axis] - box.hi[axis]});
+    return most;
+}
+
+/// A number from 0 to 1 that is the same for the same place in the grid of lines.
+double jitter(uint32_t a, uint32_t b, uint32_t c) {
+    uint32_t hash = a * 0x9e3779b1u ^ b * 0x85ebca77u ^ c * 0xc2b2ae3du;
+    hash = (hash ^ hash >> 16) * 0x7feb352du;
+    hash = (hash ^ hash >> 15) * 0x846ca68bu;
+    return double(hash ^ hash >> 16) / 4294967296.0;
+}
+
+/// Looks along one line after another for places where the field changes its sign.
+class Lines {
+  public:
+    Lines(const Program& program, const Tape& tape, double shortest)
+        : machine(program.ir, program.parameters()), whole(tape), least(shortest) {}
+
+    std::vector<Point> found;
+
+    void look(int along, const Box& line) { halve(along, line, whole); }
+
+  private:
+    void halve(int along, const Box& piece, const Tape& tape) {
+        const Interval f = machine.interval(tape, piece);
+        if (f.lo >= 0.0 || f.hi < 0.0) return;
+        const auto axis = std::size_t(along);
+        if (piece.hi[axis] - piece.lo[axis] <= least) return close(along, piece, tape);
+        const Tape shorter = machine.shortened(tape);
+        const bool worth = double(shorter.steps.size()) < kWorthKeeping * double(tape.steps.size());
+        const double middle = 0.5 * (piece.lo[axis] + piece.hi[axis]);
+        Box half = piece;
+        half.hi[axis] = middle;
+        halve(along, half, worth ? shorter : tape);
+        half = piece;
+        half.lo[axis] = middle;
+        halve(along, half, worth ? shorter : tape);
+    }
+
+    /// Twice a batch of points within the piece: then the root is known to 1e-4 of its length.
+    void close(int along, Box piece, const Tape& tape) {
+        const auto axis = std::size_t(along);
+        constexpr int kCount = int(TapeMachine::kBatch);
+        for (int round = 0; round < 2; ++round) {
+            const double from = piece.lo[axis], step = (piece.hi[axis] - from) / (kCount - 1);
+            for (int i = 0; i < kCount; ++i)
+                for (int a = 0; a < 3; ++a)
+                    machine.position(a)[i] = a == along ? from + step * i : piece.lo[std::size_t(a)];
+            const double* values = machine.value(tape, std::size_t(kCount));
+            int at = 0;
+            while (at + 1 < kCount && (values[at] < 0.0) == (values[at + 1] < 0.0)) ++at;
+            if (at + 1 == kCount) return;
+            piece.lo[axis] = from + step * at;
+            piece.hi[axis] = from + step * (at + 1);
+        }
+        Point root = piece.lo;
+        root[axis] = 0.5 * (piece.lo[axis] + piece.hi[axis]);
+        found.push_back(root);
+    }
+
+    TapeMachine machine;
+    const Tape& whole;
+    double least;
+};
+
+}  // namespace
+
+std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines) {
+    double size[3], longest = 0.0, faces = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) longest = std::max(longest, size[a] = region.hi[a] - region.lo[a]);
+    for (std::size_t a = 0; a < 3; ++a) faces += size[(a + 1) % 3] * size[(a + 2) % 3];
+    const double spacing = std::sqrt(faces / std::max(lines, 1));
+    struct Row {
+        int along;
+        uint32_t number;
+    };
+    std::vector<Row> rows;
+    const auto across = [&](std::size_t axis) {
+        return uint32_t(std::max(1.0, std::round(size[axis] / spacing)));
+    };
+    for (int along = 0; along < 3; ++along)
+        for (uint32_t i = 0; i < across(std::size_t(along + 1) % 3); ++i) rows.push_back({along, i});
+
+    const Tape tape = makeTape(program.ir, program.distance());
+    std::vector<std::vector<Point>> parts(rows.size());
+    forBlocks(rows.size(), 1, [&](std::size_t, std::size_t at, std::size_t) {
+        const auto [along, i] = rows[at];
+        const std::size_t a = std::size_t(along), b = (a + 1) % 3, c = (a + 2) % 3;
+        Lines looking(program, tape, longest / kLeastPieces);
+        for (uint32_t j = 0; j < across(c); ++j) {
+            Box line = region;
+            const uint32_t place = uint32_t(along) << 30;
+            line.lo[b] = line.hi[b] = region.lo[b] + size[b] * (i + jitter(i, j, place)) / across(b);
+            line.lo[c] = line.hi[c] = region.lo[c] + size[c] * (j + jitter(i, j, place + 1)) / across(c);
+            looking.look(along, line);
+        }
+        parts[at] = std::move(looking.found);
+    });
+
+    std::vector<Point> points;
+    for (const std::vector<Point>& part : parts) points.insert(points.end(), part.begin(), part.end());
+    std::vector<ValueGradient> fields(points.size());
+    evaluateGradient(program.ir, program.distance(), program.parameters(), points, fields);
+    std::vector<SurfacePoint> surface;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Point& g = fields[i].gradient;
+        const double length = std::hypot(g[0], g[1], g[2]),
+                     sum = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]);
+        surface.push_back({{points[i][0], points[i][1], points[i][2]},
+                           sum > 0.0 && std::isfinite(length) ? length / sum : 1.0});
+    }
+    return surface;
+}
+
+MeasureOptions measureOf(const Program& program, const Box& region) {
+    MeasureOptions measure;
+    const auto at = [&program](std::span<const Point> positions) {
+        std::vector<ValueGradient> results(positions.size());
+        evaluateGradient(program.ir, program.distance(), program.parameters(), positions, results);
+        return results;
+    };
+    measure.error = [at, region](std::span<const glm::dvec3> points, std::span<double> errors) {
+        const std::vector<Point> positions = positionsOf(points);
+        const std::vector<ValueGradient> results = at(positions);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Point& g = results[i].gradient;
+            const double slope = std::hypot(g[0], g[1], g[2]);
+            errors[i] = std::abs(results[i].value) / (slope > 1e-12 ? slope : 1.0);
+            if (results[i].value < 0.0)
+                errors[i] = std::min(errors[i], std::abs(beyond(region, positions[i])));
+        }
+    };
+    measure.distance = [at, region, error = measure.error](std::span<const glm::dvec3> points,
+                                                           std::span<double> distances) {
+        error(points, distances);  // where Newton's steps lead nowhere
+        const std::vector<Point> starts = positionsOf(points);
+        std::vector<Point> positions = starts;
+        std::vector<double> left(points.size());
+        std::vector<bool> inside(points.size());
+        for (int step = 0; step <= kNewtonSteps; ++step) {
+            const std::vector<ValueGradient> results = at(positions);
+            for (std::size_t i = 0; step == 0 && i < points.size(); ++i) inside[i] = results[i].value < 0.0;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const auto& [value, g] = results[i];
+                const double squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+                left[i] = squared > 1e-24 ? std::abs(value) / std::sqrt(squared) : INFINITY;
+                if (step == kNewtonSteps || !std::isfinite(left[i])) continue;
+                for (std::size_t a = 0; a < 3; ++a) positions[i][a] -= value * g[a] / squared;
+            }
+        }
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            double gone = 0.0;
+            for (std::size_t a = 0; a < 3; ++a)
+                gone += (positions[i][a] - starts[i][a]) * (positions[i][a] - starts[i][a]);
+            gone = std::sqrt(gone);
+            if (left[i] > 1e-3 * gone + 1e-9) continue;
+            distances[i] = gone + left[i];
+            if (inside[i]) distances[i] = std::min(distances[i], std::abs(beyond(region, starts[i])));
+        }
+    };
+    measure.surface = surfacePoints(program, region, kLines);
+    return measure;
+}
+
+}  // namespace fw

@@ -1,0 +1,101 @@
+// What a written mesh file holds, measured from the file itself: topology, size, and distance from the field.
+//
+// Why from the file: the mesher's own belief proves nothing about what another program will read. The file is
+// read back (export/read_back.h), vertices with equal float32 positions are merged, and only then is anything
+// counted.
+//
+// How: the corners at each vertex are gathered (counting sort); sorting the few neighbours of one vertex
+// yields its edges, their winding and its fans, so all vertices are independent and two threads share them.
+// Shells come from a union-find over faces, linked at the edges. Sums are taken in blocks of fixed size, in
+// double, so that the result does not depend on the number of threads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graph/base/result.h"
+#include "runtime/mesh/mesh.h"
+
+namespace fw {
+
+/// Fills `errors[i]` with |f| / |gradient f| at `points[i]`, in metres. Called from several threads at once,
+/// with at most a few thousand points.
+using FieldError = std::function<void(std::span<const glm::dvec3> points, std::span<double> errors)>;
+
+/// A point of the true surface, and the area that it stands for beside the others'.
+struct SurfacePoint {
+    glm::dvec3 position;
+    double weight = 1.0;
+};
+
+/// What is measured besides topology and size; field_measure.h fills what compares with a field.
+struct MeasureOptions {
+    bool selfIntersections = false;
+    FieldError error = {};
+    FieldError distance = {};  ///< the same, but metres to a point of the surface nearby
+    std::vector<SurfacePoint> surface = {};
+};
+
+/// Distances in metres over sampled points.
+struct SampledDistance {
+    double max = 0, mean = 0;
+    uint64_t samples = 0;
+};
+
+struct Report {
+    uint64_t vertices = 0;             ///< welded, used by a triangle that is not collapsed
+    uint64_t triangles = 0;            ///< as the file lists them, collapsed ones included
+    uint64_t shells = 0;               ///< parts connected across edges
+    uint64_t boundaryEdges = 0;        ///< edges of one triangle
+    uint64_t nonManifoldEdges = 0;     ///< edges of three or more
+    uint64_t nonManifoldVertices = 0;  ///< vertices whose triangles form more than one fan
+    uint64_t flippedEdges = 0;         ///< edges of two triangles that disagree in winding
+    uint64_t degenerateTriangles =
+        0;  ///< two corners at one place, or area below 1e-12 of the longest side squared
+    int64_t eulerCharacteristic = 0;  ///< vertices - edges + triangles, the collapsed ones left out
+    double volume = 0;                ///< signed, cubic metres; meaningful for a closed mesh
+    double area = 0;                  ///< square metres
+    std::array<double, 3> boundsMin{}, boundsMax{};
+    std::optional<double> maxError,
+        meanError;  ///< over vertices and triangle centroids; none without a field
+    std::optional<uint64_t> selfIntersections;   ///< pairs of triangles that cut each other (triangle_tree.h)
+    double smallestAngle = 0, largestAngle = 0;  ///< of the triangles that are not degenerate, degrees
+    /// From points spread evenly over the mesh's area to the surface; from points of the surface, found
+    /// without regard to the mesh, to its nearest triangle (field_measure.h).
+    std::optional<SampledDistance> meshToSurface, surfaceToMesh;
+
+    // The run that made the file: the caller fills these in.
+    bool capped = false;                                 ///< the surface left the region and was closed there
+    std::vector<std::pair<std::string, double>> stages;  ///< name, ms
+    double totalMs = 0;
+    uint64_t peakMemoryBytes = 0;
+    std::string device;
+
+    bool closedManifold() const {
+        return boundaryEdges + nonManifoldEdges + nonManifoldVertices + flippedEdges + degenerateTriangles ==
+               0;
+    }
+};
+
+/// Measures the mesh file at `path`. An Error says what in the file is not as it should be.
+Result<Report> reportOnFile(const std::string& path, const MeasureOptions& options = {});
+
+/// Measures triangles in memory as if they had been read from a file.
+Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
+                    const MeasureOptions& options = {});
+
+/// One flat JSON object with the keys named as the members of Report; an unknown error is null. Ends with a
+/// newline.
+std::string writeReport(const Report& report);
+
+/// Largest resident set of this process so far, in bytes.
+uint64_t peakMemoryBytes();
+
+}  // namespace fw

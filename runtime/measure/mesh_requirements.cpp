@@ -1,0 +1,143 @@
+#include "runtime/measure/mesh_requirements.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace fw {
+
+namespace {
+
+using Reason = std::string;  // empty: it is as required
+
+std::string text(double number) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.6g", number);
+    return digits;
+}
+
+Reason none(uint64_t count, const char* what) {
+    return count > 0 ? "it has " + std::to_string(count) + " " + what : Reason();
+}
+
+Reason closed(const Report& report, double) {
+    return none(report.boundaryEdges, "open edges (edges of one triangle)");
+}
+
+Reason manifold(const Report& report, double) {
+    if (report.nonManifoldEdges > 0) return none(report.nonManifoldEdges, "edges of more than two triangles");
+    if (report.nonManifoldVertices > 0) return none(report.nonManifoldVertices, "vertices where parts touch");
+    return none(report.flippedEdges, "edges between triangles that face opposite ways");
+}
+
+Reason uncut(const Report& report, double) {
+    return none(report.selfIntersections.value_or(0), "pairs of triangles that cut each other");
+}
+
+Reason nondegenerate(const Report& report, double) {
+    return none(report.degenerateTriangles, "triangles without area");
+}
+
+Reason parts(const Report& report, double wanted) {
+    return double(report.shells) == wanted ? Reason() : "it has " + std::to_string(report.shells) + " parts";
+}
+
+Reason triangles(const Report& report, double most) {
+    return double(report.triangles) <= most ? Reason()
+                                            : "it has " + std::to_string(report.triangles) + " triangles";
+}
+
+Reason angle(const Report& report, double least) {
+    return report.smallestAngle >= least ? Reason()
+                                         : "its smallest angle is " + text(report.smallestAngle) + " degrees";
+}
+
+Reason error(const Report& report, double most) {
+    const auto far = [&](const std::optional<SampledDistance>& distance) {
+        return distance && !(distance->max <= most);
+    };
+    if (far(report.meshToSurface))
+        return "a point of it is " + text(report.meshToSurface->max) + " m from the surface";
+    if (far(report.surfaceToMesh))
+        return "a point of the surface is " + text(report.surfaceToMesh->max) + " m from it";
+    return {};
+}
+
+struct Rule {
+    std::string_view name;
+    const char* number;  ///< what its number is; null: it takes none
+    Reason (*broken)(const Report& report, double number);
+    bool whole = false;  ///< only whole numbers make sense
+};
+
+constexpr Rule kRules[] = {{"closed", nullptr, closed},     {"manifold", nullptr, manifold},
+                           {"uncut", nullptr, uncut},       {"nondegenerate", nullptr, nondegenerate},
+                           {"parts", "COUNT", parts, true}, {"triangles", "COUNT", triangles, true},
+                           {"angle", "DEGREES", angle},     {"error", "METRES", error}};
+
+std::optional<double> numberIn(std::string_view words) {
+    double number = 0.0;
+    const auto [end, problem] = std::from_chars(words.data(), words.data() + words.size(), number);
+    const bool whole = problem == std::errc() && end == words.data() + words.size();
+    return whole && std::isfinite(number) && number >= 0.0 ? std::optional(number) : std::nullopt;
+}
+
+Error refused(std::string_view word, const std::string& why) {
+    return {.message = "\"" + std::string(word) + "\" " + why + ": a mesh can be required to be " +
+                       requirementNames()};
+}
+
+}  // namespace
+
+std::string requirementNames() {
+    std::string names;
+    for (const Rule& rule : kRules)
+        names += (names.empty() ? "" : " ") + std::string(rule.name) +
+                 (rule.number ? "=" + std::string(rule.number) : std::string());
+    return names;
+}
+
+Result<std::vector<Requirement>> parseRequirements(std::string_view list) {
+    std::vector<Requirement> requirements;
+    for (bool more = true; more;) {
+        const std::size_t comma = list.find(',');
+        more = comma != list.npos;
+        const std::string_view word = list.substr(0, comma), name = word.substr(0, word.find('='));
+        if (more) list.remove_prefix(comma + 1);
+        const auto rule = std::ranges::find(kRules, name, &Rule::name);
+        if (rule == std::end(kRules)) return refused(word, "is no requirement");
+        Requirement required{std::size_t(rule - kRules)};
+        const bool given = name.size() < word.size();
+        if (given != (rule->number != nullptr))
+            return refused(word, given ? "takes no number" : "needs a number");
+        if (given) {
+            const std::optional<double> number = numberIn(word.substr(name.size() + 1));
+            if (!number) return refused(word, "needs a number that is not negative");
+            if (rule->whole && *number != std::floor(*number)) return refused(word, "needs a whole number");
+            required.number = *number;
+        }
+        requirements.push_back(required);
+    }
+    return requirements;
+}
+
+bool needField(const std::vector<Requirement>& requirements) {
+    return std::ranges::any_of(requirements,
+                               [](const Requirement& each) { return kRules[each.rule].broken == error; });
+}
+
+std::vector<std::string> unmet(const std::vector<Requirement>& requirements, const Report& report) {
+    std::vector<std::string> reasons;
+    for (const auto& [at, number] : requirements) {
+        const Rule& rule = kRules[at];
+        const Reason reason = rule.broken(report, number);
+        if (reason.empty()) continue;
+        reasons.push_back("not " + std::string(rule.name) + (rule.number ? "=" + text(number) : "") + ": " +
+                          reason);
+    }
+    return reasons;
+}
+
+}  // namespace fw

@@ -1,0 +1,30 @@
+// What a mesh must be to be kept: "closed,manifold,error=0.001", held against the report of it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "graph/base/result.h"
+#include "runtime/measure/mesh_report.h"
+
+namespace fw {
+
+struct Requirement {
+    std::size_t rule = 0;  ///< which of the names that requirementNames() lists
+    double number = 0.0;   ///< of those that take one
+};
+
+/// Requirements parted by commas. Error: what is not one, and which there are.
+Result<std::vector<Requirement>> parseRequirements(std::string_view text);
+
+/// "closed manifold … error=METRES": each name, with what its number is.
+std::string requirementNames();
+
+/// Whether one of them can be told only from the field that the mesh was made of.
+bool needField(const std::vector<Requirement>& requirements);
+
+/// Why the mesh is not as required, one sentence for each requirement that it misses.
+std::vector<std::string> unmet(const std::vector<Requirement>& requirements, const Report& report);
+
+}  // namespace fw

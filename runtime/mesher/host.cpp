@@ -1,0 +1,252 @@
+#include "runtime/mesher/host.h"
+
+#include <atomic>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <thread>
+
+#include "runtime/mesher/mesher.h"
+
+namespace fw {
+
+using gpu::MesherPush;
+using gpu::MeshVertex;
+using gpu::uvec2;
+using gpu::uvec3;
+using gpu::uvec4;
+
+namespace {
+
+constexpr int kMostSteps = 10;       // as in vertices.comp
+constexpr double kTolerance = 0.02;  // ditto
+/// A tape that is not shorter than this part of the one before is not worth its memory.
+constexpr double kWorthKeeping = 0.8;
+
+float samplePosition(const MesherPush& push, int axis, uint32_t i) {
+    return push.origin[axis] + float(int(i) - 1) * push.cellSize[axis];
+}
+
+uvec3 unpackBrick(uint32_t word) { return {word & 1023, word >> 10 & 1023, word >> 20}; }
+
+/// One edge's search for its root: t from a to b, as in vertices.comp.
+struct Search {
+    double a = 0, b = 1, t = 0.5, root = 0.5;
+    bool found = false;
+
+    void step(double f, double slope, bool insideAtA, bool lastStep) {
+        (((f < 0) == insideAtA) ? a : b) = t;
+        const double newton = f == 0 ? t : t - f / slope;
+        root = newton >= a && newton <= b ? newton : 0.5 * (a + b);
+        found = lastStep || std::abs(f) <= kTolerance * std::abs(slope);
+        if (!found) t = root;
+    }
+};
+
+}  // namespace
+
+MesherHost::MesherHost(const Ir& ir, IrId root, std::vector<double> parameters)
+    : field(std::make_shared<Tape>(makeTape(ir, root))) {
+    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+        machines.emplace_back(ir, parameters);
+}
+
+void MesherHost::parallel(std::size_t count, const std::function<void(TapeMachine&, std::size_t)>& work) {
+    std::atomic<std::size_t> next = 0;
+    const auto run = [&](TapeMachine& machine) {
+        for (std::size_t i; (i = next++) < count;) work(machine, i);
+    };
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 1; i < machines.size(); ++i) threads.emplace_back(run, std::ref(machines[i]));
+    run(machines[0]);
+}
+
+void MesherHost::descend(TapeMachine& machine, const MesherPush& push, uvec3 first, uint32_t size,
+                         const SharedTape& tape, Block& block) const {
+    if (glm::any(glm::greaterThanEqual(first, push.cells + 2u))) return;
+    const uvec3 last = first + size;
+    Box box;
+    bool atRim = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = samplePosition(push, axis, std::max(first[axis], 1u));
+        box.hi[axis] = samplePosition(push, axis, std::min(last[axis], push.cells[axis] + 1));
+        atRim = atRim || first[axis] == 0 || last[axis] > push.cells[axis] + 1;
+    }
+    const Interval f = machine.interval(*tape, box);
+    if (f.lo >= push.margin || (f.hi < -push.margin && !atRim)) return;
+    SharedTape own = std::make_shared<Tape>(machine.shortened(*tape));
+    if (own->steps.size() > kWorthKeeping * tape->steps.size()) own = tape;
+    if (size == 8) {
+        const uvec3 local = (first - block.first) / 8u;
+        block.bricks[local.x | local.y << 3 | local.z << 6] = own;
+        return;
+    }
+    for (uint32_t child = 0; child < 8; ++child)
+        descend(machine, push, first + uvec3(child & 1, child >> 1 & 1, child >> 2) * (size / 2), size / 2,
+                own, block);
+}
+
+MesherHost::Culled MesherHost::cull(const MesherPush& push) {
+    const std::size_t count = std::size_t(push.blocks.x) * push.blocks.y * push.blocks.z;
+    blocks.assign(count, {});
+    Culled result;
+    result.rows.resize(count * 64);
+    result.blockCounts.resize(count);
+    parallel(count, [&](TapeMachine& machine, std::size_t i) {
+        const auto index = uint32_t(i);
+        Block& block = blocks[i];
+        block.first = uvec3(index % push.blocks.x, index / push.blocks.x % push.blocks.y,
+                            index / push.blocks.x / push.blocks.y) *
+                      64u;
+        descend(machine, push, block.first, 64, field, block);
+        uint32_t place = 0;
+        for (std::size_t row = 0; row < 64; ++row) {
+            uvec2& bits = result.rows[i * 64 + row] = {0, place};
+            for (uint32_t x = 0; x < 8; ++x)
+                if (block.bricks[row * 8 + x]) bits.x |= 1u << x, ++place;
+        }
+        result.blockCounts[i] = {place, 0, 0, 0};
+    });
+    return result;
+}
+
+const Tape& MesherHost::tapeOf(const MesherPush& push, uvec3 brick) const {
+    const uvec3 block = brick / 8u, local = brick % 8u;
+    const Block& at = blocks[(block.z * push.blocks.y + block.y) * push.blocks.x + block.x];
+    return *at.bricks[local.x | local.y << 3 | local.z << 6];
+}
+
+void MesherHost::samplePlanes(TapeMachine& machine, const MesherPush& push, uvec3 brick,
+                              uvec3* planes) const {
+    const Tape& tape = tapeOf(push, brick);
+    const uvec3 first = brick * 8u;
+    const auto within = [&](int axis, uint32_t i) {
+        return first[axis] + i >= 1 && first[axis] + i <= push.cells[axis] + 1;
+    };
+    for (uint32_t i = 0; i < 81; ++i) {
+        machine.position(0)[i] = samplePosition(push, 0, first.x + i / 9);
+        machine.position(1)[i] = samplePosition(push, 1, first.y + i % 9);
+    }
+    for (uint32_t z = 0; z < 9; ++z) {
+        std::fill_n(machine.position(2), 81, samplePosition(push, 2, first.z + z));
+        const double* f = machine.value(tape, 81, z == 0 ? TapeMachine::kAllAxes : uint8_t(dependsOnZ));
+        uvec3 bits(0);
+        for (uint32_t i = 0; i < 81; ++i) {
+            const uint32_t x = i / 9, y = i % 9;
+            if (!(f[i] < 0) || !within(0, x) || !within(1, y) || !within(2, z)) continue;
+            // sample.comp tells what the words hold.
+            if (x < 8 && y < 8) bits[x / 4] |= 1u << ((x & 3) * 8 + y);
+            if (x == 8) bits.z |= 1u << y;
+            if (y == 8) bits.z |= 1u << (9 + x);
+        }
+        planes[z] = bits;
+    }
+}
+
+std::vector<uvec3> MesherHost::sample(const MesherPush& push, std::span<const uint32_t> brickList) {
+    std::vector<uvec3> planes(brickList.size() * 9);
+    parallel(brickList.size(), [&](TapeMachine& machine, std::size_t slot) {
+        samplePlanes(machine, push, unpackBrick(brickList[slot]), &planes[slot * 9]);
+    });
+    return planes;
+}
+
+void MesherHost::placeVertices(TapeMachine& machine, const MesherPush& push, uvec3 brick,
+                               std::span<const uint32_t> vertexList, std::span<const uint32_t> indices,
+                               std::span<MeshVertex> result) const {
+    struct Edge {
+        uvec3 begin;
+        uint32_t axis;
+        bool insideAtA;
+        glm::dvec3 p;
+        double length;
+    };
+    const Tape& tape = tapeOf(push, brick);
+    const std::size_t count = indices.size();
+    std::array<Edge, TapeMachine::kBatch> edges;
+    std::array<Search, TapeMachine::kBatch> searches;
+    for (std::size_t i = 0; i < count; ++i) {
+        const uint32_t word = vertexList[indices[i]], bit = word & 31;
+        Edge& edge = edges[i];
+        edge.axis = word >> 5 & 3;
+        edge.insideAtA = word >> 31;
+        edge.begin = brick * 8u + uvec3((word >> 7 & 1) * 4 + (bit >> 3), bit & 7, word >> 8 & 7);
+        for (int axis = 0; axis < 3; ++axis) edge.p[axis] = samplePosition(push, axis, edge.begin[axis]);
+        edge.length = samplePosition(push, int(edge.axis), edge.begin[edge.axis] + 1) - edge.p[edge.axis];
+    }
+    const auto moveTo = [&](std::size_t i) {
+        for (uint32_t axis = 0; axis < 3; ++axis)
+            machine.position(int(axis))[i] =
+                edges[i].p[axis] + (axis == edges[i].axis ? searches[i].t * edges[i].length : 0.0);
+    };
+    bool all = false;
+    for (int step = 1; !all; ++step) {
+        for (std::size_t i = 0; i < count; ++i) {
+            moveTo(i);
+            for (uint32_t axis = 0; axis < 3; ++axis)
+                machine.direction(int(axis))[i] = axis == edges[i].axis ? edges[i].length : 0.0;
+        }
+        const double* f = machine.value(tape, count);
+        const double* slope = machine.slope(tape, count);
+        all = true;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!searches[i].found) searches[i].step(f[i], slope[i], edges[i].insideAtA, step == kMostSteps);
+            all = all && searches[i].found;
+        }
+    }
+    std::array<glm::dvec3, TapeMachine::kBatch> gradients;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int other = 0; other < 3; ++other)
+            std::fill_n(machine.direction(other), count, other == axis ? 1.0 : 0.0);
+        const double* slope = machine.slope(tape, count);
+        for (std::size_t i = 0; i < count; ++i) gradients[i][axis] = slope[i];
+    }
+    const glm::dvec3 inset = glm::dvec3(push.cellSize) * double(push.nudge);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Edge& edge = edges[i];
+        const uint32_t axis = edge.axis;
+        // On the region's boundary as vertices.comp places it.
+        const bool atLow = edge.begin[axis] == 0, atHigh = edge.begin[axis] == push.cells[axis] + 1;
+        glm::dvec3 position = edge.p, normal(0);
+        if (atLow || atHigh) {
+            for (int other = 0; other < 3; ++other)
+                position[other] =
+                    std::clamp(edge.p[other], samplePosition(push, other, 1) + inset[other],
+                               samplePosition(push, other, push.cells[other] + 1) - inset[other]);
+            position[axis] = samplePosition(push, int(axis), atLow ? 1 : push.cells[axis] + 1);
+            normal[axis] = atLow ? -1 : 1;
+        } else {
+            position[axis] +=
+                std::clamp(searches[i].root, double(push.nudge), 1 - double(push.nudge)) * edge.length;
+            const double size = glm::length(gradients[i]);
+            if (size > 0 && size < 1e30)
+                normal = gradients[i] / size;
+            else
+                normal[axis] = 1;
+        }
+        result[indices[i]] = {glm::vec3(position), packOctahedral(normal)};
+    }
+}
+
+std::vector<MeshVertex> MesherHost::vertices(const MesherPush& push, std::span<const uint32_t> brickList,
+                                             std::span<const uint32_t> vertexList) {
+    // Sorted by brick, so that a batch has one tape.
+    const auto slotOf = [](uint32_t word) { return word >> 11 & 0xfffff; };
+    std::vector<uint32_t> starts(brickList.size() + 1), order(vertexList.size());
+    for (uint32_t word : vertexList) ++starts[slotOf(word) + 1];
+    for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+    std::vector<uint32_t> place(starts.begin(), starts.end() - 1);
+    for (uint32_t i = 0; i < vertexList.size(); ++i) order[place[slotOf(vertexList[i])]++] = i;
+
+    std::vector<MeshVertex> result(vertexList.size());
+    parallel(brickList.size(), [&](TapeMachine& machine, std::size_t slot) {
+        const std::span<const uint32_t> own(&order[0] + starts[slot], &order[0] + starts[slot + 1]);
+        for (std::size_t at = 0; at < own.size(); at += TapeMachine::kBatch)
+            placeVertices(machine, push, unpackBrick(brickList[slot]), vertexList,
+                          own.subspan(at, std::min(TapeMachine::kBatch, own.size() - at)), result);
+    });
+    return result;
+}
+
+}  // namespace fw

@@ -1,0 +1,392 @@
+#include "runtime/play/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "graph/check/check.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
+#include "graph/evaluate/region.h"
+
+namespace fw {
+
+namespace {
+
+/// Steps over the timeline and cells of the meshes that a picture frames.
+constexpr int kOutlineSteps = 16, kOutlineResolution = 40;
+
+Error problem(const Graph& graph, std::string message) {
+    return {.message = std::move(message), .file = graph.path};
+}
+
+/// The first error that check() finds; the rest goes to `warnings`, which may be null.
+std::optional<Error> firstError(const Graph& graph, std::vector<Error>* warnings) {
+    for (Error& finding : check(graph)) {
+        if (finding.severity == Error::Severity::error) return std::move(finding);
+        if (warnings) warnings->push_back(std::move(finding));
+    }
+    return std::nullopt;
+}
+
+/// Tells `baking`, which may be empty, of all that the baker does.
+MeshFieldBaker toldBaker(const Device& device, const std::function<void(double)>& baking) {
+    MeshFieldBaker bake = meshFieldBaker([gpu = &device] { return gpu; }, {.progress = baking});
+    if (!baking) return bake;
+    return [bake = std::move(bake), baking](const MeshFieldRecipe& recipe) {
+        baking(0.0);
+        Result<FieldVolumePtr> volume = bake(recipe);
+        baking(1.0);  // also of what was on the disk, or failed
+        return volume;
+    };
+}
+
+bool hasLamps(const Graph& graph) {
+    return graph.scene->is_object() && graph.scene->contains("lights") && !(*graph.scene)["lights"].empty();
+}
+
+}  // namespace
+
+Result<Player> Player::open(const std::string& path, const PlayerOptions& options,
+                            std::vector<Error>* warnings) {
+    // The device starts while the graph is read: on software Vulkan that takes longer than the rest.
+    DeviceOptions deviceOptions = options.deviceOptions;
+    deviceOptions.pick = options.device;
+    OpeningDevice opening(std::launch::async, deviceOptions);
+    Result<Graph> graph = readGraph(path, warnings);
+    if (!graph) return graph.error();
+    if (std::optional<Error> error = firstError(*graph, warnings)) return std::move(*error);
+    Result<Device>& device = opening.get();
+    if (!device) return device.error();
+    Player player(std::move(*device), options);
+    Result<Prepared> prepared = player.prepare(std::move(*graph), options);
+    if (!prepared) return prepared.error();
+    player.adopt(std::move(*prepared));
+    return player;
+}
+
+Result<Player> Player::create(Graph graph, Device&& device, const PlayerOptions& options) {
+    if (!options.checked)
+        if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
+    Player player(std::move(device), options);
+    Result<Prepared> prepared = player.prepare(std::move(graph), options);
+    if (!prepared) {
+        device = player.session.release();
+        return prepared.error();
+    }
+    player.adopt(std::move(*prepared));
+    return player;
+}
+
+Player::Player(Device device, PlayerOptions options_)
+    : session(std::move(device)),
+      bake(toldBaker(session.device(), options_.baking)),
+      options(std::move(options_)) {}
+
+Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishes) const {
+    CompileOptions compileOptions;
+    compileOptions.bake = bake;
+    std::set<std::string> exposed = wishes.live;
+    if (wishes.liveParameters)
+        for (const NamedParameter& parameter : namedParameters(graph))
+            exposed.insert(parameter.node + "." + parameter.input);
+    Result<LiveProgram> live = compileLive(std::move(graph), std::move(compileOptions), exposed);
+    if (!live) return live.error();
+    Prepared made{std::move(*live), {}, false};
+    if (const Done found = findSharedRegion(made, wishes); !found) return found.error();
+    return made;
+}
+
+Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) {
+    Program& program = prepared.program;
+    const int resolution = options.resolution > 0 ? options.resolution : program.resolution;
+    const MeshRequest request{options.region, resolution};
+    prepared.regionFound = !options.region && !program.region;
+    if (!prepared.regionFound || !prepared.fieldMoves) {
+        const std::vector<double> values = prepared.valuesAt(0.0);
+        for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
+        const Result<Box> box = meshRegion(program, request);
+        if (!box) return problem(prepared.graph, box.error().message);
+        prepared.region = *box;
+        return done();
+    }
+    const std::vector<double> times = momentsOf(prepared.timeline);
+    std::vector<Region> found(times.size());
+    const auto search = [&](std::size_t first, std::size_t step) {
+        for (std::size_t i = first; i < times.size(); i += step)
+            found[i] = findRegion(program.ir, program.distance(), prepared.valuesAt(times[i]));
+    };
+    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, 8);
+    {
+        std::vector<std::future<void>> others;
+        for (std::size_t i = 1; i < threads; ++i)
+            others.push_back(std::async(std::launch::async, search, i, threads));
+        search(0, threads);
+        for (std::future<void>& other : others) other.get();
+    }
+    std::optional<Box> all;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (found[i].extent == Extent::bounded) all = all ? joined(*all, found[i].box) : found[i].box;
+        if (found[i].extent != Extent::unbounded) continue;
+        const std::vector<double> values = prepared.valuesAt(times[i]);
+        for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
+        const Result<Box> box = meshRegion(program, request);
+        return problem(prepared.graph, box.error().message + " (at " + std::to_string(times[i]) + " s)");
+    }
+    if (!all && prepared.timeline.tracks.empty()) {
+        const Result<Box> box = meshRegion(program, request);
+        if (!box) return problem(prepared.graph, box.error().message);
+    }
+    if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
+    prepared.region = padded(*all, resolution, 1.5);
+    return done();
+}
+
+void Player::adopt(Prepared prepared) {
+    const std::vector<double> values = prepared.valuesAt(seconds);
+    for (std::size_t slot = 0; slot < values.size(); ++slot) prepared.program.live[slot].value = values[slot];
+    const bool same = meshed && session.program().structureHash == prepared.program.structureHash &&
+                      session.program().parameters() == values && now.region == prepared.region &&
+                      now.program.resolution == prepared.program.resolution &&
+                      now.program.method == prepared.program.method &&
+                      now.program.stages == prepared.program.stages;
+    const bool moved = prepared.fieldMoves || now.fieldMoves;
+    const bool other = now.timeline != prepared.timeline || now.inputs != prepared.inputs;
+    now = std::move(prepared);
+    if (options.compileBehind)
+        session.replaceProgram(now.program, {.lamps = hasLamps(now.graph), .show = options.fieldViews});
+    else
+        session.setProgram(now.program);
+    if (other) session.valuesChanged();
+    if (same && !moved) return;
+    meshed.reset();
+    points.clear();
+}
+
+std::vector<std::string> Player::files() const {
+    std::vector<std::string> list;
+    if (!now.graph.path.empty()) list.push_back(now.graph.path);
+    for (const FieldImagePtr& image : session.program().ir.images())
+        if (!image->file.empty()) list.push_back(image->file);
+    for (const FieldVolumePtr& volume : session.program().ir.volumes()) {
+        if (volume->mesh) list.push_back(volume->mesh->file);
+        if (!volume->particles) continue;
+        for (const ParticleStage& stage : volume->particles->particles.stages)
+            if (stage.places) list.push_back(stage.places->file);
+    }
+    return list;
+}
+
+std::vector<PlayerParameter> Player::parameters() const {
+    std::vector<PlayerParameter> list;
+    const std::set<std::string> moving = animatedInputs(now.graph, now.timeline);
+    for (const NamedParameter& parameter : namedParameters(now.graph)) {
+        const Node* node = now.graph.node(parameter.node);
+        list.push_back({.name = parameter.name,
+                        .value = node ? inputNumbers(*node, parameter.input) : std::vector<double>{},
+                        .min = parameter.min,
+                        .max = parameter.max,
+                        .animated = moving.contains(parameter.node + "." + parameter.input)});
+    }
+    return list;
+}
+
+Done Player::set(std::string_view name, std::span<const double> value) {
+    const std::string parameterName(name);
+    const std::optional<NamedParameter> parameter = findParameter(now.graph, name);
+    if (parameter) {
+        const std::string key = parameter->node + "." + parameter->input;
+        const std::size_t count = inputNumbers(*now.graph.node(parameter->node), parameter->input).size();
+        if (value.size() != count)
+            return problem(now.graph, "the parameter '" + parameterName + "' takes " + std::to_string(count) +
+                                          (count == 1 ? " number" : " numbers") + ", not " +
+                                          std::to_string(value.size()));
+        for (const double number : value)
+            if (!std::isfinite(number))
+                return problem(now.graph,
+                               "the parameter '" + parameterName + "' takes numbers, not NaN or infinity");
+        if (animatedInputs(now.graph, now.timeline).contains(key))
+            return problem(now.graph, "the parameter '" + parameterName + "' is moved by the timeline");
+    }
+    Graph changed = now.graph;
+    if (const Done set = setParameter(changed, parameterName, value); !set) return set.error();
+    const auto input = now.inputs.find(parameter->node + "." + parameter->input);
+    if (input == now.inputs.end()) {
+        if (std::optional<Error> error = firstError(changed, nullptr)) return std::move(*error);
+        Result<Prepared> prepared = prepare(std::move(changed), options);
+        if (!prepared) return prepared.error();
+        adopt(std::move(*prepared));
+    } else {
+        if (input->second.value == std::vector(value.begin(), value.end())) return done();
+        now.graph = std::move(changed);
+        input->second.value.assign(value.begin(), value.end());
+        if (now.regionFound) now.region.reset();
+        points.clear();
+        session.valuesChanged();
+        seek(seconds);
+    }
+    chosen[parameterName].assign(value.begin(), value.end());
+    return done();
+}
+
+void Player::seek(double to) {
+    seconds = to;
+    const std::vector<double> values = now.valuesAt(seconds);
+    const std::vector<LiveParameter>& live = session.program().live;
+    for (std::size_t slot = 0; slot < values.size(); ++slot) {
+        if (live[slot].value == values[slot]) continue;
+        session.setParameter(slot, values[slot]);
+        if (now.read[slot]) meshed.reset();
+    }
+}
+
+Result<MesherResult> Player::meshOnDevice(uint32_t show) { return makeMesh(true, show); }
+
+Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
+    const Result<bool> changed = session.simulate(
+        timelineTime(), [&](double at) { return now.valuesAt(at); }, !showsParticles(show),
+        options.simulating);
+    if (!changed) {
+        Error error = changed.error();
+        error.file = now.graph.path;
+        return error;
+    }
+    if (*changed) meshed.reset();
+    if (meshed) return *meshed;
+    if (!now.region)
+        if (const Done found = findSharedRegion(now, options); !found) return found.error();
+    const double time = timelineTime();
+    const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
+    Result<MesherResult> result = MesherResult{};
+    if (!beyond) result = session.polygonise({*now.region, options.resolution, options.method, stages});
+    if (result && (beyond || result->capped) && now.regionFound) {
+        // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
+        const Result<Box> own = meshRegion(session.program(), {{}, options.resolution});
+        if (!own) return problem(now.graph, own.error().message);
+        result = session.polygonise({joined(*now.region, *own), options.resolution, options.method, stages});
+    }
+    if (!result) return problem(now.graph, result.error().message);
+    meshed = *result;
+    meshedOnHost = options.compileBehind && session.compiling();
+    return result;
+}
+
+Result<Mesh> Player::mesh() {
+    const Result<MesherResult> result = meshOnDevice();
+    if (!result) return result.error();
+    return session.download(*result);
+}
+
+Result<std::span<const gpu::MeshVertex>> Player::outline() {
+    if (!points.empty()) return std::span<const gpu::MeshVertex>(points);
+    const double rest = seconds;
+    const auto add = [&](bool stages) -> Done {
+        const Result<MesherResult> result = makeMesh(stages);
+        if (!result) return result.error();
+        const auto more =
+            download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, result->vertices);
+        points.insert(points.end(), more.begin(), more.end());
+        return done();
+    };
+    Done added = done();
+    if (lacksParticles(now.program)) {
+        // Where they will be is not known before they were there: the corners of what they are looked for in.
+        if (!now.region) added = findSharedRegion(now, options);
+        for (int corner = 0; added && corner < 8; ++corner) {
+            gpu::MeshVertex& point = points.emplace_back();
+            for (int axis = 0; axis < 3; ++axis)
+                point.position[axis] =
+                    float((corner >> axis & 1 ? now.region->hi : now.region->lo)[std::size_t(axis)]);
+        }
+    } else if (now.fieldMoves) {
+        const int resolution = std::exchange(options.resolution, kOutlineResolution);
+        for (int i = 0; i <= kOutlineSteps && added; ++i) {
+            seek(now.timeline.length * i / kOutlineSteps);
+            meshed.reset();
+            added = add(false);
+        }
+        options.resolution = resolution;
+        meshed.reset();
+        seek(rest);
+    } else {
+        added = add(true);
+    }
+    if (!added) return points.clear(), added.error();
+    return std::span<const gpu::MeshVertex>(points);
+}
+
+template <class Draw>
+auto Player::look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes)) {
+    const auto framed = outline();  // first: it makes meshes of its own
+    if (!framed) return framed.error();
+    const Result<MesherResult> result = meshOnDevice(wishes.show);
+    if (!result) return result.error();
+    if (result->triangles == 0 && framed->empty())
+        return problem(now.graph,
+                       "the solid is empty or smaller than a cell at " + std::to_string(seconds) + " s");
+    const Result<Scene> scene = this->scene();
+    if (!scene) return scene.error();
+    const std::optional<Camera> camera = wishes.scene.camera;
+    wishes.scene = *scene;
+    if (camera) wishes.scene.camera = camera;
+    if (wishes.framed.empty()) wishes.framed = *framed;
+    auto drawn = draw(*result, wishes);
+    if (!drawn) return problem(now.graph, drawn.error().message);
+    return drawn;
+}
+
+Result<Picture> Player::frame(const RenderOptions& options_) {
+    return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+        return session.render(mesh, wishes);
+    });
+}
+
+Result<bool> Player::show(const RenderOptions& options_, Picture& picture) {
+    return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+        return session.renderLive(mesh, wishes, picture);
+    });
+}
+
+Result<Scene> Player::scene() const {
+    Result<Scene> scene = readScene(sceneAt(now.graph, now.timeline, timelineTime()));
+    if (!scene) return problem(now.graph, scene.error().message + " (at " + std::to_string(seconds) + " s)");
+    return scene;
+}
+
+Done Player::reload(Graph graph) { return reload(std::move(graph), options); }
+
+bool Player::compiling() {
+    const bool meshing = session.compiling(), drafting = session.drafting();
+    // The mesh of the host has no colours, and its new vertices are not on the field.
+    if (!meshing && std::exchange(meshedOnHost, false) &&
+        (now.program.hasMaterial() || std::ranges::any_of(now.program.stages, &projectsVertices)))
+        meshed.reset();
+    return meshing || drafting;
+}
+
+Done Player::reload(Graph graph, const PlayerOptions& options_) {
+    const PlayerOptions changed = options_;  // it may be our own
+    std::vector<std::pair<std::string, std::vector<double>>> kept;
+    for (const auto& [name, value] : chosen) {
+        const std::optional<NamedParameter> parameter = findParameter(graph, name);
+        const Node* node = parameter ? graph.node(parameter->node) : nullptr;
+        if (node && inputNumbers(*node, parameter->input).size() == value.size() &&
+            setParameter(graph, name, value))
+            kept.emplace_back(name, value);
+    }
+    if (!changed.checked)
+        if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
+    Result<Prepared> prepared = prepare(std::move(graph), changed);
+    if (!prepared) return prepared.error();
+    if (changed.resolution != options.resolution || changed.method != options.method) meshed.reset();
+    options = changed;
+    adopt(std::move(*prepared));
+    chosen.clear();
+    for (auto& [name, value] : kept) chosen.emplace(std::move(name), std::move(value));
+    return done();
+}
+
+}  // namespace fw

@@ -1,0 +1,345 @@
+#include "runtime/play/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "graph/emit/glsl.h"
+#include "graph/evaluate/region.h"
+#include "runtime/measure/field_measure.h"
+#include "runtime/mesh/creases.h"
+#include "runtime/mesher/host.h"
+#include "runtime/stages/decimate.h"
+#include "runtime/system/clock.h"
+
+namespace fw {
+
+namespace {
+
+/// Beyond these, in metres, squares of lengths leave the range of single precision.
+constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
+
+Error problem(std::string message) { return {.message = std::move(message)}; }
+
+}  // namespace
+
+Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
+    if (request.region || program.region) {
+        const Box& box = request.region ? *request.region : *program.region;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!std::isfinite(box.lo[axis]) || !std::isfinite(box.hi[axis]))
+                return problem("the region has a corner that is not a number");
+            if (!(box.lo[axis] < box.hi[axis]))
+                return problem("the region has no extent along " + std::string(1, "xyz"[axis]) +
+                               ": give its least corner first");
+        }
+        return box;
+    }
+    const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
+    const Region found = findRegion(program.ir, program.distance(), program.parameters());
+    switch (found.extent) {
+        case Extent::empty: {
+            const bool particles =
+                std::ranges::any_of(program.ir.volumes(), [](const auto& v) { return bool(v->particles); });
+            return problem(
+                std::string(
+                    "the solid is empty: no point within 16 km of the origin has a negative distance (give a "
+                    "region if it lies farther out") +
+                (particles ? "; if there are no particles yet, look at a later time, --time)" : ")"));
+        }
+        case Extent::unbounded:
+            return problem(
+                "the solid has no bounds within 16 km of the origin: give a region (region_min and "
+                "region_max of the output, or --region x0 y0 z0 x1 y1 z1), or intersect it with a box");
+        case Extent::bounded: break;
+    }
+    return padded(found.box, resolution, 1.5);
+}
+
+Result<CellGrid> cellGrid(const Box& region, int resolution) {
+    if (resolution < 1 || resolution > kMostResolution)
+        return problem("the resolution must be between 1 and " + std::to_string(kMostResolution) + " cells");
+    const double longest = longestSide(region), cell = longest / resolution;
+    double farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        farthest = std::max({farthest, std::abs(region.lo[axis]), std::abs(region.hi[axis])});
+    if (!(cell >= kLeastCell) || !(farthest <= kFarthestCorner))
+        return problem("the region is too " + std::string(cell < kLeastCell ? "small" : "large") +
+                       " for single precision, in which lengths are squared: scale the model");
+    CellGrid grid{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = region.hi[axis] - region.lo[axis];
+        grid.cells[axis] =
+            std::clamp(static_cast<int>(std::lround(resolution * side / longest)), 1, resolution);
+        grid.origin[axis] = static_cast<float>(region.lo[axis]);
+        grid.cellSize[axis] = static_cast<float>(side / grid.cells[axis]);
+    }
+    return grid;
+}
+
+Session::Session(Device device) : gpu(std::make_unique<Device>(std::move(device))) {}
+
+Session::~Session() {
+    if (overtaken) *overtaken = true;
+}
+
+void Session::take(Program program) {
+    const bool sameImages = images && program.ir.images() == current.ir.images();
+    const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes();
+    current = std::move(program);
+    if (!sameImages) {
+        const std::vector<uint32_t> words = imageWords(current.ir.images());
+        reserve(*gpu, images, words.size() * sizeof(uint32_t));
+        upload(*gpu, images, words);
+    }
+    if (!sameVolumes) {
+        const std::vector<uint32_t> texels = volumeTexels(current.ir.volumes());
+        reserve(*gpu, volumes, texels.size() * sizeof(uint32_t));
+        upload(*gpu, volumes, texels);
+    }
+    if (lacksParticles(current)) {
+        if (!particles) particles.emplace(*gpu);
+        particles->setProgram(current);
+    } else {
+        particles.reset();
+    }
+    const std::vector<float> values = current.numbers();
+    reserve(*gpu, parameters, values.size() * sizeof(float), Memory::upload);
+    upload(*gpu, parameters, values);
+}
+
+bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
+    take(std::move(program));
+    if (std::exchange(kernelsBehind, false)) renderer.reset();
+    if (built && builtHash == current.structureHash) return false;
+
+    const auto start = Clock::now();
+    const std::string field = emitField(current);
+    if (stages) stages->push_back({"emit", millisecondsSince(start)});
+    const auto compiling = Clock::now();
+    pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
+    renderer.reset();
+    if (stages) stages->push_back({"pipelines", millisecondsSince(compiling)});
+    builtHash = current.structureHash;
+    built = true;
+    return true;
+}
+
+void Session::replaceProgram(Program program, const FieldKernelOptions& kernels) {
+    take(std::move(program));
+    if (!std::exchange(kernelsBehind, true)) renderer.reset(), hasKernels = false;
+    kernelOptions = kernels;
+    kernelOptions.when = Compile::behind;
+    drafting();
+}
+
+bool Session::compiling() {
+    const auto isBuilt = [&] { return built && builtHash == current.structureHash; };
+    if (next.valid() && next.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        MesherPipelines made = next.get();
+        if (nextHash == current.structureHash && !isBuilt()) {
+            pipelines = std::move(made);
+            if (!kernelsBehind) renderer.reset();
+            builtHash = nextHash;
+            built = true;
+        }
+    }
+    if (isBuilt()) return false;
+    if (!next.valid()) {  // one structure at a time; what was replaced meanwhile is passed over
+        nextHash = current.structureHash;
+        next = std::async(std::launch::async, [device = gpu.get(), field = emitField(current),
+                                               colors = current.hasMaterial(), previous = pipelines] {
+            return createMesherPipelines(*device, field, colors, previous, nullptr, Compile::behind);
+        });
+    }
+    return true;
+}
+
+bool Session::drafting() {
+    if (!kernelsBehind) return false;
+    const bool meshing = compiling();  // the mesher's kernels come first
+    const auto there = [&] { return hasKernels && kernelsHash == current.structureHash; };
+    const auto wanted = [&] { return nextKernelsHash == current.structureHash && overtaken && !*overtaken; };
+    if (nextKernels.valid() && nextKernels.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        std::optional<FieldKernels> made = nextKernels.get();
+        if (made && wanted() && !there()) {
+            if (!renderer) renderer = createRenderer(*gpu);
+            setField(*renderer, std::move(*made));
+            kernelsHash = nextKernelsHash;
+            hasKernels = true;
+            ++content;
+        }
+    }
+    if (there()) return false;
+    if (nextKernels.valid()) {
+        if (!wanted()) *overtaken = true;
+    } else if (!meshing) {
+        nextKernelsHash = current.structureHash;
+        overtaken = std::make_shared<std::atomic<bool>>(false);
+        FieldKernelOptions options = kernelOptions;
+        options.cancel = overtaken.get();
+        nextKernels = std::async(std::launch::async,
+                                 [device = gpu.get(), field = emitField(current), options, flag = overtaken] {
+                                     return createFieldKernels(*device, field, options);
+                                 });
+    }
+    return true;
+}
+
+void Session::setParameter(std::size_t slot, double value) {
+    current.live.at(slot).value = value;
+    ++content;
+    const auto narrow = static_cast<float>(value);
+    uploadBytes(*gpu, parameters, &narrow, sizeof narrow, slot * sizeof narrow);
+}
+
+Result<bool> Session::simulate(double seconds, const ValuesAt& values, bool surfaces,
+                               const std::function<bool(int done, int all)>& progress) {
+    if (!particles) return false;
+    const Result<ParticleChanges> changes =
+        particles->make(current, seconds, values, volumes, surfaces, progress);
+    if (!changes) return changes.error();
+    if (changes->fields || (changes->places && !surfaces)) ++content;
+    return changes->fields;
+}
+
+void Session::valuesChanged() {
+    if (particles) particles->valuesChanged();
+}
+
+std::vector<FieldVolumePtr> Session::particleVolumes() const {
+    if (!particles) return {};
+    return downloadParticles(*gpu, current, volumes);
+}
+
+Program Session::onHost() const {
+    Program program = current;
+    useParticles(program, particleVolumes());
+    return program;
+}
+
+Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed) {
+    const int resolution = request.resolution > 0 ? request.resolution : current.resolution;
+    const Result<Box> region = meshRegion(current, {request.region, resolution});
+    if (!region) return region.error();
+    const Result<CellGrid> cells = cellGrid(*region, resolution);
+    if (!cells) return cells.error();
+
+    MesherConfig config{.origin = cells->origin, .cellSize = cells->cellSize, .cells = cells->cells};
+    grid.lo = config.origin;
+    grid.hi = config.origin + config.cellSize * glm::vec3(config.cells);
+    grid.cellSize = static_cast<float>(longestSide(*region) / resolution);
+    ++content;
+    config.field = fieldBuffers();
+    config.families = &current.families;
+    config.colors = current.hasMaterial();
+    config.tile = request.tile;
+    config.method = request.method.value_or(current.method);
+    config.timed = timed;
+    std::optional<MesherHost> host;
+    std::optional<Program> evaluated;
+    if (compiling()) {
+        evaluated = onHost();
+        config.host = &host.emplace(evaluated->ir, evaluated->distance(), evaluated->parameters());
+    }
+    Result<MesherResult> result = runMesher(*gpu, pipelines, buffers, config);
+    if (result && request.stages && !current.stages.empty())
+        if (const Done staged = runStages(*result, *region, !host, timed); !staged) return staged.error();
+    return result;
+}
+
+Done Session::runStages(MesherResult& result, const Box& region, bool kernels, bool timed) {
+    if (!stagePipelines) stagePipelines = createMeshStagePipelines(*gpu);
+    MeshStageConfig config{.pipelines = &*stagePipelines,
+                           .lo = grid.lo,
+                           .hi = grid.hi,
+                           .cellSize = grid.cellSize,
+                           .field = fieldBuffers(),
+                           .project = kernels,
+                           .timed = timed};
+    const bool projects = std::ranges::any_of(current.stages, &projectsVertices);
+    if (kernels && projects && (!stagePipelines->project || projectionHash != current.structureHash)) {
+        stagePipelines->project = createProjection(*gpu, emitField(current));
+        projectionHash = current.structureHash;
+    }
+    std::optional<Program> measured;
+    std::optional<MeasureOptions> measure;  // made by the first decimation
+    config.decimate = [&](Mesh& mesh, double error) {
+        if (!measure) measure = measureOf(measured.emplace(onHost()), region);
+        return decimate(mesh, error, *measure);
+    };
+    return runMeshStages(*gpu, stageBuffers, buffers, result, current.stages, config);
+}
+
+gpu::DraftMaterial Session::material() const {
+    const auto constant = [&](int component) {
+        const IrId id = current.surface[component];
+        return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
+                                         : static_cast<float>(kDefaultMaterial[component - 1]);
+    };
+    gpu::DraftMaterial constants{};
+    constants.roughness = constant(roughnessComponent);
+    constants.metallic = constant(metallicComponent);
+    for (int i = 0; i < 3; ++i) {
+        constants.base[i] = constant(baseColorComponent + i);
+        constants.emission[i] = constant(emissionComponent + i);
+    }
+    return constants;
+}
+
+Mesh Session::download(const MesherResult& result) const {
+    Mesh mesh = downloadMesh(*gpu, buffers, result);
+    if (result.creases) splitCreases(mesh);
+    const gpu::DraftMaterial constants = material();
+    mesh.roughness = constants.roughness;
+    mesh.metallic = constants.metallic;
+    for (int i = 0; i < 3; ++i) {
+        mesh.baseColor[i] = constants.base[i];
+        mesh.emission[i] = constants.emission[i];
+    }
+    return mesh;
+}
+
+template <class Draw>
+auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw) {
+    // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
+    const bool draft = drafting() || !current.stages.empty();
+    if (!renderer) renderer = createRenderer(*gpu);
+    if (!draft && renderer->field.empty())
+        setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));
+    std::vector<gpu::MeshVertex> points;
+    if (options.framed.empty() && result.vertices > 0) {
+        points = fw::download<gpu::MeshVertex>(*gpu, buffers.vertices, result.vertices);
+        options.framed = points;
+    }
+    gpu::DraftMaterial look = material();
+    look.colored = result.colors && 12ull * result.vertices <= gpu->properties.limits.maxStorageBufferRange;
+    std::vector<ParticleCloud> clouds;
+    if (particles && showsParticles(options.show)) clouds = particles->clouds(current);
+    const RenderScene scene{.mesh = buffers,
+                            .vertices = result.vertices,
+                            .triangles = result.triangles,
+                            .grid = grid,
+                            .lipschitz = static_cast<float>(current.exactness.lipschitz),
+                            .buffers = fieldBuffers(),
+                            .families = &current.families,
+                            .bounds = boundsOf(options.framed),
+                            .particles = clouds,
+                            .draft = draft ? std::optional(look) : std::nullopt,
+                            .content = content};
+    return draw(*renderer, scene, options);
+}
+
+Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
+    return draw(result, options, [](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+        return renderPicture(with, scene, wishes);
+    });
+}
+
+Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture) {
+    return draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+        return fw::renderLive(with, scene, wishes, picture);
+    });
+}
+
+}  // namespace fw

@@ -1,0 +1,144 @@
+// The one orchestrator: owns the device objects of a program and runs its stages.
+//
+// Object lifetimes: pipelines per structure (rebuilt only when a program with another structureHash comes),
+// buffers per resolution (grown when a mesh needs more), parameters per edit (an upload), images and volumes
+// of the field per program that samples others, the renderer's images per size of a picture.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/compile/compile.h"
+#include "runtime/mesher/mesher.h"
+#include "runtime/particles/particle_fields.h"
+#include "runtime/render/renderer.h"
+#include "runtime/stages/mesh_stages.h"
+
+namespace fw {
+
+/// What to polygonise.
+struct MeshRequest {
+    std::optional<Box> region;              ///< none: the program's own, else found from the field
+    int resolution = 0;                     ///< cells along the region's longest side; 0: the program's
+    std::optional<MeshMethod> method = {};  ///< none: the program's
+    bool stages = true;                     ///< also what the program does to the mesh then
+    MesherTile tile = {};                   ///< of the region's grid; the whole by default
+};
+
+/// The cells of a region.
+struct CellGrid {
+    glm::vec3 origin, cellSize;  ///< metres
+    glm::ivec3 cells;
+};
+
+/// So many cells along the region's longest side, as near to cubes as whole numbers of them along each side
+/// allow. Errors: a resolution out of range, a region too small or too large for single precision.
+Result<CellGrid> cellGrid(const Box& region, int resolution);
+
+inline constexpr int kMostResolution = 4096;
+
+class Session {
+  public:
+    explicit Session(Device device);
+
+    const Device& device() const { return *gpu; }
+    /// The device again, of a session that has had no program. It is at its end.
+    Device release() { return std::move(*gpu); }
+
+    /// Makes `program` the one that is meshed. Builds pipelines only if the structure changed; returns
+    /// whether it did. Stage times go to `stages`.
+    bool setProgram(Program program, std::vector<StageTime>* stages = nullptr);
+    const Program& program() const { return current; }
+
+    /// The same without waiting: kernels of a new structure are compiled on a thread of their own. Until they
+    /// are there, polygonise() evaluates the field on the host (runtime/mesher/host.h), and its mesh has no
+    /// colours; then the renderer's are compiled, and until those are there pictures are drafts
+    /// (runtime/render/draft.h). `kernels` says which of them are wanted.
+    void replaceProgram(Program program, const FieldKernelOptions& kernels = {});
+    /// Whether the next polygonise() would do without the program's kernels.
+    bool compiling();
+    /// Whether the next picture would be a draft.
+    bool drafting();
+
+    /// Changes a live parameter's value: an upload, never a compile.
+    void setParameter(std::size_t slot, double value);
+
+    /// Brings the program's particles to a time, if it has some; `values` are the live parameters' then.
+    /// Without `surfaces` the field has none of theirs, for the pictures that showsParticles(). Returns
+    /// whether the field changed with that. Errors as ParticleFields::make().
+    Result<bool> simulate(double seconds, const ValuesAt& values, bool surfaces = true,
+                          const std::function<bool(int done, int all)>& progress = {});
+    /// Of live values that were changed otherwise than by the time: Simulation::valuesChanged().
+    void valuesChanged();
+    /// The samples of its particles as they were made last, for the host: of each of the program's volumes
+    /// that has some.
+    std::vector<FieldVolumePtr> particleVolumes() const;
+    uint64_t particleSlots() const { return particles ? particles->slots() : 0; }
+
+    /// Runs the mesher into device memory, and then the program's stages. Errors: a region without bounds
+    /// (the field is unbounded) or with none left (it is empty), a resolution out of range, and what
+    /// runMesher and runMeshStages refuse.
+    Result<MesherResult> polygonise(const MeshRequest& request, bool timed = false);
+
+    /// The program's material where it is the same everywhere, else its default.
+    gpu::DraftMaterial material() const;
+
+    /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
+    Mesh download(const MesherResult& result) const;
+    const MesherBuffers& meshBuffers() const { return buffers; }
+
+    /// A still picture of the last mesh, whose points are framed unless the options say otherwise. Errors as
+    /// renderPicture.
+    Result<Picture> render(const MesherResult& result, const RenderOptions& options);
+    /// The live view's next frame, into `picture`; false if it would be the same as the last. Errors as
+    /// renderLive.
+    Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture);
+
+    ~Session();
+    Session(Session&&) = default;
+    Session& operator=(Session&&) = default;
+
+  private:
+    void take(Program program);
+    /// The program with the samples of its particles, for the host to evaluate.
+    Program onHost() const;
+    FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
+    /// What the program does to the mesh that was made in `region`; `kernels` tells whether by its kernels.
+    Done runStages(MesherResult& result, const Box& region, bool kernels, bool timed);
+    /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
+    template <class Draw>
+    auto draw(const MesherResult& result, RenderOptions options, Draw draw);
+
+    std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
+    Program current;
+    uint64_t builtHash = 0;
+    bool built = false;
+    MesherPipelines pipelines;
+    MesherBuffers buffers;
+    std::optional<MeshStagePipelines> stagePipelines;  ///< made by the first program that has stages
+    uint64_t projectionHash = 0;                       ///< structure that its `project` belongs to
+    MeshStageBuffers stageBuffers;
+    MeshGrid grid;
+    std::optional<Renderer> renderer;  ///< made by the first picture
+    uint64_t content = 0;              ///< counts changes of mesh and parameters
+    Buffer parameters, images, volumes;
+    std::optional<ParticleFields> particles;  ///< of a program that has some
+    std::future<MesherPipelines> next;        ///< being compiled, for the structure nextHash
+    uint64_t nextHash = 0;
+    /// Of the renderer: compiled behind, those there are, and those being compiled.
+    bool kernelsBehind = false;
+    FieldKernelOptions kernelOptions;
+    uint64_t kernelsHash = 0, nextKernelsHash = 0;
+    bool hasKernels = false;
+    std::future<std::optional<FieldKernels>> nextKernels;
+    std::shared_ptr<std::atomic<bool>> overtaken;  ///< ends what nextKernels does
+};
+
+/// The region that a program is meshed in: the request's, the program's own, or the solid's bounds with a
+/// margin of 1.5 cells. Errors as in Session::polygonise.
+Result<Box> meshRegion(const Program& program, const MeshRequest& request);
+
+}  // namespace fw

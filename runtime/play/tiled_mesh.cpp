@@ -1,0 +1,162 @@
+#include "runtime/play/tiled_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "graph/emit/glsl.h"
+#include "runtime/system/cache_file.h"
+
+namespace fw {
+namespace {
+
+constexpr int kBlock = 64;
+
+struct Hash {
+    uint64_t value = hashBytes(nullptr, 0);
+    void add(const void* data, std::size_t size) { value = hashBytes(data, size, value); }
+    template <class T>
+    void add(const std::vector<T>& values) {
+        const uint64_t count = values.size();
+        add(&count, sizeof count);
+        add(values.data(), values.size() * sizeof(T));
+    }
+    void add(const std::string& text) { add(std::vector<char>(text.begin(), text.end())); }
+};
+
+/// Faces between tiles, as coordinates. A vertex on one stands there to the last bit or the one before; all
+/// others keep eight of those away (mesher.h).
+struct Faces {
+    std::vector<float> at[3];
+    float within;
+
+    uint32_t count(glm::vec3 p) const {
+        uint32_t faces = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float face : at[axis]) faces += std::abs(p[axis] - face) <= within ? 1 : 0;
+        return faces;
+    }
+};
+
+Faces facesOf(const TilePlan& plan, std::size_t index) {
+    const MesherTile& tile = plan.tiles[index];
+    const glm::vec3 low = plan.grid.origin, high = low + plan.grid.cellSize * glm::vec3(plan.grid.cells);
+    const glm::vec3 reach = glm::max(glm::abs(low), glm::abs(high));
+    const float largest = std::max({reach.x, reach.y, reach.z});
+    Faces faces{{}, 2 * (std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest)};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int block : {tile.begin[axis], tile.end[axis]})
+            if (block > 0)
+                faces.at[axis].push_back(low[axis] + float(block * kBlock - 1) * plan.grid.cellSize[axis]);
+    return faces;
+}
+
+}  // namespace
+
+TilePlan planTiles(const CellGrid& grid, int tileCells) {
+    tileCells = std::max(1, (tileCells + kBlock / 2) / kBlock) * kBlock;
+    TilePlan plan{grid, tileCells, {}};
+    glm::ivec3 count;
+    for (int axis = 0; axis < 3; ++axis)
+        count[axis] = std::max(1, (grid.cells[axis] + tileCells / 2) / tileCells);
+    const int step = tileCells / kBlock;
+    for (int z = 0; z < count.z; ++z)
+        for (int y = 0; y < count.y; ++y)
+            for (int x = 0; x < count.x; ++x) {
+                const glm::ivec3 at(x, y, z);
+                MesherTile tile{at * step, {}};
+                for (int axis = 0; axis < 3; ++axis)
+                    tile.end[axis] = at[axis] + 1 < count[axis] ? (at[axis] + 1) * step : 0;
+                plan.tiles.push_back(tile);
+            }
+    return plan;
+}
+
+uint64_t tileKey(const Session& session, const TilePlan& plan) {
+    const Program& program = session.program();
+    Hash hash;
+    hash.add(std::string(FIELDWRIGHT_VERSION));
+    hash.add(session.device().name());
+    hash.add(emitField(program));
+    hash.add(program.parameters());
+    hash.add(imageWords(program.ir.images()));
+    for (const FieldVolumePtr& volume : program.ir.volumes()) hash.add(volume->words);
+    for (const Family& family : program.families.all) hash.add(family.table);
+    const gpu::DraftMaterial material = session.material();
+    hash.add(&material, sizeof material);
+    hash.add(&plan.grid, sizeof plan.grid);
+    hash.add(&plan.tileCells, sizeof plan.tileCells);
+    return hash.value;
+}
+
+std::string tilePath(const std::string& folder, const TilePlan& plan, std::size_t index) {
+    char name[48];
+    std::snprintf(name, sizeof name, "%d-%06zu.tile", plan.tileCells, index);
+    return (std::filesystem::path(folder) / name).string();
+}
+
+std::optional<TileRecord> doneTile(const std::string& folder, const TilePlan& plan, uint64_t key,
+                                   std::size_t index) {
+    const Result<TileRecord> tile = readTile(tilePath(folder, plan, index));
+    if (!tile || tile->header.key != key || tile->header.tile != index ||
+        tile->header.tiles != plan.tiles.size())
+        return std::nullopt;
+    return *tile;
+}
+
+Result<TileRecord> meshTile(Session& session, const MeshRequest& request, const TilePlan& plan, uint64_t key,
+                            std::size_t index, const std::string& folder, const std::atomic<bool>* cancel) {
+    MeshRequest ofTile = request;
+    ofTile.tile = plan.tiles[index];
+    const Result<MesherResult> meshed = session.polygonise(ofTile);
+    if (!meshed) return meshed.error();
+
+    TileContent tile;
+    const gpu::DraftMaterial material = session.material();
+    tile.header.key = key;
+    tile.header.tile = uint32_t(index);
+    tile.header.tiles = uint32_t(plan.tiles.size());
+    tile.header.capped = meshed->capped ? 1 : 0;
+    tile.header.roughness = material.roughness;
+    tile.header.metallic = material.metallic;
+    tile.header.baseColor = material.base;
+    tile.header.emission = material.emission;
+
+    const MesherBuffers& buffers = session.meshBuffers();
+    tile.vertices = download<gpu::MeshVertex>(session.device(), buffers.vertices, meshed->vertices);
+    tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed->triangles * 3);
+    if (session.program().hasMaterial() && meshed->vertices > 0)
+        tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed->vertices);
+    const Faces faces = facesOf(plan, index);
+    if (!tile.vertices.empty()) tile.header.least = tile.header.greatest = tile.vertices[0].position;
+    glm::vec3 poison(0.0f);
+    for (std::size_t v = 0; v < tile.vertices.size(); ++v) {
+        const glm::vec3 p = tile.vertices[v].position;
+        tile.header.least = glm::min(tile.header.least, p);
+        tile.header.greatest = glm::max(tile.header.greatest, p);
+        poison += p * 0.0f;  // NaN if it is not finite
+        if (const uint32_t count = faces.count(p)) tile.shared.push_back({uint32_t(v), 1u << count, p});
+    }
+    if (poison != glm::vec3(0.0f))
+        return Error{
+            .message = "the mesh has a vertex that is not finite; the field is infinite or undefined there"};
+    const std::string path = tilePath(folder, plan, index);
+    if (const Done written = writeTile(tile, path, cancel); !written) return written.error();
+    return TileRecord{path, 0, tile.header};
+}
+
+void removeTiles(const std::string& folder) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (const std::string name = entry.path().filename().string();
+            name.ends_with(".tile") || (name.find(".tile.") != name.npos && name.ends_with(".tmp")))
+            files.push_back(entry.path());
+    for (const auto& file : files) std::filesystem::remove(file, ignored);
+    std::filesystem::remove(folder, ignored);  // fails where something else is in it
+}
+
+}  // namespace fw
