@@ -208,14 +208,11 @@ std::set<std::string> FieldEdit::held() const {
 }
 
 Result<double> numberOf(std::string_view text) {
-    const auto tree = language::parse("return float(" + std::string(text) + ");");
-    if (!tree) return tree.error();
     language::Lowering state;
-    const language::Scope scope{
-        .inputs = {}, .outputs = {{"value", Type::scalar}}, .refusesZeroDivision = true};
-    const Result<std::vector<language::Value>> values = language::lower(state, **tree, scope);
-    if (!values) return values.error();
-    const IrId id = values->at(0).id();
+    const Result<language::Value> value =
+        language::lowerText(state, "return float(" + std::string(text) + ");");
+    if (!value) return value.error();
+    const IrId id = value->id();
     if (!state.ir.isConstant(id)) return Error{.message = "this depends on the position or the time"};
     if (!std::isfinite(state.ir.number(id))) return Error{.message = "this is no finite number"};
     return state.ir.number(id);

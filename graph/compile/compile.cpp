@@ -12,6 +12,7 @@
 #include "graph/document/named_parameters.h"
 #include "graph/evaluate/region.h"
 #include "graph/language/lower.h"
+#include "graph/language/resolve.h"
 #include "graph/library/node_type.h"
 #include "graph/rules/structure.h"
 
@@ -689,25 +690,36 @@ class Compiler {
     }
 
     Lowered expression(const Node& node, const std::string& prefix, const LoweredNodes& done) {
-        language::Scope scope;
-        scope.anyResult = true;
-        scope.refusesZeroDivision = true;
+        language::Declared declared;
+        std::vector<Value> inputs;
         bool fine = true;
         for (const auto& [name, input] : node.inputs) {
+            Value value;
+            bool known = true;
             if (const Link* link = std::get_if<Link>(&input.value)) {
                 const Lowered* source = nullptr;
-                const Value* value = linked(*link, done, &source);
-                fine &= value && !source->failed;
-                if (value) scope.inputs.emplace_back(name, *value);
+                const Value* from = linked(*link, done, &source);
+                known = from && !source->failed;
+                if (known) value = *from;
             } else {
-                const InputSpec spec{name, literalType(input), {}};
-                scope.inputs.emplace_back(name, literal(node, prefix, spec, &input));
+                value = literal(node, prefix, InputSpec{name, literalType(input), {}}, &input);
             }
+            fine &= known;
+            declared.inputs.emplace_back(name, known ? std::optional(value.type) : std::nullopt);
+            inputs.push_back(std::move(value));
         }
-        if (!fine) return failure({});
-        Result<std::shared_ptr<const language::Tree>> tree = language::parse(node.code);
+        const language::Resolved resolved = language::resolve(node.code, declared);
+        for (const Error& error : resolved.errors) report(node, prefix, "", error);
+        if (!fine || !resolved.code) return failure({});
         Result<std::vector<Value>> values =
-            tree ? language::lower(state, **tree, scope) : Result<std::vector<Value>>(tree.error());
+            language::lower(state, *resolved.code, std::move(inputs), {.refusesZeroDivision = true});
+        if (values) {
+            const Result<Value> whole = language::convert(state, values->front(), resolved.type);
+            if (!whole)
+                values = whole.error();
+            else
+                values->front() = *whole;
+        }
         if (!values) {
             report(node, prefix, "", values.error());
             return failure({});

@@ -33,18 +33,6 @@ bool isKind(Type type, const InputValue& value) {
     return false;
 }
 
-std::optional<std::string> rangeProblem(const InputSpec& spec, double value) {
-    if (!(spec.positive && value <= 0) && value >= spec.min && value <= spec.max) return {};
-    std::vector<std::string> bounds;
-    if (spec.positive) bounds.push_back("above 0");
-    if (std::isfinite(spec.min) && !(spec.positive && spec.min <= 0))
-        bounds.push_back("at least " + shortNumber(spec.min));
-    if (std::isfinite(spec.max)) bounds.push_back("at most " + shortNumber(spec.max));
-    std::string text = "the value " + shortNumber(value) + " is out of range: it must be " + bounds[0];
-    for (std::size_t i = 1; i < bounds.size(); ++i) text += " and " + bounds[i];
-    return text;
-}
-
 std::optional<std::string> optionProblem(const InputSpec& spec, const std::string& word) {
     if (spec.options.empty() ||
         std::find(spec.options.begin(), spec.options.end(), word) != spec.options.end())

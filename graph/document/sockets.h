@@ -73,9 +73,4 @@ std::vector<std::string> idsOf(const Scope& scope);
 /// The type that a value has by itself, in an input of an expression or a reroute: float, vec2 or vec3.
 std::optional<Type> typeOfValue(const InputValue& value);
 
-/// Whether an output of type `from` may feed an input of type `to`: the same type, a scalar as a surface with
-/// the default material, a surface as its distance, a scalar as a vec3 of three equal components, a boolean
-/// or an integer as a scalar.
-bool converts(Type from, Type to);
-
 }  // namespace fw

@@ -7,18 +7,139 @@
 
 namespace fw::language {
 
+bool isVector(Type type) { return type == Type::vec2 || type == Type::vec3; }
+bool isNumber(Type type) { return type == Type::scalar || type == Type::integer || type == Type::surface; }
+std::string aType(Type type) {
+    const std::string name(typeName(type));
+    return (name[0] == 'i' ? "an " : "a ") + name;
+}
+
 namespace {
 
 using Arguments = std::span<const Value>;
-using Builtin = Result<Value> (*)(Lowering&, Arguments);
+using Types = std::span<const Type>;
 
-Error problem(std::string message) { return {.message = std::move(message)}; }
+// ---- what types they take and give
 
-bool isVector(Type type) { return type == Type::vec2 || type == Type::vec3; }
-bool isNumeric(Type type) { return componentCount(type) > 0; }
+TypeProblem expected(int argument, std::string_view what, Type found) {
+    std::string message = "expected " + std::string(what) + ", found " + aType(found);
+    if (found == Type::boolean) message += ": write float(…), or c ? a : b";
+    return {argument, std::move(message)};
+}
 Type vectorOf(int components) {
     return components == 3 ? Type::vec3 : components == 2 ? Type::vec2 : Type::scalar;
 }
+
+/// Numbers and vectors of one width, the numbers joining every component.
+TypeResult componentwiseType(Types types) {
+    Type common = Type::scalar;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+        if (!isVector(types[i]) && !isNumber(types[i]))
+            return expected(int(i),
+                            common == Type::scalar ? "a number or a vector" : "a number or " + aType(common),
+                            types[i]);
+        if (!isVector(types[i])) continue;
+        if (isVector(common) && common != types[i])
+            return TypeProblem{int(i), "expected " + aType(common) + ", found " + aType(types[i]) +
+                                           ": vec2 and vec3 do not mix: write .xy or vec3(…)"};
+        common = types[i];
+    }
+    return common;
+}
+/// The same, with one number as the result.
+TypeResult measureType(Types types) {
+    TypeResult common = componentwiseType(types);
+    return std::holds_alternative<Type>(common) ? TypeResult(Type::scalar) : common;
+}
+/// Of min, max: a surface if one of them is.
+TypeResult extremeType(Types types) {
+    if (std::ranges::find(types, Type::surface) == types.end()) return componentwiseType(types);
+    for (std::size_t i = 0; i < types.size(); ++i)
+        if (!isNumber(types[i])) return expected(int(i), "a surface or a number", types[i]);
+    return Type::surface;
+}
+TypeResult mixType(Types types) {
+    if (types[0] != Type::surface || types[1] != Type::surface) return componentwiseType(types);
+    if (!isNumber(types[2])) return expected(2, "a number, by which surfaces are mixed", types[2]);
+    return Type::surface;
+}
+
+/// Of functions whose arguments are of certain types: the last of `wanted` stands for the result.
+template <Type result, Type... wanted>
+TypeResult fixed(Types types) {
+    constexpr Type all[] = {wanted..., result};
+    for (std::size_t i = 0; i < types.size(); ++i)
+        if (!standsFor(types[i], all[i])) {
+            const bool number = all[i] == Type::scalar;
+            return expected(int(i), number ? std::string("a number") : aType(all[i]), types[i]);
+        }
+    return result;
+}
+TypeResult crossType(Types types) {
+    for (int i = 0; i < 2; ++i)
+        if (types[std::size_t(i)] != Type::vec3) return expected(i, "a vec3", types[std::size_t(i)]);
+    return Type::vec3;
+}
+/// A position, and perhaps a seed.
+template <Type result>
+TypeResult noiseType(Types types) {
+    if (types[0] != Type::vec3) return expected(0, "a position (vec3)", types[0]);
+    if (types.size() > 1 && !isNumber(types[1])) return expected(1, "a number, the seed", types[1]);
+    return result;
+}
+TypeResult distanceType(Types types) {
+    if (types.size() == 2) return measureType(types);
+    return isNumber(types[0]) ? TypeResult(Type::scalar) : expected(0, "a surface", types[0]);
+}
+/// float(), int(), bool(): the first component of whatever has some.
+template <Type result>
+TypeResult conversionType(Types types) {
+    if (componentCount(types[0]) == 0) return expected(0, "a number", types[0]);
+    return result;
+}
+/// vec2(), vec3(): one number for all components; else the arguments' components in order, exactly as many as
+/// needed. GLSL takes the first components of a longer vector, if it is the only argument.
+template <Type type>
+TypeResult vectorType(Types types) {
+    int count = 0;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+        if (!isVector(types[i]) && !isNumber(types[i]))
+            return expected(int(i), "a number or a vector", types[i]);
+        count += isVector(types[i]) ? componentCount(types[i]) : 1;
+    }
+    constexpr int width = componentCount(type);
+    if (types.size() == 1 && (count == 1 || count >= width)) return type;
+    if (count == width) return type;
+    return TypeProblem{-1, std::string(typeName(type)) + "(…) takes " + std::to_string(width) +
+                               " components, found " + std::to_string(count)};
+}
+TypeResult withMaterialType(Types types) {
+    if (!isNumber(types[0])) return expected(0, "a surface", types[0]);
+    const auto rest =
+        fixed<Type::surface, Type::vec3, Type::scalar, Type::scalar, Type::vec3>(types.subspan(1));
+    const auto* problem = std::get_if<TypeProblem>(&rest);
+    return problem ? TypeResult(TypeProblem{problem->argument + 1, problem->message}) : rest;
+}
+TypeResult withDistanceType(Types types) {
+    if (types[0] != Type::surface) return expected(0, "a surface", types[0]);
+    return isNumber(types[1]) ? TypeResult(Type::surface) : expected(1, "a number, the distance", types[1]);
+}
+/// An image and, if `place`, where: one vec2 or two numbers.
+template <Type result, bool place>
+TypeResult imageType(Types types) {
+    if (!standsFor(types[0], Type::image))
+        return TypeProblem{0, "expected an image or its path, found " + aType(types[0]) + ": " +
+                                  aType(types[0]) + " cannot stand for an image"};
+    if (!place || (types.size() == 2 && types[1] == Type::vec2) ||
+        (types.size() == 3 && isNumber(types[1]) && isNumber(types[2])))
+        return result;
+    return TypeProblem{1, "behind an image stand a vec2, or the floats u and v"};
+}
+TypeResult booleanType(Types types) {
+    return types[0] == Type::boolean ? TypeResult(Type::boolean) : expected(0, "a comparison", types[0]);
+}
+
+// ---- what they are made of
 
 Value scalar(IrId id, Type type = Type::scalar) {
     Value value{type};
@@ -26,36 +147,22 @@ Value scalar(IrId id, Type type = Type::scalar) {
     return value;
 }
 
-/// A surface as its distance, a bool or int as a float; vectors stay.
-Value asNumber(const Value& value) {
-    if (isVector(value.type)) return value;
-    return scalar(value.ids[0]);
-}
-
 IrId component(const Value& value, int i) { return isVector(value.type) ? value.ids[i] : value.ids[0]; }
 
-/// The common width of arguments that join componentwise; an Error if two vectors differ.
-Result<int> commonWidth(Arguments arguments) {
+int widthOf(Arguments arguments) {
     int width = 1;
-    for (const Value& argument : arguments) {
-        if (!isNumeric(argument.type))
-            return problem("a " + std::string(typeName(argument.type)) + " has no arithmetic");
-        if (!isVector(argument.type)) continue;
-        const int own = componentCount(argument.type);
-        if (width != 1 && width != own) return problem("vec2 and vec3 do not mix: write .xy or vec3(…)");
-        width = own;
-    }
+    for (const Value& argument : arguments)
+        if (isVector(argument.type)) width = componentCount(argument.type);
     return width;
 }
 
 /// f applied to each component.
 template <class F>
-Result<Value> componentwise(Arguments arguments, F f) {
-    const Result<int> width = commonWidth(arguments);
-    if (!width) return width.error();
-    Value result{vectorOf(*width)};
+Value componentwise(Arguments arguments, F f) {
+    const int width = widthOf(arguments);
+    Value result{vectorOf(width)};
     std::array<IrId, 8> operands{};
-    for (int i = 0; i < *width; ++i) {
+    for (int i = 0; i < width; ++i) {
         for (std::size_t k = 0; k < arguments.size(); ++k) operands[k] = component(arguments[k], i);
         result.ids[i] = f(operands);
     }
@@ -89,8 +196,6 @@ Result<Value> extreme(Lowering& s, Arguments arguments, Op op) {
         };
         Value result = surface(arguments[0]);
         for (const Value& argument : arguments.subspan(1)) {
-            if (isVector(argument.type))
-                return problem("min and max of a surface and a vector have no meaning");
             const Value other = surface(argument);
             const IrId mine = op == Op::minimum ? s.ir.add(Op::lessEqual, result.ids[0], other.ids[0])
                                                 : s.ir.add(Op::lessEqual, other.ids[0], result.ids[0]);
@@ -120,7 +225,6 @@ IrId mixed(Lowering& s, IrId a, IrId b, IrId t) {
 
 Result<Value> mix(Lowering& s, Arguments a) {
     if (a[0].type == Type::surface && a[1].type == Type::surface) {
-        if (isVector(a[2].type)) return problem("surfaces are mixed by one float");
         Value result{Type::surface};
         for (int i = 0; i < 9; ++i) result.ids[i] = mixed(s, a[0].ids[i], a[1].ids[i], a[2].ids[0]);
         return result;
@@ -167,20 +271,13 @@ IrId lengthOf(Lowering& s, const Value& a) {
 }
 
 Result<Value> dot(Lowering& s, Arguments a) {
-    const Result<int> width = commonWidth(a);
-    if (!width) return width.error();
-    return scalar(dotOf(s, a[0], a[1], *width));
+    const int width = widthOf(a);
+    return scalar(dotOf(s, a[0], a[1], width));
 }
-Result<Value> length(Lowering& s, Arguments a) {
-    const Result<int> width = commonWidth(a);
-    if (!width) return width.error();
-    return scalar(lengthOf(s, a[0]));
-}
+Result<Value> length(Lowering& s, Arguments a) { return scalar(lengthOf(s, a[0])); }
 Result<Value> distance(Lowering& s, Arguments a) {
-    if (a.size() == 1) return asNumber(a[0]);
-    const Result<Value> difference = arithmetic(s, '-', a[0], a[1]);
-    if (!difference) return difference.error();
-    return scalar(lengthOf(s, *difference));
+    if (a.size() == 1) return scalar(a[0].ids[0]);
+    return scalar(lengthOf(s, arithmetic(s, '-', a[0], a[1])));
 }
 Result<Value> normalize(Lowering& s, Arguments a) {
     const IrId size = lengthOf(s, a[0]);
@@ -189,7 +286,6 @@ Result<Value> normalize(Lowering& s, Arguments a) {
     return componentwise(a, [&](const auto& x) { return s.ir.add(Op::multiply, x[0], inverse); });
 }
 Result<Value> cross(Lowering& s, Arguments a) {
-    if (a[0].type != Type::vec3 || a[1].type != Type::vec3) return problem("cross takes two vec3");
     Value result{Type::vec3};
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -199,22 +295,19 @@ Result<Value> cross(Lowering& s, Arguments a) {
     return result;
 }
 Result<Value> reflect(Lowering& s, Arguments a) {
-    const Result<int> width = commonWidth(a);
-    if (!width) return width.error();
-    const IrId twice = scaled(s, dotOf(s, a[0], a[1], *width), 2.0);
+    const int width = widthOf(a);
+    const IrId twice = scaled(s, dotOf(s, a[0], a[1], width), 2.0);
     return componentwise(
         a, [&](const auto& x) { return s.ir.add(Op::subtract, x[0], s.ir.add(Op::multiply, twice, x[1])); });
 }
 
 template <Op op>
 Result<Value> noise(Lowering& s, Arguments a) {
-    if (a[0].type != Type::vec3) return problem("the first argument is a position (vec3)");
     const IrId seed = a.size() > 1 ? component(a[1], 0) : number(s, 0.0);
     return scalar(s.ir.add(op, std::array{a[0].ids[0], a[0].ids[1], a[0].ids[2], seed}));
 }
 /// Three independent cell hashes: the seeds are a large odd number apart.
 Result<Value> hash3(Lowering& s, Arguments a) {
-    if (a[0].type != Type::vec3) return problem("the first argument is a position (vec3)");
     Value result{Type::vec3};
     for (int i = 0; i < 3; ++i) {
         const IrId seed =
@@ -224,99 +317,73 @@ Result<Value> hash3(Lowering& s, Arguments a) {
     return result;
 }
 
-Result<Value> anyOf(Lowering&, Arguments a) { return scalar(a[0].ids[0], Type::boolean); }
+Result<Value> same(Lowering&, Arguments a) { return a[0]; }
 
-/// float(), int(), bool(): the first component.
-Result<Value> toScalar(Lowering& s, Arguments a) {
-    if (!isNumeric(a[0].type)) return problem("a " + std::string(typeName(a[0].type)) + " is no number");
-    if (a[0].type == Type::boolean)
-        return scalar(s.ir.add(Op::select, a[0].ids[0], number(s, 1.0), number(s, 0.0)));
-    return scalar(a[0].ids[0]);
+Value firstComponent(Lowering& s, const Value& a) {
+    if (a.type == Type::boolean)
+        return scalar(s.ir.add(Op::select, a.ids[0], number(s, 1.0), number(s, 0.0)));
+    return scalar(a.ids[0]);
 }
+Result<Value> toScalar(Lowering& s, Arguments a) { return firstComponent(s, a[0]); }
 Result<Value> toInteger(Lowering& s, Arguments a) {
-    const Result<Value> value = toScalar(s, a);
-    if (!value) return value.error();
-    return scalar(s.ir.add(Op::truncate, value->ids[0]), Type::integer);
+    return scalar(s.ir.add(Op::truncate, firstComponent(s, a[0]).ids[0]), Type::integer);
 }
 Result<Value> toBoolean(Lowering& s, Arguments a) {
     if (a[0].type == Type::boolean) return a[0];
     return scalar(s.ir.add(Op::logicalNot, s.ir.add(Op::equal, a[0].ids[0], number(s, 0.0))), Type::boolean);
 }
 
-/// vec2(), vec3(): one float splats; else the arguments' components in order, exactly as many as needed.
-Result<Value> toVector(Lowering& s, Arguments arguments, Type type) {
+template <Type type>
+Result<Value> toVector(Lowering&, Arguments arguments) {
     Value result{type};
     const int width = componentCount(type);
     int filled = 0;
-    for (const Value& argument : arguments) {
-        if (!isNumeric(argument.type))
-            return problem("a " + std::string(typeName(argument.type)) + " is no number");
-        const Result<Value> single =
-            isVector(argument.type) ? Result<Value>(argument) : toScalar(s, std::span(&argument, 1));
-        if (!single) return single.error();
-        const int count = isVector(argument.type) ? componentCount(argument.type) : 1;
-        for (int i = 0; i < count; ++i) {
-            // GLSL takes the first components of a longer vector, if it is the only argument.
-            if (filled == width && arguments.size() == 1) return result;
-            if (filled == width)
-                return problem(std::string(typeName(type)) + "(…) is given too many components");
-            result.ids[filled++] = single->ids[i];
-        }
-    }
-    if (filled == 1)
-        while (filled < width) result.ids[filled++] = result.ids[0];
-    if (filled < width) return problem(std::string(typeName(type)) + "(…) is given too few components");
+    for (const Value& argument : arguments)
+        for (int i = 0; i < (isVector(argument.type) ? componentCount(argument.type) : 1) && filled < width;
+             ++i)
+            result.ids[filled++] = argument.ids[i];
+    while (filled < width) result.ids[filled++] = result.ids[0];
     return result;
 }
 
-Result<Value> withDistance(Lowering&, Arguments a) {
-    if (a[0].type != Type::surface) return problem("with_distance takes a surface and a distance");
-    Value result = a[0];
-    result.ids[0] = component(a[1], 0);
+Result<Value> withDistance(Lowering& s, Arguments a) {
+    Value result = *convert(s, a[0], Type::surface);
+    result.ids[0] = a[1].ids[0];
     return result;
 }
 Result<Value> withMaterial(Lowering& s, Arguments a) {
-    const Result<Value> surface = convert(s, a[0], Type::surface);
-    const Result<Value> color = convert(s, a[1], Type::vec3), emission = convert(s, a[4], Type::vec3);
-    if (!surface || !color || !emission)
-        return problem("with_material takes a surface, a colour, two floats and an emission colour");
-    Value result = *surface;
+    Value result = *convert(s, a[0], Type::surface);
+    const Value color = *convert(s, a[1], Type::vec3), emission = *convert(s, a[4], Type::vec3);
     for (int i = 0; i < 3; ++i) {
-        result.ids[baseColorComponent + i] = color->ids[i];
-        result.ids[emissionComponent + i] = emission->ids[i];
+        result.ids[baseColorComponent + i] = color.ids[i];
+        result.ids[emissionComponent + i] = emission.ids[i];
     }
-    result.ids[roughnessComponent] = component(a[2], 0);
-    result.ids[metallicComponent] = component(a[3], 0);
+    result.ids[roughnessComponent] = a[2].ids[0];
+    result.ids[metallicComponent] = a[3].ids[0];
     return result;
 }
 Result<Value> countOf(Lowering& s, Arguments a) {
-    if (a[0].type != Type::points || !a[0].points) return problem("count takes a list of points");
     return scalar(number(s, static_cast<double>(a[0].points->size() / 2)), Type::integer);
 }
 
-/// The (u, v) behind an image: one vec2 or two floats.
-Result<std::pair<IrId, IrId>> imagePlace(Arguments a) {
-    if (a.size() == 2 && a[1].type == Type::vec2) return std::pair(a[1].ids[0], a[1].ids[1]);
-    if (a.size() == 3 && isNumeric(a[1].type) && isNumeric(a[2].type) && !isVector(a[1].type) &&
-        !isVector(a[2].type))
-        return std::pair(a[1].ids[0], a[2].ids[0]);
-    return problem("behind an image stand a vec2, or the floats u and v");
+/// The (u, v) behind an image.
+std::pair<IrId, IrId> imagePlace(Arguments a) {
+    return a[1].type == Type::vec2 ? std::pair(a[1].ids[0], a[1].ids[1])
+                                   : std::pair(a[1].ids[0], a[2].ids[0]);
 }
 Result<Value> imageColor(Lowering& s, Arguments a) {
     const Result<Value> image = convert(s, a[0], Type::image);
     if (!image) return image.error();
-    const Result<std::pair<IrId, IrId>> at = imagePlace(a);
-    if (!at) return at.error();
+    const auto [u, v] = imagePlace(a);
     Value result{Type::vec3};
-    for (int i = 0; i < 3; ++i) result.ids[i] = s.ir.sample(image->image, i, at->first, at->second);
+    for (int i = 0; i < 3; ++i) result.ids[i] = s.ir.sample(image->image, i, u, v);
     return result;
 }
 Result<Value> imageGrey(Lowering& s, Arguments a) {
     const Result<Value> image = convert(s, a[0], Type::image);
     if (!image) return image.error();
-    const Result<std::pair<IrId, IrId>> at = imagePlace(a);
-    if (!at) return at.error();
-    return scalar(s.ir.sample(image->image, kGreyLayer, at->first, at->second));
+    const auto [u, v] = imagePlace(a);
+    return scalar(s.ir.sample(image->image, kGreyLayer, u, v));
 }
 Result<Value> imageSize(Lowering& s, Arguments a) {
     const Result<Value> image = convert(s, a[0], Type::image);
@@ -339,61 +406,63 @@ Result<Value> imageBounds(Lowering& s, Arguments a, bool slopes) {
     return result;
 }
 
-struct Entry {
-    Builtin call;
-    int least, most;  ///< number of arguments
-};
+Result<Value> fract(Lowering& s, Arguments a) {
+    return componentwise(a, [&](const auto& x) { return s.ir.add(Op::modulo, x[0], number(s, 1.0)); });
+}
+Result<Value> inverseSquareRoot(Lowering& s, Arguments a) {
+    return componentwise(a, [&](const auto& x) { return reciprocal(s, s.ir.add(Op::squareRoot, x[0])); });
+}
 
 // clang-format off
-const std::unordered_map<std::string_view, Entry>& table() {
+const std::vector<Builtin>& table() {
     using S = Lowering&; using A = Arguments; using R = Result<Value>;
-    static const std::unordered_map<std::string_view, Entry> entries = {
-        {"abs", {unary<Op::absolute>, 1, 1}}, {"sign", {unary<Op::sign>, 1, 1}}, {"floor", {unary<Op::floor>, 1, 1}},
-        {"ceil", {unary<Op::ceil>, 1, 1}}, {"round", {unary<Op::round>, 1, 1}}, {"trunc", {unary<Op::truncate>, 1, 1}},
-        {"sqrt", {unary<Op::squareRoot>, 1, 1}}, {"exp", {unary<Op::exponential>, 1, 1}}, {"log", {unary<Op::logarithm>, 1, 1}},
-        {"sin", {unary<Op::sine>, 1, 1}}, {"cos", {unary<Op::cosine>, 1, 1}}, {"tan", {unary<Op::tangent>, 1, 1}},
-        {"asin", {unary<Op::arcSine>, 1, 1}}, {"acos", {unary<Op::arcCosine>, 1, 1}},
-        {"atan", {[](S s, A a) -> R { return a.size() == 1 ? unary<Op::arcTangent>(s, a) : binary<Op::arcTangent2>(s, a); }, 1, 2}},
-        {"atan2", {binary<Op::arcTangent2>, 2, 2}}, {"mod", {binary<Op::modulo>, 2, 2}}, {"fmod", {binary<Op::truncatedModulo>, 2, 2}},
-        {"pow", {power, 2, 2}}, {"cross", {cross, 2, 2}}, {"dot", {dot, 2, 2}}, {"length", {length, 1, 1}},
-        {"distance", {distance, 1, 2}}, {"normalize", {normalize, 1, 1}}, {"reflect", {reflect, 2, 2}},
-        {"min", {[](S s, A a) -> R { return extreme(s, a, Op::minimum); }, 2, 8}},
-        {"max", {[](S s, A a) -> R { return extreme(s, a, Op::maximum); }, 2, 8}},
-        {"smooth_min", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::smoothMinimum, x[0], x[1], x[2]); }); }, 3, 3}},
-        {"smooth_max", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
+    static const std::vector<Builtin> entries = {
+        {"abs", 1, 1, componentwiseType, unary<Op::absolute>}, {"sign", 1, 1, componentwiseType, unary<Op::sign>}, {"floor", 1, 1, componentwiseType, unary<Op::floor>},
+        {"ceil", 1, 1, componentwiseType, unary<Op::ceil>}, {"round", 1, 1, componentwiseType, unary<Op::round>}, {"trunc", 1, 1, componentwiseType, unary<Op::truncate>},
+        {"sqrt", 1, 1, componentwiseType, unary<Op::squareRoot>}, {"exp", 1, 1, componentwiseType, unary<Op::exponential>}, {"log", 1, 1, componentwiseType, unary<Op::logarithm>},
+        {"sin", 1, 1, componentwiseType, unary<Op::sine>}, {"cos", 1, 1, componentwiseType, unary<Op::cosine>}, {"tan", 1, 1, componentwiseType, unary<Op::tangent>},
+        {"asin", 1, 1, componentwiseType, unary<Op::arcSine>}, {"acos", 1, 1, componentwiseType, unary<Op::arcCosine>},
+        {"atan", 1, 2, componentwiseType, [](S s, A a) -> R { return a.size() == 1 ? unary<Op::arcTangent>(s, a) : binary<Op::arcTangent2>(s, a); }},
+        {"atan2", 2, 2, componentwiseType, binary<Op::arcTangent2>}, {"mod", 2, 2, componentwiseType, binary<Op::modulo>}, {"fmod", 2, 2, componentwiseType, binary<Op::truncatedModulo>},
+        {"pow", 2, 2, componentwiseType, power}, {"cross", 2, 2, crossType, cross}, {"dot", 2, 2, measureType, dot}, {"length", 1, 1, measureType, length},
+        {"distance", 1, 2, distanceType, distance}, {"normalize", 1, 1, componentwiseType, normalize}, {"reflect", 2, 2, componentwiseType, reflect},
+        {"min", 2, 8, extremeType, [](S s, A a) -> R { return extreme(s, a, Op::minimum); }},
+        {"max", 2, 8, extremeType, [](S s, A a) -> R { return extreme(s, a, Op::maximum); }},
+        {"smooth_min", 3, 3, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::smoothMinimum, x[0], x[1], x[2]); }); }},
+        {"smooth_max", 3, 3, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
             const auto negative = [&](IrId id) { return s.ir.add(Op::negate, id); };
-            return negative(s.ir.add(Op::smoothMinimum, negative(x[0]), negative(x[1]), x[2])); }); }, 3, 3}},
-        {"fract", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::modulo, x[0], number(s, 1.0)); }); }, 1, 1}},
-        {"frac", {[](S s, A a) -> R { return callBuiltin(s, "fract", a); }, 1, 1}},
-        {"inversesqrt", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return reciprocal(s, s.ir.add(Op::squareRoot, x[0])); }); }, 1, 1}},
-        {"rsqrt", {[](S s, A a) -> R { return callBuiltin(s, "inversesqrt", a); }, 1, 1}},
-        {"exp2", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::exponential, scaled(s, x[0], std::numbers::ln2)); }); }, 1, 1}},
-        {"log2", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return scaled(s, s.ir.add(Op::logarithm, x[0]), std::numbers::log2e); }); }, 1, 1}},
-        {"sinh", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
-            const IrId e = s.ir.add(Op::exponential, x[0]); return scaled(s, s.ir.add(Op::subtract, e, reciprocal(s, e)), 0.5); }); }, 1, 1}},
-        {"cosh", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
-            const IrId e = s.ir.add(Op::exponential, s.ir.add(Op::absolute, x[0])); return scaled(s, s.ir.add(Op::add, e, reciprocal(s, e)), 0.5); }); }, 1, 1}},
-        {"tanh", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) {  // 1 - 2 / (e^2x + 1): each variable once
+            return negative(s.ir.add(Op::smoothMinimum, negative(x[0]), negative(x[1]), x[2])); }); }},
+        {"fract", 1, 1, componentwiseType, fract},
+        {"frac", 1, 1, componentwiseType, fract},
+        {"inversesqrt", 1, 1, componentwiseType, inverseSquareRoot},
+        {"rsqrt", 1, 1, componentwiseType, inverseSquareRoot},
+        {"exp2", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return s.ir.add(Op::exponential, scaled(s, x[0], std::numbers::ln2)); }); }},
+        {"log2", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return scaled(s, s.ir.add(Op::logarithm, x[0]), std::numbers::log2e); }); }},
+        {"sinh", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
+            const IrId e = s.ir.add(Op::exponential, x[0]); return scaled(s, s.ir.add(Op::subtract, e, reciprocal(s, e)), 0.5); }); }},
+        {"cosh", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
+            const IrId e = s.ir.add(Op::exponential, s.ir.add(Op::absolute, x[0])); return scaled(s, s.ir.add(Op::add, e, reciprocal(s, e)), 0.5); }); }},
+        {"tanh", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) {  // 1 - 2 / (e^2x + 1): each variable once
             const IrId e = s.ir.add(Op::exponential, clamped(s, scaled(s, x[0], 2.0), number(s, -60.0), number(s, 60.0)));
-            return s.ir.add(Op::subtract, number(s, 1.0), s.ir.add(Op::divide, number(s, 2.0), s.ir.add(Op::add, e, number(s, 1.0)))); }); }, 1, 1}},
-        {"radians", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return scaled(s, x[0], std::numbers::pi / 180.0); }); }, 1, 1}},
-        {"degrees", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return scaled(s, x[0], 180.0 / std::numbers::pi); }); }, 1, 1}},
-        {"saturate", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return clamped(s, x[0], number(s, 0.0), number(s, 1.0)); }); }, 1, 1}},
-        {"clamp", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return clamped(s, x[0], x[1], x[2]); }); }, 3, 3}},
-        {"step", {[](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
-            return s.ir.add(Op::select, s.ir.add(Op::less, x[1], x[0]), number(s, 0.0), number(s, 1.0)); }); }, 2, 2}},
-        {"mix", {mix, 3, 3}}, {"lerp", {mix, 3, 3}}, {"smoothstep", {smoothstep, 3, 3}},
-        {"any", {anyOf, 1, 1}}, {"all", {anyOf, 1, 1}},
-        {"float", {toScalar, 1, 1}}, {"int", {toInteger, 1, 1}}, {"bool", {toBoolean, 1, 1}},
-        {"vec2", {[](S s, A a) -> R { return toVector(s, a, Type::vec2); }, 1, 2}}, {"float2", {[](S s, A a) -> R { return toVector(s, a, Type::vec2); }, 1, 2}},
-        {"vec3", {[](S s, A a) -> R { return toVector(s, a, Type::vec3); }, 1, 3}}, {"float3", {[](S s, A a) -> R { return toVector(s, a, Type::vec3); }, 1, 3}},
-        {"perlin", {noise<Op::gradientNoise>, 1, 2}}, {"simplex", {noise<Op::simplexNoise>, 1, 2}}, {"worley", {noise<Op::worleyNoise>, 1, 2}},
-        {"hash", {noise<Op::cellHash>, 1, 2}}, {"hash3", {hash3, 1, 2}},
-        {"with_distance", {withDistance, 2, 2}}, {"with_material", {withMaterial, 5, 5}},
-        {"empty", {[](S s, A) -> R { return emptySurface(s); }, 0, 0}}, {"count", {countOf, 1, 1}},
-        {"image_color", {imageColor, 2, 3}}, {"image_grey", {imageGrey, 2, 3}}, {"image_size", {imageSize, 1, 1}},
-        {"image_range", {[](S s, A a) -> R { return imageBounds(s, a, false); }, 1, 1}},
-        {"image_slope", {[](S s, A a) -> R { return imageBounds(s, a, true); }, 1, 1}},
+            return s.ir.add(Op::subtract, number(s, 1.0), s.ir.add(Op::divide, number(s, 2.0), s.ir.add(Op::add, e, number(s, 1.0)))); }); }},
+        {"radians", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return scaled(s, x[0], std::numbers::pi / 180.0); }); }},
+        {"degrees", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return scaled(s, x[0], 180.0 / std::numbers::pi); }); }},
+        {"saturate", 1, 1, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return clamped(s, x[0], number(s, 0.0), number(s, 1.0)); }); }},
+        {"clamp", 3, 3, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) { return clamped(s, x[0], x[1], x[2]); }); }},
+        {"step", 2, 2, componentwiseType, [](S s, A a) -> R { return componentwise(a, [&](const auto& x) {
+            return s.ir.add(Op::select, s.ir.add(Op::less, x[1], x[0]), number(s, 0.0), number(s, 1.0)); }); }},
+        {"mix", 3, 3, mixType, mix}, {"lerp", 3, 3, mixType, mix}, {"smoothstep", 3, 3, componentwiseType, smoothstep},
+        {"any", 1, 1, booleanType, same}, {"all", 1, 1, booleanType, same},
+        {"float", 1, 1, conversionType<Type::scalar>, toScalar}, {"int", 1, 1, conversionType<Type::integer>, toInteger}, {"bool", 1, 1, conversionType<Type::boolean>, toBoolean},
+        {"vec2", 1, 2, vectorType<Type::vec2>, toVector<Type::vec2>}, {"float2", 1, 2, vectorType<Type::vec2>, toVector<Type::vec2>},
+        {"vec3", 1, 3, vectorType<Type::vec3>, toVector<Type::vec3>}, {"float3", 1, 3, vectorType<Type::vec3>, toVector<Type::vec3>},
+        {"perlin", 1, 2, noiseType<Type::scalar>, noise<Op::gradientNoise>}, {"simplex", 1, 2, noiseType<Type::scalar>, noise<Op::simplexNoise>}, {"worley", 1, 2, noiseType<Type::scalar>, noise<Op::worleyNoise>},
+        {"hash", 1, 2, noiseType<Type::scalar>, noise<Op::cellHash>}, {"hash3", 1, 2, noiseType<Type::vec3>, hash3},
+        {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 5, withMaterialType, withMaterial},
+        {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf},
+        {"image_color", 2, 3, imageType<Type::vec3, true>, imageColor}, {"image_grey", 2, 3, imageType<Type::scalar, true>, imageGrey}, {"image_size", 1, 1, imageType<Type::vec2, false>, imageSize},
+        {"image_range", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, false); }},
+        {"image_slope", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, true); }},
     };
     return entries;
 }
@@ -401,66 +470,72 @@ const std::unordered_map<std::string_view, Entry>& table() {
 
 }  // namespace
 
-bool isBuiltin(std::string_view name) { return table().contains(name); }
+const Builtin* findBuiltin(std::string_view name) {
+    static const auto index = [] {
+        std::unordered_map<std::string_view, const Builtin*> all;
+        for (const Builtin& entry : table()) all.emplace(entry.name, &entry);
+        return all;
+    }();
+    const auto found = index.find(name);
+    return found == index.end() ? nullptr : found->second;
+}
 
 std::vector<std::string> builtinNames() {
     std::vector<std::string> names;
-    for (const auto& entry : table()) names.emplace_back(entry.first);
+    for (const Builtin& entry : table()) names.emplace_back(entry.name);
     std::sort(names.begin(), names.end());
     return names;
 }
 
-Result<Value> callBuiltin(Lowering& state, std::string_view name, Arguments arguments) {
-    const Entry& entry = table().at(name);
-    const int count = static_cast<int>(arguments.size());
-    if (count < entry.least || count > entry.most) {
-        const std::string wanted = entry.least == entry.most
-                                       ? std::to_string(entry.least)
-                                       : std::to_string(entry.least) + " to " + std::to_string(entry.most);
-        return problem("'" + std::string(name) + "' takes " + wanted + " arguments, not " +
-                       std::to_string(count));
-    }
-    return entry.call(state, arguments);
+TypeResult arithmeticType(Type a, Type b, char operation) {
+    const std::array<Type, 2> both = {a, b};
+    TypeResult type = componentwiseType(both);
+    if (a == Type::integer && b == Type::integer && operation != '/') return Type::integer;
+    return type;
 }
 
-Result<Value> arithmetic(Lowering& state, char operation, const Value& a, const Value& b) {
+Value arithmetic(Lowering& state, char operation, const Value& a, const Value& b) {
     const Op op = operation == '+'   ? Op::add
                   : operation == '-' ? Op::subtract
                   : operation == '*' ? Op::multiply
                   : operation == '/' ? Op::divide
                                      : Op::truncatedModulo;
-    const std::array<Value, 2> operands = {a, b};
-    Result<Value> result =
-        componentwise(operands, [&](const auto& x) { return state.ir.add(op, x[0], x[1]); });
-    if (result && a.type == Type::integer && b.type == Type::integer && operation != '/')
-        result->type = Type::integer;
+    const std::array<const Value*, 2> operands = {&a, &b};
+    const int width = std::max(isVector(a.type) ? componentCount(a.type) : 1,
+                               isVector(b.type) ? componentCount(b.type) : 1);
+    Value result{vectorOf(width)};
+    for (int i = 0; i < width; ++i)
+        result.ids[i] = state.ir.add(op, component(*operands[0], i), component(*operands[1], i));
+    if (a.type == Type::integer && b.type == Type::integer && operation != '/') result.type = Type::integer;
     return result;
 }
 
+std::optional<Type> commonType(Type a, Type b) {
+    if (a == b) return a;
+    if (isNumber(a) && isNumber(b))
+        return a == Type::surface || b == Type::surface ? Type::surface : Type::scalar;
+    if (isVector(a) && standsFor(b, a)) return a;
+    if (isVector(b) && standsFor(a, b)) return b;
+    return std::nullopt;
+}
+
 Result<Value> choose(Lowering& state, IrId condition, const Value& a, const Value& b) {
-    Value x = a, y = b;
-    if (x.type != y.type) {
-        const Type wanted = x.type == Type::surface || y.type == Type::surface ? Type::surface
-                            : isVector(x.type)                                 ? x.type
-                            : isVector(y.type)                                 ? y.type
-                                                                               : Type::scalar;
-        const Result<Value> cx = convert(state, x, wanted), cy = convert(state, y, wanted);
-        if (!cx || !cy)
-            return problem("the two sides are of different types, " + std::string(typeName(a.type)) +
-                           " and " + std::string(typeName(b.type)));
-        x = *cx, y = *cy;
-    }
-    if (x.type == Type::boolean) {  // in logic, so that a select is always a number
+    const Type type = *commonType(a.type, b.type);
+    Value x = *convert(state, a, type), y = *convert(state, b, type);
+    if (type == Type::boolean) {  // in logic, so that a select is always a number
         const IrId yes = state.ir.add(Op::logicalAnd, condition, x.ids[0]);
         const IrId no = state.ir.add(Op::logicalAnd, state.ir.add(Op::logicalNot, condition), y.ids[0]);
         return scalar(state.ir.add(Op::logicalOr, yes, no), Type::boolean);
     }
-    if (componentCount(x.type) == 0) {
-        if (!state.ir.isConstant(condition))
-            return problem("texts and points can only be chosen by a constant condition");
-        return state.ir.number(condition) != 0.0 ? x : y;
+    if (componentCount(type) == 0) {
+        if (state.ir.isConstant(condition)) return state.ir.number(condition) != 0.0 ? x : y;
+        if (x.text == y.text && x.points == y.points && x.image == y.image) return x;
+        return Error{
+            .message =
+                "texts, points and images can only be chosen by a condition that is known when the graph "
+                "is compiled"};
     }
-    for (int i = 0; i < componentCount(x.type); ++i)
+    for (int i = 0; i < componentCount(type); ++i)
         x.ids[i] = state.ir.add(Op::select, condition, x.ids[i], y.ids[i]);
     return x;
 }

@@ -1,129 +1,105 @@
 #include "graph/language/lower.h"
-#include "graph/base/words.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
-#include <numbers>
 #include <optional>
-#include <set>
+#include <stdexcept>
 #include <unordered_map>
 
-#include "graph/language/builtins.h"
+#include "graph/language/resolve.h"
 
 namespace fw::language {
 
 namespace {
 
+using Kind = Instruction::Kind;
+
 struct Failure {
     Error error;
 };
 
-struct Variable {
-    std::string name;
-    Value value;
-    bool constant = false;  ///< declared const: may not be assigned to
+/// What a variable was when a structure began, of those that it assigned.
+struct Change {
+    int slot;
+    std::optional<Value> before;
+    int logged;  ///< where it stood in the log of changes when this one came; -1: nowhere
 };
 
-/// Conditions under which a loop's body was left early.
-struct Loop {
-    IrId left, skipped;
+/// Some places left a loop, or an iteration, under this condition, with these variables.
+struct Exit {
+    IrId condition;
+    std::vector<std::pair<int, Value>> values;
 };
 
-/// One running function or body.
+/// A branch or a loop that is under way.
+struct Structure {
+    bool known = false;            ///< a branch whose condition is
+    int depth = 0;                 ///< slots that were declared at it or deeper are its own
+    std::size_t log = 0;           ///< where its changes begin
+    IrId condition = 0, live = 0;  ///< live: before it
+    // of a branch: of its first side
+    IrId firstLive = 0, firstBegan = 0;
+    std::vector<std::pair<int, std::optional<Value>>> first = {};
+    // of a loop
+    bool loops = false;
+    std::vector<Exit> left = {}, skipped = {};  ///< by break; by continue, in this iteration
+    std::size_t returns = 0;                    ///< of the frame, when it began
+};
+
+/// One running function.
 struct Frame {
-    std::vector<Variable> variables;  ///< later ones hide earlier ones
-    IrId live = 0;                    ///< boolean: the statement counts
-    std::optional<Value> result;
-    std::string lastTarget;  ///< of the last assignment
-    std::optional<Value> lastValue;
-    Loop* loop = nullptr;
+    const CodeFunction* function;
+    std::size_t at = 0;
+    IrId live = 0;  ///< boolean: the instruction counts
+    std::vector<std::optional<Value>> slots = {};
+    std::vector<int> logged = {};  ///< of each slot: its newest entry in the log, -1 if there is none
+    std::vector<Change> log = {};
+    std::vector<Structure> structures = {};
+    std::optional<Value> result = {};
+    std::size_t returns = 0;
+    std::size_t operands = 0;  ///< on the stack below it
 };
-
-int swizzleIndex(char c) {
-    switch (c) {
-        case 'x':
-        case 'r':
-        case 'u': return 0;
-        case 'y':
-        case 'g':
-        case 'v': return 1;
-        case 'z':
-        case 'b': return 2;
-        default: return -1;
-    }
-}
 
 class Run {
   public:
-    Run(Lowering& state_, const Tree& tree_, const Scope& scope_)
-        : state(state_), ir(state_.ir), tree(tree_), scope(scope_) {
-        for (const Stmt& s : tree.statements)
-            if (s.kind == Stmt::Kind::assign && !s.declares) {
-                assignedTargets.insert(s.target);
-                if (s.target == "pos") assignedTargets.insert("p");
-            }
-    }
+    Run(Lowering& state_, const Code& code_, std::vector<Value> inputs_, const LowerOptions& options_)
+        : state(state_), ir(state_.ir), code(code_), inputs(std::move(inputs_)), options(options_) {}
 
     std::vector<Value> outputs() {
-        Frame frame = newFrame();
-        for (StmtId id : tree.body) statement(frame, id);
-
-        const Place end{1, 1};
-        std::vector<Value> values;
-        if (scope.outputs.size() > 1) {
-            for (const OutputSpec& output : scope.outputs) {
-                const Value* value = find(frame, output.name);
-                if (!value) fail(end, "the code assigns no " + inQuotes(output.name));
-                values.push_back(converted(*value, output.type, end));
-            }
-            return values;
-        }
-        std::optional<Value> result = lastAssigned(frame);
-        if (frame.result) {
-            if (!ir.isConstant(frame.live, 0.0)) {
-                if (!result)
-                    fail(end, "the code does not return on every path: end it with a return outside the if");
-                // Some paths return and others fall through to the last assignment.
-                result = checked(choose(state, frame.live, *result, *frame.result), end);
+        enter(0, {1, 1});
+        while (true) {
+            Frame& frame = frames.back();
+            if (frame.at < frame.function->instructions.size()) {
+                const Instruction& instruction = frame.function->instructions[frame.at++];
+                step(instruction.place);
+                run(frame, instruction);
+            } else if (frames.size() > 1) {
+                leave();
             } else {
-                result = frame.result;
+                return results(frame);
             }
         }
-        if (!result) fail(end, "the code has no result: end it with 'return …;' or assign the result last");
-        if (scope.anyResult) {
-            if (componentCount(result->type) == 0)
-                fail(end,
-                     "the code returns a " + std::string(typeName(result->type)) + ", which no node can use");
-            return {*result};
-        }
-        return {converted(*result, scope.outputs[0].type, end)};
     }
 
   private:
     [[noreturn]] static void fail(Place place, const std::string& message) {
         throw Failure{codeError(place, message)};
     }
-
     Value checked(Result<Value> result, Place place) {
-        if (result) return *result;
+        if (result) return std::move(*result);
         Error error = result.error();
         if (error.codeLine == 0) error.codeLine = place.line, error.codeColumn = place.column;
         throw Failure{error};
     }
-    Value converted(const Value& value, Type type, Place place) {
-        return checked(convert(state, value, type), place);
-    }
-
     /// `value` as a variable of `type` holds it: an int truncates.
     Value stored(const Value& value, Type type, Place place) {
-        Value made = converted(value, type, place);
+        Value made = checked(convert(state, value, type), place);
         if (type == Type::integer && value.type != Type::integer)
             made.ids[0] = ir.add(Op::truncate, made.ids[0]);
         return made;
     }
-
     void step(Place place) {
         if (++state.steps > kMaxSteps)
             fail(place, "the code runs more than " + std::to_string(kMaxSteps) + " steps: shorten its loops");
@@ -132,665 +108,562 @@ class Run {
                             " operations: use fewer copies or shorter loops");
     }
 
-    // ---- variables
-    // -------------------------------------------------------------------------------------------
+    // ---- functions
 
-    /// A frame in which the inputs and `p` that the code assigns to are variables from the start: what an if
-    /// or a loop assigns to them lasts.
-    Frame newFrame() {
-        Frame frame;
+    void enter(int index, Place place) {
+        Frame frame{&code.functions[std::size_t(index)]};
         frame.live = ir.constant(1.0);
-        for (const std::string& target : assignedTargets)
-            if (const Value* input = findInput(target))
-                frame.variables.push_back({target, *input});
-            else if (target == "p")
-                frame.variables.push_back({target, positionValue()});
-        return frame;
+        frame.slots.resize(frame.function->slots.size());
+        frame.logged.assign(frame.slots.size(), -1);
+        const std::size_t count = frame.function->parameters.size();
+        for (std::size_t i = 0; i < count; ++i)
+            frame.slots[i] = stored(stack[stack.size() - count + i], frame.function->parameters[i], place);
+        stack.resize(stack.size() - count);
+        frame.operands = stack.size();
+        for (const auto& [slot, input] : frame.function->captured)
+            frame.slots[std::size_t(slot)] = input < 0 ? positionValue() : inputs[std::size_t(input)];
+        frames.push_back(std::move(frame));
     }
 
-    static Variable* findVariable(Frame& frame, std::string_view name) {
-        for (auto it = frame.variables.rbegin(); it != frame.variables.rend(); ++it)
-            if (it->name == name) return &*it;
-        return nullptr;
+    void leave() {
+        const Frame frame = std::move(frames.back());
+        frames.pop_back();
+        if (!frame.result || !ir.isConstant(frame.live, 0.0))
+            fail(frame.function->place,
+                 "the function " + inQuotes(frame.function->name) + " does not return on every path");
+        stack.resize(frame.operands);
+        stack.push_back(stored(*frame.result, frame.function->result, frame.function->place));
     }
-    static Value* find(Frame& frame, std::string_view name) {
-        Variable* variable = findVariable(frame, name);
-        return variable ? &variable->value : nullptr;
+
+    std::vector<Value> results(const Frame& frame) {
+        const Place end{1, 1};
+        if (!code.outputs.empty()) {
+            std::vector<Value> values;
+            for (std::size_t i = 0; i < code.outputs.size(); ++i) {
+                const std::optional<Value>& value = frame.slots[std::size_t(code.outputs[i])];
+                if (!value) fail(end, "the code assigns no " + inQuotes(options.outputs[i].name));
+                values.push_back(checked(convert(state, *value, options.outputs[i].type), end));
+            }
+            return values;
+        }
+        std::optional<Value> result = frame.result;
+        if (!ir.isConstant(frame.live, 0.0)) {
+            const std::optional<Value> last =
+                code.last < 0 ? std::nullopt : frame.slots[std::size_t(code.last)];
+            if (!last)
+                fail(end, "the code does not return on every path: end it with a return outside the if");
+            // Some paths return and others fall through to the last assignment.
+            result = result ? checked(choose(state, frame.live, *last, *result), end) : last;
+        }
+        if (!options.outputs.empty()) result = checked(convert(state, *result, options.outputs[0].type), end);
+        return {*result};
     }
-    const Value* findInput(std::string_view name) const {
-        for (const auto& [known, value] : scope.inputs)
-            if (known == name) return &value;
-        return nullptr;
-    }
+
     Value positionValue() const {
         Value value{Type::vec3};
         for (int i = 0; i < 3; ++i) value.ids[i] = ir.position(i);
         return value;
     }
+    static Value boolean(IrId id) { return Value{Type::boolean, {id}}; }
 
-    /// The value a name stands for: variable, input, then the names everybody sees.
-    std::optional<Value> named(Frame& frame, std::string_view name) {
-        if (const Value* value = find(frame, name)) return *value;
-        if (const Value* value = findInput(name)) return *value;
-        if (name == "pos") return named(frame, "p");
-        if (name == "p") return positionValue();
-        if (name == "time") return scalar(state.time);
-        if (name == "PI" || name == "pi") return scalar(ir.constant(std::numbers::pi));
-        if (name == "TAU" || name == "tau") return scalar(ir.constant(2.0 * std::numbers::pi));
-        if (name == "true" || name == "false")
-            return Value{Type::boolean, {ir.constant(name == "true" ? 1.0 : 0.0)}};
-        return std::nullopt;
-    }
-    static Value scalar(IrId id) { return Value{Type::scalar, {id}}; }
+    // ---- instructions
 
-    std::optional<Value> lastAssigned(Frame& frame) {
-        if (const Value* value = find(frame, frame.lastTarget)) return *value;
-        return frame.lastValue;
+    Value pop() {
+        Value top = std::move(stack.back());
+        stack.pop_back();
+        return top;
     }
 
-    // ---- statements
-    // ------------------------------------------------------------------------------------------
-
-    void statement(Frame& frame, StmtId id) {
-        const Stmt& s = tree.statements[id];
-        if (ir.isConstant(frame.live, 0.0)) return;  // nothing reaches this statement
-        step(s.place);
-        switch (s.kind) {
-            case Stmt::Kind::assign: assign(frame, s); return;
-            case Stmt::Kind::branch: branch(frame, s); return;
-            case Stmt::Kind::loop: loop(frame, s); return;
-            case Stmt::Kind::evaluate: {
-                const Value value = expression(frame, s.expression);
-                frame.lastTarget.clear();
-                frame.lastValue = value;  // a lone expression is its own result
+    void run(Frame& frame, const Instruction& i) {
+        switch (i.kind) {
+            case Kind::number: stack.push_back(constantValue(state, i.type, std::array{i.number})); return;
+            case Kind::text:
+                stack.push_back(Value{Type::string});
+                stack.back().text = code.texts[std::size_t(i.index)];
                 return;
-            }
-            case Stmt::Kind::result: {
-                if (s.expression == kNothing) fail(s.place, "'return' needs a value");
-                const Value value = expression(frame, s.expression);
-                frame.result =
-                    frame.result ? checked(choose(state, frame.live, value, *frame.result), s.place) : value;
-                frame.live = ir.constant(0.0);
-                return;
-            }
-            case Stmt::Kind::leave:
-            case Stmt::Kind::next: {
-                if (!frame.loop) fail(s.place, "'break' and 'continue' belong inside a loop");
-                IrId& when = s.kind == Stmt::Kind::leave ? frame.loop->left : frame.loop->skipped;
-                when = ir.add(Op::logicalOr, when, frame.live);
-                frame.live = ir.constant(0.0);
-                return;
-            }
-            case Stmt::Kind::block: {
-                const std::size_t outside = frame.variables.size();
-                for (StmtId inner : s.body) statement(frame, inner);
-                if (!s.declares) frame.variables.resize(outside);
-                return;
-            }
-        }
-    }
-
-    void assign(Frame& frame, const Stmt& s) {
-        if (s.declares) {
-            Value value;
-            if (s.expression == kNothing)
-                value = constantValue(state, s.type, std::array{0.0, 0.0, 0.0});
-            else
-                value = stored(expression(frame, s.expression), s.type, s.place);
-            frame.variables.push_back({s.target, value, s.constant});
-            remember(frame, s.target, value);
-            return;
-        }
-        Value value = expression(frame, s.expression);
-        std::string target = s.target;
-        if (target == "pos" && !find(frame, target) && !findInput(target)) target = "p";
-        Variable* known = findVariable(frame, target);
-        if (known && known->constant)
-            fail(s.place, inQuotes(target) + " is const: drop the const, or assign to another name");
-        Value* variable = known ? &known->value : nullptr;
-        std::optional<Value> old;
-        if (variable)
-            old = *variable;
-        else
-            old = named(frame, target);
-        if (!old && (!s.operation.empty() || !s.swizzle.empty()))
-            fail(s.place, inQuotes(target) + " has no value yet");
-
-        if (!s.swizzle.empty()) {
-            value = withComponents(*old, s, value);
-        } else if (!s.operation.empty()) {
-            value = combine(s.operation[0], *old, value, s.place);
-        }
-        if (variable) {
-            if (old->type == Type::surface && value.type != Type::surface) {
-                Value kept = *old;
-                kept.ids[0] = converted(value, Type::scalar, s.place).ids[0];
-                value = kept;
-            } else if (old->type == Type::scalar && value.type == Type::surface) {
-                // a name declared by a float keeps a surface's material from here on
-            } else {
-                value = stored(value, old->type, s.place);
-            }
-            if (frame.loop && !ir.isConstant(frame.live))
-                value = checked(choose(state, frame.live, value, *old), s.place);
-            *variable = value;
-        } else {
-            if (value.type == Type::integer) value.type = Type::scalar;
-            frame.variables.push_back({target, value});
-        }
-        remember(frame, target, value);
-    }
-
-    static void remember(Frame& frame, const std::string& target, const Value& value) {
-        frame.lastTarget = target;
-        frame.lastValue = value;
-    }
-
-    /// `old` with the components that s.swizzle names replaced.
-    Value withComponents(Value old, const Stmt& s, const Value& value) {
-        if (old.type == Type::surface) {
-            const auto [first, type] = surfaceMember(s.swizzle, s.place);
-            Value part{type};
-            std::copy_n(old.ids.begin() + first, componentCount(type), part.ids.begin());
-            const Value made = s.operation.empty() ? converted(value, type, s.place)
-                                                   : combine(s.operation[0], part, value, s.place);
-            std::copy_n(converted(made, type, s.place).ids.begin(), componentCount(type),
-                        old.ids.begin() + first);
-            return old;
-        }
-        const Value part = swizzled(old, s.swizzle, s.place);
-        const Value made = converted(
-            s.operation.empty() ? value : combine(s.operation[0], part, value, s.place), part.type, s.place);
-        for (std::size_t i = 0; i < s.swizzle.size(); ++i) old.ids[swizzleIndex(s.swizzle[i])] = made.ids[i];
-        return old;
-    }
-
-    void branch(Frame& frame, const Stmt& s) {
-        const Value condition = truth(frame, s.expression);
-        if (ir.isConstant(condition.ids[0])) {
-            const bool holds = ir.number(condition.ids[0]) != 0.0;
-            if (holds || s.body.size() > 1) scoped(frame, s.body[holds ? 0 : 1]);
-            return;
-        }
-        const Frame before = frame;
-        frame.live = ir.add(Op::logicalAnd, before.live, condition.ids[0]);
-        scoped(frame, s.body[0]);
-
-        Frame other = before;
-        other.result = frame.result;  // a return on the first side stands where the second does not return
-        other.live = ir.add(Op::logicalAnd, before.live, ir.add(Op::logicalNot, condition.ids[0]));
-        if (s.body.size() > 1) scoped(other, s.body[1]);
-
-        const bool firstEnds = ir.isConstant(frame.live, 0.0), secondEnds = ir.isConstant(other.live, 0.0);
-        frame.result = other.result;
-        for (std::size_t i = 0; i < frame.variables.size(); ++i) {
-            Value& mine = frame.variables[i].value;
-            const Value& theirs = other.variables[i].value;
-            if (firstEnds && !inLoop(frame))
-                mine = theirs;
-            else if (!(secondEnds && !inLoop(frame)))
-                mine = checked(choose(state, condition.ids[0], mine, theirs), s.place);
-        }
-        if (other.lastTarget != before.lastTarget || !other.lastValue) {
-            frame.lastTarget = other.lastTarget;
-            frame.lastValue = other.lastValue;
-        }
-        if (firstEnds)
-            frame.live = other.live;
-        else if (!secondEnds)
-            frame.live = bothContinue(before, frame, other) ? before.live
-                                                            : ir.add(Op::logicalOr, frame.live, other.live);
-    }
-
-    static bool inLoop(const Frame& frame) { return frame.loop != nullptr; }
-    /// Neither side of a branch changed the condition it started with.
-    bool bothContinue(const Frame& before, const Frame& first, const Frame& second) {
-        const IrNode &a = ir[first.live], &b = ir[second.live];
-        if (ir.isConstant(before.live, 1.0))
-            return first.live == second.live || ir.add(Op::logicalNot, first.live) == second.live;
-        const auto extends = [&](const IrNode& node) {
-            return node.op == Op::logicalAnd &&
-                   (node.operands[0] == before.live || node.operands[1] == before.live);
-        };
-        return extends(a) && extends(b);
-    }
-
-    void scoped(Frame& frame, StmtId id) {
-        const std::size_t outside = frame.variables.size();
-        statement(frame, id);
-        frame.variables.resize(outside);
-    }
-
-    void loop(Frame& frame, const Stmt& s) {
-        const std::size_t outside = frame.variables.size();
-        statement(frame, s.body[0]);
-        Loop own{ir.constant(0.0), ir.constant(0.0)};
-        Loop* const outer = frame.loop;
-        frame.loop = &own;
-        while (!ir.isConstant(frame.live, 0.0)) {
-            step(s.place);
-            const Value condition = truth(frame, s.expression);
-            if (!ir.isConstant(condition.ids[0]))
-                fail(s.place,
-                     "the loop's bounds must be known when the graph is compiled: numbers, or inputs that "
-                     "are not linked or live");
-            if (ir.number(condition.ids[0]) == 0.0) break;
-            scoped(frame, s.body[2]);
-            frame.live = ir.add(Op::logicalOr, frame.live, own.skipped);
-            own.skipped = ir.constant(0.0);
-            // The step runs on every path that is still in the loop; its variable is the same on all of them.
-            const IrId live = frame.live;
-            if (!ir.isConstant(live, 0.0)) {
-                frame.live = ir.constant(1.0);
-                statement(frame, s.body[1]);
-                frame.live = live;
-            }
-        }
-        frame.loop = outer;
-        frame.live = ir.add(Op::logicalOr, frame.live, own.left);
-        frame.variables.resize(outside);
-    }
-
-    Value truth(Frame& frame, ExprId id) {
-        const Value value = expression(frame, id);
-        if (value.type != Type::boolean)
-            fail(tree.expressions[id].place,
-                 "a condition is a comparison, not a " + std::string(typeName(value.type)));
-        return value;
-    }
-
-    // ---- expressions
-    // -----------------------------------------------------------------------------------------
-
-    Value expression(Frame& frame, ExprId id) {
-        const Expr& e = tree.expressions[id];
-        step(e.place);
-        switch (e.kind) {
-            case Expr::Kind::number:
-                return Value{e.integer ? Type::integer : Type::scalar, {ir.constant(e.number)}};
-            case Expr::Kind::string: {
-                Value value{Type::string};
-                value.text = e.text;
-                return value;
-            }
-            case Expr::Kind::name: {
-                if (const auto value = named(frame, e.text)) return *value;
-                unknown(frame, e, "name");
-            }
-            case Expr::Kind::member: return member(expression(frame, e.arguments[0]), e);
-            case Expr::Kind::index:
-                return indexed(expression(frame, e.arguments[0]), expression(frame, e.arguments[1]), e.place);
-            case Expr::Kind::call: return call(frame, e);
-            case Expr::Kind::unary: {
-                const Value value = expression(frame, e.arguments[0]);
-                if (e.text == "!") {
-                    if (value.type != Type::boolean) fail(e.place, "'!' takes a comparison");
-                    return Value{Type::boolean, {ir.add(Op::logicalNot, value.ids[0])}};
-                }
+            case Kind::slot: stack.push_back(*frame.slots[std::size_t(i.index)]); return;
+            case Kind::input: stack.push_back(inputs[std::size_t(i.index)]); return;
+            case Kind::position: stack.push_back(positionValue()); return;
+            case Kind::time: stack.push_back(Value{Type::scalar, {state.time}}); return;
+            case Kind::negate: {
                 const Value zero{Type::integer, {ir.constant(0.0)}};
-                return checked(arithmetic(state, '-', zero, value), e.place);
+                stack.back() = arithmetic(state, '-', zero, stack.back());
+                return;
             }
-            case Expr::Kind::binary: return binary(frame, e);
-            case Expr::Kind::conditional: {
-                const Value condition = truth(frame, e.arguments[0]);
-                if (ir.isConstant(condition.ids[0]) && ir.number(condition.ids[0]) == 0.0)
-                    return expression(frame, e.arguments[2]);
-                const Value yes = expression(frame, e.arguments[1]);
-                if (ir.isConstant(condition.ids[0])) return yes;
-                return checked(choose(state, condition.ids[0], yes, expression(frame, e.arguments[2])),
-                               e.place);
-            }
+            case Kind::logicalNot:
+                stack.back() = boolean(ir.add(Op::logicalNot, stack.back().ids[0]));
+                return;
+            case Kind::arithmetic:
+            case Kind::compare:
+            case Kind::logical: return joined(i);
+            case Kind::part:
+            case Kind::swizzle: stack.back() = part(stack.back(), i); return;
+            case Kind::element: return element(i);
+            case Kind::builtin:
+            case Kind::node: return call(i);
+            case Kind::function: return enter(i.index, i.place);
+            case Kind::elsewhere: return elsewhere(i);
+            case Kind::then:
+            case Kind::otherwise:
+            case Kind::chosen: return conditional(frame, i);
+            case Kind::declare:
+            case Kind::store:
+            case Kind::storePart:
+            case Kind::storeSwizzle: return store(frame, i);
+            case Kind::branch:
+            case Kind::otherSide:
+            case Kind::joined: return branch(frame, i);
+            case Kind::loop:
+            case Kind::test:
+            case Kind::step:
+            case Kind::repeat:
+            case Kind::looped: return loop(frame, i);
+            case Kind::result:
+            case Kind::leave:
+            case Kind::next: return depart(frame, i);
         }
-        fail(e.place, "this expression has no meaning");
     }
 
-    [[noreturn]] void unknown(Frame& frame, const Expr& e, const std::string& what) {
-        std::vector<std::string> names =
-            what == "name" ? std::vector<std::string>{"time", "pos"} : builtinNames();
-        for (const Variable& variable : frame.variables) names.push_back(variable.name);
-        for (const auto& [name, value] : scope.inputs) names.push_back(name);
-        if (what == "function")
-            for (const NodeType& type : nodeTypes()) names.push_back(type.id);
-        const std::string near = nearestName(e.text, names);
-        fail(e.place, "unknown " + what + " " + inQuotes(e.text) +
-                          (near.empty() ? "" : ": did you mean '" + near + "'?"));
+    void joined(const Instruction& i) {
+        const Value b = pop(), a = pop();
+        if (i.kind == Kind::arithmetic) {
+            if (i.symbol == '/' || i.symbol == '%') refuseZero(b, i.place);
+            stack.push_back(arithmetic(state, i.symbol, a, b));
+        } else if (i.kind == Kind::logical) {
+            stack.push_back(
+                boolean(ir.add(i.symbol == '&' ? Op::logicalAnd : Op::logicalOr, a.ids[0], b.ids[0])));
+        } else {
+            stack.push_back(boolean(compared(i.symbol, a, b)));
+        }
+    }
+
+    IrId compared(char symbol, const Value& a, const Value& b) {
+        if (symbol == '=' || symbol == '!') {
+            IrId same = ir.constant(1.0);
+            if (a.type == Type::string) {
+                same = ir.constant(a.text == b.text ? 1.0 : 0.0);
+            } else {
+                const int width = isVector(a.type) ? componentCount(a.type) : 1;
+                for (int k = 0; k < width; ++k)
+                    same = ir.add(Op::logicalAnd, same, ir.add(Op::equal, a.ids[k], b.ids[k]));
+            }
+            return symbol == '=' ? same : ir.add(Op::logicalNot, same);
+        }
+        const IrId x = a.ids[0], y = b.ids[0];
+        switch (symbol) {
+            case '<': return ir.add(Op::less, x, y);
+            case '>': return ir.add(Op::less, y, x);
+            case 'l': return ir.add(Op::lessEqual, x, y);
+            default: return ir.add(Op::lessEqual, y, x);
+        }
     }
 
     /// An Error where a divisor of the user's code is the constant 0.
     void refuseZero(const Value& divisor, Place place) {
-        if (!scope.refusesZeroDivision) return;
-        const int width = divisor.type == Type::surface ? 1 : componentCount(divisor.type);
-        for (int i = 0; i < width; ++i)
-            if (ir.isConstant(divisor.ids[i], 0.0)) fail(place, std::string(kDivisionByZero));
+        if (!options.refusesZeroDivision) return;
+        const int width = isVector(divisor.type) ? componentCount(divisor.type) : 1;
+        for (int k = 0; k < width; ++k)
+            if (ir.isConstant(divisor.ids[k], 0.0)) fail(place, std::string(kDivisionByZero));
     }
 
-    Value combine(char operation, const Value& a, const Value& b, Place place) {
-        if (operation == '/' || operation == '%') refuseZero(b, place);
-        return checked(arithmetic(state, operation, a, b), place);
-    }
-
-    Value binary(Frame& frame, const Expr& e) {
-        const Value a = expression(frame, e.arguments[0]), b = expression(frame, e.arguments[1]);
-        const auto boolean = [](IrId id) { return Value{Type::boolean, {id}}; };
-        if (e.text == "&&" || e.text == "||") {
-            if (a.type != Type::boolean || b.type != Type::boolean)
-                fail(e.place, inQuotes(e.text) + " joins comparisons");
-            return boolean(ir.add(e.text == "&&" ? Op::logicalAnd : Op::logicalOr, a.ids[0], b.ids[0]));
+    Value part(const Value& whole, const Instruction& i) {
+        Value made{i.type};
+        if (i.kind == Kind::part) {
+            const Value surface = *convert(state, whole, Type::surface);
+            std::copy_n(surface.ids.begin() + i.index, i.count, made.ids.begin());
+        } else {
+            for (int k = 0; k < i.count; ++k) made.ids[k] = whole.ids[(i.index >> (2 * k)) & 3];
         }
-        if (std::string_view("+-*/%").find(e.text) != std::string_view::npos)
-            return combine(e.text[0], a, b, e.place);
-
-        if (a.type == Type::string && b.type == Type::string && (e.text == "==" || e.text == "!="))
-            return boolean(ir.constant((a.text == b.text) == (e.text == "==") ? 1.0 : 0.0));
-        if (e.text == "==" || e.text == "!=") {
-            if (a.type == Type::boolean || b.type == Type::boolean)
-                fail(e.place, "comparisons cannot be compared: write a && b, or a && !b");
-            const int width =
-                componentCount(a.type) == 9 || componentCount(b.type) == 9 ? 1 : componentCount(a.type);
-            if (width == 0 || (width > 1 && a.type != b.type)) fail(e.place, "these two cannot be compared");
-            IrId same = ir.constant(1.0);
-            for (int i = 0; i < width; ++i)
-                same = ir.add(Op::logicalAnd, same, ir.add(Op::equal, a.ids[i], b.ids[i]));
-            return boolean(e.text == "==" ? same : ir.add(Op::logicalNot, same));
-        }
-        const IrId x = converted(a, Type::scalar, e.place).ids[0],
-                   y = converted(b, Type::scalar, e.place).ids[0];
-        if (e.text == "<") return boolean(ir.add(Op::less, x, y));
-        if (e.text == ">") return boolean(ir.add(Op::less, y, x));
-        if (e.text == "<=") return boolean(ir.add(Op::lessEqual, x, y));
-        return boolean(ir.add(Op::lessEqual, y, x));
+        return made;
     }
 
-    static std::pair<int, Type> surfaceMember(std::string_view name, Place place) {
-        if (name == "distance") return {distanceComponent, Type::scalar};
-        if (name == "base_color") return {baseColorComponent, Type::vec3};
-        if (name == "roughness") return {roughnessComponent, Type::scalar};
-        if (name == "metallic") return {metallicComponent, Type::scalar};
-        if (name == "emission") return {emissionComponent, Type::vec3};
-        fail(place, "a surface has no " + inQuotes(name) +
-                        ": it has distance, base_color, roughness, metallic and emission");
-    }
-
-    Value swizzled(const Value& value, std::string_view swizzle, Place place) {
-        const int width = std::min(componentCount(value.type), 3);
-        if (swizzle.size() > 3 || width == 0 || value.type == Type::surface)
-            fail(place, "a " + std::string(typeName(value.type)) + " has no " +
-                            inQuotes("." + std::string(swizzle)));
-        Value result{swizzle.size() == 3 ? Type::vec3 : swizzle.size() == 2 ? Type::vec2 : Type::scalar};
-        for (std::size_t i = 0; i < swizzle.size(); ++i) {
-            const int index = swizzleIndex(swizzle[i]);
-            if (index < 0 || index >= width)
-                fail(place, "a " + std::string(typeName(value.type)) + " has no component '" +
-                                std::string(1, swizzle[i]) + "'");
-            result.ids[i] = value.ids[index];
-        }
-        return result;
-    }
-
-    Value member(const Value& value, const Expr& e) {
-        if (value.type != Type::surface) return swizzled(value, e.text, e.place);
-        const auto [first, type] = surfaceMember(e.text, e.place);
-        Value part{type};
-        std::copy_n(value.ids.begin() + first, componentCount(type), part.ids.begin());
-        return part;
-    }
-
-    Value indexed(const Value& value, const Value& index, Place place) {
-        if (!ir.isConstant(index.ids[0]) || componentCount(index.type) != 1)
-            fail(place, "an index must be known when the graph is compiled");
+    void element(const Instruction& i) {
+        const Value index = pop(), whole = pop();
+        if (!ir.isConstant(index.ids[0])) fail(i.place, "an index must be known when the graph is compiled");
         const double at = ir.number(index.ids[0]);
-        const bool isPoints = value.type == Type::points && value.points;
-        const double count = isPoints                      ? value.points->size() / 2.0
-                             : value.type == Type::surface ? 0
-                                                           : componentCount(value.type);
-        if (!(at >= 0.0 && at < count)) {
+        const bool isPoints = whole.type == Type::points;
+        const std::size_t count =
+            isPoints ? whole.points->size() / 2 : std::size_t(componentCount(whole.type));
+        if (!(at >= 0.0 && at < double(count))) {
             char text[32];
             std::snprintf(text, sizeof text, "%.15g", at);
-            fail(place, "index " + std::string(text) + " is outside 0 to " +
-                            std::to_string(static_cast<long long>(count) - 1));
+            fail(i.place, "index " + std::string(text) + " is outside 0 to " +
+                              std::to_string(static_cast<long long>(count) - 1));
         }
-        const auto i = static_cast<std::size_t>(at);
+        const auto k = static_cast<std::size_t>(at);
         if (isPoints)
-            return Value{Type::vec2,
-                         {ir.constant((*value.points)[2 * i]), ir.constant((*value.points)[2 * i + 1])}};
-        return scalar(value.ids[i]);
+            stack.push_back(Value{
+                Type::vec2, {ir.constant((*whole.points)[2 * k]), ir.constant((*whole.points)[2 * k + 1])}});
+        else
+            stack.push_back(Value{Type::scalar, {whole.ids[k]}});
     }
 
     // ---- calls
-    // -----------------------------------------------------------------------------------------------
 
-    Value call(Frame& frame, const Expr& e) {
-        std::vector<Value> arguments;
-        for (ExprId id : e.arguments) arguments.push_back(expression(frame, id));
-
-        if (const Function* function = tree.function(e.text)) return callFunction(*function, arguments, e);
-        const Value* field = find(frame, e.text);
-        if (!field) field = findInput(e.text);
-        if (field) return atPosition(*field, arguments, e);
-        if ((e.text == "mod" || e.text == "fmod") && arguments.size() == 2) refuseZero(arguments[1], e.place);
-        if (isBuiltin(e.text)) return checked(callBuiltin(state, e.text, arguments), e.place);
-
-        const NodeType* type = findNodeType(e.text);
-        if (!type) {
-            std::string lower = e.text;  // listings write Box(pos)
-            for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-            type = findNodeType(lower);
+    void call(const Instruction& i) {
+        const auto first = stack.end() - i.count;
+        if (i.kind == Kind::builtin) {
+            const Builtin& builtin = *code.builtins[std::size_t(i.index)];
+            if (builtin.name == "mod" || builtin.name == "fmod") refuseZero(stack.back(), i.place);
+            Value result = checked(builtin.lower(state, std::span(first, stack.end())), i.place);
+            stack.erase(first, stack.end());
+            stack.push_back(std::move(result));
+            return;
         }
-        if (type && type->body.empty())
-            fail(e.place, "'" + type->id + "' is a node and no function: add it to the graph and link it");
-        if (!type) unknown(frame, e, "function");
-        return callNode(*type, arguments, e);
-    }
-
-    Value atPosition(const Value& field, const std::vector<Value>& arguments, const Expr& e) {
-        if (arguments.size() != 1 || componentCount(field.type) == 0)
-            fail(e.place, inQuotes(e.text) + " is a field: call it with one position, as in a(p)");
-        const Value q = converted(arguments[0], Type::vec3, e.place);
-        Value result = field;
-        for (int i = 0; i < componentCount(field.type); ++i) {
-            step(e.place);
-            result.ids[i] = ir.substitute(field.ids[i], {q.ids[0], q.ids[1], q.ids[2]});
-            if (ir.substituted() > kMaxSubstituted)
-                fail(e.place, "the graph moves its fields " + std::to_string(kMaxSubstituted) +
-                                  " operations' worth: use fewer or less nested copies, repeats and moves");
-        }
-        return result;
-    }
-
-    Value callFunction(const Function& function, const std::vector<Value>& arguments, const Expr& e) {
-        if (arguments.size() != function.parameters.size())
-            fail(e.place, inQuotes(e.text) + " takes " + std::to_string(function.parameters.size()) +
-                              " arguments, not " + std::to_string(arguments.size()));
-        if (state.calls >= kMaxCalls)
-            fail(e.place, inQuotes(e.text) + " calls itself, or calls are nested deeper than " +
-                              std::to_string(kMaxCalls));
-        Frame frame = newFrame();
-        for (std::size_t i = 0; i < arguments.size(); ++i)
-            frame.variables.push_back(
-                {function.parameters[i].second, stored(arguments[i], function.parameters[i].first, e.place)});
-        ++state.calls;
-        statement(frame, function.body);
-        --state.calls;
-        if (!frame.result || !ir.isConstant(frame.live, 0.0))
-            fail(function.place,
-                 "the function " + inQuotes(function.name) + " does not return on every path");
-        return stored(*frame.result, function.result, function.place);
-    }
-
-    Value callNode(const NodeType& type, const std::vector<Value>& arguments, const Expr& e) {
-        if (arguments.size() > type.inputs.size())
-            fail(e.place, "'" + type.id + "' takes at most " + std::to_string(type.inputs.size()) +
-                              " arguments, not " + std::to_string(arguments.size()));
-        std::vector<Value> inputs;
-        for (std::size_t i = 0; i < type.inputs.size(); ++i) {
-            const InputSpec& input = type.inputs[i];
-            if (i >= arguments.size()) {
-                inputs.push_back(defaultValue(state, input));
+        const NodeType& type = *code.nodes[std::size_t(i.index)];
+        std::vector<Value> given;
+        for (std::size_t k = 0; k < type.inputs.size(); ++k) {
+            const InputSpec& input = type.inputs[k];
+            if (k >= i.count) {
+                given.push_back(defaultValue(state, input));
                 continue;
             }
-            const Result<Value> value = convert(state, arguments[i], input.type);
-            if (!value)
-                fail(e.place, "argument " + std::to_string(i + 1) + " of '" + type.id + "' is its " +
-                                  input.name + ", a " + std::string(typeName(input.type)) + ", not a " +
-                                  std::string(typeName(arguments[i].type)));
-            if (!input.options.empty() &&
-                std::find(input.options.begin(), input.options.end(), value->text) == input.options.end())
-                fail(e.place, inQuotes(value->text) + " is not one of the choices of " + input.name);
-            inputs.push_back(*value);
+            given.push_back(checked(convert(state, *(first + std::ptrdiff_t(k)), input.type), i.place));
+            requireRange(type, k, given.back(), i.place);
         }
-        return checked(firstOf(lowerNode(state, type, std::move(inputs))), e.place);
+        stack.erase(first, stack.end());
+        Result<std::vector<Value>> values = lowerNode(state, type, std::move(given));
+        if (!values) {
+            Error error = values.error();  // the place inside the library's body means nothing to the user
+            error.codeLine = error.codeColumn = 0;
+            checked(error, i.place);
+        }
+        stack.push_back(std::move(values->front()));
     }
-    static Result<Value> firstOf(Result<std::vector<Value>> values) {
-        if (values) return values->front();
-        Error error = values.error();
-        error.codeLine = error.codeColumn =
-            0;  // the place inside the library's body means nothing to the user
-        return error;
+
+    /// The choices and ranges of a node's input hold for arguments as they do for what a document gives.
+    void requireRange(const NodeType& type, std::size_t index, const Value& value, Place place) {
+        const InputSpec& input = type.inputs[index];
+        const std::string which =
+            "argument " + std::to_string(index + 1) + " of '" + type.id + "' is its " + input.name + ": ";
+        if (!input.options.empty() && std::ranges::find(input.options, value.text) == input.options.end())
+            fail(place, which + inQuotes(value.text) + " is not one of its choices");
+        if (value.type != Type::scalar && value.type != Type::integer && !isVector(value.type)) return;
+        for (int k = 0; k < componentCount(value.type); ++k)
+            if (ir.isConstant(value.ids[k]))
+                if (const auto problem = rangeProblem(input, ir.number(value.ids[k])))
+                    fail(place, which + *problem);
+    }
+
+    void elsewhere(const Instruction& i) {
+        // The position was pushed before the field that it is for.
+        const Value field = pop();
+        const Value q = *convert(state, pop(), Type::vec3);
+        Value result = field;
+        for (int k = 0; k < componentCount(field.type); ++k) {
+            step(i.place);
+            result.ids[k] = ir.substitute(field.ids[k], {q.ids[0], q.ids[1], q.ids[2]});
+            if (ir.substituted() > kMaxSubstituted)
+                fail(i.place, "the graph moves its fields " + std::to_string(kMaxSubstituted) +
+                                  " operations' worth: use fewer or less nested copies, repeats and moves");
+        }
+        stack.push_back(std::move(result));
+    }
+
+    // ---- structures
+
+    void conditional(Frame& frame, const Instruction& i) {
+        if (i.kind == Kind::then) {
+            const IrId condition = pop().ids[0];
+            choices.push_back(condition);
+            if (ir.isConstant(condition, 0.0)) frame.at = std::size_t(i.target);
+        } else if (i.kind == Kind::otherwise) {
+            if (ir.isConstant(choices.back()) && !ir.isConstant(choices.back(), 0.0))
+                frame.at = std::size_t(i.target);
+        } else {
+            const IrId condition = choices.back();
+            choices.pop_back();
+            if (ir.isConstant(condition)) return;
+            const Value no = pop(), yes = pop();
+            stack.push_back(checked(choose(state, condition, yes, no), i.place));
+        }
+    }
+
+    /// The innermost structure whose changes are kept; nullptr if there is none.
+    static Structure* innermost(Frame& frame) {
+        for (auto s = frame.structures.rbegin(); s != frame.structures.rend(); ++s)
+            if (!s->known) return &*s;
+        return nullptr;
+    }
+
+    static void assign(Frame& frame, int slot, std::optional<Value> value) {
+        const auto at = std::size_t(slot);
+        Structure* inside = innermost(frame);
+        if (inside && frame.function->slots[at].depth < inside->depth &&
+            frame.logged[at] < static_cast<int>(inside->log)) {
+            frame.log.push_back({slot, frame.slots[at], frame.logged[at]});
+            frame.logged[at] = static_cast<int>(frame.log.size()) - 1;
+        }
+        frame.slots[at] = std::move(value);
+    }
+
+    /// Takes the structure's changes off the log, oldest first.
+    static std::vector<Change> takeChanges(Frame& frame, std::size_t from) {
+        std::vector<Change> changes(std::make_move_iterator(frame.log.begin() + std::ptrdiff_t(from)),
+                                    std::make_move_iterator(frame.log.end()));
+        frame.log.resize(from);
+        for (auto change = changes.rbegin(); change != changes.rend(); ++change)
+            frame.logged[std::size_t(change->slot)] = change->logged;
+        return changes;
+    }
+
+    void store(Frame& frame, const Instruction& i) {
+        Value value = pop();
+        if (i.kind == Kind::declare) {
+            if (i.count == 0) value = stored(value, i.type, i.place);
+            if (i.count == 1 && value.type == Type::integer) value.type = Type::scalar;
+            return assign(frame, i.index, std::move(value));
+        }
+        const int slot = i.kind == Kind::store ? i.index : i.target;
+        const std::optional<Value>& old = frame.slots[std::size_t(slot)];
+        const Type own = frame.function->slots[std::size_t(slot)].type;
+        if (i.kind == Kind::store) {
+            if (own == Type::surface && old && old->type == Type::surface && value.type != Type::surface) {
+                Value kept = *old;
+                kept.ids[0] = value.ids[0];
+                value = std::move(kept);
+            } else if (own != Type::surface) {
+                value = stored(value, own, i.place);
+            }
+            return assign(frame, slot, std::move(value));
+        }
+        const Value made = checked(convert(state, value, i.type), i.place);
+        Value whole = i.kind == Kind::storePart ? *convert(state, *old, Type::surface) : *old;
+        for (int k = 0; k < i.count; ++k)
+            whole.ids[i.kind == Kind::storePart ? i.index + k : (i.index >> (2 * k)) & 3] = made.ids[k];
+        assign(frame, slot, std::move(whole));
+    }
+
+    /// At the end of a structure: whoever is not reached goes on behind the one around.
+    void skipUnreached(Frame& frame, const Instruction& i) {
+        if (ir.isConstant(frame.live, 0.0)) frame.at = std::size_t(i.target);
+    }
+
+    void branch(Frame& frame, const Instruction& i) {
+        if (i.kind == Kind::branch) {
+            const IrId condition = pop().ids[0];
+            Structure structure{.known = ir.isConstant(condition)};
+            if (structure.known) {
+                frame.structures.push_back(std::move(structure));
+                if (ir.isConstant(condition, 0.0)) frame.at = std::size_t(i.target);
+                return;
+            }
+            structure.depth = depthOf(frame) + 1;
+            structure.log = frame.log.size();
+            structure.condition = condition;
+            structure.live = frame.live;
+            structure.firstBegan = frame.live = ir.add(Op::logicalAnd, frame.live, condition);
+            frame.structures.push_back(std::move(structure));
+            if (ir.isConstant(frame.live, 0.0)) frame.at = std::size_t(i.target) - 1;
+            return;
+        }
+        Structure& structure = frame.structures.back();
+        if (i.kind == Kind::otherSide) {
+            if (structure.known) {
+                frame.at = std::size_t(i.target);
+                return;
+            }
+            for (Change& change : takeChanges(frame, structure.log)) {
+                std::optional<Value>& now = frame.slots[std::size_t(change.slot)];
+                structure.first.emplace_back(change.slot, std::move(now));
+                now = std::move(change.before);
+            }
+            structure.firstLive = frame.live;
+            frame.live = ir.add(Op::logicalAnd, structure.live, ir.add(Op::logicalNot, structure.condition));
+            if (ir.isConstant(frame.live, 0.0)) frame.at = std::size_t(i.target);
+            return;
+        }
+        const Structure done = std::move(frame.structures.back());
+        frame.structures.pop_back();
+        if (!done.known) join(frame, done, i.place);
+        skipUnreached(frame, i);
+    }
+
+    /// Both sides of a branch come together.
+    void join(Frame& frame, const Structure& done, Place place) {
+        const bool firstEnds = ir.isConstant(done.firstLive, 0.0),
+                   secondEnds = ir.isConstant(frame.live, 0.0);
+        std::vector<Change> changes = takeChanges(frame, done.log);
+        const auto both = [&](int slot, const std::optional<Value>& first, const std::optional<Value>& second,
+                              const std::optional<Value>& before) {
+            std::optional<Value> merged =
+                firstEnds || !first ? second
+                : secondEnds || !second
+                    ? first
+                    : std::optional(checked(choose(state, done.condition, *first, *second), place));
+            if (firstEnds && secondEnds) merged = before;
+            frame.slots[std::size_t(slot)] = before;
+            assign(frame, slot, std::move(merged));
+        };
+        std::unordered_map<int, const std::optional<Value>*> beforeSecond;
+        for (const Change& change : changes) beforeSecond.emplace(change.slot, &change.before);
+        for (const auto& [slot, first] : done.first) {
+            const auto changed = beforeSecond.find(slot);
+            const std::optional<Value> second = frame.slots[std::size_t(slot)];
+            both(slot, first, second, changed == beforeSecond.end() ? second : *changed->second);
+            if (changed != beforeSecond.end()) beforeSecond.erase(changed);
+        }
+        for (const Change& change : changes)
+            if (beforeSecond.contains(change.slot))
+                both(change.slot, change.before, std::optional(frame.slots[std::size_t(change.slot)]),
+                     change.before);
+        const IrId secondBegan = ir.add(Op::logicalAnd, done.live, ir.add(Op::logicalNot, done.condition));
+        if (firstEnds) return;
+        if (secondEnds)
+            frame.live = done.firstLive;
+        else
+            frame.live = done.firstLive == done.firstBegan && frame.live == secondBegan
+                             ? done.live
+                             : ir.add(Op::logicalOr, done.firstLive, frame.live);
+    }
+
+    static int depthOf(const Frame& frame) { return static_cast<int>(frame.structures.size()); }
+
+    Structure& loopOf(Frame& frame) {
+        return *std::find_if(frame.structures.rbegin(), frame.structures.rend(),
+                             [](const Structure& s) { return s.loops; });
+    }
+
+    void loop(Frame& frame, const Instruction& i) {
+        if (i.kind == Kind::loop) {
+            frame.structures.push_back({.depth = depthOf(frame) + 1,
+                                        .log = frame.log.size(),
+                                        .live = frame.live,
+                                        .loops = true,
+                                        .returns = frame.returns});
+            return;
+        }
+        Structure& own = frame.structures.back();
+        if (i.kind == Kind::test) {
+            const IrId condition = pop().ids[0];
+            if (!ir.isConstant(condition))
+                fail(
+                    i.place,
+                    "the loop's bounds must be known when the graph is compiled: numbers, or inputs that are "
+                    "not linked or live");
+            own.firstBegan = frame.live;
+            own.condition = IrId(own.left.size() + frame.returns);
+            if (ir.isConstant(condition, 0.0)) frame.at = std::size_t(i.target);
+        } else if (i.kind == Kind::step) {
+            const std::vector<Exit> skipped = std::move(own.skipped);
+            own.skipped.clear();
+            rejoin(frame, own, skipped, i.place);
+            if (!skipped.empty() && own.condition == own.left.size() + frame.returns)
+                frame.live = own.firstBegan;
+            skipUnreached(frame, i);
+        } else if (i.kind == Kind::repeat) {
+            frame.at = std::size_t(i.index);
+        } else {
+            Structure done = std::move(own);
+            frame.structures.pop_back();
+            rejoin(frame, done, done.left, i.place);
+            if (!done.left.empty() && frame.returns == done.returns) frame.live = done.live;
+            for (Change& change : takeChanges(frame, done.log)) {
+                std::optional<Value> now = std::move(frame.slots[std::size_t(change.slot)]);
+                frame.slots[std::size_t(change.slot)] = std::move(change.before);
+                assign(frame, change.slot, std::move(now));
+            }
+            skipUnreached(frame, i);
+        }
+    }
+
+    /// Whoever left comes back: each variable that the loop changed is, for them, what it was when they left.
+    void rejoin(Frame& frame, const Structure& own, const std::vector<Exit>& exits, Place place) {
+        for (const Exit& exit : exits) {
+            const bool alone = ir.isConstant(frame.live, 0.0);
+            std::unordered_map<int, const Value*> values;
+            for (const auto& [slot, value] : exit.values) values.emplace(slot, &value);
+            for (std::size_t at = own.log; at < frame.log.size(); ++at) {
+                const int slot = frame.log[at].slot;
+                std::optional<Value>& now = frame.slots[std::size_t(slot)];
+                const auto found = values.find(slot);
+                const Value* then = found != values.end()  ? found->second
+                                    : frame.log[at].before ? &*frame.log[at].before
+                                                           : nullptr;
+                if (!then) continue;
+                step(place);
+                now = alone || !now ? *then : checked(choose(state, exit.condition, *then, *now), place);
+            }
+            frame.live = ir.add(Op::logicalOr, frame.live, exit.condition);
+        }
+    }
+
+    void depart(Frame& frame, const Instruction& i) {
+        if (i.kind == Kind::result) {
+            const Value value = pop();
+            frame.result =
+                frame.result ? checked(choose(state, frame.live, value, *frame.result), i.place) : value;
+            ++frame.returns;
+        } else {
+            Structure& loop = loopOf(frame);
+            Exit exit{frame.live, {}};
+            std::unordered_map<int, bool> seen;
+            for (std::size_t at = loop.log; at < frame.log.size(); ++at) {
+                const int slot = frame.log[at].slot;
+                if (!seen.emplace(slot, true).second || !frame.slots[std::size_t(slot)]) continue;
+                step(i.place);
+                exit.values.emplace_back(slot, *frame.slots[std::size_t(slot)]);
+            }
+            (i.kind == Kind::leave ? loop.left : loop.skipped).push_back(std::move(exit));
+        }
+        frame.live = ir.constant(0.0);
+        frame.at = std::size_t(i.target);
     }
 
     Lowering& state;
     Ir& ir;
-    const Tree& tree;
-    const Scope& scope;
-    std::set<std::string> assignedTargets;  ///< of every assignment that is no declaration
+    const Code& code;
+    std::vector<Value> inputs;
+    const LowerOptions& options;
+    std::vector<Frame> frames;
+    std::vector<Value> stack;
+    std::vector<IrId> choices;  ///< conditions of ?: under way
 };
 
-/// The parsed body of a library node; a body that does not parse is a bug.
-std::shared_ptr<const Tree> bodyOf(const NodeType& type) {
+/// The checked body of a library node; a body that is wrong is a bug.
+std::shared_ptr<const Code> bodyOf(const NodeType& type) {
     static std::mutex mutex;
-    static std::unordered_map<const NodeType*, std::shared_ptr<const Tree>> bodies;
+    static std::unordered_map<const NodeType*, std::shared_ptr<const Code>> bodies;
     const std::lock_guard lock(mutex);
-    std::shared_ptr<const Tree>& body = bodies[&type];
+    std::shared_ptr<const Code>& body = bodies[&type];
     if (!body) {
-        Result<std::shared_ptr<const Tree>> parsed = parse(type.body);
-        if (!parsed) throw std::logic_error("node type '" + type.id + "': " + format(parsed.error()));
-        body = *parsed;
+        Declared declared{.outputs = type.outputs};
+        for (const InputSpec& input : type.inputs) declared.inputs.emplace_back(input.name, input.type);
+        const Resolved resolved = resolve(type.body, declared);
+        if (!resolved.code)
+            throw std::logic_error("node type '" + type.id + "': " + format(resolved.errors.front()));
+        body = resolved.code;
     }
     return body;
 }
 
 }  // namespace
 
-Result<std::vector<Value>> lower(Lowering& state, const Tree& tree, const Scope& scope) {
-    const int calls = state.calls;
+Result<std::vector<Value>> lower(Lowering& state, const Code& code, std::vector<Value> inputs,
+                                 const LowerOptions& options) {
     try {
-        return Run(state, tree, scope).outputs();
-    } catch (const Failure& failure) {
-        state.calls = calls;
-        return failure.error;
-    }
+        return Run(state, code, std::move(inputs), options).outputs();
+    } catch (const Failure& failure) { return failure.error; }
 }
 
 Result<std::vector<Value>> lowerNode(Lowering& state, const NodeType& type, std::vector<Value> inputs) {
-    Scope scope;
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        scope.inputs.emplace_back(type.inputs[i].name, std::move(inputs[i]));
-    scope.outputs = type.outputs;
-    return lower(state, *bodyOf(type), scope);
+    return lower(state, *bodyOf(type), std::move(inputs), {.outputs = type.outputs});
 }
 
-Value constantValue(Lowering& state, Type type, std::span<const double> numbers) {
-    Value value{type};
-    for (int i = 0; i < componentCount(type); ++i)
-        value.ids[i] = state.ir.constant(i < static_cast<int>(numbers.size()) ? numbers[i]
-                                         : numbers.empty()                    ? 0.0
-                                                                              : numbers.back());
-    return value;
-}
-
-Value emptySurface(Lowering& state) {
-    Value value{Type::surface};
-    value.ids[0] = state.ir.constant(kEmptyDistance);
-    for (int i = 0; i < 8; ++i) value.ids[i + 1] = state.ir.constant(kDefaultMaterial[i]);
-    return value;
-}
-
-Value defaultValue(Lowering& state, const InputSpec& input) {
-    Value value{input.type};
-    switch (input.value.kind) {
-        case InputDefault::Kind::position:
-            for (int i = 0; i < componentCount(input.type); ++i) value.ids[i] = state.ir.position(i);
-            return value;
-        case InputDefault::Kind::text:
-            value.text = input.value.text;
-            if (input.type == Type::image) value.image = state.ir.addImage(plainImage());
-            return value;
-        case InputDefault::Kind::numbers:
-            if (input.type == Type::points) {
-                value.points = std::make_shared<const std::vector<double>>(input.value.numbers);
-                return value;
-            }
-            return constantValue(state, input.type, input.value.numbers);
-        case InputDefault::Kind::none: break;
+Result<Value> lowerText(Lowering& state, std::string_view text,
+                        const std::vector<std::pair<std::string, Value>>& inputs) {
+    Declared declared;
+    std::vector<Value> values;
+    for (const auto& [name, value] : inputs) {
+        declared.inputs.emplace_back(name, value.type);
+        values.push_back(value);
     }
-    if (input.type == Type::surface) return emptySurface(state);
-    if (input.type == Type::points) value.points = std::make_shared<const std::vector<double>>();
-    return componentCount(input.type) > 0 ? constantValue(state, input.type, {}) : value;
-}
-
-namespace {
-
-/// The image of a path, read at its first use.
-Result<uint32_t> imageAt(Lowering& state, const std::string& path) {
-    if (path.empty()) return state.ir.addImage(plainImage());
-    const auto known = state.images.find(path);
-    if (known != state.images.end()) return state.ir.addImage(known->second);
-    const Result<FieldImagePtr> image = readImage(state.graphPath, path);
-    if (!image) return image.error();
-    std::size_t texels = (*image)->texels.size();
-    for (const FieldImagePtr& held : state.ir.images())
-        if (held != *image) texels += held->texels.size();
-    if (texels * sizeof(uint32_t) >= kMaxImageBytes) {
-        return Error{.message = "the pictures of the graph together take " +
-                                std::to_string(kMaxImageBytes >> 20) +
-                                " MiB or more (4 bytes a pixel): use smaller ones"};
-    }
-    state.images.emplace(path, *image);
-    return state.ir.addImage(*image);
-}
-
-}  // namespace
-
-Result<Value> convert(Lowering& state, const Value& value, Type type) {
-    if (value.type == type) return value;
-    const auto isNumber = [](Type t) {
-        return t == Type::scalar || t == Type::integer || t == Type::boolean;
-    };
-    Value result{type};
-    if (value.type == Type::string && type == Type::image) {
-        const Result<uint32_t> image = imageAt(state, value.text);
-        if (!image) return image.error();
-        result.text = value.text;
-        result.image = *image;
-        return result;
-    }
-    if (isNumber(value.type) || value.type == Type::surface) {
-        IrId id = value.ids[0];
-        if (value.type == Type::boolean && type != Type::boolean)
-            id = state.ir.add(Op::select, id, state.ir.constant(1.0), state.ir.constant(0.0));
-        switch (type) {
-            case Type::scalar: result.ids[0] = id; return result;
-            case Type::integer:
-                if (value.type == Type::surface) break;
-                result.ids[0] = id;
-                return result;
-            case Type::vec2:
-            case Type::vec3:
-                if (value.type == Type::surface) break;
-                for (int i = 0; i < componentCount(type); ++i) result.ids[i] = id;
-                return result;
-            case Type::surface:
-                result = emptySurface(state);
-                result.ids[0] = id;
-                return result;
-            default: break;
-        }
-    }
-    const auto named = [](Type t) {
-        const std::string name(typeName(t));
-        return (name[0] == 'i' ? "an " : "a ") + name;
-    };
-    return Error{.message = named(value.type) + " cannot stand for " + named(type)};
+    const Resolved resolved = resolve(text, declared);
+    if (!resolved.code) return resolved.errors.front();
+    Result<std::vector<Value>> lowered =
+        lower(state, *resolved.code, std::move(values), {.refusesZeroDivision = true});
+    if (!lowered) return lowered.error();
+    return convert(state, lowered->front(), resolved.type);
 }
 
 }  // namespace fw::language

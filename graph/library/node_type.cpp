@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <unordered_map>
 
 #include "graph/base/words.h"
@@ -63,6 +64,18 @@ int inputIndex(const NodeType& type, std::string_view name) {
 int outputIndex(const NodeType& type, std::string_view name) {
     const auto found = std::ranges::find(type.outputs, name, &OutputSpec::name);
     return found == type.outputs.end() ? -1 : static_cast<int>(found - type.outputs.begin());
+}
+
+std::optional<std::string> rangeProblem(const InputSpec& spec, double value) {
+    if (!(spec.positive && value <= 0) && value >= spec.min && value <= spec.max) return {};
+    std::vector<std::string> bounds;
+    if (spec.positive) bounds.push_back("above 0");
+    if (std::isfinite(spec.min) && !(spec.positive && spec.min <= 0))
+        bounds.push_back("at least " + shortNumber(spec.min));
+    if (std::isfinite(spec.max)) bounds.push_back("at most " + shortNumber(spec.max));
+    std::string text = "the value " + shortNumber(value) + " is out of range: it must be " + bounds[0];
+    for (std::size_t i = 1; i < bounds.size(); ++i) text += " and " + bounds[i];
+    return text;
 }
 
 std::string nearestNodeType(std::string_view id) {

@@ -103,6 +103,9 @@ const NodeType* findNodeType(std::string_view id);
 int inputIndex(const NodeType& type, std::string_view name);
 /// Index of the named output in `type.outputs`; -1 if there is none.
 int outputIndex(const NodeType& type, std::string_view name);
+/// Why `value` may not be a component of this input: "the value 2 is out of range: it must be at most 1".
+/// Empty if it may.
+std::optional<std::string> rangeProblem(const InputSpec& input, double value);
 /// The id of the node type whose name is nearest by edit distance: for "did you mean". Empty if none is near.
 std::string nearestNodeType(std::string_view id);
 

@@ -28,4 +28,15 @@ std::optional<Type> typeNamed(std::string_view name) {
     return {};
 }
 
+bool converts(Type from, Type to) {
+    if (from == to) return true;
+    switch (to) {
+        case Type::scalar: return from == Type::surface || from == Type::integer || from == Type::boolean;
+        case Type::surface:
+        case Type::vec2:
+        case Type::vec3: return from == Type::scalar || from == Type::integer;
+        default: return false;
+    }
+}
+
 }  // namespace fw

@@ -44,6 +44,10 @@ std::string_view typeName(Type type);
 /// The type with this name; empty if there is none.
 std::optional<Type> typeNamed(std::string_view name);
 
+/// Whether what one socket gives may go into another: a surface as its distance, a number as a distance or in
+/// all components of a vector, a boolean as 0 or 1.
+bool converts(Type from, Type to);
+
 /// Order of a surface's scalars.
 enum SurfaceComponent {
     distanceComponent = 0,

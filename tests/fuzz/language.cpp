@@ -38,36 +38,26 @@ bool everyOperationIsFinite(const fw::Ir& ir, const fw::Point& point) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     using namespace fw;
     const std::string_view code(reinterpret_cast<const char*>(data), size);
-    const Result<std::shared_ptr<const language::Tree>> tree = language::parse(code);
-    if (!tree) {
-        require(isRefusal(tree.error()), "an error has a message and a place in the code");
-        return 0;
-    }
-
     language::Lowering state;
     state.time = state.ir.constant(0.25);
     // Loops and copies may cost what a user's may, but here only the last part of it.
     state.steps = language::kMaxSteps - 20'000;
-    language::Scope scope;
-    scope.anyResult = true;
-    scope.refusesZeroDivision = true;
     language::Value field{Type::scalar, {state.ir.add(Op::absolute, state.ir.position(0))}};
     language::Value vector = language::constantValue(state, Type::vec3, std::array{1.0, -2.0, 0.5});
-    scope.inputs = {{"a", field}, {"v", vector}, {"s", language::emptySurface(state)}};
-    const Result<std::vector<language::Value>> values = language::lower(state, **tree, scope);
-    if (!values) {
-        require(isRefusal(values.error()), "an error has a message and a place in the code");
+    const Result<language::Value> whole =
+        language::lowerText(state, code, {{"a", field}, {"v", vector}, {"s", language::emptySurface(state)}});
+    if (!whole) {
+        require(isRefusal(whole.error()), "an error has a message and a place in the code");
         return 0;
     }
-    require(values->size() == 1, "an expression has one result");
 
-    const int count = componentCount(values->front().type);
+    const int count = componentCount(whole->type);
     const Point point{0.3, -0.7, 1.1};
     const Box box{{0.25, -1.0, 1.0}, {0.5, -0.5, 1.25}};
     // Where an intermediate result is no number (x % 0, 0/0 of fields), comparisons of it have no meaning.
     if (!everyOperationIsFinite(state.ir, point)) return 0;
     for (int i = 0; i < count; ++i) {
-        const IrId root = values->front().ids[i];
+        const IrId root = whole->ids[i];
         const double value = evaluate(state.ir, root, {}, point);
         const Interval range = evaluateInterval(state.ir, root, {}, box);
         // Bounds are rounded outward in steps that a long sum of large numbers can exceed.

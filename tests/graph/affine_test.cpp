@@ -18,16 +18,12 @@ struct Lowered {
 };
 
 Lowered lowered(const std::string& code) {
-    const auto tree = language::parse(code);
-    EXPECT_TRUE(tree) << format(tree.error());
     Lowered made;
     language::Lowering state;
     state.time = state.ir.parameter(0);
-    language::Scope scope;
-    scope.anyResult = true;
-    const auto values = language::lower(state, **tree, scope);
-    EXPECT_TRUE(values) << format(values.error());
-    for (std::size_t i = 0; i < 3; ++i) made.values[i] = values->front().ids[i];
+    const auto value = language::lowerText(state, code);
+    EXPECT_TRUE(value) << format(value.error());
+    for (std::size_t i = 0; i < 3; ++i) made.values[i] = value->ids[i];
     made.ir = state.ir.compact(made.values);
     return made;
 }

@@ -165,7 +165,7 @@ TEST(Check, Conversions) {
     const std::vector<std::pair<Type, Type>> allowed = {
         {Type::scalar, Type::surface}, {Type::surface, Type::scalar},  {Type::scalar, Type::vec3},
         {Type::integer, Type::scalar}, {Type::integer, Type::surface}, {Type::integer, Type::vec3},
-        {Type::boolean, Type::scalar}};
+        {Type::boolean, Type::scalar}, {Type::scalar, Type::vec2},     {Type::integer, Type::vec2}};
     for (int from = 0; from < kTypes; ++from)
         for (int to = 0; to < kTypes; ++to) {
             const std::pair pair{static_cast<Type>(from), static_cast<Type>(to)};

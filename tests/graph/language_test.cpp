@@ -1,11 +1,13 @@
 // The field language: what code means, and what is said of code that means nothing.
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <chrono>
 #include <cmath>
 
 #include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
+#include "graph/language/resolve.h"
 
 namespace fw {
 namespace {
@@ -23,23 +25,15 @@ struct Outcome {
 
 Outcome run(const std::string& code) {
     Outcome outcome;
-    const auto tree = language::parse(code);
-    if (!tree) {
-        outcome.error = format(tree.error());
-        return outcome;
-    }
     language::Lowering state;
     state.time = state.ir.constant(2.0);
-    language::Scope scope;
-    scope.anyResult = true;
-    scope.refusesZeroDivision = true;
-    const auto values = language::lower(state, **tree, scope);
-    if (!values) {
-        outcome.error = format(values.error());
+    const Result<Value> value = language::lowerText(state, code);
+    if (!value) {
+        outcome.error = format(value.error());
         return outcome;
     }
-    outcome.root = values->front().ids[0];
-    outcome.type = values->front().type;
+    outcome.root = value->ids[0];
+    outcome.type = value->type;
     outcome.ir = std::move(state.ir);
     return outcome;
 }
@@ -232,9 +226,9 @@ TEST(Language, Diagnostics) {
     expectError("p /= 0;", "division by zero");
     expectError("float f(float x) { return f(x); } return f(1);", "calls itself");
     expectError("for (;;) {}", "code 1:7: the loop has no condition");
-    expectError("for (int i = 0; i < 1; ) d = p.x;", "steps");
-    expectError("for (int i = 0; i < 1; i = i) d = p.x;", "steps");
-    expectError("for (int i = 0; i < p.x; i++) d = 1.;", "must be known");
+    expectError("d = 0; for (int i = 0; i < 1; ) d = p.x;", "steps");
+    expectError("d = 0; for (int i = 0; i < 1; i = i) d = p.x;", "steps");
+    expectError("d = 0; for (int i = 0; i < p.x; i++) d = 1.;", "must be known");
     expectError("const float k = 1; k = 2;", "'k' is const");
     expectError("return output(p);", "is a node and no function");
     expectError("p.", "expected a component");
@@ -281,6 +275,177 @@ TEST(Language, HostileCodeIsRefusedSoon) {
     expectError(calls + " return f39(1);", "");
     EXPECT_LT(std::chrono::steady_clock::now() - start,
               std::chrono::seconds(60));  // ends at all; time is no criterion here
+}
+
+TEST(Language, BooleansAndTextsAreNoNumbers) {
+    expectError("return length(p) - 1 - 0.5*(p.x > 0.0);",
+                "code 1:33: expected a number or a vector, found a bool");
+    expectError("return any(p) ? 1. : length(p)-1.;",
+                "code 1:12: argument 1 of 'any': expected a comparison, found a vec3");
+    expectError("return 1.0 == p ? 1 : 2;", "expected a float to compare with, found a vec3");
+    expectError("return p == 1.0 ? 1 : 2;", "expected a vec3 to compare with, found a float");
+    expectError("return time == \"abc\" ? 1 : 2;", "expected a float to compare with, found a string");
+    expectError("return perlin(\"abc\", 1);", "expected a position (vec3), found a string");
+    expectError("return with_distance(sphere(p), \"abc\");",
+                "expected a number, the distance, found a string");
+    expectError("return perlin(p, \"abc\");", "expected a number, the seed, found a string");
+    expectError("return (p.x > 0.) == (p.y > 0.) ? 1 : 2;", "comparisons cannot be compared");
+    expectError("return -(p.x > 0.);", "found a bool");
+    expectError("float a = p.x > 0.; return a;", "expected a float for 'a', found a bool");
+    expectError("a = 1; a = p.x > 0.; return a;", "expected a float, which 'a' is, found a bool");
+    expectError("a = p.x > 0.; a = 1.; return a ? 1 : 2;", "expected a bool, which 'a' is, found a float");
+    expectError("if (p.x) return 1; return 2;",
+                "code 1:7: expected a condition, which is a comparison, found a float");
+    expectError("return p ? 1 : 2;", "expected a condition");
+    expectError("return !p.x ? 1 : 2;", "expected a comparison behind '!', found a float");
+    expectError("return p.x > 0. && p.y ? 1 : 2;", "expected a comparison beside '&&', found a float");
+    expectError("return p < 1. ? 1 : 2;", "expected a number beside '<', found a vec3");
+    expectError("return vec3(p.x > 0., 1, 2);", "found a bool");
+    expectError("float f(float x) { return x; } return f(p);",
+                "argument 1 of 'f': expected a float, found a vec3");
+    expectError("float f() { return p; } return f();", "expected a float to return, found a vec3");
+    expectError("return sphere(1.0 > p.x);",
+                "argument 1 of 'sphere' is its p: expected a vec3, found a bool");
+    expectError("return p.x > 0. ? p : p.xy;",
+                "the two sides are of different types: expected a vec3, found a vec2");
+    expectError("if (p.x > 0.) return p; return p.xy;", "as is returned in line 1, found a vec2");
+    expectError("vec3 q = p; q.xy = p; return q;", "expected a vec2, found a vec3");
+    expectError("return p.x[0];", "expected points or a vector before '[', found a float");
+    expectError("return p[p];", "expected an index, a whole number, found a vec3");
+    expectValue("return float(p.x > 0.0) * 3;", 3.0);
+    expectValue("return bool(p.x) ? 1 : 2;", 1.0);
+    expectValue("return p == p && \"a\" != \"b\" ? 1 : 2;", 1.0);
+    expectValue("vec2 a = 2; return a.x + a.y;", 4.0);
+}
+
+TEST(Language, SeveralMistakesAreToldAtOnce) {
+    const language::Resolved resolved =
+        language::resolve("a = lenght(p);\nb = p + vec2(1);\nc = 3 +;\nd = 1 == p;\nreturn a + q;", {});
+    std::vector<int> lines;
+    for (const Error& error : resolved.errors) lines.push_back(error.codeLine);
+    EXPECT_EQ(lines, (std::vector{2, 3, 4}));  // what is unknown may be what could not be read
+    EXPECT_FALSE(resolved.code);
+    const language::Resolved read = language::resolve("a = lenght(p);\nb = p + vec2(1);\nreturn a + q;", {});
+    lines.clear();
+    for (const Error& error : read.errors) lines.push_back(error.codeLine);
+    EXPECT_EQ(lines, (std::vector{1, 2, 3}));
+}
+
+TEST(Language, ALoopIsLeftByThosePlacesAlone) {
+    // The step runs for those who stay.
+    for (const double x : {0.1, 0.6, 1.3, 2.5})
+        expectValue("float t = 0; for (t = 0; t < 2; t += .25) if (length(p) < t) break; return t - 1;",
+                    std::min(std::floor(x / 0.25) * 0.25 + 0.25, 2.0) - 1.0, {x, 0, 0});
+    // A loop in a loop, left by each in its own iteration.
+    const Outcome outcome = run(R"(
+        float n = 0;
+        for (int i = 0; i < 4; i++) {
+            float t = 0;
+            for (int j = 0; j < 5; j++) {
+                if (p.y < float(j)) break;
+                if (p.z > float(j)) continue;
+                t += 1;
+                if (t > 2.) { n += 10; break; }
+            }
+            if (p.x < float(i)) break;
+            n += t;
+        }
+        return n;)");
+    ASSERT_EQ(outcome.error, "");
+    for (double x = -0.5; x < 5; x += 0.9)
+        for (double y = -0.5; y < 6; y += 0.7)
+            for (double z = -0.5; z < 6; z += 0.8) {
+                double n = 0;
+                for (int i = 0; i < 4; i++) {
+                    double t = 0;
+                    for (int j = 0; j < 5; j++) {
+                        if (y < j) break;
+                        if (z > j) continue;
+                        t += 1;
+                        if (t > 2.) {
+                            n += 10;
+                            break;
+                        }
+                    }
+                    if (x < i) break;
+                    n += t;
+                }
+                EXPECT_EQ(outcome.at(x, y, z), n) << x << ' ' << y << ' ' << z;
+            }
+}
+
+TEST(Language, AnIfMergesWhatItsSidesAssign) {
+    expectValue("k = \"a\"; d = length(p); if (p.x > 0.) d -= 1.; return d;", std::sqrt(0.5) - 1.0);
+    expectValue("if (p.x > 0.) 1.; else 2.;", 1.0);
+    expectValue("if (p.x > 0.) 1.; else 2.;", 2.0, {-1, 0, 0});
+    expectValue("d = 1; if (p.x > 9.) d = 2;", 1.0);
+    expectValue("d = 1; for (int i = 0; i < 3; i++) d += 1;", 4.0);
+    expectError("if (p.x > 0.) 1.;", "does not");
+    expectError("a = 1; b = 2; if (p.x > 0.) a = 3; else b = 4;", "one name on every path");
+    expectError("k = \"a\"; if (p.x > 0.) k = \"b\"; return k == \"a\" ? 1 : 2;", "can only be chosen");
+    expectValue("k = \"b\"; if (p.x > 0.) k = \"b\"; return k == \"a\" ? 1 : 2;", 2.0);
+    expectValue("a = 1; if (p.x > 0.) { a = 2; if (p.y > 0.) a = 3; } else a = 4; return a;", 2.0);
+}
+
+TEST(Language, ANameIsASurfacesWhereverItComesToBeOne) {
+    const std::string red = "s = with_material(sphere(p, 1.0), vec3(1, 0, 0), 0.1, 1.0, vec3(0)); ";
+    expectValue(
+        red + "d = 5; e = d; for (int i = 0; i < 2; i++) { e = d; d = min(d, s); } return e.base_color.y;",
+        0.0);
+    expectValue(red + "float d = s; d = min(d, s); return d.metallic;", 1.0);
+    expectError("d = 5; return d.base_color.y;", "a float has no '.base_color'");
+}
+
+TEST(Language, DeepAndLongCodeNeedsNoStack) {
+    std::string sum = "float f(float x) { return f0(x)";
+    for (int i = 0; i < 1000; ++i) sum += " + 1";
+    sum += "; } float f0(float x) { return x; } return f(1);";
+    expectValue(sum, 1001.0);
+    std::string chain = "return p.x";
+    for (int i = 0; i < 49'000; ++i) chain += "+p.x";
+    const auto stackless = [&](const std::string& code) {
+        // On half a megabyte of stack.
+        pthread_attr_t attributes;
+        pthread_attr_init(&attributes);
+        pthread_attr_setstacksize(&attributes, 512 << 10);
+        pthread_t thread;
+        std::string copy = code;
+        pthread_create(
+            &thread, &attributes,
+            [](void* text) -> void* {
+                run(*static_cast<std::string*>(text));
+                return nullptr;
+            },
+            &copy);
+        pthread_join(thread, nullptr);
+        pthread_attr_destroy(&attributes);
+    };
+    stackless(chain + ";");
+    std::string deep, braces, unary = "return ", calls = "return ", ifs, choices = "return ";
+    for (int i = 0; i < 250; ++i) {
+        braces += "{", unary += "-", calls += "abs(", deep += "(", ifs += "if (p.x > 0.) ";
+        choices += "p.x > 0. ? ";
+    }
+    stackless(braces + "a = 1;" + std::string(250, '}') + "return 1;");
+    stackless(unary + "p.x;");
+    stackless(calls + "p.x" + std::string(250, ')') + ";");
+    stackless("return " + deep + "p.x" + std::string(250, ')') + ";");
+    stackless(ifs + "return 1; return 2;");
+    stackless(choices);
+    std::string nested = "float f0(float x){return x+1;}";
+    for (int i = 1; i < 60; ++i) {
+        nested += "float f" + std::to_string(i) + "(float x){return f" + std::to_string(i - 1) + "(x)";
+        for (int k = 0; k < 900; ++k) nested += "+1";
+        nested += ";}";
+    }
+    stackless(nested + "return f59(1);");
+    stackless("float f(float x){return f(x)+1" + chain.substr(10, 4000) + ";} return f(1);");
+}
+
+TEST(Language, RangesHoldForArguments) {
+    expectError("return prism(p, 0);", "argument 2 of 'prism' is its sides: the value 0 is out of range");
+    expectError("return scale(sphere(p), 0);", "out of range");
+    expectError("return union(sphere(p), sphere(p), 0.2, \"round-ish\");", "is not one of its choices");
 }
 
 }  // namespace

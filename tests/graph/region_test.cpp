@@ -10,15 +10,11 @@ namespace fw {
 namespace {
 
 Region regionOf(const std::string& code) {
-    const auto tree = language::parse(code);
-    EXPECT_TRUE(tree) << format(tree.error());
     language::Lowering state;
     state.time = state.ir.constant(0.0);
-    language::Scope scope;
-    scope.anyResult = true;
-    const auto values = language::lower(state, **tree, scope);
-    EXPECT_TRUE(values) << format(values.error());
-    std::array<IrId, 1> root{values->front().ids[0]};
+    const auto value = language::lowerText(state, code);
+    EXPECT_TRUE(value) << format(value.error());
+    std::array<IrId, 1> root{value->ids[0]};
     const Ir ir = state.ir.compact(root);
     return findRegion(ir, root[0], {});
 }

@@ -1,0 +1,63 @@
+// The values that code computes with, as it is lowered: each a function of the position.
+//
+// A value is typed, and made of ids of an Ir: one for each scalar that represents it. What is no function of
+// the position (texts, points, an image) is known when the graph is compiled, and stands beside the ids.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "graph/ir/ir.h"
+#include "graph/library/node_type.h"
+
+namespace fw {
+struct MeshRecipe;
+struct ParticleRecipe;
+}  // namespace fw
+
+namespace fw::language {
+
+/// A typed value: componentCount(type) ids, or a text, points or an image known at compile time.
+struct Value {
+    Type type = Type::scalar;
+    std::array<IrId, 9> ids{};
+    std::string text{};
+    std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
+    uint32_t image = 0;                                   ///< number among Ir::images()
+    std::shared_ptr<const MeshRecipe> mesh{};  ///< of a surface that stands for a mesh: how that is made
+    /// Of particles: their stages, whose numbers are ids of the Lowering's ir.
+    std::shared_ptr<const ParticleRecipe> particles{};
+
+    IrId id() const { return ids[0]; }
+};
+
+/// One compilation's state.
+struct Lowering {
+    Ir ir;
+    IrId time = 0;                                  ///< seconds
+    std::size_t steps = 0;                          ///< instructions run so far, bounded by kMaxSteps
+    std::string graphPath{};                        ///< the file that paths of images are relative to
+    std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
+};
+
+/// The value of an input that is neither given nor linked.
+Value defaultValue(Lowering& state, const InputSpec& input);
+
+/// `value` as `type`, where converts() or standsFor() allow it (surface <-> float: distance, default
+/// material; bool and int to float; float to vec2 and vec3: splat; string to image: a path, the file is
+/// read). An Error without a place if there is no such conversion, or no such file.
+Result<Value> convert(Lowering& state, const Value& value, Type type);
+
+/// Whether code may give a value of one type where another is wanted. As converts() of sockets, but that a
+/// boolean is no number; and an int is made of a float by truncating, an image of a string.
+bool standsFor(Type from, Type to);
+
+Value constantValue(Lowering& state, Type type, std::span<const double> numbers);
+/// The surface of nothing: far away everywhere.
+Value emptySurface(Lowering& state);
+inline constexpr double kEmptyDistance = 1e9;
+
+}  // namespace fw::language
