@@ -42,7 +42,7 @@ float bend(ImVec2 from, ImVec2 to) {
 
 NodeBox boxOf(const Scope& scope, uint32_t index) {
     const Node& node = scope.nodes[index];
-    NodeBox box{.node = &node, .type = scope.types[index], .reroute = scope.is(index, "reroute")};
+    NodeBox box{.node = &node, .type = scope.types[index], .reroute = scope.is(index, NodeRole::reroute)};
     const bool known = hasKnownSockets(scope, index);
     float y = kTitleHeight;
     const auto add = [&](std::string name, bool output) {
@@ -70,9 +70,9 @@ NodeBox boxOf(const Scope& scope, uint32_t index) {
     for (std::string& name : inputs) add(std::move(name), false);
 
     const ImVec2 at = node.at ? vec(*node.at) : ImVec2(0, 0);
-    const float width = box.reroute                     ? 2.0f * kRerouteRadius
-                        : scope.is(index, "expression") ? kWideNodeWidth
-                                                        : kNodeWidth;
+    const float width = box.reroute                             ? 2.0f * kRerouteRadius
+                        : scope.is(index, NodeRole::expression) ? kWideNodeWidth
+                                                                : kNodeWidth;
     const float height = box.reroute ? width : node.collapsed ? kTitleHeight : y + kFoot;
     if (box.reroute || node.collapsed)
         for (Row& row : box.rows) row.y = 0.5f * height, row.fields = 0;

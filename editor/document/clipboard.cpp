@@ -185,7 +185,7 @@ Result<Edited> pasteNodes(const Graph& graph, std::string_view scope, std::strin
     std::set<std::string_view> standing;  // types of which there is one
     std::erase_if(part.nodes, [&](const Node& node) {
         const NodeType* type = findNodeType(node.type);
-        const bool once = node.type == "output" || node.type == "group_output";
+        const bool once = roleOf(node.type) == NodeRole::output || roleOf(node.type) == NodeRole::groupOutput;
         return type && (!canAdd(graph, scope, *type) || (once && !standing.insert(type->id).second));
     });
     const Wiring former(*parsed, "");

@@ -11,7 +11,7 @@ namespace {
 /// The inputs that a wire may lead to: an expression has one more than it shows.
 std::vector<std::string> inputsOf(const Wiring& wiring, uint32_t node) {
     std::vector<std::string> names = inputNames(wiring.scope(), node);
-    if (!wiring.scope().is(node, "expression")) return names;
+    if (!wiring.scope().is(node, NodeRole::expression)) return names;
     for (const auto& [name, value] : wiring.scope().nodes[node].inputs)
         if (!std::ranges::count(names, name)) names.push_back(name);
     int number = 1;

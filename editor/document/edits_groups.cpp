@@ -70,7 +70,8 @@ class Grouping {
         const NodeIds ids(chosen.begin(), chosen.end());
         for (const std::string& id : ids) {
             const std::string& type = wiring.scope().nodes[*wiring.find(id)].type;
-            if (type == "output" || type == "group_output" || type == "group_input")
+            const NodeRole role = roleOf(type);
+            if (role == NodeRole::output || role == NodeRole::groupOutput || role == NodeRole::groupInput)
                 return Error{.message = "a node of type '" + type + "' stands for itself: leave it out",
                              .node = id};
         }
@@ -110,9 +111,9 @@ class Grouping {
     /// Whether the link carries anything: a reroute that nothing feeds does not.
     bool carries(const Link& link) const {
         const auto node = wiring.find(link.node);
-        if (!node || !wiring.scope().is(*node, "reroute")) return true;
+        if (!node || !wiring.scope().is(*node, NodeRole::reroute)) return true;
         std::set<uint32_t> seen;
-        for (auto at = node; at && wiring.scope().is(*at, "reroute") && seen.insert(*at).second;) {
+        for (auto at = node; at && wiring.scope().is(*at, NodeRole::reroute) && seen.insert(*at).second;) {
             const Link* source = wiring.source({wiring.scope().nodes[*at].id, "value"});
             if (!source) return false;
             at = wiring.find(source->node);
@@ -234,7 +235,8 @@ class Grouping {
     void exposeReferences() {
         for (const NamedParameter& parameter : namedParameters(graph)) {
             const Node* node = inner(parameter.node);
-            const bool byNode = node && node->type == "parameter" && parameter.input == "value" &&
+            const bool byNode = node && roleOf(node->type) == NodeRole::parameter &&
+                                parameter.input == "value" &&
                                 std::ranges::none_of(graph.parameters, [&](const ExposedParameter& each) {
                                     return each.name == parameter.name;
                                 });

@@ -127,15 +127,16 @@ std::string freshId(const std::vector<Node>& nodes, std::string_view base) {
 Edited addNode(const Graph& graph, std::string_view scope, std::string_view type, Position at,
                std::string_view group) {
     const NodeType* known = findNodeType(type);
-    if (!known || !canAdd(graph, scope, *known) || (known->id == "group" && !graph.group(group)))
+    if (!known || !canAdd(graph, scope, *known) || (known->role == NodeRole::group && !graph.group(group)))
         return {graph, {}};
     Node node;
-    node.id = freshId(nodesOf(graph, scope), known->id == "group" ? group : std::string_view(known->id));
+    node.id =
+        freshId(nodesOf(graph, scope), known->role == NodeRole::group ? group : std::string_view(known->id));
     node.type = known->id;
     node.at = at;
-    if (known->id == "group") node.group = group;
-    if (known->id == "expression") node.code = kFirstCode;
-    if (known->id == "parameter") nameParameter(graph, node);
+    if (known->role == NodeRole::group) node.group = group;
+    if (known->role == NodeRole::expression) node.code = kFirstCode;
+    if (known->role == NodeRole::parameter) nameParameter(graph, node);
     Edited result{graph, {node.id}};
     nodesOf(result.graph, scope).push_back(std::move(node));
     return outgrows(graph, result.graph) ? Edited{graph, {}} : result;
@@ -174,7 +175,9 @@ Edited duplicate(const Graph& graph, std::string_view scope, std::span<const std
     std::unordered_map<std::string, std::string> copies;
     const std::size_t count = all.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (!chosen.contains(all[i].id) || all[i].type == "output" || all[i].type == "group_output") continue;
+        if (!chosen.contains(all[i].id) || roleOf(all[i].type) == NodeRole::output ||
+            roleOf(all[i].type) == NodeRole::groupOutput)
+            continue;
         Node copy = all[i];
         copy.id = ids.next(copy.id);
         if (copy.at) copy.at = {(*copy.at)[0] + kBeside[0], (*copy.at)[1] + kBeside[1]};
@@ -225,9 +228,10 @@ Graph setInput(const Graph& graph, std::string_view scope, const Plug& input,
         return result;
     }
     const InputValue* former = node.input(input.name);
-    const auto* oldName = node.type == "parameter" && input.name == "name" && scope.empty() && former
-                              ? std::get_if<std::string>(&former->value)
-                              : nullptr;
+    const auto* oldName =
+        roleOf(node.type) == NodeRole::parameter && input.name == "name" && scope.empty() && former
+            ? std::get_if<std::string>(&former->value)
+            : nullptr;
     const auto* newName = std::get_if<std::string>(&value->value);
     if (oldName && newName && !newName->empty())
         renameParameterTracks(result, std::string(*oldName), *newName);
@@ -244,7 +248,7 @@ Graph setLabel(const Graph& graph, std::string_view scope, std::string_view node
 Graph setCode(const Graph& graph, std::string_view scope, std::string_view node, std::string code) {
     Graph result = graph;
     Node* found = findNode(nodesOf(result, scope), node);
-    if (found && found->type == "expression") found->code = std::move(code);
+    if (found && roleOf(found->type) == NodeRole::expression) found->code = std::move(code);
     return result;
 }
 

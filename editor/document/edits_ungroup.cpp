@@ -62,7 +62,7 @@ class Ungrouping {
         Position middle = middleOfGroup(), at = instance.at.value_or(middle);
         shift = {at[0] - middle[0], at[1] - middle[1]};
         for (const Node& node : group.nodes)
-            if (node.type != "group_input" && node.type != "group_output")
+            if (roleOf(node.type) != NodeRole::groupInput && roleOf(node.type) != NodeRole::groupOutput)
                 renamed.emplace(node.id, ids.next(node.id));
         countTargets();
         for (const Node& node : group.nodes)
@@ -79,7 +79,9 @@ class Ungrouping {
         Position low{}, high{};
         bool first = true;
         for (const Node& node : group.nodes) {
-            if (!node.at || node.type == "group_input" || node.type == "group_output") continue;
+            if (!node.at || roleOf(node.type) == NodeRole::groupInput ||
+                roleOf(node.type) == NodeRole::groupOutput)
+                continue;
             for (int axis = 0; axis < 2; ++axis) {
                 low[axis] = first ? (*node.at)[axis] : std::min(low[axis], (*node.at)[axis]);
                 high[axis] = first ? (*node.at)[axis] : std::max(high[axis], (*node.at)[axis]);
@@ -118,7 +120,7 @@ class Ungrouping {
     Source inner(const Link& link, std::optional<Type> next) {
         const Node* node = findNode(group.nodes, link.node);
         if (!node) return {};
-        if (node->type == "group_input")
+        if (roleOf(node->type) == NodeRole::groupInput)
             return given(link.output.empty() && !group.inputs.empty() ? group.inputs[0].name : link.output,
                          next);
         const auto id = renamed.find(link.node);
@@ -212,7 +214,7 @@ class Ungrouping {
         const bool movable = source.type == Type::scalar || source.type == Type::vec3;
         const bool asNode = movable && (sites > 1 || (sites == 1 && valueNodes));
         // A reroute and a muted node pass on what is wired to them, no values.
-        if (!asNode && !node.muted && node.type != "reroute")
+        if (!asNode && !node.muted && roleOf(node.type) != NodeRole::reroute)
             if (const auto value = literal(source, *socket)) {
                 node.set(name, *value);
                 if (sites == 1) redirected[source.input] = {node.id, name};
@@ -245,11 +247,11 @@ class Ungrouping {
                     const Link* link = std::get_if<Link>(&value.value);
                     if (!link || end == group.nodes.end()) continue;
                     const Node* from = findNode(group.nodes, link->node);
-                    if (!from || from->type != "group_input") continue;
+                    if (!from || roleOf(from->type) != NodeRole::groupInput) continue;
                     const std::string& output =
                         link->output.empty() && !group.inputs.empty() ? group.inputs[0].name : link->output;
                     if (output != name) continue;
-                    count += node.type == "group_output" ? fedBy(input) : 1;
+                    count += roleOf(node.type) == NodeRole::groupOutput ? fedBy(input) : 1;
                 }
         }
     }
@@ -362,7 +364,8 @@ class Ungrouping {
 
 Edited ungroup(const Graph& graph, std::string_view scope, std::string_view node) {
     const Node* instance = findNode(nodesOf(graph, scope), node);
-    if (!instance || instance->type != "group" || !graph.group(instance->group) || instance->group == scope)
+    if (!instance || roleOf(instance->type) != NodeRole::group || !graph.group(instance->group) ||
+        instance->group == scope)
         return {graph, {}};
     const std::size_t errors = errorCount(graph);
     Edited edited = Ungrouping(graph, scope, node, false).make();

@@ -33,7 +33,7 @@ InputValue valueOf(Type type, std::vector<double> numbers) {
 
 Node* expression(Graph& graph, std::string_view scope, std::string_view id) {
     for (Node& node : nodesOf(graph, scope))
-        if (node.id == id) return node.type == "expression" ? &node : nullptr;
+        if (node.id == id) return roleOf(node.type) == NodeRole::expression ? &node : nullptr;
     return nullptr;
 }
 

@@ -52,14 +52,14 @@ std::optional<Error> nameProblem(const Group& group, GroupSide side, std::string
 /// Whether the socket is an input of this node, of the scope `in`: of an instance of the group, or of its
 /// end.
 bool takesIn(const Node& node, std::string_view in, std::string_view group, GroupSide side) {
-    return side == GroupSide::inputs ? node.type == "group" && node.group == group
-                                     : node.type == "group_output" && in == group;
+    return side == GroupSide::inputs ? roleOf(node.type) == NodeRole::group && node.group == group
+                                     : roleOf(node.type) == NodeRole::groupOutput && in == group;
 }
 
 /// The same for outputs.
 bool givesOut(const Node& node, std::string_view in, std::string_view group, GroupSide side) {
-    return side == GroupSide::outputs ? node.type == "group" && node.group == group
-                                      : node.type == "group_input" && in == group;
+    return side == GroupSide::outputs ? roleOf(node.type) == NodeRole::group && node.group == group
+                                      : roleOf(node.type) == NodeRole::groupInput && in == group;
 }
 
 /// Calls use(nodes, scope) for the document's nodes and those of every group.

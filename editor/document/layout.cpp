@@ -245,8 +245,8 @@ Graph placeScope(const Graph& graph, std::string_view id) {
 }  // namespace
 
 Position aboutSize(const Scope& scope, uint32_t node) {
-    if (scope.is(node, "reroute")) return {2 * kRerouteRadius, 2 * kRerouteRadius};
-    const double width = scope.is(node, "expression") ? kWideNodeWidth : kNodeWidth;
+    if (scope.is(node, NodeRole::reroute)) return {2 * kRerouteRadius, 2 * kRerouteRadius};
+    const double width = scope.is(node, NodeRole::expression) ? kWideNodeWidth : kNodeWidth;
     if (scope.nodes[node].collapsed) return {width, kTitleHeight};
     const double behindLast = rowOf(scope, {node, {width, 1e9}}, "", false) - 0.5 * kRowHeight;
     return {width, std::max(behindLast, double(kTitleHeight)) + kFoot};

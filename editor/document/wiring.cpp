@@ -87,7 +87,7 @@ std::string Wiring::refusal(const Plug& from, const Plug& to) const {
         names.push_back(from.node);
         return "a cycle: " + arrows(names);
     }
-    if (!socket->type && its.is(*source, "expression") && input(to) && input(to)->type &&
+    if (!socket->type && its.is(*source, NodeRole::expression) && input(to) && input(to)->type &&
         componentCount(*input(to)->type) == 0 && !takesNoWire(*input(to)->type))
         return "an expression gives no " + std::string(typeName(*input(to)->type));
     return typeRefusal(socket->type, to);
@@ -110,11 +110,11 @@ std::string Wiring::typeRefusal(std::optional<Type> from, uint32_t node, std::st
         if (!from || converts(*from, *socket->type)) return {};
         return std::string(typeName(*from)) + " is no " + std::string(typeName(*socket->type));
     }
-    if (its.is(node, "expression")) {
+    if (its.is(node, NodeRole::expression)) {
         if (!isName(name)) return inQuotes(name) + " is no name in code";
         return from && componentCount(*from) == 0 ? "code takes no " + std::string(typeName(*from)) : "";
     }
-    if (!its.is(node, "reroute") || !from) return {};
+    if (!its.is(node, NodeRole::reroute) || !from) return {};
     // What a reroute passes on must suit all that it feeds.
     if (std::ranges::find(rerouted, node) != rerouted.end()) return {};
     rerouted.push_back(node);
@@ -124,7 +124,7 @@ std::string Wiring::typeRefusal(std::optional<Type> from, uint32_t node, std::st
             if (!link || find(link->node) != node || !hasKnownSockets(its, i)) continue;
             const std::string problem = typeRefusal(from, i, input, rerouted);
             if (problem.empty()) continue;
-            return its.is(i, "reroute") ? problem : problem + ", which the reroute leads to";
+            return its.is(i, NodeRole::reroute) ? problem : problem + ", which the reroute leads to";
         }
     return {};
 }
@@ -144,7 +144,7 @@ std::optional<Plug> Wiring::fittingInput(const Plug& from, std::string_view node
         const int rank = (source(plug) ? linkedAndSame : freeAndSame) + (sameType ? 0 : 1);
         if (rank < best) best = rank, chosen = std::move(plug);
     }
-    if (best == freeAndSame || !its.is(*target, "expression")) return chosen;
+    if (best == freeAndSame || !its.is(*target, NodeRole::expression)) return chosen;
     std::string name = "a";  // code may have one more input
     for (int i = 2; its.nodes[*target].input(name); ++i) name = "a" + std::to_string(i);
     Plug fresh{std::string(node), name};
@@ -167,14 +167,15 @@ std::optional<Plug> Wiring::fittingOutput(std::string_view node, const Plug& to)
 }
 
 bool Wiring::fits(const NodeType& type, const Plug& plug, bool plugIsOutput) const {
-    if (type.id == "group") return false;  // its sockets are those of a group, which the type does not tell
+    if (type.role == NodeRole::group)
+        return false;  // its sockets are those of a group, which the type does not tell
     const Group* group = its.group ? its.group->group : nullptr;
     if (!plugIsOutput) {
         const auto may = [&](std::optional<Type> from) { return typeRefusal(from, plug).empty(); };
-        if (type.id == "group_input") return group && anyType(group->inputs, may);
-        if (type.id == "expression")
+        if (type.role == NodeRole::groupInput) return group && anyType(group->inputs, may);
+        if (type.role == NodeRole::expression)
             return may({}) && !(input(plug) && input(plug)->type && componentCount(*input(plug)->type) == 0);
-        if (type.id == "reroute") return may({});
+        if (type.role == NodeRole::reroute) return may({});
         return std::ranges::any_of(type.outputs, [&](const OutputSpec& spec) { return may(spec.type); });
     }
     const std::optional<Socket> from = output(plug);
@@ -182,23 +183,23 @@ bool Wiring::fits(const NodeType& type, const Plug& plug, bool plugIsOutput) con
     const auto may = [&](std::optional<Type> to) {
         return to && !takesNoWire(*to) && (!from->type || converts(*from->type, *to));
     };
-    if (type.id == "group_output") return group && anyType(group->outputs, may);
-    if (type.id == "expression") return !from->type || componentCount(*from->type) > 0;
-    if (type.id == "reroute") return true;
+    if (type.role == NodeRole::groupOutput) return group && anyType(group->outputs, may);
+    if (type.role == NodeRole::expression) return !from->type || componentCount(*from->type) > 0;
+    if (type.role == NodeRole::reroute) return true;
     return std::ranges::any_of(type.inputs, [&](const InputSpec& spec) { return may(spec.type); });
 }
 
 bool canAdd(const Graph& graph, std::string_view scope, const NodeType& type) {
     const bool inGroup = !scope.empty();
-    if (type.id == "group_input") return inGroup;
-    if (type.id != "output" && type.id != "group_output") return true;
-    if (inGroup != (type.id == "group_output")) return false;
+    if (type.role == NodeRole::groupInput) return inGroup;
+    if (type.role != NodeRole::output && type.role != NodeRole::groupOutput) return true;
+    if (inGroup != (type.role == NodeRole::groupOutput)) return false;
     return std::ranges::none_of(nodesOf(graph, scope),
                                 [&](const Node& node) { return node.type == type.id; });
 }
 
 void unlink(Node& node, std::string_view input, std::optional<Type> fed) {
-    if (node.type != "expression")
+    if (roleOf(node.type) != NodeRole::expression)
         return void(std::erase_if(node.inputs, [&](const auto& entry) { return entry.first == input; }));
     const auto count = fed == Type::vec3 ? 3u : fed == Type::vec2 ? 2u : 1u;
     if (count == 1)

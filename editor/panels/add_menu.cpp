@@ -19,8 +19,9 @@ std::vector<const NodeType*> offered(const Editor& editor) {
         for (const NodeType& type : nodeTypes()) types.push_back(&type);
     }
     std::erase_if(types, [&](const NodeType* type) {
-        const bool onlyInGroups = type->id == "group_input" || type->id == "group_output";
-        return type->id == "group" || type->id == "frame" || (onlyInGroups && editor.canvas.scope.empty());
+        const bool onlyInGroups = type->role == NodeRole::groupInput || type->role == NodeRole::groupOutput;
+        return type->role == NodeRole::group || type->role == NodeRole::frame ||
+               (onlyInGroups && editor.canvas.scope.empty());
     });
     return types;
 }

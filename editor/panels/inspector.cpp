@@ -96,14 +96,15 @@ void showInspector(Editor& editor) {
     showNames(editor, *box);
     showFindings(editor, pathOf(editor, box->node->id));
     showExactness(editor, *box);
-    const bool expression = box->node->type == "expression";
+    const bool expression = roleOf(box->node->type) == NodeRole::expression;
     if (expression) showExpression(editor, *box);
     const bool anyInput = std::ranges::any_of(box->rows, [](const Row& row) { return !row.output; });
     if (anyInput) {
         ImGui::Spacing();
         showInputs(editor, *box, goTo);
     }
-    const bool end = box->node->type == "group_input" || box->node->type == "group_output";
+    const bool end =
+        roleOf(box->node->type) == NodeRole::groupInput || roleOf(box->node->type) == NodeRole::groupOutput;
     const std::string group = end ? editor.canvas.scope : box->node->group;
     if (!group.empty() && editor.graph->group(group)) showGroupSockets(editor, group);
     ImGui::PopID();

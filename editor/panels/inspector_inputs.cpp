@@ -235,7 +235,7 @@ void showExpressionMenu(const Input& input) {
 }
 
 void showMenu(const Input& input) {
-    const bool expression = input.box.node->type == "expression";
+    const bool expression = roleOf(input.box.node->type) == NodeRole::expression;
     if (!expression && ImGui::MenuItem("Reset to default", nullptr, false, input.row.value != nullptr))
         input.set(std::nullopt);
     Document& document = input.editor.document;

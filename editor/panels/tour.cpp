@@ -58,7 +58,7 @@ std::size_t tourStepsDone(const Graph& graph) {
     // The subtractions one after the other that lead to the output: the sample has two.
     std::vector<const Node*> cuts;
     for (const Node& node : graph.nodes) {
-        if (node.type != "output") continue;
+        if (roleOf(node.type) != NodeRole::output) continue;
         for (const Node* at = sourceOf(graph, node, "surface"); at && at->type == "subtract";
              at = sourceOf(graph, *at, "a")) {
             cuts.push_back(at);

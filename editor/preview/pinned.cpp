@@ -53,7 +53,8 @@ InputValue ledOut(Graph& graph, const std::string& scope, const std::string& id)
 Graph showingNode(const Graph& graph, std::string_view path) {
     const auto [scope, id] = placeOf(graph, path);
     const Node* pinned = findNode(nodesOf(graph, scope), id);
-    if (!pinned || pinned->type == "output" || pinned->type == "group_output") return graph;
+    if (!pinned || roleOf(pinned->type) == NodeRole::output || roleOf(pinned->type) == NodeRole::groupOutput)
+        return graph;
     Graph shown = graph;
     InputValue link = scope.empty() ? linkTo(id) : ledOut(shown, scope, id);
     nodeOfType(shown.nodes, "output").set("surface", std::move(link));

@@ -33,7 +33,7 @@ std::optional<Plug> wireAhead(const std::vector<Node>& nodes, const std::string&
 /// Whether what comes before the node goes on as one, at a place that is known.
 bool passesAlone(const Node& node) {
     const NodeType* type = findNodeType(node.type);
-    if (!type || type->id == "reroute") return type != nullptr;
+    if (!type || type->role == NodeRole::reroute) return type != nullptr;
     return std::ranges::count(type->inputs, Type::surface, &InputSpec::type) == 1 && placementBy(node);
 }
 

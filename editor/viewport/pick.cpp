@@ -69,7 +69,7 @@ class Probes {
         while (link) {
             const auto found = scope.byId.find(link->node);
             if (found == scope.byId.end()) return nullptr;
-            if (!scope.is(found->second, "reroute")) return link;
+            if (!scope.is(found->second, NodeRole::reroute)) return link;
             const InputValue* fed = scope.nodes[found->second].input("value");
             link = fed ? std::get_if<Link>(&fed->value) : nullptr;
         }
@@ -86,7 +86,7 @@ class Probes {
         std::set<std::string> fed;  // with a surface
         const auto eachSurface = [&](auto visit) {
             for (uint32_t i = 0; i < scope.nodes.size(); ++i) {
-                if (!hasKnownSockets(scope, i) || scope.is(i, "reroute")) continue;
+                if (!hasKnownSockets(scope, i) || scope.is(i, NodeRole::reroute)) continue;
                 for (const auto& [name, value] : scope.nodes[i].inputs)
                     if (const Link* link = source(scope, value);
                         link && hasKnownSockets(scope, scope.byId.at(link->node)) &&
@@ -99,7 +99,9 @@ class Probes {
         std::map<std::pair<std::string, std::string>, std::string> offsets;  // by output
         eachSurface([&](uint32_t i, const std::string& name, const Link& link) {
             const uint32_t from = scope.byId.at(link.node);
-            if (fed.contains(link.node) || scope.is(from, "group") || scope.is(from, "group_input")) return;
+            if (fed.contains(link.node) || scope.is(from, NodeRole::group) ||
+                scope.is(from, NodeRole::groupInput))
+                return;
             std::string& offset = offsets[{link.node, link.output}];
             if (offset.empty()) {
                 offset = fresh.next("probe");

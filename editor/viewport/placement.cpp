@@ -58,8 +58,8 @@ glm::dvec3 vectorOf(const std::vector<double>& numbers) {
 
 std::optional<Placement> placementBy(const Node& node) {
     const NodeType* type = findNodeType(node.type);
-    if (node.muted || !type || type->id == "reroute") return Placement{};
-    if (type->id == "group" || type->id == "expression") return std::nullopt;
+    if (node.muted || !type || type->role == NodeRole::reroute) return Placement{};
+    if (type->role == NodeRole::group || type->role == NodeRole::expression) return std::nullopt;
     Placement result;
     bool elsewhere = false, known = true;
     for (const InputSpec& input : type->inputs) {
@@ -91,7 +91,8 @@ std::optional<NodeIds> wayToShown(const Graph& graph, std::string_view scope, co
     std::vector<std::string_view> reached;
     const bool shown = byId.contains(last);
     for (const auto& [id, each] : byId)
-        if (shown ? id == last : each->type == (scope.empty() ? "output" : "group_output"))
+        if (shown ? id == last
+                  : roleOf(each->type) == (scope.empty() ? NodeRole::output : NodeRole::groupOutput))
             reached.push_back(id), next[id] = "";
     for (std::size_t i = 0; i < reached.size() && !next.contains(node); ++i)
         for (const auto& [name, value] : byId[reached[i]]->inputs)

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "graph/base/box.h"
@@ -12,6 +13,8 @@ namespace fw {
 
 enum class MeshMethod : unsigned char { marchingCubes, dualContouring };
 inline constexpr const char* kMeshMethodNames[] = {"marching-cubes", "dual-contouring"};
+/// That of this name, which is one of them.
+MeshMethod meshMethod(std::string_view name);
 
 /// What is done to a mesh.
 struct MeshStage {

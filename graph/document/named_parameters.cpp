@@ -34,13 +34,6 @@ NamedParameter named(const ExposedParameter& parameter) {
     return result;
 }
 
-/// The name that a node of type parameter gives itself; empty for any other.
-std::string_view parameterName(const Node& node) {
-    const InputValue* name = node.type == "parameter" ? node.input("name") : nullptr;
-    const std::string* text = name ? std::get_if<std::string>(&name->value) : nullptr;
-    return text ? std::string_view(*text) : std::string_view();
-}
-
 NamedParameter named(const Node& node) {
     NamedParameter result{std::string(parameterName(node)), node.id, "value"};
     if (const auto least = inputNumbers(node, "min"); !least.empty()) result.min = least[0];
@@ -49,6 +42,12 @@ NamedParameter named(const Node& node) {
 }
 
 }  // namespace
+
+std::string_view parameterName(const Node& node) {
+    const InputValue* name = roleOf(node.type) == NodeRole::parameter ? node.input("name") : nullptr;
+    const std::string* text = name ? std::get_if<std::string>(&name->value) : nullptr;
+    return text ? std::string_view(*text) : std::string_view();
+}
 
 std::vector<NamedParameter> namedParameters(const Graph& graph) {
     std::vector<NamedParameter> list;

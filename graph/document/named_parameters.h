@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/base/result.h"
@@ -18,6 +19,9 @@ struct NamedParameter {
     std::string node, input;
     double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
 };
+
+/// The name that a node of type parameter gives its input "value"; empty for any other node.
+std::string_view parameterName(const Node& node);
 
 /// All of them, the exposed ones first; of two with one name the first counts.
 std::vector<NamedParameter> namedParameters(const Graph& graph);

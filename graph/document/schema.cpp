@@ -118,8 +118,8 @@ Json nodeSchema() {
     for (const NodeType& type : nodeTypes()) {
         types.push_back({{"const", type.id}, {"title", type.label}, {"description", type.doc}});
         Json then = {{"properties", {{"inputs", refer("inputs-" + type.id)}}}};
-        if (type.id == "expression") then["required"] = {"code"};
-        if (type.id == "group") then["required"] = {"group"};
+        if (type.role == NodeRole::expression) then["required"] = {"code"};
+        if (type.role == NodeRole::group) then["required"] = {"group"};
         Json is = {{"properties", {{"type", {{"const", type.id}}}}}, {"required", {"type"}}};
         cases.push_back({{"if", std::move(is)}, {"then", std::move(then)}});
     }

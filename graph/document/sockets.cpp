@@ -30,7 +30,7 @@ void resolveReroutes(Scope& scope) {
         chain.clear();
         std::optional<Type> type;
         for (uint32_t i = start; scope.types[i];) {
-            if (!scope.is(i, "reroute")) break;
+            if (!scope.is(i, NodeRole::reroute)) break;
             if (seen[i]) {  // resolved before, or, in a cycle, of no type
                 type = scope.rerouteTypes[i];
                 break;
@@ -47,7 +47,7 @@ void resolveReroutes(Scope& scope) {
             const auto next = scope.byId.find(link->node);
             if (next == scope.byId.end()) break;
             i = next->second;
-            if (!hasKnownSockets(scope, i) || scope.is(i, "reroute")) continue;
+            if (!hasKnownSockets(scope, i) || scope.is(i, NodeRole::reroute)) continue;
             if (const auto socket = outputSocket(scope, i, link->output)) type = socket->type;
         }
         for (const uint32_t i : chain) scope.rerouteTypes[i] = type;
@@ -69,7 +69,7 @@ Groups::Groups(const Graph& graph) {
 }
 
 std::optional<uint32_t> Groups::of(const Node& node) const {
-    if (node.type != "group") return {};
+    if (roleOf(node.type) != NodeRole::group) return {};
     const auto found = byId.find(node.group);
     if (found == byId.end()) return {};
     return found->second;
@@ -89,15 +89,16 @@ Scope::Scope(const Groups& allGroups, const std::vector<Node>& its, const GroupS
 bool hasKnownSockets(const Scope& scope, uint32_t node) {
     const NodeType* type = scope.types[node];
     if (!type) return false;
-    if (type->id == "group_input" || type->id == "group_output") return scope.group != nullptr;
-    return type->id != "group" || scope.groups.of(scope.nodes[node]).has_value();
+    if (type->role == NodeRole::groupInput || type->role == NodeRole::groupOutput)
+        return scope.group != nullptr;
+    return type->role != NodeRole::group || scope.groups.of(scope.nodes[node]).has_value();
 }
 
 std::optional<Socket> inputSocket(const Scope& scope, uint32_t node, std::string_view name) {
     const NodeType& type = *scope.types[node];
-    if (type.id == "expression") return Socket{};
-    if (type.id == "reroute" && name == "value") return Socket{};
-    if (type.id == "group_output") return declared(scope.group->outputs, name);
+    if (type.role == NodeRole::expression) return Socket{};
+    if (type.role == NodeRole::reroute && name == "value") return Socket{};
+    if (type.role == NodeRole::groupOutput) return declared(scope.group->outputs, name);
     if (const auto group = scope.groups.of(scope.nodes[node]))
         return declared(scope.groups.list[*group].inputs, name);
     const int index = inputIndex(type, name);
@@ -108,7 +109,7 @@ std::optional<Socket> inputSocket(const Scope& scope, uint32_t node, std::string
 
 std::optional<Socket> settableSocket(const Scope& scope, uint32_t node, std::string_view name) {
     std::optional<Socket> socket = inputSocket(scope, node, name);
-    if (!socket || !scope.is(node, "expression")) return socket;
+    if (!socket || !scope.is(node, NodeRole::expression)) return socket;
     const InputValue* value = scope.nodes[node].input(name);
     if (!value) return std::nullopt;
     socket->type = typeOfValue(*value);
@@ -120,16 +121,17 @@ std::optional<Socket> outputSocket(const Scope& scope, uint32_t node, std::strin
     const auto firstOr = [name](const auto& entries) {
         return name.empty() && !entries.empty() ? std::string_view(entries[0].name) : name;
     };
-    if (type.id == "group_input") return declared(scope.group->inputs, firstOr(scope.group->group->inputs));
+    if (type.role == NodeRole::groupInput)
+        return declared(scope.group->inputs, firstOr(scope.group->group->inputs));
     if (const auto index = scope.groups.of(scope.nodes[node])) {
         const GroupSockets& group = scope.groups.list[*index];
         return declared(group.outputs, firstOr(group.group->outputs));
     }
-    if (type.id == "expression" || type.id == "reroute") {
+    if (type.role == NodeRole::expression || type.role == NodeRole::reroute) {
         const std::string_view only =
             type.outputs.empty() ? kOnlyOutput : std::string_view(type.outputs[0].name);
         if (!name.empty() && name != only) return {};
-        return type.id == "reroute" ? Socket{scope.rerouteTypes[node]} : Socket{};
+        return type.role == NodeRole::reroute ? Socket{scope.rerouteTypes[node]} : Socket{};
     }
     for (const OutputSpec& spec : type.outputs)
         if (name.empty() || spec.name == name) return Socket{spec.type};
@@ -138,11 +140,11 @@ std::optional<Socket> outputSocket(const Scope& scope, uint32_t node, std::strin
 
 std::vector<std::string> inputNames(const Scope& scope, uint32_t node) {
     const NodeType& type = *scope.types[node];
-    if (type.id == "reroute") return {"value"};
-    if (type.id == "group_output") return namesOf(scope.group->group->outputs);
+    if (type.role == NodeRole::reroute) return {"value"};
+    if (type.role == NodeRole::groupOutput) return namesOf(scope.group->group->outputs);
     if (const auto group = scope.groups.of(scope.nodes[node]))
         return namesOf(scope.groups.list[*group].group->inputs);
-    if (type.id != "expression") return namesOf(type.inputs);
+    if (type.role != NodeRole::expression) return namesOf(type.inputs);
     std::vector<std::string> names;
     for (const auto& [name, value] : scope.nodes[node].inputs) names.push_back(name);
     return names;
@@ -150,10 +152,10 @@ std::vector<std::string> inputNames(const Scope& scope, uint32_t node) {
 
 std::vector<std::string> outputNames(const Scope& scope, uint32_t node) {
     const NodeType& type = *scope.types[node];
-    if (type.id == "group_input") return namesOf(scope.group->group->inputs);
+    if (type.role == NodeRole::groupInput) return namesOf(scope.group->group->inputs);
     if (const auto group = scope.groups.of(scope.nodes[node]))
         return namesOf(scope.groups.list[*group].group->outputs);
-    if (type.outputs.empty() && (type.id == "expression" || type.id == "reroute"))
+    if (type.outputs.empty() && (type.role == NodeRole::expression || type.role == NodeRole::reroute))
         return {std::string(kOnlyOutput)};
     return namesOf(type.outputs);
 }

@@ -44,7 +44,7 @@ struct Groups {
 struct Scope {
     Scope(const Groups& groups, const std::vector<Node>& nodes, const GroupSockets* group);
 
-    bool is(uint32_t node, std::string_view type) const { return types[node] && types[node]->id == type; }
+    bool is(uint32_t node, NodeRole role) const { return types[node] && types[node]->role == role; }
 
     const Groups& groups;
     const std::vector<Node>& nodes;

@@ -13,9 +13,6 @@ namespace fw {
 
 namespace {
 
-/// Inputs that must be above zero are kept at least here, where a curve dips below.
-constexpr double kLeastPositive = 1e-6;
-
 /// 0, 1, 2 for the names of a vector's components; -1 for any other text.
 int componentNamed(std::string_view text) { return text == "x" ? 0 : text == "y" ? 1 : text == "z" ? 2 : -1; }
 

@@ -66,17 +66,26 @@ int outputIndex(const NodeType& type, std::string_view name) {
     return found == type.outputs.end() ? -1 : static_cast<int>(found - type.outputs.begin());
 }
 
-std::optional<std::string> rangeProblem(const InputSpec& spec, double value) {
-    if (!(spec.positive && value <= 0) && value >= spec.min && value <= spec.max) return {};
-    std::vector<std::string> bounds;
-    if (spec.positive) bounds.push_back("above 0");
-    if (std::isfinite(spec.min) && !(spec.positive && spec.min <= 0))
-        bounds.push_back("at least " + shortNumber(spec.min));
-    if (std::isfinite(spec.max)) bounds.push_back("at most " + shortNumber(spec.max));
-    std::string text = "the value " + shortNumber(value) + " is out of range: it must be " + bounds[0];
-    for (std::size_t i = 1; i < bounds.size(); ++i) text += " and " + bounds[i];
-    return text;
+std::string rangeWords(const InputSpec& input) {
+    std::string words = input.positive ? "above 0" : "";
+    const auto add = [&](const std::string& bound) { words += (words.empty() ? "" : " and ") + bound; };
+    if (std::isfinite(input.min) && !(input.positive && input.min <= 0))
+        add("at least " + shortNumber(input.min));
+    if (std::isfinite(input.max)) add("at most " + shortNumber(input.max));
+    return words;
 }
+
+std::optional<std::string> rangeProblem(const InputSpec& input, double value) {
+    if (!(input.positive && value <= 0) && value >= input.min && value <= input.max) return {};
+    return "the value " + shortNumber(value) + " is out of range: it must be " + rangeWords(input);
+}
+
+NodeRole roleOf(std::string_view id) {
+    const NodeType* type = findNodeType(id);
+    return type ? type->role : NodeRole::plain;
+}
+
+const std::string& idOf(NodeRole role) { return std::ranges::find(nodeTypes(), role, &NodeType::role)->id; }
 
 std::string nearestNodeType(std::string_view id) {
     std::vector<std::string> names;

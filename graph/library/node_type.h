@@ -82,6 +82,25 @@ ExactnessRule always(Exactness exactness);
 /// The rule of a node that keeps the class of this surface input.
 ExactnessRule sameAs(std::string input);
 
+/// What a document takes a node for, where it is more than a function of its inputs.
+enum class NodeRole : unsigned char {
+    plain,
+    output,       ///< what is seen, played and exported
+    parameter,    ///< a number with a name, for whoever plays the document
+    expression,   ///< has code and inputs of its own
+    reroute,      ///< passes on its one input
+    frame,        ///< a comment
+    group,        ///< an instance of one of the document's groups
+    groupInput,   ///< inside a group: what it receives
+    groupOutput,  ///< inside a group: what it gives
+};
+
+/// How the compiler treats a node without a body (compile/graph_lowering.h).
+class GraphLowering;
+struct NodeAt;
+struct Lowered;
+using LowerHook = Lowered (*)(GraphLowering&, const NodeAt&);
+
 struct NodeType {
     std::string id;
     std::string label;
@@ -89,20 +108,30 @@ struct NodeType {
     std::string doc;  ///< first sentence is the tooltip; ends with a full stop
     std::vector<InputSpec> inputs;
     std::vector<OutputSpec> outputs;
-    ExactnessRule exactness = {};  ///< of the surface output; empty for nodes without one
-    std::string body = {};  ///< field language; empty for nodes the compiler treats itself (see compile.cpp)
+    ExactnessRule exactness = {};           ///< of the surface output; empty for nodes without one
+    std::string body = {};                  ///< field language; empty where there is a hook that needs none
+    LowerHook lower = nullptr;              ///< in place of the body
     std::vector<std::string> aliases = {};  ///< former ids, still read; also searched by the editor
     bool open = false;  ///< the document decides what inputs and outputs there are beside those of the table
+    NodeRole role = NodeRole::plain;
 };
 
 /// Every node type, in the order of the reference page (graph/nodes/node_types.cpp). Built once.
 const std::vector<NodeType>& nodeTypes();
 /// The entry with this id or alias; nullptr if there is none.
 const NodeType* findNodeType(std::string_view id);
+/// The role of the node type with this id or alias; plain if there is none.
+NodeRole roleOf(std::string_view id);
+/// The id of the one node type of this role.
+const std::string& idOf(NodeRole role);
 /// Index of the named input in `type.inputs`; -1 if there is none.
 int inputIndex(const NodeType& type, std::string_view name);
 /// Index of the named output in `type.outputs`; -1 if there is none.
 int outputIndex(const NodeType& type, std::string_view name);
+/// "above 0", "at least 0 and at most 1". The input has a range.
+std::string rangeWords(const InputSpec& input);
+/// What stands for the least number above 0, where one is wanted.
+inline constexpr double kLeastPositive = 1e-6;
 /// Why `value` may not be a component of this input: "the value 2 is out of range: it must be at most 1".
 /// Empty if it may.
 std::optional<std::string> rangeProblem(const InputSpec& input, double value);

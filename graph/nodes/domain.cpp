@@ -1,6 +1,7 @@
 // Nodes that move, repeat and deform the space in which a surface stands, or change its distance.
 #include <algorithm>
 
+#include "graph/compile/graph_lowering.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
@@ -390,6 +391,7 @@ std::vector<NodeType> offsets() {
          .exactness =
              [](const ExactnessArguments& node) { return offsetBy(node, node.constant("distance", 0)); },
          .body = "return with_distance(surface, surface.distance - distance);",
+         .lower = lowerOffset,
          .aliases = {"inflate", "grow"}},
         {.id = "shell",
          .label = "Shell",

@@ -50,7 +50,8 @@ std::vector<NodeType> fieldNodes() {
                     scalar("min", 0, "Smallest value; smaller ones are raised to it."),
                     scalar("max", 1, "Largest value; larger ones are lowered to it.")},
          .outputs = {{"value", Type::scalar}},
-         .body = "return clamp(value, min, max);"},
+         .body = "return clamp(value, min, max);",
+         .role = NodeRole::parameter},
         // Octaves double the frequency and halve the size; their sum is divided by the sum of sizes, so that
         // the range does not depend on how many there are. Each octave and each component of the vector has a
         // seed of its own.

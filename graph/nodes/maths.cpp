@@ -2,6 +2,7 @@
 //
 // Every operation gives a finite number for finite operands: dividing by 0 gives 0, roots and logarithms of
 // what has none are those of the nearest number that has one.
+#include "graph/compile/graph_lowering.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
@@ -209,8 +210,10 @@ return mix(to_min, to_max, t);)"},
          .doc = "Code in the field language, with inputs that you name yourself.",
          .inputs = {},
          .outputs = {{"result", Type::surface}},
+         .lower = lowerExpression,
          .aliases = {"code"},
-         .open = true},
+         .open = true,
+         .role = NodeRole::expression},
     };
 }
 

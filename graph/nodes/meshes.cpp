@@ -1,5 +1,6 @@
 // Triangle meshes made elsewhere, and the fields that are made of them.
 #include "graph/assets/mesh_field.h"
+#include "graph/compile/graph_lowering.h"
 #include "graph/nodes/inputs.h"
 
 namespace fw {
@@ -14,6 +15,7 @@ std::vector<NodeType> meshNodes() {
                 "in one below it. A changed file is read again.",
          .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
          .outputs = {{"mesh", Type::mesh}},
+         .lower = lowerMeshFile,
          .aliases = {"import", "model"}},
         {.id = "mesh_to_field",
          .label = "Mesh to field",
@@ -40,6 +42,7 @@ std::vector<NodeType> meshNodes() {
                   "the winding number, which also closes holes. With none there is only the distance to the "
                   "triangles: for sheets that an offset makes thick.")},
          .outputs = {{"surface", Type::surface}},
+         .lower = lowerMeshToField,
          .aliases = {"voxelize", "bake"}},
     };
 }

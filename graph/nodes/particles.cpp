@@ -1,4 +1,5 @@
 // Particles: where they come from, what moves them, and the fields that are made of them.
+#include "graph/compile/graph_lowering.h"
 #include "graph/compile/particle_recipe.h"
 #include "graph/nodes/inputs.h"
 
@@ -46,6 +47,7 @@ std::vector<NodeType> particleNodes() {
                     amount("spread", 0.5, "m/s", "How much the velocity varies, at most, in any direction."),
                     seed},
          .outputs = {{"particles", Type::particles}},
+         .lower = lowerEmitter,
          .aliases = {"fountain", "particle_system"}},
         {.id = "particle_file",
          .label = "Particle file",
@@ -55,6 +57,7 @@ std::vector<NodeType> particleNodes() {
                 "the graph's file or in one below it.",
          .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
          .outputs = {{"particles", Type::particles}},
+         .lower = lowerParticleFile,
          .aliases = {"point_cloud"}},
         {.id = "particle_dynamics",
          .label = "Particle dynamics",
@@ -75,6 +78,7 @@ std::vector<NodeType> particleNodes() {
                     share("bounce", 0.3, "How much of the speed against a surface comes back."),
                     share("friction", 0.1, "How much of the speed along a surface is lost.")},
          .outputs = {{"particles", Type::particles}},
+         .lower = lowerParticleDynamics,
          .aliases = {"forces"}},
         {.id = "sph_fluid",
          .label = "Fluid",
@@ -103,6 +107,7 @@ std::vector<NodeType> particleNodes() {
                       "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank asks "
                       "for.")},
          .outputs = {{"particles", Type::particles}},
+         .lower = lowerFluid,
          .aliases = {"water", "liquid", "fluid"}},
         {.id = "particles_to_field",
          .label = "Particles to field",
@@ -143,6 +148,7 @@ std::vector<NodeType> particleNodes() {
                   "timeline, if not given."),
               corner("region_max", "Highest corner of the grid. What leaves it is cut off.")},
          .outputs = {{"surface", Type::surface}},
+         .lower = lowerParticlesToField,
          .aliases = {"metaballs", "blobs"}},
     };
 }

@@ -32,23 +32,25 @@ void checkType(const Scope& scope, uint32_t i, Findings& findings) {
         return findings.error(place,
                               "unknown node type " + inQuotes(node.type) + findings.hintType(node.type));
     const std::string& type = scope.types[i]->id;
-    if ((type == "group_input" || type == "group_output") && !scope.group)
+    const NodeRole role = scope.types[i]->role;
+    if ((role == NodeRole::groupInput || role == NodeRole::groupOutput) && !scope.group)
         findings.error(place, "a node of type '" + type + "' belongs inside a group: remove it here");
-    if (type == "output" && scope.group)
-        findings.error(place, "a node of type 'output' belongs outside of groups: use 'group_output' here");
-    if (type == "group" && node.group.empty())
+    if (role == NodeRole::output && scope.group)
+        findings.error(place, "a node of type '" + type + "' belongs outside of groups: use '" +
+                                  idOf(NodeRole::groupOutput) + "' here");
+    if (role == NodeRole::group && node.group.empty())
         findings.error(place, "the node does not say which group it shows: add \"group\": \"name\"");
-    else if (type == "group" && !scope.groups.of(node)) {
+    else if (role == NodeRole::group && !scope.groups.of(node)) {
         std::vector<std::string> ids;
         if (!findings.full())
             for (const GroupSockets& group : scope.groups.list) ids.push_back(group.group->id);
         findings.error(place, "there is no group " + inQuotes(node.group) + findings.hint(node.group, ids));
     }
-    if (type == "expression" && node.code.find_first_not_of(" \t\r\n") == std::string::npos)
+    if (role == NodeRole::expression && node.code.find_first_not_of(" \t\r\n") == std::string::npos)
         findings.error(place, "the expression has no code: add \"code\": \"return length(p) - 1.0;\"");
-    if (type != "expression" && !node.code.empty())
+    if (role != NodeRole::expression && !node.code.empty())
         findings.warning(place, "\"code\" has no effect on a node of type '" + type + "'");
-    if (type != "group" && !node.group.empty())
+    if (role != NodeRole::group && !node.group.empty())
         findings.warning(place, "\"group\" has no effect on a node of type '" + type + "'");
 }
 
@@ -94,7 +96,7 @@ void checkInput(const Scope& scope, uint32_t i, const std::string& name, const I
                 findings.hint(name, names, names.empty() ? "; it has none" : "; it has " + listed(names)));
         socket = Socket{};
     }
-    if (scope.is(i, "expression") && !isName(name))
+    if (scope.is(i, NodeRole::expression) && !isName(name))
         findings.error(
             place,
             inQuotes(name) + " is no name in code: use letters, digits and '_', beginning with a letter");
@@ -103,7 +105,7 @@ void checkInput(const Scope& scope, uint32_t i, const std::string& name, const I
     if (socket->type) {
         if (auto problem = valueProblem(*socket->type, socket->spec, value))
             findings.error(place, std::move(*problem));
-    } else if (scope.is(i, "expression") || (scope.is(i, "reroute") && name == "value")) {
+    } else if (scope.is(i, NodeRole::expression) || (scope.is(i, NodeRole::reroute) && name == "value")) {
         const std::optional<Type> type = typeOfValue(value);
         if (!type)
             findings.error(place, "expected a number, [x, y], [x, y, z] or a link, not " + describe(value));
@@ -126,18 +128,18 @@ void checkUnconnected(const Scope& scope, uint32_t i, Findings& findings) {
             findings.error(place, "the input is not connected: link a node that gives " +
                                       std::string(wanted == Type::mesh ? "a mesh" : "particles"));
     };
-    if (type.id == "output") {
+    if (type.role == NodeRole::output) {
         const bool linked = std::any_of(node.inputs.begin(), node.inputs.end(), [](const auto& input) {
             return std::holds_alternative<Link>(input.second.value);
         });
         if (!linked && !scope.group)
             findings.warning(placeOf(scope, node),
                              "nothing is connected to the output: it shows empty space");
-    } else if (type.id == "reroute") {
+    } else if (type.role == NodeRole::reroute) {
         if (!node.input("value"))
             findings.warning(placeOf(scope, node),
                              "nothing is connected to the reroute: what it feeds keeps its default");
-    } else if (type.id == "group_output") {
+    } else if (type.role == NodeRole::groupOutput) {
         for (const GroupOutput& output : scope.group->group->outputs)
             missing(output.name, typeNamed(output.type));
     } else if (const auto group = scope.groups.of(node)) {
@@ -193,10 +195,11 @@ void checkNodes(const Scope& scope, Findings& findings) {
 }
 
 void checkEnds(const Scope& scope, Findings& findings) {
-    const std::string type = scope.group ? "group_output" : "output";
+    const NodeRole role = scope.group ? NodeRole::groupOutput : NodeRole::output;
+    const std::string& type = idOf(role);
     const Node* first = nullptr;
     for (uint32_t i = 0; i < scope.nodes.size(); ++i) {
-        if (!scope.is(i, type)) continue;
+        if (!scope.is(i, role)) continue;
         if (first)
             findings.error(placeOf(scope, scope.nodes[i]),
                            std::string("a ") + (scope.group ? "group" : "graph") + " has one node of type '" +

@@ -1,4 +1,5 @@
 #include "graph/check/check.h"
+#include "graph/compile/compile.h"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +13,14 @@ namespace fw {
 namespace {
 
 /// Findings of a document whose nodes (and further top-level keys) are these, as a user sees them.
-std::vector<std::string> findingsOf(const std::string& nodes, const std::string& more = "") {
+std::vector<std::string> findingsOf(const std::string& nodes, const std::string& more = "",
+                                    std::vector<Error> (*find)(const Graph&) = checkStructure) {
     const Result<Graph> graph =
         parseGraph("{\"fieldwright\": 1, \"nodes\": [" + nodes + "]" + more + "}", "a.field.json", nullptr);
     EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
     std::vector<std::string> texts;
     if (graph)
-        for (const Error& finding : checkStructure(*graph)) texts.push_back(format(finding));
+        for (const Error& finding : find(*graph)) texts.push_back(format(finding));
     return texts;
 }
 
@@ -159,6 +161,46 @@ TEST(Check, LinksThatDoNotFit) {
         besideBall(
             R"({"id": "m", "type": "polygonize", "inputs": {"surface": {"from": "ball"}}}, {"id": "n", "type": "sphere", "inputs": {"radius": {"from": "m"}}})"),
         {"node 'm' gives mesh but this input takes float"});
+}
+
+TEST(Check, RangesHoldForWhatComesByAWire) {
+    const auto compiled = [](const std::string& nodes) {
+        return findingsOf(std::string(kBall) + ", " + nodes, "", check);
+    };
+    const std::string zero = R"({"id": "v", "type": "value", "inputs": {"value": 0}}, )";
+    const auto scaled = [](const std::string& from) {
+        return R"({"id": "n", "type": "scale", "inputs": {"surface": {"from": "ball"}, "factor": {"from": ")" +
+               from + R"("}}})";
+    };
+    expectOne(compiled(zero + scaled("v")), {"'factor'", "the value 0 is out of range: it must be above 0"});
+    const std::string varies = R"({"id": "x", "type": "expression", "code": "return p.x;"}, )";
+    expectOne(compiled(varies + scaled("x")),
+              {"warning", "'factor'", "varies over space and may be 0 or less"});
+    const std::string above = R"({"id": "x", "type": "expression", "code": "return 1 + abs(p.x);"}, )";
+    EXPECT_TRUE(compiled(above + scaled("x")).empty());
+    expectOne(compiled(R"({"id": "x", "type": "expression", "code": "return prism(p, 0);"})"),
+              {"argument 2 of 'prism' is its sides: the value 0 is out of range"});
+}
+
+TEST(Check, AGroupKeepsTheClassOfEachOutput) {
+    const auto graph = [](const std::string& output) {
+        return R"({"fieldwright": 1, "groups": [{"id": "g", "inputs": [{"name": "a", "type": "surface"}, {"name": "b", "type": "surface"}],
+            "outputs": [{"name": "first", "type": "surface"}, {"name": "second", "type": "surface"}],
+            "nodes": [{"id": "in", "type": "group_input"},
+                      {"id": "end", "type": "group_output", "inputs": {"first": {"from": "in", "output": "a"}, "second": {"from": "in", "output": "b"}}}]}],
+            "nodes": [{"id": "exact", "type": "sphere"}, {"id": "bent", "type": "twist", "inputs": {"surface": {"from": "exact"}}},
+                      {"id": "it", "type": "group", "group": "g", "inputs": {"a": {"from": "exact"}, "b": {"from": "bent"}}},
+                      {"id": "out", "type": "output", "inputs": {"surface": {"from": "it", "output": ")" +
+               output + R"("}}}]})";
+    };
+    for (const std::string output : {"first", "second"}) {
+        const Result<Graph> read = parseGraph(graph(output), "a.field.json", nullptr);
+        ASSERT_TRUE(read) << format(read.error());
+        const Result<Program> program = compile(*read);
+        ASSERT_TRUE(program) << format(program.error());
+        EXPECT_EQ(program->exactness.exact(), output == "first");
+        EXPECT_EQ(program->spoiledBy, output == "first" ? "" : "bent");
+    }
 }
 
 TEST(Check, Conversions) {
@@ -353,7 +395,7 @@ TEST(Check, FindsEverythingInOnePass) {
         readGraph(FIELDWRIGHT_SOURCE_DIR "/tests/data/bad/check-everything.field.json", nullptr);
     ASSERT_TRUE(graph) << format(graph.error());
     std::string all;
-    for (const Error& finding : check(*graph)) {
+    for (const Error& finding : find(*graph)) {
         EXPECT_TRUE(finding.line > 0 || finding.node.empty());
         all += format(finding) + "\n";
     }
@@ -376,7 +418,7 @@ TEST(Check, DivisionsByWhatIsZeroOnlyNowAndThen) {
         EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
         std::vector<std::string> texts;
         if (graph)
-            for (const Error& finding : check(*graph)) texts.push_back(format(finding));
+            for (const Error& finding : find(*graph)) texts.push_back(format(finding));
         return texts;
     };
     const std::string k = R"("k": 0)", kn = R"("k": 0, "n": 2)", byK = "return length(p) - 1 / k;";

@@ -1,0 +1,148 @@
+// Nodes into one Ir: what each of a document's nodes gives, in the order in which they need each other.
+//
+// A node of the library with a body is lowered by its body (language/lower.h). The others have a hook in
+// their entry of the node table, one of those at the end: they read their inputs as they need them and give
+// what they make. Groups are expanded in place: their fields are values like any other. A muted node passes
+// on its first input of its output's type.
+//
+// Lifetime: one GraphLowering for one compilation.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "graph/compile/compile.h"
+#include "graph/language/value.h"
+#include "graph/library/node_type.h"
+
+namespace fw {
+
+/// One output of a node.
+struct NodeOutput {
+    std::string name;
+    Type type;
+    language::Value value = {};
+    Exactness exactness = distorted();  ///< of a surface
+    std::string spoiledBy = {};         ///< as Program::spoiledBy
+};
+
+/// What a node gives. After a mistake, which was reported, outputs that stand for it.
+struct Lowered {
+    std::vector<NodeOutput> outputs = {};
+    bool failed = false;
+};
+using LoweredNodes = std::unordered_map<std::string, Lowered>;
+
+/// A node where it stands.
+struct NodeAt {
+    const Node& node;
+    const NodeType& type;
+    const std::string& prefix;  ///< ids of the groups that it is in, each with a slash behind
+    const LoweredNodes& done;   ///< the nodes beside it that were lowered before: all that it links to
+    const Lowered* groupInput;  ///< what its group receives; null outside of groups
+
+    std::string path() const { return prefix + node.id; }
+};
+
+/// An input of the library, as a node has it.
+struct NodeInput {
+    const InputSpec* spec;
+    language::Value value;
+    const NodeOutput* from = nullptr;  ///< what is linked to it
+    Exactness exactness = kExact;      ///< of a surface
+};
+
+class GraphLowering {
+  public:
+    GraphLowering(const Graph& graph, const CompileOptions& options);
+
+    /// Lowers `targets` and what they need among `nodes`.
+    LoweredNodes lowerAll(const std::vector<Node>& nodes, const std::string& prefix,
+                          const Lowered* groupInput, const std::vector<const Node*>& targets);
+
+    // ---- for hooks
+
+    /// An error, or a warning, about an input of the node; about the node itself if `input` is empty.
+    void report(const NodeAt& at, std::string_view input, Error error);
+    void warn(const NodeAt& at, std::string_view input, std::string message);
+    /// What stands for the outputs of a node that failed.
+    Lowered failure(const std::vector<OutputSpec>& outputs);
+
+    /// What a link leads to; nullptr where that is nothing. `failed` is set where its node failed.
+    const NodeOutput* linked(const NodeAt& at, const Link& link, bool& failed) const;
+    /// The value that the file or the library gives for an input that is not linked. `folded`: may not be
+    /// live.
+    language::Value literal(const NodeAt& at, const InputSpec& spec, const InputValue* given,
+                            bool folded = false);
+    /// The node's inputs, in the order of the library; none, reported, if one is not what it should be.
+    std::optional<std::vector<NodeInput>> inputs(const NodeAt& at);
+    /// A number that must be known when the graph is compiled. Reported, and none, if it is not.
+    std::optional<double> knownNumber(const NodeAt& at, const std::vector<NodeInput>& inputs,
+                                      std::string_view name, int component = 0);
+    /// What a muted node, or a reroute, gives: the first linked input that fits the first of `outputs`;
+    /// without `outputs` the first input.
+    Lowered passOn(const NodeAt& at, const std::vector<OutputSpec>* outputs);
+    /// By the body of the node's type.
+    Lowered lowerBody(const NodeAt& at);
+    /// Class of the node's surface by its type's rule, given its inputs.
+    void classify(const NodeAt& at, const std::vector<NodeInput>& inputs, NodeOutput& surface);
+
+    const Graph& graph;
+    const CompileOptions& options;
+    language::Lowering state;
+    std::vector<Error> findings;  ///< errors and warnings
+    std::vector<LiveParameter> live;
+    std::map<std::string, NodeExactness, std::less<>> exactness;
+    std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
+    std::set<std::string, std::less<>> nearFields = {};  ///< particles_to_field without true distances
+
+  private:
+    Lowered lower(const NodeAt& at);
+    IrId liveComponent(const std::string& name, int component, double value);
+    std::string liveName(const NodeAt& at, const std::string& input) const;
+    std::optional<language::Value> linkedValue(const NodeAt& at, const InputSpec& spec,
+                                               const NodeOutput& from);
+    void keepInRange(const NodeAt& at, const InputSpec& spec, language::Value& value, bool& fine);
+};
+
+/// The named one of a node's inputs, which it has.
+const language::Value& inputOf(const std::vector<NodeInput>& inputs, std::string_view name);
+/// A mesh is known by the surface that it is made from.
+Type flowsAs(Type type);
+/// The type of an input that the document alone declares, by its value.
+Type literalType(const InputValue& input);
+/// What a group receives from an instance that gives nothing.
+Lowered defaultsOf(GraphLowering& lowering, const Group& group);
+
+// Hooks of the node table. groups.cpp:
+Lowered lowerGroup(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerGroupInput(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerGroupOutput(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerReroute(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerExpression(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerNothing(GraphLowering& lowering, const NodeAt& at);
+// meshes.cpp:
+Lowered lowerMeshFile(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerMeshToField(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerPolygonize(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerSmooth(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerSubdivide(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerDecimate(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerOutput(GraphLowering& lowering, const NodeAt& at);
+/// The surface of a volume at the node's input "p". Used by meshes and particles.
+Lowered sampledVolume(GraphLowering& lowering, const NodeAt& at, const std::vector<NodeInput>& inputs,
+                      const FieldVolumePtr& volume, VolumeChannel distance);
+// particles.cpp:
+Lowered lowerEmitter(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at);
+/// The body of `offset`, with a warning about distances that are not true.
+Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at);
+
+}  // namespace fw

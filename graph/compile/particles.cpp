@@ -1,0 +1,235 @@
+// Particles: each node a stage of a recipe, and the field that is made of all of them.
+#include <algorithm>
+#include <cmath>
+
+#include "graph/base/words.h"
+#include "graph/compile/graph_lowering.h"
+#include "graph/compile/particle_recipe.h"
+#include "graph/evaluate/region.h"
+
+namespace fw {
+
+using language::Value;
+
+namespace {
+
+/// How many cells a particle should reach at least, and reaches at most where the grid is found.
+constexpr double kFewRadiusCells = 1.7, kManyRadiusCells = 8.0;
+
+std::vector<double> valuesOf(const std::vector<LiveParameter>& live) {
+    std::vector<double> values;
+    for (const LiveParameter& parameter : live) values.push_back(parameter.value);
+    return values;
+}
+
+/// A field of its own, of the distance of a surface.
+std::shared_ptr<const Program> fieldOf(GraphLowering& lowering, const Value& surface) {
+    auto field = std::make_shared<Program>();
+    field->surface = language::emptySurface(lowering.state).ids;
+    field->surface[distanceComponent] = surface.ids[distanceComponent];
+    field->ir = lowering.state.ir.compact(field->surface);
+    field->live = lowering.live;
+    field->families = findFamilies(field->ir, field->distance());
+    field->structureHash = field->ir.hash(field->surface);
+    return field;
+}
+
+/// The inputs of a particle node as a stage of a recipe; none, reported, where a number depends on the place.
+std::optional<ParticleStage> particleStage(GraphLowering& lowering, const NodeAt& at,
+                                           const std::vector<NodeInput>& inputs) {
+    const Ir& ir = lowering.state.ir;
+    ParticleStage stage{.node = at.path()};
+    bool fine = true;
+    for (const NodeInput& input : inputs) {
+        const InputSpec& spec = *input.spec;
+        if (spec.value.kind == InputDefault::Kind::position) continue;
+        if (spec.type == Type::surface) {
+            if (ir.isConstant(input.value.id(), language::kEmptyDistance)) continue;
+            const std::shared_ptr<const Program> field = fieldOf(lowering, input.value);
+            if (std::ranges::any_of(field->ir.volumes(),
+                                    [](const FieldVolumePtr& volume) { return bool(volume->particles); })) {
+                lowering.report(
+                    at, spec.name,
+                    {.message = "cannot be a surface that particles make, for those are not known "
+                                "before: take what the particles collide with themselves"});
+                fine = false;
+            }
+            stage.fields[spec.name] = field;
+        } else if (spec.value.kind == InputDefault::Kind::numbers) {
+            std::array<IrId, 3>& ids = stage.numbers[spec.name];
+            for (std::size_t k = 0; k < std::size_t(componentCount(spec.type)); ++k) {
+                ids[k] = input.value.ids[k];
+                if (ir[ids[k]].positions == 0) continue;
+                lowering.report(
+                    at, spec.name,
+                    {.message = "takes one number for all of space: it cannot depend on the place"});
+                fine = false;
+                break;
+            }
+        } else if (spec.value.kind == InputDefault::Kind::text) {
+            stage.words[spec.name] = input.value.text;
+        }
+    }
+    return fine ? std::optional(std::move(stage)) : std::nullopt;
+}
+
+/// The node's inputs as a stage of this kind.
+std::optional<ParticleStage> stageOf(GraphLowering& lowering, const NodeAt& at, ParticleStage::Kind kind) {
+    const auto inputs = lowering.inputs(at);
+    auto stage = inputs ? particleStage(lowering, at, *inputs) : std::nullopt;
+    if (stage) stage->kind = kind;
+    return stage;
+}
+
+Lowered particlesOf(const NodeAt& at, ParticleRecipe recipe) {
+    Value value{Type::particles};
+    value.particles = std::make_shared<const ParticleRecipe>(std::move(recipe));
+    Lowered result;
+    result.outputs.push_back({at.type.outputs[0].name, Type::particles, std::move(value)});
+    return result;
+}
+
+/// The grid about particles, at all moments that are asked for.
+struct Reach {
+    Box region;
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;  ///< of the radius
+};
+Reach reachOf(const GraphLowering& lowering, const ParticleStage& own, const ParticleRecipe& particles) {
+    const std::vector<LiveParameter>& live = lowering.live;
+    const auto& moments = lowering.options.moments;
+    std::vector<double> values = valuesOf(live);
+    Reach reach;
+    const auto lookAt = [&](bool first) {
+        const double radius = StageNumbers(lowering.state.ir, own, values).scalar("radius");
+        const Box then = particleBounds(lowering.state.ir, particles, values, radius);
+        reach.region = first ? then : joined(reach.region, then);
+        reach.least = std::min(reach.least, radius), reach.most = std::max(reach.most, radius);
+    };
+    if (moments.empty()) lookAt(true);
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        for (std::size_t slot = 0; slot < live.size(); ++slot) {
+            const auto moving = moments[i].find(live[slot].name);
+            if (moving != moments[i].end())
+                values[slot] = moving->second.at(std::size_t(live[slot].component));
+        }
+        lookAt(i == 0);
+    }
+    return reach;
+}
+
+}  // namespace
+
+Lowered lowerEmitter(GraphLowering& lowering, const NodeAt& at) {
+    std::optional<ParticleStage> stage = stageOf(lowering, at, ParticleStage::Kind::emitter);
+    return stage ? particlesOf(at, {{std::move(*stage)}}) : lowering.failure(at.type.outputs);
+}
+
+Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at) {
+    std::optional<ParticleStage> stage = stageOf(lowering, at, ParticleStage::Kind::file);
+    if (!stage) return lowering.failure(at.type.outputs);
+    const std::string& path = stage->words["path"];
+    const Result<ParticlePlacesPtr> places =
+        path.empty() ? Error{.message =
+                                 "no file is named: write the path of a .ply, .obj, .csv, .txt or .xyz "
+                                 "file"}
+                     : readParticlePlaces(lowering.state.graphPath, path);
+    if (!places) {
+        lowering.report(at, "path", places.error());
+        return lowering.failure(at.type.outputs);
+    }
+    stage->places = *places;
+    return particlesOf(at, {{std::move(*stage)}});
+}
+
+Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at) {
+    const auto inputs = lowering.inputs(at);
+    std::optional<ParticleStage> stage = inputs ? particleStage(lowering, at, *inputs) : std::nullopt;
+    if (!stage) return lowering.failure(at.type.outputs);
+    stage->kind = ParticleStage::Kind::dynamics;
+    const Value& from = inputOf(*inputs, "particles");
+    if (!from.particles) return lowering.failure(at.type.outputs);
+    ParticleRecipe recipe = *from.particles;
+    if (recipe.stages.front().kind == ParticleStage::Kind::fluid) {
+        lowering.report(
+            at, "particles",
+            {.message = "a fluid moves itself: give the sph_fluid its gravity and what it collides "
+                        "with"});
+        return lowering.failure(at.type.outputs);
+    }
+    recipe.stages.push_back(std::move(*stage));
+    return particlesOf(at, std::move(recipe));
+}
+
+Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at) {
+    std::optional<ParticleStage> stage = stageOf(lowering, at, ParticleStage::Kind::fluid);
+    if (!stage) return lowering.failure(at.type.outputs);
+    if (!stage->fields.contains("source")) {
+        lowering.report(at, "source",
+                        {.message = "nothing is fluid: link the surface that is full of it at the start"});
+        return lowering.failure(at.type.outputs);
+    }
+    const std::vector<double> values = valuesOf(lowering.live);
+    const StageNumbers numbers(lowering.state.ir, *stage, values);
+    const glm::dvec3 lo = numbers.vector("tank_min"), hi = numbers.vector("tank_max");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(lo[axis] < hi[axis])) {
+            lowering.report(at, "tank_max",
+                            {.message = "must be above tank_min along " + std::string(1, "xyz"[axis])});
+            return lowering.failure(at.type.outputs);
+        }
+    return particlesOf(at, {{std::move(*stage)}});
+}
+
+Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
+    const auto inputs = lowering.inputs(at);
+    if (!inputs) return lowering.failure(at.type.outputs);
+    const std::optional<ParticleStage> own = particleStage(lowering, at, *inputs);
+    const Value& from = inputOf(*inputs, "particles");
+    auto resolution = lowering.knownNumber(at, *inputs, "resolution");
+    const auto margin = lowering.knownNumber(at, *inputs, "margin");
+    if (!own || !from.particles || !resolution || !margin) return lowering.failure(at.type.outputs);
+    auto [region, least, most] = reachOf(lowering, *own, *from.particles);
+    bool found = true;
+    for (const auto& [name, corner] :
+         {std::pair("region_min", &region.lo), std::pair("region_max", &region.hi)}) {
+        if (!at.node.input(name)) continue;
+        found = false;
+        for (int i = 0; i < 3; ++i) {
+            const auto given = lowering.knownNumber(at, *inputs, name, i);
+            if (!given) return lowering.failure(at.type.outputs);
+            (*corner)[std::size_t(i)] = *given;
+        }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) region.lo[axis] -= *margin, region.hi[axis] += *margin;
+    if (found) resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / most));
+    const Result<FieldVolumePtr> volume =
+        particleVolume(lowering.state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
+    if (!volume) {
+        lowering.report(at, found ? "particles" : "region_min", volume.error());
+        return lowering.failure(at.type.outputs);
+    }
+    const double cell = (*volume)->grid.cell;
+    const double enough = std::ceil(*resolution * cell * kFewRadiusCells / least);
+    if (enough > *resolution)
+        lowering.warn(
+            at, "resolution",
+            "cells of " + shortNumber(cell) + " m are wide for particles that reach " + shortNumber(least) +
+                " m: " +
+                (enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
+                                                   : "raise the radius") +
+                ", or give the grid a smaller region");
+    if (inputOf(*inputs, "distance").text == "near") lowering.nearFields.insert(at.path());
+    return sampledVolume(lowering, at, *inputs, *volume, tricubicChannel);
+}
+
+Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at) {
+    Lowered result = lowering.lowerBody(at);
+    if (result.failed || !lowering.nearFields.contains(result.outputs[0].spoiledBy)) return result;
+    lowering.warn(at, "surface",
+                  "the particles of node '" + result.outputs[0].spoiledBy +
+                      "' have distances near their surface alone, so this grows by more than it should: set "
+                      "that node's distance to true");
+    return result;
+}
+
+}  // namespace fw

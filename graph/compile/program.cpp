@@ -1,0 +1,27 @@
+#include "graph/compile/program.h"
+
+#include <algorithm>
+
+namespace fw {
+
+bool Program::hasMaterial() const {
+    for (int i = 0; i < 8; ++i)
+        if (!ir.isConstant(surface[i + 1], kDefaultMaterial[i])) return true;
+    return false;
+}
+
+std::vector<double> Program::parameters() const {
+    std::vector<double> values;
+    for (const LiveParameter& parameter : live) values.push_back(parameter.value);
+    return values;
+}
+
+std::vector<float> Program::numbers() const {
+    std::vector<float> all;
+    for (const LiveParameter& parameter : live) all.push_back(static_cast<float>(parameter.value));
+    for (const Family& family : families.all) all.insert(all.end(), family.table.begin(), family.table.end());
+    all.resize(std::max<std::size_t>(all.size(), 1));
+    return all;
+}
+
+}  // namespace fw

@@ -1,0 +1,60 @@
+// A program: what a runtime needs to evaluate a graph's field, and nothing of how it was drawn. compile()
+// makes them.
+//
+// Lifetime: a plain value.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/base/result.h"
+#include "graph/compile/mesh_recipe.h"
+#include "graph/ir/families.h"
+#include "graph/ir/ir.h"
+#include "graph/library/types.h"
+
+namespace fw {
+
+/// One slot of the parameter buffer.
+struct LiveParameter {
+    std::string name;   ///< of an exposed parameter, else "node.input"; "time" for the seconds
+    int component = 0;  ///< which component of a vector input
+    double value = 0.0;
+};
+
+/// Of the surface that a node gives.
+struct NodeExactness {
+    Exactness exactness;
+    std::string spoiledBy;  ///< as Program::spoiledBy
+};
+
+struct Program {
+    Ir ir;
+    std::array<IrId, 9> surface{};  ///< roots, in the order of SurfaceComponent
+    std::vector<LiveParameter> live;
+    Families families;           ///< of the distance
+    uint64_t structureHash = 0;  ///< equal for equal code, whatever the live values
+
+    Exactness exactness;
+    std::string spoiledBy;  ///< node by which the field lost its exactness; empty if exact
+    /// Of nodes with a surface, of several outputs the first one's; in groups by "instance/node".
+    std::map<std::string, NodeExactness, std::less<>> nodeExactness;
+
+    int resolution = 128;  ///< cells along the longest side
+    MeshMethod method = MeshMethod::marchingCubes;
+    std::optional<Box> region;      ///< given by a polygonize node
+    std::vector<MeshStage> stages;  ///< what is done to the mesh, in order; not part of structureHash
+    std::vector<Error> notes;       ///< warnings: what its user should know
+
+    IrId distance() const { return surface[distanceComponent]; }
+    /// Some point's material differs from another's or from the default.
+    bool hasMaterial() const;
+    /// The live values in their slots.
+    std::vector<double> parameters() const;
+    /// What the field's buffer holds: the live values in their slots, then the families' tables. Not empty.
+    std::vector<float> numbers() const;
+};
+
+}  // namespace fw
