@@ -395,7 +395,7 @@ TEST(Check, FindsEverythingInOnePass) {
         readGraph(FIELDWRIGHT_SOURCE_DIR "/tests/data/bad/check-everything.field.json", nullptr);
     ASSERT_TRUE(graph) << format(graph.error());
     std::string all;
-    for (const Error& finding : find(*graph)) {
+    for (const Error& finding : check(*graph)) {
         EXPECT_TRUE(finding.line > 0 || finding.node.empty());
         all += format(finding) + "\n";
     }
@@ -418,7 +418,7 @@ TEST(Check, DivisionsByWhatIsZeroOnlyNowAndThen) {
         EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
         std::vector<std::string> texts;
         if (graph)
-            for (const Error& finding : find(*graph)) texts.push_back(format(finding));
+            for (const Error& finding : check(*graph)) texts.push_back(format(finding));
         return texts;
     };
     const std::string k = R"("k": 0)", kn = R"("k": 0, "n": 2)", byK = "return length(p) - 1 / k;";
