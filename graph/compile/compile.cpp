@@ -371,10 +371,7 @@ class Compiler {
                      const std::vector<Value>& inputs) {
         const std::string& path = inputOf(type, inputs, "path").text;
         const Result<TriangleMeshPtr> mesh =
-            path.empty()
-                ? Error{.message =
-                            "no file is named: write the path of a .glb, .gltf, .obj, .stl or .ply file"}
-                : readTriangleMesh(state.graphPath, path);
+            path.empty() ? noFileNamed(kMeshFile) : readTriangleMesh(state.graphPath, path);
         if (!mesh) {
             report(node, prefix, "path", mesh.error());
             return failure({{"mesh", Type::surface}});
@@ -541,10 +538,7 @@ class Compiler {
         } else if (stage->kind == Kind::file) {
             const std::string& path = stage->words["path"];
             const Result<ParticlePlacesPtr> places =
-                path.empty() ? Error{.message =
-                                         "no file is named: write the path of a .ply, .obj, .csv, .txt "
-                                         "or .xyz file"}
-                             : readParticlePlaces(state.graphPath, path);
+                path.empty() ? noFileNamed(kParticleFile) : readParticlePlaces(state.graphPath, path);
             if (!places) {
                 report(node, prefix, "path", places.error());
                 return failure(type.outputs);

@@ -102,8 +102,11 @@ class Run {
     }
 
   private:
-    [[noreturn]] static void fail(Place place, const std::string& message) {
-        throw Failure{codeError(place, message)};
+    [[noreturn]] static void fail(Place place, const std::string& message,
+                                  Error::Code code = Error::Code::other) {
+        Error error = codeError(place, message);
+        error.code = code;
+        throw Failure{error};
     }
 
     Value checked(Result<Value> result, Place place) {
@@ -461,7 +464,8 @@ class Run {
         if (!scope.refusesZeroDivision) return;
         const int width = divisor.type == Type::surface ? 1 : componentCount(divisor.type);
         for (int i = 0; i < width; ++i)
-            if (ir.isConstant(divisor.ids[i], 0.0)) fail(place, std::string(kDivisionByZero));
+            if (ir.isConstant(divisor.ids[i], 0.0))
+                fail(place, "division by zero", Error::Code::divisionByZero);
     }
 
     Value combine(char operation, const Value& a, const Value& b, Place place) {

@@ -65,9 +65,6 @@ struct Lowering {
     std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
 };
 
-/// The message of a division by the constant 0.
-inline constexpr std::string_view kDivisionByZero = "division by zero";
-
 inline constexpr std::size_t kMaxSteps = 4'000'000;
 inline constexpr int kMaxCalls = 64;
 /// Operations visited by moving fields to other positions, in one compilation.
