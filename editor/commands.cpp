@@ -47,14 +47,11 @@ void remove(Editor& editor, bool heal) {
                           removeNodes(graphOf(editor), scopeOf(editor), selected(editor), heal));
 }
 
-void copy(Editor& editor) {
-    ImGui::SetClipboardText(copyNodes(graphOf(editor), scopeOf(editor), selected(editor)).c_str());
-}
+void copy(Editor& editor) { copyText(editor, copyNodes(graphOf(editor), scopeOf(editor), selected(editor))); }
 
 void paste(Editor& editor) {
-    const char* text = ImGui::GetClipboardText();
-    Result<Edited> pasted =
-        pasteNodes(graphOf(editor), scopeOf(editor), text ? text : "", position(hereOn(editor)));
+    const std::string text = pastedText(editor);
+    Result<Edited> pasted = pasteNodes(graphOf(editor), scopeOf(editor), text, position(hereOn(editor)));
     if (!pasted) return say(editor, "cannot paste: " + format(pasted.error()));
     apply(editor, "Paste", std::move(*pasted));
 }

@@ -55,6 +55,8 @@ class Document {
     void markSaved();
     /// The file holds something else now, or is gone: unsaved until it is saved again.
     void markUnsaved();
+    /// What was made of the graph is out of date for another reason: a file that it reads was changed.
+    void outdate() { ++changes; }
     /// The file that the graph is of. Not part of the history.
     void setPath(std::string path);
 

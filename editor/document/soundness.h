@@ -10,7 +10,8 @@
 namespace fw::editor {
 
 /// The first error of checkStructure() about `next` that it does not report about `graph`. What only says
-/// that something is still missing, an output or a link to a mesh, is no such error.
+/// that something is still missing, an output or a link to a mesh, or names a file of another kind, is no
+/// such error.
 std::optional<Error> newError(const Graph& graph, const Graph& next);
 
 /// How many errors of that kind there are.

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "graph/document/json.h"
+
 namespace fw::editor {
 
 struct FolderEntry {
@@ -23,7 +25,7 @@ std::vector<FolderEntry> listFolder(const std::string& folder, const std::string
 struct FileBrowser {
     enum class Kind { open, save } kind = Kind::open;
     std::string folder;                     ///< absolute
-    std::string ending = ".field.json";     ///< of the files shown
+    std::string ending{kGraphEnding};       ///< of the files shown
     std::string name;                       ///< typed or chosen
     std::vector<FolderEntry> entries = {};  ///< of the folder
     std::string problem = {};               ///< why it cannot be read, or the name not be taken

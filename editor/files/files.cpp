@@ -6,7 +6,6 @@
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
 #include "graph/document/json.h"
-#include "graph/library/node_type.h"
 
 namespace fw::editor {
 
@@ -15,8 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using Next = Files::Next;
 using Origin = Files::Origin;
-
-constexpr std::string_view kEnding = ".field.json";
 
 std::string fileName(const std::string& path) { return fs::path(path).filename().string(); }
 
@@ -75,31 +72,13 @@ Done keepBeside(const std::string& path) {
                  .file = path};
 }
 
-/// The pictures and meshes that the graph reads, to the folder of its new file, unless files of these names
-/// are there.
-void bringAssets(const Graph& graph, const std::string& path) {
-    const fs::path from = fs::path(absolute(graph.path)).parent_path(),
-                   to = fs::path(absolute(path)).parent_path();
-    if (graph.path.empty() || sameFile(from, to)) return;
-    const auto bring = [&](const std::vector<Node>& nodes) {
-        for (const Node& node : nodes) {
-            const NodeType* type = findNodeType(node.type);
-            for (const auto& [name, input] : node.inputs) {
-                const int index = type ? inputIndex(*type, name) : -1;
-                const auto* file = std::get_if<std::string>(&input.value);
-                const bool names = index >= 0 && (type->inputs[std::size_t(index)].type == Type::image ||
-                                                  (type->id == "mesh_file" && name == "path"));
-                if (!names || !file || fs::path(*file).is_absolute()) continue;
-                std::error_code error;  // what cannot be brought is found missing by check()
-                const fs::path target = (to / *file).lexically_normal();
-                if (!target.string().starts_with(to.string()) || fs::exists(target, error)) continue;
-                fs::create_directories(target.parent_path(), error);
-                fs::copy_file(from / *file, target, error);
-            }
-        }
-    };
-    bring(graph.nodes);
-    for (const Group& group : graph.groups) bring(group.nodes);
+/// The folder of a graph's file, absolute.
+std::string folderOf(const std::string& path) { return fs::path(absolute(path)).parent_path().string(); }
+
+/// The graph with the files that it reads in the folder of its new file.
+Graph withFiles(const Graph& graph, const std::string& path, std::vector<std::string>& told) {
+    if (graph.path.empty() || sameFile(folderOf(graph.path), folderOf(path))) return graph;
+    return bringFiles(graph, folderOf(graph.path), folderOf(path), told);
 }
 
 /// Where a file goes that has no name of its own yet.
@@ -107,9 +86,9 @@ std::string proposal(const Editor& editor) {
     const Files& files = editor.files;
     const std::string& path = editor.document.graph().path;
     if (path.empty() || files.origin == Origin::own) return path;
-    const std::string stem = fileName(path).substr(0, fileName(path).size() - kEnding.size());
+    const std::string stem = fileName(path).substr(0, fileName(path).size() - kGraphEnding.size());
     if (files.origin == Origin::partly)
-        return (fs::path(path).parent_path() / (stem + "_repaired" + std::string(kEnding))).string();
+        return (fs::path(path).parent_path() / (stem + "_repaired" + std::string(kGraphEnding))).string();
     return (fs::path(workFolder(editor)) / fileName(path)).string();
 }
 
@@ -197,16 +176,18 @@ bool writeFile(Editor& editor, const std::string& path) {
     const auto fail = [&](const Error& error) { return say(editor, format(error)), false; };
     if (files.origin == Origin::partly && sameFile(path, graph.path))
         if (const Done kept = keepBeside(path); !kept) return fail(kept.error());
-    if (const Done saved = saveGraph(graph, path); !saved) return fail(saved.error());
-    bringAssets(graph, path);
+    std::vector<std::string> told{"saved " + path};
+    const Graph moved = withFiles(graph, path, told);
+    if (const Done saved = saveGraph(moved, path); !saved) return fail(saved.error());
     editor.document.setPath(path);
+    editor.document.apply("Save As", moved);
     editor.document.markSaved();
     files.origin = Origin::own;
     files.found.clear();
     files.outside.reset();
-    files.watch.follow(path, writeGraph(graph));
+    files.watch.follow(path, writeGraph(moved));
     files.recovery.discard();
-    say(editor, "saved " + path);
+    say(editor, joined(told));
     remember(editor, path);
     return true;
 }
@@ -296,8 +277,10 @@ void showFiles(Editor& editor) {
 bool watchFile(Editor& editor) {
     Files& files = editor.files;
     if (editor.document.inGesture() || files.outside) return false;
+    const bool assets = files.assets.look(editor.graph);
+    if (assets) editor.document.outdate();
     std::optional<FileWatch::Change> change = files.watch.look();
-    if (!change) return false;
+    if (!change) return assets;
     const std::string name = fileName(editor.document.graph().path);
     if (change->gone) {
         editor.document.markUnsaved();
@@ -308,6 +291,31 @@ bool watchFile(Editor& editor) {
         reload(editor, change->text);
     }
     return true;
+}
+
+void copyText(Editor& editor, std::string text) {
+    ImGui::SetClipboardText(text.c_str());
+    editor.files.copied = std::move(text);
+    editor.files.copiedFrom = editor.document.graph().path;
+}
+
+std::string pastedText(Editor& editor) {
+    const char* clipboard = ImGui::GetClipboardText();
+    std::string text = clipboard ? clipboard : "";
+    const Files& files = editor.files;
+    const std::string& path = editor.document.graph().path;
+    if (text != files.copied || files.copiedFrom.empty() || path == files.copiedFrom) return text;
+    const Result<Graph> nodes = parseGraph(text, files.copiedFrom, nullptr);
+    if (!nodes || namedFiles(*nodes).empty()) return text;
+    if (path.empty() || files.origin == Origin::sample) {
+        say(editor, "the nodes read files of " + folderOf(files.copiedFrom) +
+                        ": save the document, and paste them again to have copies of these");
+        return text;
+    }
+    std::vector<std::string> told;
+    text = writeGraph(withFiles(*nodes, path, told));
+    if (!told.empty()) say(editor, joined(told));
+    return text;
 }
 
 void showRecent(Editor& editor) {

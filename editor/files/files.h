@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "editor/files/assets.h"
 #include "editor/files/browser.h"
 #include "editor/files/drop.h"
 #include "editor/files/preferences.h"
@@ -30,9 +31,9 @@ struct Message {
 struct Files {
     /// What is to happen once the changes are saved or given up.
     enum class Next : unsigned char { none, fresh, browse, open, drop, samples, quit } next = Next::none;
-    std::string nextPath;   ///< of Next::open
-    DroppedMeshes dropped;  ///< of Next::drop
-    bool asks = false;      ///< the question about changes is to be opened
+    std::string nextPath;  ///< of Next::open
+    DroppedFiles dropped;  ///< of Next::drop
+    bool asks = false;     ///< the question about changes is to be opened
     /// What saving does to the file that the document was read from.
     enum class Origin : unsigned char {
         own,     ///< replaces it
@@ -43,6 +44,8 @@ struct Files {
     bool asksPartly = false;   ///< that question is to be opened
     std::vector<Error> found;  ///< when the file was read
     FileWatch watch;
+    AssetWatch assets;
+    std::string copied, copiedFrom;  ///< the last text that was copied here, and the file of its graph
     std::optional<std::string>
         outside;  ///< what another program wrote, while it is asked what to do about it
     Message message;
@@ -62,6 +65,10 @@ void startFiles(Editor& editor, const std::string& path = {});
 void showFiles(Editor& editor);
 /// Looks for what happened to the file outside. Whether there is something to show.
 bool watchFile(Editor& editor);
+/// Takes the text to the clipboard, or from there, with the files that its nodes name brought to the
+/// document.
+void copyText(Editor& editor, std::string text);
+std::string pastedText(Editor& editor);
 /// The recent files as entries of ImGui's current menu.
 void showRecent(Editor& editor);
 

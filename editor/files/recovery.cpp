@@ -20,13 +20,12 @@ namespace fw::editor {
 
 namespace {
 
-constexpr std::string_view kEnding = ".field.json";
 constexpr std::string_view kLock = ".lock";
 constexpr const char* kKey = "recovery";
 constexpr std::time_t kStaleSeconds = 60;
 
 std::string lockOf(const std::string& copy) {
-    return copy.substr(0, copy.size() - kEnding.size()) + std::string(kLock);
+    return copy.substr(0, copy.size() - kGraphEnding.size()) + std::string(kLock);
 }
 
 std::time_t changedAt(const std::string& path) {
@@ -78,7 +77,7 @@ Recovery::Recovery(std::string folder) {
     if (folder.empty() || (std::filesystem::create_directories(folder, error), error)) return;
     // A name that no other document has, of this process or of one that left its copy.
     for (int i = 0; i < 1000 && lock < 0; ++i) {
-        file = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(i) + std::string(kEnding);
+        file = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(i) + std::string(kGraphEnding);
         if (access(file.c_str(), F_OK) == 0) continue;
         lock = open(lockOf(file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
         if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0) close(std::exchange(lock, -1));
@@ -137,10 +136,10 @@ std::vector<LeftCopy> leftCopies(const std::string& folder) {
         struct stat status {};
         if (path.ends_with(kLock) && std::time(nullptr) - changedAt(path) > kStaleSeconds) {
             // Of a process that died without a copy. A young one may be of an editor that is just starting.
-            const std::string copy = path.substr(0, path.size() - kLock.size()) + std::string(kEnding);
+            const std::string copy = path.substr(0, path.size() - kLock.size()) + std::string(kGraphEnding);
             if (access(copy.c_str(), F_OK) != 0 && isLeft(copy)) unlink(path.c_str());
         }
-        if (!path.ends_with(kEnding) || stat(path.c_str(), &status) != 0 || !isLeft(path)) continue;
+        if (!path.ends_with(kGraphEnding) || stat(path.c_str(), &status) != 0 || !isLeft(path)) continue;
         LeftCopy copy{path, {}, localTime(status.st_mtime)};
         if (const Result<Graph> graph = readCopy(copy)) copy.original = graph->path;
         found.emplace_back(status.st_mtime, std::move(copy));

@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTitle = "Samples";
-constexpr std::string_view kEnding = ".field.json";
 constexpr int kMostLevels = 4;        // from the program up to the folder that holds the samples
 constexpr float kTileWidth = 190.0f;  // pixels at scale 1; pictures are 16:9
 
@@ -70,7 +69,8 @@ std::string samplesFolder() {
     fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
     for (int level = 0; level < kMostLevels && !folder.empty(); ++level, folder = folder.parent_path())
         for (const fs::path& candidate : {folder / "samples", folder / "share/fieldwright/samples"})
-            if (fs::exists(candidate / ("tower" + std::string(kEnding)), error)) return candidate.string();
+            if (fs::exists(candidate / ("tower" + std::string(kGraphEnding)), error))
+                return candidate.string();
     return {};
 }
 
@@ -85,10 +85,10 @@ std::vector<Sample> listSamples(const std::string& folder) {
     std::vector<Sample> samples;
     std::string problem;
     if (folder.empty()) return samples;
-    for (const FolderEntry& entry : listFolder(folder, std::string(kEnding), problem))
+    for (const FolderEntry& entry : listFolder(folder, std::string(kGraphEnding), problem))
         if (!entry.folder)
             samples.push_back({(fs::path(folder) / entry.name).string(),
-                               labelOf(entry.name.substr(0, entry.name.size() - kEnding.size()))});
+                               labelOf(entry.name.substr(0, entry.name.size() - kGraphEnding.size()))});
     return samples;
 }
 
@@ -97,7 +97,7 @@ Picture pictureOf(const Sample& sample) {
     const std::string name = file.filename().string();
     const Result<FieldImagePtr> image =
         readImage((file.parent_path().parent_path() / "docs/pictures/x").string(),
-                  name.substr(0, name.size() - kEnding.size()) + ".png");
+                  name.substr(0, name.size() - kGraphEnding.size()) + ".png");
     return image ? halved(**image) : Picture();
 }
 

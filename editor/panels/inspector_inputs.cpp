@@ -136,15 +136,14 @@ void showPoints(const Input& input) {
 }
 
 void showText(const Input& input) {
-    const bool picture = input.row.type == Type::image;
+    const FileKind* kind = input.row.spec ? input.row.spec->file : nullptr;
     const Plug plug = input.plug;
     const std::string scope(input.scope()), name = input.setName();
-    editText(input.editor, "##text", valueText(input.row),
-             picture ? "a picture's path, from the graph's file on" : "",
-             [plug, scope, name](Editor& in, const std::string& text) {
-                 in.document.apply(name,
-                                   setInput(in.document.graph(), scope, plug, InputValue{.value = text}));
-             });
+    editText(
+        input.editor, "##text", valueText(input.row), kind ? ("the path of " + anyOf(*kind)).c_str() : "",
+        [plug, scope, name](Editor& in, const std::string& text) {
+            in.document.apply(name, setInput(in.document.graph(), scope, plug, InputValue{.value = text}));
+        });
 }
 
 void showChoice(const Input& input) {

@@ -24,9 +24,8 @@
 
 namespace fw {
 
-inline constexpr int kMaxImageSide = 4096;                    ///< texels
-inline constexpr std::size_t kMaxImageFileBytes = 64u << 20;  ///< of one file
-inline constexpr std::size_t kMaxImageBytes = 128u << 20;     ///< all images of a graph take less, decoded
+inline constexpr int kMaxImageSide = 4096;                 ///< texels
+inline constexpr std::size_t kMaxImageBytes = 128u << 20;  ///< all images of a graph take less, decoded
 
 inline constexpr int kImageLayers = 4;
 inline constexpr int kGreyLayer = 3;
@@ -78,10 +77,10 @@ std::vector<uint32_t> imageWords(const std::vector<FieldImagePtr>& images);
 /// The image of an input that names no file: a grey checker of two by two squares.
 const FieldImagePtr& plainImage();
 
-/// Reads a PNG, JPEG, BMP or TGA file. `path` is relative to the folder of the file `graphPath` (to the
-/// current folder if that is empty), and must lead to a file inside that folder's tree. The Error has a
-/// message only: the path is no such file, cannot be read or leads out of the folder; the file is no picture,
-/// is damaged or larger than the limits.
+/// Reads a file of the kind kPictureFile (file_kind.h). `path` is relative to the folder of the file
+/// `graphPath` (to the current folder if that is empty), and must lead to a file inside that folder's tree.
+/// The Error has a message only: the path is no such file, cannot be read or leads out of the folder; the
+/// file is no picture, is damaged or larger than the limits.
 Result<FieldImagePtr> readImage(const std::string& graphPath, const std::string& path);
 
 }  // namespace fw

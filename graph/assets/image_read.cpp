@@ -2,7 +2,6 @@
 #include <stb/stb_image.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "graph/assets/image.h"
 #include "graph/base/asset_file.h"
@@ -11,25 +10,22 @@ namespace fw {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr AssetKind kPicture = {"picture", kMaxImageFileBytes};
-
-Error problem(const std::string& path, const std::string& what) { return assetProblem(path, kPicture, what); }
+Error problem(const std::string& path, const std::string& what) {
+    return fileProblem(path, kPictureFile, what);
+}
 
 bool startsWith(const std::string& bytes, std::string_view magic) { return bytes.starts_with(magic); }
 
 /// Of the formats that the decoder knows, those that a graph may use.
 bool isKnownFormat(const std::string& bytes, const std::string& path) {
-    std::string ending = fs::path(path).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return startsWith(bytes, "\x89PNG\r\n\x1A\n") || startsWith(bytes, "\xFF\xD8\xFF") ||
-           startsWith(bytes, "BM") || ending == ".tga";  // whose files begin with nothing of their own
+           startsWith(bytes, "BM") ||
+           endingOf(path) == ".tga";  // whose files begin with nothing of their own
 }
 
 Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path, const std::string& file) {
     if (bytes.empty()) return problem(path, "is an empty file");
-    if (!isKnownFormat(bytes, path)) return problem(path, "is none: use a PNG, JPEG, BMP or TGA file");
+    if (!isKnownFormat(bytes, path)) return problem(path, "is none: use " + anyOf(kPictureFile));
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
@@ -56,7 +52,7 @@ Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path, 
 
 Result<FieldImagePtr> readImage(const std::string& graphPath, const std::string& path) {
     return readAsset<FieldImage>(
-        graphPath, path, kPicture,
+        graphPath, path, kPictureFile,
         [&](const std::string& bytes, const std::string& file) { return decode(bytes, path, file); });
 }
 

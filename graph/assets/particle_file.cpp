@@ -5,7 +5,6 @@
 #include <bit>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -17,8 +16,6 @@
 namespace fw {
 
 namespace {
-
-constexpr AssetKind kParticles = {"particle file", kMostMeshFileBytes};
 
 /// The line's fields: between semicolons, or else commas, or else blanks; without quotes about them.
 std::vector<std::string_view> fieldsOf(std::string_view line) {
@@ -83,14 +80,14 @@ Result<std::vector<glm::vec3>> placesInText(std::string_view bytes, const std::s
         if (fields.empty() || fields[0].starts_with('#') || (obj && fields[0] != "v")) continue;
         if (const std::optional<glm::vec3> place = placeIn(fields, columns)) {
             if (!isFinite(*place))
-                return assetProblem(path, kParticles,
-                                    "has a place that is not a number in line " + std::to_string(line));
+                return fileProblem(path, kParticleFile,
+                                   "has a place that is not a number in line " + std::to_string(line));
             places.push_back(*place);
         } else if (first && fields[0].find_first_of("0123456789+-.") != 0) {  // not a number, however large
             columns = columnsIn(fields);
         } else {
-            return assetProblem(path, kParticles,
-                                "has no three numbers in line " + std::to_string(line) + ": write x y z");
+            return fileProblem(path, kParticleFile,
+                               "has no three numbers in line " + std::to_string(line) + ": write x y z");
         }
         first = false;
     }
@@ -100,35 +97,31 @@ Result<std::vector<glm::vec3>> placesInText(std::string_view bytes, const std::s
 }  // namespace
 
 Result<std::vector<glm::vec3>> parseParticlePlaces(const std::string& bytes, const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const bool ply = ending == ".ply", obj = ending == ".obj";
+    if (!endsAs(kParticleFile, path)) return wrongEnding(path, kParticleFile);
+    const std::string ending = endingOf(path);
     std::vector<glm::vec3> places;
-    if (ply) {
-        Result<TriangleMesh> mesh = readPlyMesh({bytes, path, path, kParticles});
+    if (ending == ".ply") {
+        Result<TriangleMesh> mesh = readPlyMesh({bytes, path, path, kParticleFile});
         if (!mesh) return mesh.error();
         places = std::move(mesh->positions);
-    } else if (obj || ending == ".csv" || ending == ".txt" || ending == ".xyz") {
-        Result<std::vector<glm::vec3>> read = placesInText(bytes, path, obj);
+    } else {
+        Result<std::vector<glm::vec3>> read = placesInText(bytes, path, ending == ".obj");
         if (!read) return read;
         places = std::move(*read);
-    } else {
-        return assetProblem(path, kParticles,
-                            "is of no format that is read: use a .ply, .obj, .csv, .txt or .xyz file");
     }
-    if (places.empty()) return assetProblem(path, kParticles, "has no places of particles");
+    if (places.empty()) return fileProblem(path, kParticleFile, "has no places of particles");
     if (places.size() > kMostFileParticles)
-        return assetProblem(path, kParticles,
-                            "has " + std::to_string(places.size()) +
-                                " particles: " + std::to_string(kMostFileParticles) + " is the most");
+        return fileProblem(path, kParticleFile,
+                           "has " + std::to_string(places.size()) +
+                               " particles: " + std::to_string(kMostFileParticles) + " is the most");
     if (!std::ranges::all_of(places, isFinite))
-        return assetProblem(path, kParticles, "has a place that is not a number");
+        return fileProblem(path, kParticleFile, "has a place that is not a number");
     return places;
 }
 
 Result<ParticlePlacesPtr> readParticlePlaces(const std::string& graphPath, const std::string& path) {
     return readAsset<ParticlePlaces>(
-        graphPath, path, kParticles,
+        graphPath, path, kParticleFile,
         [&](const std::string& bytes, const std::string& file) -> Result<ParticlePlacesPtr> {
             Result<std::vector<glm::vec3>> places = parseParticlePlaces(bytes, path);
             if (!places) return places.error();

@@ -22,10 +22,10 @@ struct ParticlePlaces {
 };
 using ParticlePlacesPtr = std::shared_ptr<const ParticlePlaces>;
 
-/// Reads a .ply or .obj file, faces or not, or a .csv, .txt or .xyz one: three numbers in each line, between
-/// blanks, commas or semicolons, the first ones or those in the columns that a first line names x, y and z;
-/// other columns and lines that begin with # are passed over. `path` is relative to the folder of the file
-/// `graphPath`, as openAsset() has it. The Error has a message only.
+/// Reads a file of the kind kParticleFile (file_kind.h): a mesh's, with faces or not, or a text with three
+/// numbers in each line, between blanks, commas or semicolons, the first ones or those in the columns that a
+/// first line names x, y and z; other columns and lines that begin with # are passed over. `path` is relative
+/// to the folder of the file `graphPath`, as openAsset() has it. The Error has a message only.
 Result<ParticlePlacesPtr> readParticlePlaces(const std::string& graphPath, const std::string& path);
 
 /// Of the bytes of such a file, whose name's end tells the format.

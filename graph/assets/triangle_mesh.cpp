@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <filesystem>
+#include <iterator>
 
 #include "graph/base/asset_file.h"
 #include "graph/base/hash.h"
@@ -12,15 +12,10 @@ namespace fw {
 
 namespace {
 
-struct Format {
-    std::string_view ending;
-    Result<TriangleMesh> (*read)(const MeshFile& file);
-};
-constexpr Format kFormats[] = {{".glb", readGltfMesh},
-                               {".gltf", readGltfMesh},
-                               {".obj", readObjMesh},
-                               {".stl", readStlMesh},
-                               {".ply", readPlyMesh}};
+using Reader = Result<TriangleMesh> (*)(const MeshFile& file);
+/// Of each of kMeshFile's endings.
+constexpr Reader kReaders[] = {readGltfMesh, readGltfMesh, readObjMesh, readStlMesh, readPlyMesh};
+static_assert(std::size(kReaders) == std::size(kMeshEndings));
 
 /// Leaves out vertices that no triangle has.
 void dropUnused(TriangleMesh& mesh) {
@@ -53,17 +48,14 @@ uint64_t hashOf(const TriangleMesh& mesh) {
 }  // namespace
 
 Error meshProblem(const MeshFile& file, const std::string& what) {
-    return assetProblem(file.path, file.kind, what);
+    return fileProblem(file.path, file.kind, what);
 }
 
 Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
-    std::string ending = std::filesystem::path(file.path).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const auto format = std::ranges::find(kFormats, ending, &Format::ending);
-    if (format == std::end(kFormats))
-        return meshProblem(file, "is of no format that is read: use a .glb, .gltf, .obj, .stl or .ply file");
+    const auto ending = std::ranges::find(kMeshEndings, endingOf(file.path));
+    if (ending == std::end(kMeshEndings)) return wrongEnding(file.path, kMeshFile);
     if (file.bytes.empty()) return meshProblem(file, "is an empty file");
-    Result<TriangleMesh> mesh = format->read(file);
+    Result<TriangleMesh> mesh = kReaders[ending - kMeshEndings](file);
     if (!mesh) return mesh;
     if (mesh->indices.empty()) return meshProblem(file, "has no faces");
     dropUnused(*mesh);
@@ -72,9 +64,18 @@ Result<TriangleMesh> parseTriangleMesh(const MeshFile& file) {
     return mesh;
 }
 
+std::vector<std::string> piecesOfMesh(const std::string& file) {
+    const std::string ending = endingOf(file);
+    if (ending != ".gltf" && ending != ".obj") return {};
+    const Result<Asset> asset = openAsset(file, std::filesystem::path(file).filename().string(), kMeshFile);
+    const Result<std::string> bytes = asset ? asset->read() : asset.error();
+    if (!bytes) return {};
+    return ending == ".gltf" ? gltfPieces(*bytes) : objPieces(*bytes);
+}
+
 Result<TriangleMeshPtr> readTriangleMesh(const std::string& graphPath, const std::string& path) {
     return readAsset<TriangleMesh>(
-        graphPath, path, kMeshAsset,
+        graphPath, path, kMeshFile,
         [&](const std::string& bytes, const std::string& file) -> Result<TriangleMeshPtr> {
             Result<TriangleMesh> mesh = parseTriangleMesh({bytes, path, file});
             if (!mesh) return mesh.error();

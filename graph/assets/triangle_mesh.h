@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/base/asset_file.h"
@@ -18,7 +19,6 @@
 
 namespace fw {
 
-inline constexpr std::size_t kMostMeshFileBytes = 512u << 20;       ///< of one file
 inline constexpr std::size_t kMostMeshTriangles = 20'000'000;       ///< of one mesh
 inline constexpr std::size_t kMostMeshVertices = 3 * 20'000'000ul;  ///< of one mesh
 
@@ -32,14 +32,12 @@ struct TriangleMesh {
 };
 using TriangleMeshPtr = std::shared_ptr<const TriangleMesh>;
 
-inline constexpr AssetKind kMeshAsset = {"mesh", kMostMeshFileBytes};
-
 /// What a format's reader is given: the file's bytes, its path as the graph has it, and where it lies.
 struct MeshFile {
     const std::string& bytes;
     const std::string& path;
     const std::string& file;
-    AssetKind kind = kMeshAsset;  ///< what messages call it
+    FileKind kind = kMeshFile;  ///< what messages call it
 };
 
 /// The readers of each format. A PLY file may be without faces. Errors, with a message only: what is
@@ -54,9 +52,16 @@ Result<TriangleMesh> readPlyMesh(const MeshFile& file);
 /// The format's reader, chosen by the path's ending; then without the vertices that no triangle has.
 Result<TriangleMesh> parseTriangleMesh(const MeshFile& file);
 
-/// Reads a glTF, GLB, OBJ, STL or PLY file. `path` is relative to the folder of the file `graphPath`, as
-/// openAsset() has it. The Error has a message only.
+/// Reads a file of the kind kMeshFile (file_kind.h). `path` is relative to the folder of the file
+/// `graphPath`, as openAsset() has it. The Error has a message only.
 Result<TriangleMeshPtr> readTriangleMesh(const std::string& graphPath, const std::string& path);
+
+/// The other files that a mesh's file names, buffers of a glTF file and materials of an OBJ file, as paths
+/// from its folder: what goes where it goes. None if it cannot be read.
+std::vector<std::string> piecesOfMesh(const std::string& file);
+/// Those of a format, in its bytes.
+std::vector<std::string> gltfPieces(std::string_view bytes);
+std::vector<std::string> objPieces(std::string_view bytes);
 
 /// "the mesh 'a.glb' " and what is wrong with it.
 Error meshProblem(const MeshFile& file, const std::string& what);

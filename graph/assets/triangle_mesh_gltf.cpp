@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -21,7 +22,7 @@ namespace fw {
 namespace {
 
 constexpr int kDeepest = 64;  // JSON within JSON: the library's functions call themselves
-constexpr AssetKind kBufferFile = {"buffer", kMostMeshFileBytes};
+constexpr FileKind kBufferFile = {.noun = "buffer", .mostBytes = kMeshFile.mostBytes};
 
 // Required extensions that change no triangle.
 constexpr std::string_view kHarmless[] = {
@@ -417,7 +418,35 @@ class Reader {
     bool colored = false;
 };
 
+/// With what a URI writes as %20 as it is.
+std::string decoded(const std::string& uri) {
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned char byte = 0;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(&uri[i + 1], &uri[i + 1] + 2, byte, 16).ptr == &uri[i + 1] + 2)
+            text += static_cast<char>(byte), i += 2;
+        else
+            text += uri[i];
+    }
+    return text;
+}
+
 }  // namespace
+
+std::vector<std::string> gltfPieces(std::string_view json) {
+    if (json.starts_with("\xEF\xBB\xBF")) json.remove_prefix(3);
+    if (depthOf(json) > kDeepest) return {};
+    const nlohmann::json root = nlohmann::json::parse(json, nullptr, false);
+    if (!root.is_object() || !root.contains("buffers") || !root["buffers"].is_array()) return {};
+    std::vector<std::string> pieces;
+    for (const nlohmann::json& buffer : root["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+        const std::string uri = buffer["uri"];
+        if (!uri.starts_with("data:")) pieces.push_back(decoded(uri));
+    }
+    return pieces;
+}
 
 Result<TriangleMesh> readGltfMesh(const MeshFile& file) {
     try {

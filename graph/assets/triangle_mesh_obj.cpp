@@ -12,7 +12,7 @@ namespace fw {
 
 namespace {
 
-constexpr AssetKind kMaterials = {"material file", 16u << 20};
+constexpr FileKind kMaterials = {.noun = "material file", .mostBytes = 16u << 20};
 constexpr glm::vec3 kNoColor{0.8f};  // of faces without a material, where others have one
 
 struct Fault {
@@ -20,6 +20,14 @@ struct Fault {
 };
 
 float unit(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
+
+/// What is left of a line, without blanks about it.
+std::string_view rest(const Scanner& words) {
+    const std::string_view all = words.rest;
+    const std::size_t first = all.find_first_not_of(" \t");
+    return first == all.npos ? std::string_view()
+                             : all.substr(first, all.find_last_not_of(" \t") + 1 - first);
+}
 
 class Reader {
   public:
@@ -64,14 +72,6 @@ class Reader {
             materials(std::string(rest(words)));
         else if (word == "usemtl")
             use(std::string(rest(words)));
-    }
-
-    /// What is left of a line, without blanks about it.
-    static std::string_view rest(Scanner words) {
-        const std::string_view all = words.rest;
-        const std::size_t first = all.find_first_not_of(" \t");
-        return first == all.npos ? std::string_view()
-                                 : all.substr(first, all.find_last_not_of(" \t") + 1 - first);
     }
 
     void vertex(Scanner words) {
@@ -173,6 +173,15 @@ class Reader {
 };
 
 }  // namespace
+
+std::vector<std::string> objPieces(std::string_view bytes) {
+    std::vector<std::string> pieces;
+    for (Scanner lines{bytes}; !lines.atEnd();) {
+        Scanner words{lines.line()};
+        if (words.word() == "mtllib") pieces.emplace_back(rest(words));
+    }
+    return pieces;
+}
 
 Result<TriangleMesh> readObjMesh(const MeshFile& file) {
     try {

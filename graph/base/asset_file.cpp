@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The file that the path leads to, symbolic links followed. It may not exist.
-Result<std::string> locate(const std::string& owner, const std::string& path, const AssetKind& kind) {
-    const auto problem = [&](const std::string& what) { return assetProblem(path, kind, what); };
+Result<std::string> locate(const std::string& owner, const std::string& path, const FileKind& kind) {
+    const auto problem = [&](const std::string& what) { return fileProblem(path, kind, what); };
     if (path.find('\0') != std::string::npos) return problem("has a NUL byte in its path: remove it");
     std::error_code failure;
     const fs::path folder = fs::path(owner).parent_path();
@@ -33,10 +33,6 @@ Result<std::string> locate(const std::string& owner, const std::string& path, co
 }
 
 }  // namespace
-
-Error assetProblem(const std::string& path, const AssetKind& kind, const std::string& what) {
-    return {.message = "the " + std::string(kind.noun) + " " + inQuotes(path) + " " + what};
-}
 
 Asset::Asset(int descriptor_, std::string file_, std::array<int64_t, 4> stamp_)
     : file(std::move(file_)), stamp(stamp_), descriptor(descriptor_) {}
@@ -62,8 +58,8 @@ Result<std::string> Asset::read() const {
     return bytes;
 }
 
-Result<Asset> openAsset(const std::string& owner, const std::string& path, const AssetKind& kind) {
-    const auto problem = [&](const std::string& what) { return assetProblem(path, kind, what); };
+Result<Asset> openAsset(const std::string& owner, const std::string& path, const FileKind& kind) {
+    const auto problem = [&](const std::string& what) { return fileProblem(path, kind, what); };
     Result<std::string> file = locate(owner, path, kind);
     if (!file) return file.error();
     // Not waiting for whoever writes to a pipe.
@@ -75,7 +71,7 @@ Result<Asset> openAsset(const std::string& owner, const std::string& path, const
         return problem(failure == ENOENT || failure == ENOTDIR ? "does not exist: check the path"
                        : failure == EACCES                     ? "may not be read: change its permissions"
                                            : "cannot be opened: " + std::string(std::strerror(failure)));
-    const std::string noun = kind.noun;
+    const std::string noun(kind.noun);
     if (S_ISDIR(status.st_mode)) return problem("is a folder: name a " + noun + " in it");
     if (!S_ISREG(status.st_mode)) return problem("is no ordinary file: name a " + noun);
     if (status.st_size > static_cast<off_t>(kind.mostBytes))

@@ -11,15 +11,10 @@
 #include <mutex>
 #include <string>
 
+#include "graph/base/file_kind.h"
 #include "graph/base/result.h"
 
 namespace fw {
-
-/// What messages call such a file, and how large it may be.
-struct AssetKind {
-    const char* noun;  ///< "picture"
-    std::size_t mostBytes;
-};
 
 /// An open file. Moves, and is closed at its end.
 class Asset {
@@ -41,17 +36,14 @@ class Asset {
 /// Opens the file that `path` leads to from the folder of the file `owner` (from the current folder if that
 /// is empty). The Error has a message only: there is no such ordinary file in that folder's tree, it may not
 /// be read or is too large.
-Result<Asset> openAsset(const std::string& owner, const std::string& path, const AssetKind& kind);
-
-/// "the picture 'a.png' " and what is wrong with it.
-Error assetProblem(const std::string& path, const AssetKind& kind, const std::string& what);
+Result<Asset> openAsset(const std::string& owner, const std::string& path, const FileKind& kind);
 
 /// What make(bytes, absolute path) gives for the file, a Result of a shared pointer. While somebody holds
 /// what was made of a file, and the file was not changed, it is given again. Errors: as openAsset(),
 /// Asset::read() and `make`.
 template <class Made, class Make>
 Result<std::shared_ptr<const Made>> readAsset(const std::string& owner, const std::string& path,
-                                              const AssetKind& kind, const Make& make) {
+                                              const FileKind& kind, const Make& make) {
     struct Known {
         std::array<int64_t, 4> stamp;
         std::weak_ptr<const Made> made;
@@ -68,7 +60,7 @@ Result<std::shared_ptr<const Made>> readAsset(const std::string& owner, const st
         std::erase_if(known, [](const auto& entry) { return entry.second.made.expired(); });
     }
     const Result<std::string> bytes = asset->read();
-    if (!bytes) return assetProblem(path, kind, bytes.error().message);
+    if (!bytes) return fileProblem(path, kind, bytes.error().message);
     Result<std::shared_ptr<const Made>> made = make(*bytes, asset->file);
     if (made) {
         const std::lock_guard lock(mutex);

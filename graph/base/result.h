@@ -18,6 +18,14 @@ namespace fw {
 /// One finding about a user's input: what is wrong, where, and what to do about it. Empty fields are unknown.
 struct Error {
     enum class Severity { error, warning };
+    /// What some code must tell from other findings; the words of a message are for people alone.
+    enum class Code : unsigned char {
+        other,           ///< nothing that any code asks for
+        unfinished,      ///< something is still missing: an output, a link
+        wrongFile,       ///< an input names a file of another kind than it takes
+        divisionByZero,  ///< by a constant, in a node's code
+        tooMuchSurface,  ///< more than one mesh can have: in tiles there is room for it
+    };
 
     std::string message = {};  ///< what is wrong and what to do, one sentence, no full stop needed
     std::string file = {};     ///< path as the user gave it
@@ -28,6 +36,7 @@ struct Error {
     int codeLine = 0;          ///< 1-based line inside the node's code, 0 if the finding is not about code
     int codeColumn = 0;        ///< 1-based column inside the node's code
     Severity severity = Severity::error;
+    Code code = Code::other;
 };
 
 /// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left

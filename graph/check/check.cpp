@@ -5,21 +5,19 @@
 #include "graph/compile/compile.h"
 #include "graph/document/named_parameters.h"
 #include "graph/document/timeline.h"
-#include "graph/language/lower.h"
 
 namespace fw {
 
 namespace {
 
 bool sameFinding(const Error& a, const Error& b) {
-    return a.node == b.node && a.codeLine == b.codeLine && a.codeColumn == b.codeColumn &&
-           a.message == b.message;
+    return a.node == b.node && a.codeLine == b.codeLine && a.codeColumn == b.codeColumn && a.code == b.code;
 }
 
 /// Leaves out divisions that are by zero only at 0 s or with the file's value of what the timeline moves or
 /// the graph exposes: whoever asks for a time and values is told then.
 void dropPassingZeros(const Graph& graph, const Timeline& timeline, std::vector<Error>& errors) {
-    const auto isZero = [](const Error& error) { return error.message == language::kDivisionByZero; };
+    const auto isZero = [](const Error& error) { return error.code == Error::Code::divisionByZero; };
     if (std::none_of(errors.begin(), errors.end(), isZero)) return;
     CompileOptions moving;
     moving.live = animatedInputs(graph, timeline);

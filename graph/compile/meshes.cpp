@@ -63,9 +63,7 @@ Lowered lowerMeshFile(GraphLowering& lowering, const NodeAt& at) {
     if (!inputs) return lowering.failure(at.type.outputs);
     const std::string& path = inputOf(*inputs, "path").text;
     const Result<TriangleMeshPtr> mesh =
-        path.empty()
-            ? Error{.message = "no file is named: write the path of a .glb, .gltf, .obj, .stl or .ply file"}
-            : readTriangleMesh(lowering.state.graphPath, path);
+        path.empty() ? noFileNamed(kMeshFile) : readTriangleMesh(lowering.state.graphPath, path);
     if (!mesh) {
         lowering.report(at, "path", mesh.error());
         return lowering.failure(at.type.outputs);

@@ -129,10 +129,7 @@ Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at) {
     if (!stage) return lowering.failure(at.type.outputs);
     const std::string& path = stage->words["path"];
     const Result<ParticlePlacesPtr> places =
-        path.empty() ? Error{.message =
-                                 "no file is named: write the path of a .ply, .obj, .csv, .txt or .xyz "
-                                 "file"}
-                     : readParticlePlaces(lowering.state.graphPath, path);
+        path.empty() ? noFileNamed(kParticleFile) : readParticlePlaces(lowering.state.graphPath, path);
     if (!places) {
         lowering.report(at, "path", places.error());
         return lowering.failure(at.type.outputs);

@@ -19,6 +19,9 @@
 
 namespace fw {
 
+/// What the names of graph files end with.
+inline constexpr std::string_view kGraphEnding = ".field.json";
+
 /// The document in `text` (UTF-8). `path` names it in errors and becomes Graph::path. Unknown keys are kept,
 /// and each adds a warning to `warnings`, which may be null.
 Result<Graph> parseGraph(std::string_view text, std::string path, std::vector<Error>* warnings);

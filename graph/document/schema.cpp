@@ -1,5 +1,6 @@
 #include "graph/document/schema.h"
 
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "graph/document/scene.h"
 #include "graph/document/timeline.h"
 #include "graph/library/node_type.h"
+#include "graph/library/reference.h"
 
 namespace fw {
 
@@ -42,6 +44,20 @@ Json numberSchema(const char* type, const InputSpec& spec) {
     return schema;
 }
 
+/// The path of a file, or none; one that is told by its name ends as its kind does, in letters of any case.
+Json pathSchema(const FileKind& kind) {
+    Json schema = {{"type", "string"}};
+    if (kind.byContent) return schema;
+    std::string endings;
+    for (const std::string_view ending : kind.endings) {
+        endings += endings.empty() ? "\\." : "|\\.";
+        for (const char letter : ending.substr(1))
+            endings += {'[', letter, char(std::toupper(static_cast<unsigned char>(letter))), ']'};
+    }
+    schema["pattern"] = "^$|(" + endings + ")$";
+    return schema;
+}
+
 /// What the input takes beside a link; null if only links.
 Json valueSchema(const InputSpec& spec) {
     switch (spec.type) {
@@ -51,6 +67,7 @@ Json valueSchema(const InputSpec& spec) {
         case Type::vec2: return array(numberSchema("number", spec), 2);
         case Type::vec3: return array(numberSchema("number", spec), 3);
         case Type::string: {
+            if (spec.file) return pathSchema(*spec.file);
             Json schema = {{"type", "string"}};
             if (!spec.options.empty()) schema["enum"] = spec.options;
             return schema;
@@ -92,7 +109,9 @@ Json inputSchema(const InputSpec& spec) {
     const bool mayLink = componentCount(spec.type) > 0 || value.is_null();
     Json schema = Json::object();
     if (!spec.doc.empty())
-        schema["description"] = spec.unit.empty() ? spec.doc : spec.doc + " [" + spec.unit + "]";
+        schema["description"] = spec.file           ? spec.doc + rangeText(spec)
+                                : spec.unit.empty() ? spec.doc
+                                                    : spec.doc + " [" + spec.unit + "]";
     if (const Json initial = defaultValue(spec); !initial.is_null()) schema["default"] = initial;
     if (value.is_null())
         schema.update(refer("link"));

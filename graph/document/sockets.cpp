@@ -86,6 +86,11 @@ Scope::Scope(const Groups& allGroups, const std::vector<Node>& its, const GroupS
     resolveReroutes(*this);
 }
 
+const FileKind* fileKind(const Socket& input) {
+    if (input.spec) return input.spec->file;
+    return input.type == Type::image ? &kPictureFile : nullptr;  // as a group declares it
+}
+
 bool hasKnownSockets(const Scope& scope, uint32_t node) {
     const NodeType* type = scope.types[node];
     if (!type) return false;

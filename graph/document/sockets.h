@@ -23,6 +23,9 @@ struct Socket {
     const InputSpec* spec = nullptr;  ///< of inputs of the library
 };
 
+/// Of an input that names a file: its kind. Else none.
+const FileKind* fileKind(const Socket& input);
+
 /// A group with the types of its sockets by name.
 struct GroupSockets {
     const Group* group;

@@ -30,7 +30,11 @@ std::vector<Value> Run::outputs() {
     }
 }
 
-void Run::fail(Place place, const std::string& message) { throw Failure{codeError(place, message)}; }
+void Run::fail(Place place, const std::string& message, Error::Code code) {
+    Error error = codeError(place, message);
+    error.code = code;
+    throw Failure{error};
+}
 
 Value Run::checked(Result<Value> result, Place place) {
     if (result) return std::move(*result);
@@ -202,7 +206,7 @@ void Run::refuseZero(const Value& divisor, Place place) {
     if (!options.refusesZeroDivision) return;
     const int width = isVector(divisor.type) ? componentCount(divisor.type) : 1;
     for (int k = 0; k < width; ++k)
-        if (ir.isConstant(divisor.ids[k], 0.0)) fail(place, std::string(kDivisionByZero));
+        if (ir.isConstant(divisor.ids[k], 0.0)) fail(place, "division by zero", Error::Code::divisionByZero);
 }
 
 Value Run::part(const Value& whole, const Instruction& i) {

@@ -27,9 +27,6 @@
 
 namespace fw::language {
 
-/// The message of a division by the constant 0.
-inline constexpr std::string_view kDivisionByZero = "division by zero";
-
 inline constexpr std::size_t kMaxSteps = 4'000'000;
 /// Operations visited by moving fields to other positions, in one compilation.
 inline constexpr std::size_t kMaxSubstituted = 2'000'000;

@@ -63,7 +63,8 @@ class Run {
 
   private:
     // lower.cpp
-    [[noreturn]] static void fail(Place place, const std::string& message);
+    [[noreturn]] static void fail(Place place, const std::string& message,
+                                  Error::Code code = Error::Code::other);
     Value checked(Result<Value> result, Place place);
     /// `value` as a variable of `type` holds it: an int truncates.
     Value stored(const Value& value, Type type, Place place);

@@ -21,6 +21,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/base/file_kind.h"
 #include "graph/library/types.h"
 
 namespace fw {
@@ -56,7 +57,8 @@ struct InputSpec {
     std::vector<std::string> options = {};  ///< the allowed strings of an enum input
     std::string unit = {};  ///< "m", "1/m", "degrees", "degrees/m", "color" (linear sRGB), "" for a number
     std::string doc = {};
-    bool positive = false;  ///< must be > 0 (min alone allows equality)
+    bool positive = false;           ///< must be > 0 (min alone allows equality)
+    const FileKind* file = nullptr;  ///< of an image, or a string that is the path of a file: its kind
 };
 
 struct OutputSpec {

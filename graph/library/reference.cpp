@@ -50,7 +50,7 @@ std::string nodeMarkdown(const NodeType& type) {
 
 std::string typeText(const InputSpec& input) {
     if (!input.options.empty()) return "choice";
-    if (input.type == Type::string) return "text";
+    if (input.type == Type::string) return input.file ? "file" : "text";
     if (input.unit == "color") return "colour";
     return std::string(typeName(input.type));
 }
@@ -78,6 +78,12 @@ std::string rangeText(const InputSpec& input) {
         for (const std::string& option : input.options)
             text += (&option == &input.options.front() ? " `" : ", `") + option + "`";
         return text + ".";
+    }
+    if (input.file) {
+        std::string text = " Files:";
+        for (const std::string_view ending : input.file->endings)
+            text += (ending == input.file->endings.front() ? " `" : ", `") + std::string(ending) + "`";
+        return text + " of up to " + std::to_string(input.file->mostBytes >> 20) + " MiB.";
     }
     if (input.type == Type::boolean) return "";
     const bool hasMin = std::isfinite(input.min), hasMax = std::isfinite(input.max);
@@ -186,6 +192,7 @@ std::string nodesJson() {
             if (spec.positive) input["positive"] = true;
             if (!spec.options.empty()) input["options"] = spec.options;
             if (!spec.unit.empty()) input["unit"] = spec.unit;
+            if (spec.file) input["files"] = spec.file->endings;
             input["doc"] = spec.doc;
             node["inputs"].push_back(std::move(input));
         }

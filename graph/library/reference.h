@@ -14,13 +14,13 @@ namespace fw {
 std::string nodesMarkdown();
 
 /// The same as one JSON object, {"nodes": [{"id", "label", "category", "doc", "inputs", "outputs", …}]}, for
-/// other programs. Absent keys mean: no range on that side, no unit, nothing by default.
+/// other programs. Absent keys mean: no range on that side, no unit, no file, nothing by default.
 std::string nodesJson();
 
 /// "exact", "exact outside", "exact inside", "a bound", "distorted by up to 1.41" or "distorted".
 std::string exactnessText(const Exactness& exactness);
 /// What the page says of an input: "float", "choice"; "0, 1, 0 m", "position"; " From 0 to 1.", " Choices:
-/// …". Names in it stand in backticks.
+/// …", " Files: …". Names in it stand in backticks.
 std::string typeText(const InputSpec& input);
 std::string defaultText(const InputSpec& input);
 std::string rangeText(const InputSpec& input);

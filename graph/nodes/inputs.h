@@ -151,12 +151,24 @@ inline InputSpec choice(std::string name, std::vector<std::string> options, std:
             .doc = std::move(doc)};
 }
 
-/// The path of a picture; a grey checker if none is named.
-inline InputSpec picture(std::string name, std::string doc) {
+/// A picture; a grey checker if none is named.
+inline InputSpec picture(std::string name, const std::string& more = "") {
+    return {
+        .name = std::move(name),
+        .type = Type::image,
+        .value = {InputDefault::Kind::text, {}, ""},
+        .doc = "The picture's path, from the folder of the graph's file; a grey checker if there is none." +
+               more,
+        .file = &kPictureFile};
+}
+
+/// A file that must be named.
+inline InputSpec fileInput(std::string name, const FileKind& kind) {
     return {.name = std::move(name),
-            .type = Type::image,
+            .type = Type::string,
             .value = {InputDefault::Kind::text, {}, ""},
-            .doc = std::move(doc)};
+            .doc = "The file's path, from the folder of the graph's file.",
+            .file = &kind};
 }
 
 /// Any text.

@@ -26,9 +26,7 @@ std::vector<NodeType> materialNodes() {
          .category = Category::material,
          .doc = "Paints a picture onto a solid from its six sides, blended where the surface is oblique.",
          .inputs = {positionInput(),
-                    picture("image",
-                            "Path of a PNG, JPEG, BMP or TGA file, from the folder of the graph's file; a "
-                            "grey checker if there is none."),
+                    picture("image"),
                     positiveLength("scale", 1, "Width of the picture on the surface; it repeats beyond."),
                     {.name = "blend",
                      .type = Type::scalar,

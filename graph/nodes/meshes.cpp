@@ -10,10 +10,9 @@ std::vector<NodeType> meshNodes() {
         {.id = "mesh_file",
          .label = "Mesh file",
          .category = Category::mesh,
-         .doc = "Reads a triangle mesh: a glTF (.glb, .gltf), OBJ, STL or PLY file in the folder of the "
-                "graph's file or "
-                "in one below it. A changed file is read again.",
-         .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
+         .doc = "Reads a triangle mesh from a file in the folder of the graph's file or in one below it. A "
+                "changed file is read again.",
+         .inputs = {fileInput("path", kMeshFile)},
          .outputs = {{"mesh", Type::mesh}},
          .lower = lowerMeshFile,
          .aliases = {"import", "model"}},

@@ -52,10 +52,10 @@ std::vector<NodeType> particleNodes() {
         {.id = "particle_file",
          .label = "Particle file",
          .category = Category::particles,
-         .doc = "Reads the places of particles: the vertices of a .ply or .obj file, or x, y and z in each "
-                "line of a .csv, .txt or .xyz file, whose first line may name the columns, in the folder of "
-                "the graph's file or in one below it.",
-         .inputs = {textInput("path", "", "The file's path, from the folder of the graph's file.")},
+         .doc = "Reads the places of particles: the vertices of a mesh's file, or x, y and z in each line of "
+                "a text, whose first line may name the columns, in the folder of the graph's file or in one "
+                "below it.",
+         .inputs = {fileInput("path", kParticleFile)},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerParticleFile,
          .aliases = {"point_cloud"}},

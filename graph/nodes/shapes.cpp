@@ -442,9 +442,7 @@ std::vector<NodeType> picturedSolids() {
          .category = Category::shape,
          .doc = "A block whose top is a relief: the lighter the picture, the higher.",
          .inputs = {positionInput(),
-                    picture("image",
-                            "Path of a PNG, JPEG, BMP or TGA file, from the folder of the graph's file; a "
-                            "checker if there is none. Seen from above it stands upright, with -z up."),
+                    picture("image", " Seen from above it stands upright, with -z up."),
                     {.name = "size",
                      .type = Type::vec3,
                      .value = numbers({2, 0.5, 2}),

@@ -13,7 +13,7 @@ constexpr std::size_t kLongestHinted = 64;
 
 }  // namespace
 
-void Findings::add(const Place& place, std::string message, Error::Severity severity) {
+void Findings::add(const Place& place, std::string message, Error::Severity severity, Error::Code code) {
     if (full()) {
         ++beyond;
         errorBeyond = errorBeyond || severity == Error::Severity::error;
@@ -25,7 +25,8 @@ void Findings::add(const Place& place, std::string message, Error::Severity seve
                     .input = place.input,
                     .line = place.at.line,
                     .column = place.at.column,
-                    .severity = severity});
+                    .severity = severity,
+                    .code = code});
 }
 
 bool Findings::mayCompare(std::string_view name, std::size_t count) {

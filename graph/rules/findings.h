@@ -24,11 +24,11 @@ class Findings {
   public:
     explicit Findings(std::string path) : file(std::move(path)) {}
 
-    void error(const Place& place, std::string message) {
-        add(place, std::move(message), Error::Severity::error);
+    void error(const Place& place, std::string message, Error::Code code = Error::Code::other) {
+        add(place, std::move(message), Error::Severity::error, code);
     }
     void warning(const Place& place, std::string message) {
-        add(place, std::move(message), Error::Severity::warning);
+        add(place, std::move(message), Error::Severity::warning, Error::Code::other);
     }
 
     /// Whether more findings are only counted. Asked before a message that is costly to make.
@@ -45,7 +45,7 @@ class Findings {
   private:
     static constexpr std::size_t kMaxFindings = 1'000;
 
-    void add(const Place& place, std::string message, Error::Severity severity);
+    void add(const Place& place, std::string message, Error::Severity severity, Error::Code code);
     bool mayCompare(std::string_view name, std::size_t count);
 
     std::string file;

@@ -81,6 +81,13 @@ void checkLink(const Scope& scope, const Place& place, std::optional<Type> wante
                               std::string(expectedOf(*wanted)));
 }
 
+/// What the name of a file tells; whether it is there is seen where it is read.
+void checkFile(const Place& place, const FileKind& kind, const std::string& path, Findings& findings) {
+    if (path.empty() || kind.byContent || endsAs(kind, path)) return;
+    Error error = wrongEnding(path, kind);
+    findings.error(place, std::move(error.message), error.code);
+}
+
 void checkInput(const Scope& scope, uint32_t i, const std::string& name, const InputValue& value,
                 Findings& findings) {
     Place place = placeOf(scope, scope.nodes[i]);
@@ -105,6 +112,8 @@ void checkInput(const Scope& scope, uint32_t i, const std::string& name, const I
     if (socket->type) {
         if (auto problem = valueProblem(*socket->type, socket->spec, value))
             findings.error(place, std::move(*problem));
+        else if (const FileKind* kind = fileKind(*socket))
+            checkFile(place, *kind, std::get<std::string>(value.value), findings);
     } else if (scope.is(i, NodeRole::expression) || (scope.is(i, NodeRole::reroute) && name == "value")) {
         const std::optional<Type> type = typeOfValue(value);
         if (!type)
@@ -125,8 +134,10 @@ void checkUnconnected(const Scope& scope, uint32_t i, Findings& findings) {
         if (wanted == Type::surface)
             findings.warning(place, "the input is not connected: it counts as empty space");
         if (wanted == Type::mesh || wanted == Type::particles)
-            findings.error(place, "the input is not connected: link a node that gives " +
-                                      std::string(wanted == Type::mesh ? "a mesh" : "particles"));
+            findings.error(place,
+                           "the input is not connected: link a node that gives " +
+                               std::string(wanted == Type::mesh ? "a mesh" : "particles"),
+                           Error::Code::unfinished);
     };
     if (type.role == NodeRole::output) {
         const bool linked = std::any_of(node.inputs.begin(), node.inputs.end(), [](const auto& input) {
@@ -212,10 +223,12 @@ void checkEnds(const Scope& scope, Findings& findings) {
         findings.error(
             {},
             "the graph has no node of type 'output': add one and link its input \"surface\" to what is "
-            "to be seen");
+            "to be seen",
+            Error::Code::unfinished);
     else if (!scope.group->group->outputs.empty())
         findings.error({scope.group->group->place, scope.group->group->id, {}},
-                       "the group has outputs but no node of type 'group_output': add one");
+                       "the group has outputs but no node of type 'group_output': add one",
+                       Error::Code::unfinished);
 }
 
 }  // namespace fw

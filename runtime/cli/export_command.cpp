@@ -42,13 +42,13 @@ int runExport(const ExportOptions& options) {
     const bool canTile = canBeTiled(options, *graph);
     Result<MeshedProgram> opened = meshOpened(std::move(*graph), progress, reported);
     if (interrupted) return stopped();
-    if (!opened && canTile && isTooMuchSurface(opened.error())) {
+    if (!opened && canTile && opened.error().code == Error::Code::tooMuchSurface) {
         graph = openForMesh(options.mesh, progress, status);
         return graph ? exportTiles(options, std::move(*graph), progress) : status;
     }
     if (!opened) {
         Error error = opened.error();
-        if (isTooMuchSurface(error))
+        if (error.code == Error::Code::tooMuchSurface)
             error.message +=
                 "; or let it be meshed in tiles: by marching cubes, without stages, --report, --require and "
                 "--manifold, to .ply, .stl, .glb or .gltf";

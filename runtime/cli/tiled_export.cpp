@@ -159,7 +159,7 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
         int status = kInterrupted;
         if (interrupted)
             std::fprintf(stderr, "fieldwright: interrupted; no mesh was written\n");
-        else if (isTooMuchSurface(tiles.error()))
+        else if (tiles.error().code == Error::Code::tooMuchSurface)
             status = badInput(options.mesh, {.message = tiles.error().message + "; or take more --tiles"});
         else
             status = (print(tiles.error()), tiles.error().file.empty() ? kBadInput : kSystemFailure);

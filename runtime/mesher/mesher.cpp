@@ -163,11 +163,10 @@ uint32_t grown(uint32_t capacity, uint64_t needed, uint32_t most) {
     return needed <= capacity ? capacity : uint32_t(std::min<uint64_t>(needed + needed / 8 + 256, most));
 }
 
-constexpr char kTooMuch[] = "the surface needs ";
-
 Error tooLarge(const char* what, uint64_t has, uint64_t most) {
-    return {.message = kTooMuch + std::to_string(has) + " " + what + " at this resolution, " +
-                       std::to_string(most) + " is the most; choose a lower resolution or a smaller region"};
+    return {.message = "the surface needs " + std::to_string(has) + " " + what + " at this resolution, " +
+                       std::to_string(most) + " is the most; choose a lower resolution or a smaller region",
+            .code = Error::Code::tooMuchSurface};
 }
 
 /// A range of a buffer that a binding can hold: chunk `index` of `stride` bytes and up to the limit behind
@@ -493,7 +492,6 @@ uint32_t packOctahedral(glm::dvec3 n) {
     const auto fraction = [](double x) { return uint32_t(uint16_t(int16_t(std::lround(x * 32767)))); };
     return fraction(folded.x) | fraction(folded.y) << 16;
 }
-bool isTooMuchSurface(const Error& error) { return error.message.starts_with(kTooMuch); }
 
 glm::vec3 unpackOctahedral(uint32_t word) {
     auto fraction = [](uint32_t bits) { return std::max(float(int16_t(bits & 0xffff)) / 32767.0f, -1.0f); };

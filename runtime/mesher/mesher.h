@@ -117,13 +117,11 @@ struct MesherResult {
 };
 
 /// Polygonises the field over the region into `buffers`. Errors: a region without cells or with too many,
-/// cells too small for the precision of positions, a surface too large to number. Throws SystemError if
+/// cells too small for the precision of positions, a surface too large to number
+/// (Error::Code::tooMuchSurface: smaller tiles of the region may do). Throws SystemError if
 /// memory runs out.
 Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines, MesherBuffers& buffers,
                                const MesherConfig& config);
-
-/// Whether runMesher refused for the amount of surface alone: smaller tiles of the region may do.
-bool isTooMuchSurface(const Error& error);
 
 /// Copies the last mesh to the host, vertex for vertex.
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);

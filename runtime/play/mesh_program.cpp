@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "graph/document/timeline.h"
-#include "graph/language/lower.h"
 
 namespace fw {
 
@@ -31,7 +30,7 @@ Result<Program> compileAtTime(const Graph& graph, double seconds, CompileOptions
         if (const Done made = makeParticles(*program, graph, seconds, options, *device, progress); !made)
             return made.error();
     }
-    if (program || program.error().message != language::kDivisionByZero) return program;
+    if (program || program.error().code != Error::Code::divisionByZero) return program;
     Error error = program.error();  // not always, or check() would have found it
     error.message += " at " + std::to_string(options.time) + " s with these parameters";
     return error;

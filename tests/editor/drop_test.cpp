@@ -1,15 +1,18 @@
-// What is dropped on the window: meshes become nodes, and what they say of themselves is shown.
+// What is dropped on the window: files become nodes, and what they say of themselves is shown.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
-#include "editor/document/meshes.h"
+#include "editor/document/file_nodes.h"
 #include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 #include "tests/editor/graphs.h"
+#include "tests/support/graph/picture_file.h"
 #include "tests/support/graph/triangle_meshes.h"
 
 namespace fw::editor::test {
@@ -47,9 +50,9 @@ std::vector<std::string> pathsOf(const Graph& graph) {
     return paths;
 }
 
-TEST(AddMeshes, MakesPairsAndGivesTheFirstToAFreeOutput) {
+TEST(AddFileNodes, MakesPairsAndGivesTheFirstToAFreeOutput) {
     const std::vector<std::string> paths{"a.obj", "sub/b.ply"};
-    const Edited edited = addMeshes(graphOf(kOut), "", paths, {10, 20});
+    const Edited edited = addFileNodes(graphOf(kOut), "", paths, {10, 20});
     EXPECT_EQ(edited.nodes, (NodeIds{"mesh_file", "mesh_to_field", "mesh_file_2", "mesh_to_field_2"}));
     EXPECT_EQ(pathsOf(edited.graph), paths);
     EXPECT_EQ(sourceOf(edited.graph, "mesh_to_field", "mesh"), "mesh_file");
@@ -65,14 +68,14 @@ TEST(AddMeshes, MakesPairsAndGivesTheFirstToAFreeOutput) {
             {"id": "cells", "type": "polygonize", "inputs": {"surface": {"from": "ball"}}},
             {"id": "out", "type": "output", "inputs": {)" +
                                     std::string(taken) + "}}");
-        const Edited more = addMeshes(graph, "", paths, {});
+        const Edited more = addFileNodes(graph, "", paths, {});
         EXPECT_EQ(more.nodes.size(), 4u);
         EXPECT_EQ(writeGraph(removeNodes(more.graph, "", more.nodes, false)), writeGraph(graph));
     }
     // In a group there is none.
     const Graph grouped = graphOf(R"({"id": "g", "type": "group", "group": "inner"},)" + kOut,
                                   R"(, "groups": [{"id": "inner", "nodes": []}])");
-    const Edited within = addMeshes(grouped, "inner", paths, {});
+    const Edited within = addFileNodes(grouped, "inner", paths, {});
     EXPECT_EQ(nodesOf(within.graph, "inner").size(), 4u);
     EXPECT_EQ(sourceOf(within.graph, "out", "surface"), "");
 }
@@ -131,7 +134,7 @@ TEST_F(Dropped, AMeshBecomesTwoNodesInOneStepAndIsSeen) {
     }
     EXPECT_FALSE(editor->preview.baking());
 
-    EXPECT_EQ(editor->document.undoName(), "Add Mesh");
+    EXPECT_EQ(editor->document.undoName(), "Add File");
     editor.keys("ctrl+z");
     EXPECT_EQ(writeGraph(graph()), writeGraph(before));
 }
@@ -166,7 +169,7 @@ TEST_F(Dropped, BesideTheCanvasTheyGoToItsMiddle) {
     const Area all = placeOf(made);
     EXPECT_NEAR(all.centre().x, seen.centre().x, 2);
     EXPECT_NEAR(all.centre().y, seen.centre().y, 2);
-    EXPECT_EQ(editor->document.undoName(), "Add Meshes");
+    EXPECT_EQ(editor->document.undoName(), "Add Files");
     editor.keys("ctrl+z");
     EXPECT_EQ(graph().nodes.size(), 0u);
 }
@@ -204,14 +207,18 @@ TEST_F(Dropped, WhatCannotBeDoneIsSaid) {
         EXPECT_EQ(graph().nodes.size(), 1u);
         EXPECT_FALSE(editor->document.canUndo());
     };
-    for (const char* name : {"a.png", "a.json", "a", "a.obj.zip"}) {
+    for (const char* name : {"a.pdf", "a.json", "a", "a.obj.zip"}) {
         writeText(elsewhere(name), "x");
-        refused({elsewhere(name)}, std::string(name) + " cannot be dropped here: what can are meshes");
+        refused({elsewhere(name)},
+                std::string(name) + " cannot be dropped here: what can is a picture (.png, ");
     }
     writeText(elsewhere("a.field.json"), R"({"fieldwright": 1, "nodes": []})");
     refused({elsewhere("cube.obj"), elsewhere("a.field.json")}, "drop one graph by itself");
-    writeText(elsewhere("a.gltf"), "{}");
-    refused({elsewhere("a.gltf")}, "drop a .glb");
+    writeText(elsewhere("a.gltf"), R"({"buffers": [{"uri": "a.bin"}]})");
+    writeText(elsewhere("a.bin"), "x");
+    writeText(work("a.bin"), "another");
+    refused({elsewhere("a.gltf")}, "a.gltf reads a.bin, and there is another a.bin");
+    fs::remove(work("a.bin"));
     fs::create_directory(elsewhere("folder.obj"));
     refused({elsewhere("folder.obj")}, "folder.obj is no ordinary file");
     refused({elsewhere("gone.obj")}, "gone.obj is no ordinary file");
@@ -232,6 +239,65 @@ TEST_F(Dropped, WhatCannotBeDoneIsSaid) {
     EXPECT_EQ(graph().nodes.size(), 3u);
 }
 
+TEST_F(Dropped, PicturesAndParticlesBecomeNodesToo) {
+    fw::test::writePictureFile(elsewhere("hill.png"), 2, 2, std::vector<uint8_t>(12, 200));
+    writeText(elsewhere("drops.csv"), "0 0 0\n0.1 0 0\n");
+    drop({elsewhere("drops.csv"), elsewhere("hill.png")});
+    EXPECT_TRUE(said("copied drops.csv beside the document; copied hill.png")) << editor->notice;
+    EXPECT_EQ(sourceOf(graph(), "out", "surface"), "particles_to_field");
+    EXPECT_EQ(sourceOf(graph(), "particles_to_field", "particles"), "particle_file");
+    const auto textOf = [&](const char* node, const char* input) {
+        return std::get<std::string>(graph().node(node)->input(input)->value);
+    };
+    EXPECT_EQ(textOf("particle_file", "path"), "drops.csv");
+    EXPECT_EQ(textOf("heightfield", "image"), "hill.png");
+    EXPECT_EQ(errorsOf(graph()), "");
+    EXPECT_EQ(editor->document.undoName(), "Add Files");
+}
+
+TEST_F(Dropped, AFileThatChangesIsReadAnew) {
+    const std::vector<std::string> path{"cube.obj"};
+    editor->document.apply("Add", addFileNodes(graph(), "", path, {}).graph);
+    editor.waitForPicture();
+    const auto found = [&] {
+        const std::vector<Error>& findings = editor->viewport.shown.findings;
+        return findings.empty() ? "" : findings[0].message;
+    };
+    EXPECT_NE(found().find("does not exist"), std::string::npos) << found();
+    const uint64_t before = editor->document.revision();
+    writeText(work("cube.obj"), "v 0 0 0\n");
+    for (int i = 0; i < 200 && editor->document.revision() == before; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        exchange(*editor);
+    }
+    editor.waitForPicture();
+    EXPECT_NE(found().find("has no faces"), std::string::npos) << found();
+    EXPECT_EQ(editor->document.undoName(), "Add");  // it is no step of its own
+}
+
+TEST_F(Dropped, PastedNodesOfAnotherDocumentBringTheirFiles) {
+    drop({elsewhere("cube.obj")});
+    editor->document.setPath(work("g.field.json"));
+    editor.keys("ctrl+c");
+    // Another document, of another folder.
+    fs::create_directories(editor.path("other"));
+    editor->document.apply("Empty", graphOf(kOut));
+    editor->document.setPath(editor.path("other/h.field.json"));
+    writeText(editor.path("other/cube.obj"), cubeText(1));
+    editor.settle();
+    editor.keys("ctrl+v");
+    EXPECT_EQ(pathsOf(graph()), std::vector<std::string>{"cube-2.obj"});
+    EXPECT_TRUE(said("copied cube.obj as cube-2.obj")) << editor->notice;
+    EXPECT_EQ(readText(editor.path("other/cube-2.obj")), cubeText());
+    // One that has no folder yet cannot have it.
+    editor->document.apply("Empty", graphOf(kOut));
+    editor->document.setPath("");
+    editor.settle();
+    editor.keys("ctrl+v");
+    EXPECT_TRUE(said("save the document, and paste them again")) << editor->notice;
+    EXPECT_EQ(pathsOf(graph()), std::vector<std::string>{"cube.obj"});
+}
+
 TEST_F(Dropped, ADocumentWithoutAFileIsSavedFirst) {
     editor->document.setPath("");
     editor->files.browser.folder = work("");
@@ -248,9 +314,15 @@ TEST_F(Dropped, ADocumentWithoutAFileIsSavedFirst) {
     EXPECT_EQ(pathsOf(graph()), std::vector<std::string>{"cube.obj"});
     EXPECT_TRUE(fs::exists(work("cube.obj")));
 
-    // Saved elsewhere, it takes its mesh along.
+    // Saved elsewhere, it takes its mesh along, and reads it there under the name that it has got.
+    writeText(work("sub/cube.obj"), cubeText(1));
     ASSERT_TRUE(writeFile(*editor, work("sub/other.field.json")));
-    EXPECT_EQ(readText(work("sub/cube.obj")), cubeText());
+    EXPECT_TRUE(said("copied cube.obj as cube-2.obj")) << editor->notice;
+    EXPECT_EQ(readText(work("sub/cube-2.obj")), cubeText());
+    EXPECT_EQ(pathsOf(graph()), std::vector<std::string>{"cube-2.obj"});
+    EXPECT_EQ(pathsOf(parsed(readText(work("sub/other.field.json")))), pathsOf(graph()));
+    EXPECT_EQ(readText(work("new.field.json")).find("cube-2"), std::string::npos);
+    EXPECT_FALSE(editor->document.unsaved());
 }
 
 TEST_F(Dropped, WhatIsToBeKnownOfAMeshIsAWarning) {

@@ -180,7 +180,8 @@ TEST(ImageRefused, NamesTheInputAndTheReason) {
     EXPECT_EQ(refusal(folder, "sub"), who + "'sub' is a folder: name a picture in it");
     EXPECT_EQ(refusal(folder, "."), who + "'.' is a folder: name a picture in it");
     writeText(folder.path("text.png"), "{\"fieldwright\": 1}\n");
-    EXPECT_EQ(refusal(folder, "text.png"), who + "'text.png' is none: use a PNG, JPEG, BMP or TGA file");
+    EXPECT_EQ(refusal(folder, "text.png"),
+              who + "'text.png' is none: use a .png, .jpg, .jpeg, .bmp or .tga file");
     writeText(folder.path("empty.png"), "");
     EXPECT_EQ(refusal(folder, "empty.png"), who + "'empty.png' is an empty file");
     ASSERT_EQ(mkfifo(folder.path("pipe.png").c_str(), 0600), 0);

@@ -56,6 +56,9 @@ TEST(Reference, JsonHoldsTheTable) {
     EXPECT_EQ(box["inputs"][1]["min"], 0);
     EXPECT_EQ(box["inputs"][0]["default"], "position");
     EXPECT_EQ(box["distance"], "exact");
+    const nlohmann::json& mesh =
+        all["nodes"][static_cast<std::size_t>(findNodeType("mesh_file") - nodeTypes().data())];
+    EXPECT_EQ(mesh["inputs"][0]["files"], nlohmann::json({".glb", ".gltf", ".obj", ".stl", ".ply"}));
 }
 
 TEST(Reference, ClassesAreNamed) {

@@ -134,6 +134,19 @@ TEST(Schema, AcceptsEveryDefault) {
     }
 }
 
+TEST(Schema, KnowsHowFilesEnd) {
+    const auto names = [](const std::string& type, const std::string& input, const std::string& path) {
+        return valid(withNode(R"({"id": "a", "type": ")" + type + R"(", "inputs": {")" + input + R"(": ")" +
+                              path + R"("}})"));
+    };
+    for (const char* path : {"", "a.glb", "sub/a b.STL"})
+        EXPECT_TRUE(names("mesh_file", "path", path)) << path;
+    for (const char* path : {"a", "glb", "a.glb.zip", "a.csv"})
+        EXPECT_FALSE(names("mesh_file", "path", path)) << path;
+    EXPECT_TRUE(names("particle_file", "path", "a.csv"));
+    EXPECT_TRUE(names("triplanar", "image", "a.dat"));  // what a picture holds tells that it is one
+}
+
 TEST(Schema, TellsGoodFromBad) {
     EXPECT_TRUE(valid("{\"fieldwright\": 1, \"nodes\": []}"));
     EXPECT_TRUE(valid("{\"fieldwright\": 1, \"nodes\": [], \"unknown\": 5}"));

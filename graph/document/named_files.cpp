@@ -1,0 +1,51 @@
+#include "graph/document/named_files.h"
+
+#include <set>
+#include <utility>
+
+#include "graph/document/sockets.h"
+
+namespace fw {
+
+namespace {
+
+/// Calls visit(path, kind) for each input that names a file; Any is a Graph or a const one.
+template <class Any, class Visit>
+void eachFile(Any& graph, const Visit& visit) {
+    const auto seen = [&](const FileKind* kind, auto& value) {
+        if (auto* path = std::get_if<std::string>(&value.value); kind && path && !path->empty())
+            visit(*path, *kind);
+    };
+    const Groups groups(graph);
+    const auto within = [&](auto& nodes, const GroupSockets* group) {
+        const Scope scope(groups, nodes, group);
+        for (uint32_t i = 0; i < nodes.size(); ++i)
+            if (hasKnownSockets(scope, i))
+                for (auto& [name, value] : nodes[i].inputs)
+                    if (const std::optional<Socket> socket = inputSocket(scope, i, name))
+                        seen(fileKind(*socket), value);
+    };
+    within(graph.nodes, nullptr);
+    for (std::size_t i = 0; i < graph.groups.size(); ++i) {
+        for (auto& input : graph.groups[i].inputs)
+            if (input.value) seen(fileKind({typeNamed(input.type)}), *input.value);
+        within(graph.groups[i].nodes, &groups.list[i]);
+    }
+}
+
+}  // namespace
+
+std::vector<NamedFile> namedFiles(const Graph& graph) {
+    std::vector<NamedFile> files;
+    std::set<std::pair<std::string_view, const FileKind*>> known;
+    eachFile(graph, [&](const std::string& path, const FileKind& kind) {
+        if (known.emplace(path, &kind).second) files.push_back({path, &kind});
+    });
+    return files;
+}
+
+void renameFiles(Graph& graph, const std::function<std::string(const NamedFile&)>& to) {
+    eachFile(graph, [&](std::string& path, const FileKind& kind) { path = to({path, &kind}); });
+}
+
+}  // namespace fw
