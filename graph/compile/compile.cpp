@@ -282,6 +282,10 @@ class Compiler {
             arguments.surface = [&](std::string_view name) {
                 return classes.contains(name) ? classes[name] : kExact;
             };
+            arguments.varies = [&](std::string_view name, int axis) {
+                const IrId distance = inputs[inputIndex(*type, name)].ids[distanceComponent];
+                return (state.ir[distance].positions >> axis & 1) != 0;
+            };
             arguments.constant = [&](std::string_view name, int component) -> std::optional<double> {
                 const int index = inputIndex(*type, name);
                 if (index < 0 || component >= componentCount(inputs[index].type)) return std::nullopt;
