@@ -85,7 +85,7 @@ Result<ExportState> ExportJob::Shared::make() {
         [&](int, int) { return !cancel; });
     if (!program) return program.error();
     if (!start("region")) return stopped;
-    const Result<Box> region = meshRegion(*program, wish.mesh);
+    const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
     if (!region) return region.error();
     prepareMesher(emitField(*program));
     if (!start("device")) return stopped;

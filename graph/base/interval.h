@@ -3,12 +3,14 @@
 // Theory: Moore, "Interval Analysis" (1966). [f](X) contains every f(x), x in X; so a box on which the
 // interval of a field excludes zero holds no surface. Deviations from a textbook: results are widened by a
 // few units in the last place instead of switching the rounding mode, and an unbounded or undefined result is
-// the finite interval
-// [-kHuge, kHuge], so that no NaN can appear and wrongly empty a later minimum.
+// the finite interval [-kHuge, kHuge], so that no NaN can appear and wrongly empty a later minimum. An end at
+// -kHuge (below) or kHuge (above) says that values go on without a bound. What is no number at all stays
+// unknown to functions whose range is limited, as a sine.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fw {
 
@@ -35,16 +37,26 @@ inline Interval outward(double lo, double hi) {
 
 inline Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 inline Interval operator-(Interval a) { return {-a.hi, -a.lo}; }
-inline Interval operator+(Interval a, Interval b) { return outward(a.lo + b.lo, a.hi + b.hi); }
-inline Interval operator-(Interval a, Interval b) { return outward(a.lo - b.hi, a.hi - b.lo); }
+
+/// Ends as they are meant: infinite where they stand for no bound.
+inline double below(double lo) { return lo <= -kHuge ? -std::numeric_limits<double>::infinity() : lo; }
+inline double above(double hi) { return hi >= kHuge ? std::numeric_limits<double>::infinity() : hi; }
+inline bool isBounded(Interval a) { return a.lo > -kHuge && a.hi < kHuge; }
+
+inline Interval operator+(Interval a, Interval b) {
+    return outward(below(a.lo) + below(b.lo), above(a.hi) + above(b.hi));
+}
+inline Interval operator-(Interval a, Interval b) {
+    return outward(below(a.lo) - above(b.hi), above(a.hi) - below(b.lo));
+}
+Interval unboundedProduct(Interval a, Interval b);
 inline Interval operator*(Interval a, Interval b) {
+    if (!isBounded(a) || !isBounded(b)) return unboundedProduct(a, b);
     const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
     return outward(std::min({p, q, r, s}), std::max({p, q, r, s}));
 }
-inline Interval operator/(Interval a, Interval b) {
-    if (b.lo <= 0.0 && b.hi >= 0.0) return kEverything;
-    return a * outward(1.0 / b.hi, 1.0 / b.lo);
-}
+/// Everything if b may be 0.
+Interval operator/(Interval a, Interval b);
 inline Interval minimum(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 inline Interval maximum(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 inline Interval absolute(Interval a) { return {std::max({0.0, a.lo, -a.hi}), std::max(-a.lo, a.hi)}; }
@@ -53,7 +65,8 @@ inline Interval square(Interval a) {
     return outward(m.lo * m.lo, m.hi * m.hi);
 }
 
-/// a - b floor(a / b).
+/// a - b floor(a / b), everything if b may be 0. Quotients are rounded: what is left of an exact multiple may
+/// be a little below 0, or above b.
 Interval modulo(Interval a, Interval b);
 /// a - b trunc(a / b).
 Interval truncatedModulo(Interval a, Interval b);

@@ -304,6 +304,10 @@ void GraphLowering::classify(const NodeAt& at, const std::vector<NodeInput>& inp
         const IrId id = input->value.ids[component];
         return state.ir.isConstant(id) ? std::optional(state.ir.number(id)) : std::nullopt;
     };
+    arguments.varies = [&](std::string_view name, int axis) {
+        const NodeInput* input = named(name);
+        return input && (state.ir[input->value.ids[distanceComponent]].positions >> axis & 1) != 0;
+    };
     arguments.option = [&](std::string_view name) {
         const NodeInput* input = named(name);
         return input ? input->value.text : std::string();

@@ -5,6 +5,8 @@
 #include <optional>
 #include <random>
 
+#include "graph/evaluate/jump_cases.h"
+
 namespace fw {
 
 namespace {
@@ -13,21 +15,20 @@ struct Field {
     const Ir& ir;
     IrId root;
     std::span<const double> parameters;
-
-    bool outside(const Box& box) const { return evaluateInterval(ir, root, parameters, box).lo >= 0.0; }
+    JumpCases bounds{ir, root, parameters};
 };
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
 
 /// The box bounded by empty half-spaces; none if some direction has no empty half-space.
-std::optional<Box> boundByHalfSpaces(const Field& field) {
+std::optional<Box> boundByHalfSpaces(Field& field) {
     Box box = everywhere(kFarthest);
     for (int axis = 0; axis < 3; ++axis)
         for (int side : {-1, 1}) {
             const auto empty = [&](double at) {
                 Box half = everywhere(kFarthest);
                 (side > 0 ? half.lo : half.hi)[axis] = side * at;
-                return field.outside(half);
+                return field.bounds.outside(half);
             };
             if (!empty(kFarthest * 0.999)) return std::nullopt;
             // `solid` is the farthest plane known to have something beyond it, `clear` one with nothing
@@ -84,7 +85,7 @@ bool holdsUp(const Box& bound, const Box& cell) {
 /// The hull of what is left of `start` when cells that are provably empty are dropped and those at the hull's
 /// faces are split, round by round; none if nothing is left. Ends after `patience` rounds that did not move
 /// the hull (three rounds halve the cells), or after `budget` interval evaluations.
-std::optional<Box> shrink(const Field& field, const Box& start, int patience, std::size_t budget) {
+std::optional<Box> shrink(Field& field, const Box& start, int patience, std::size_t budget) {
     std::vector<Box> cells{start};
     Box bound = start;
     for (int idle = 0; idle < patience && budget >= 2; ++idle) {
@@ -96,7 +97,7 @@ std::optional<Box> shrink(const Field& field, const Box& start, int patience, st
             }
             budget -= 2;
             for (const Box& half : halves(cell))
-                if (!field.outside(half)) next.push_back(half);
+                if (!field.bounds.outsideInEachCase(half)) next.push_back(half);
         }
         if (next.empty()) return std::nullopt;
         cells = std::move(next);
@@ -160,8 +161,8 @@ double longestSide(const Box& box) {
 }
 
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
-    const Field field{ir, distance, parameters};
-    if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
+    Field field{ir, distance, parameters};
+    if (field.bounds.outside(everywhere(kFarthest))) return {Extent::empty, {}};
     // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
     const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
@@ -171,13 +172,14 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
         return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
     }
     // Far enough from kFarthest that what repeats shows up again before it.
-    for (double reach = 2.0; reach <= kFarthest / 32.0; reach *= 4.0) {
+    constexpr double kMostReach = kFarthest / 32.0;
+    for (double reach = 2.0; reach <= kMostReach; reach *= 4.0) {
         const Box start = everywhere(reach);
         const std::optional<Box> tight = shrink(field, start, 18, budget);
-        const Box found = tight.value_or(Box{});
-        if (tight && touches(*tight, start)) continue;
-        if (tight && !reachesBeyond(field, found))
-            return {Extent::bounded, shrink(field, found, 18, 4 * budget).value_or(found)};
+        if (tight ? touches(*tight, start) : reach < kMostReach) continue;
+        if (reachesBeyond(field, tight.value_or(start))) continue;
+        if (!tight) return {Extent::empty, {}};
+        return {Extent::bounded, shrink(field, *tight, 18, 4 * budget).value_or(*tight)};
     }
     return {Extent::unbounded, {}};
 }

@@ -3,7 +3,8 @@
 // First each of the six directions is searched for the nearest half-space that is provably empty; this is
 // tight for shapes along the axes. Then an octree drops every cell that is provably outside, which tightens
 // the box around rotated and blended shapes, and finds one where half-spaces prove nothing (a twist mixes
-// coordinates, so over an endless box its interval is everything).
+// coordinates, so over an endless box its interval is everything). Cells that a jump runs through, as those
+// between the copies of a repetition, are looked at side by side (jump_cases.h).
 #pragma once
 
 #include <span>
@@ -21,7 +22,8 @@ struct Region {
 };
 
 /// Searches within ±kFarthest metres of the origin. A solid that reaches farther, or repeats without end, is
-/// unbounded. `empty` is a proof that no point is inside, within that distance.
+/// unbounded. What lies beyond an octree's start is known by samples, all else is proven; so `empty` is a
+/// proof within kFarthest, or within 512 metres where half-spaces prove nothing.
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters);
 
 inline constexpr double kFarthest = 16384.0;

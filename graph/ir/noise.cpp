@@ -88,24 +88,42 @@ NoiseSample simplexNoise(double x, double y, double z, double seed) {
         for (int axis = 0; axis < 3; ++axis)
             sum.gradient[axis] += scale * (t * t * t * t * g[axis] - 8.0 * t * t * t * d[axis] * ramp);
     }
+    // Where coordinates are too large for a place within their cell.
+    sum.value = std::clamp(sum.value, -kSimplexNoiseRange, kSimplexNoiseRange);
     return sum;
+}
+
+std::array<double, 3> worleyPoint(double x, double y, double z, double seed) {
+    const auto bits = latticeHash(lattice(x), lattice(y), lattice(z), seedBits(seed));
+    return {x + unit(bits[0]), y + unit(bits[1]), z + unit(bits[2])};
 }
 
 NoiseSample worleyNoise(double x, double y, double z, double seed) {
     const double position[3] = {x, y, z};
     const double cell[3] = {std::floor(x), std::floor(y), std::floor(z)};
+    double clear = 1.0;  // how far the position is at least from what lies beyond the 27 cells
+    for (int i = 0; i < 3; ++i)
+        clear = std::min(clear, std::min(position[i] - cell[i], 1.0 - (position[i] - cell[i])));
+    clear += 1.0;
     double nearest = 1e30;
     double offset[3] = {0, 0, 0};
-    for (int c = 0; c < 27; ++c) {
-        const double o[3] = {cell[0] + c % 3 - 1.0, cell[1] + c / 3 % 3 - 1.0, cell[2] + c / 9 - 1.0};
-        const auto bits = latticeHash(lattice(o[0]), lattice(o[1]), lattice(o[2]), seedBits(seed));
-        double d[3], squared = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            d[i] = position[i] - o[i] - unit(bits[i]);
-            squared += d[i] * d[i];
-        }
-        if (squared < nearest) nearest = squared, std::copy(d, d + 3, offset);
-    }
+    const auto search = [&](int reach) {
+        for (int k = -reach; k <= reach; ++k)
+            for (int j = -reach; j <= reach; ++j)
+                for (int i = -reach; i <= reach; ++i) {
+                    const double o[3] = {cell[0] + i, cell[1] + j, cell[2] + k};
+                    const auto bits =
+                        latticeHash(lattice(o[0]), lattice(o[1]), lattice(o[2]), seedBits(seed));
+                    double d[3], squared = 0.0;
+                    for (int axis = 0; axis < 3; ++axis) {
+                        d[axis] = position[axis] - o[axis] - unit(bits[axis]);
+                        squared += d[axis] * d[axis];
+                    }
+                    if (squared < nearest) nearest = squared, std::copy(d, d + 3, offset);
+                }
+    };
+    search(1);
+    if (nearest > clear * clear) search(2);
     const double distance = std::sqrt(nearest), inverse = distance > 0.0 ? 1.0 / distance : 0.0;
     return {distance, {offset[0] * inverse, offset[1] * inverse, offset[2] * inverse}};
 }

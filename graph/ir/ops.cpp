@@ -60,8 +60,12 @@ constexpr OpInfo row(Op op, const char* name, int arity, bool boolean, bool comm
 }
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
-    const double lo = f(a.lo), hi = f(a.hi);
+    const double lo = std::min(f(below(a.lo)), kHuge), hi = f(above(a.hi));
     return outward(lo - std::abs(lo) * slack, hi + std::abs(hi) * slack);
+}
+Interval exponential(Interval a) {
+    const Interval range = monotone([](double v) { return std::exp(v); }, a, 1e-13);
+    return outward(std::max(0.0, range.lo - 1e-300), range.hi + 1e-300);  // denormal numbers round coarsely
 }
 Interval truth(bool certain, bool impossible) { return {certain ? 1.0 : 0.0, impossible ? 0.0 : 1.0}; }
 /// Quadratic smooth minimum (Quilez): the corner where a = b is filled k / 4 deep, and nothing is changed
@@ -75,8 +79,12 @@ Interval smoothMinimumInterval(I x) {
     const auto size = [&](double a, double b) {
         return 1e-15 * (std::abs(a) + std::abs(b) + absolute(x[2]).hi);
     };
-    return outward(smoothMinimum(x[0].lo, x[1].lo, x[2].hi) - size(x[0].lo, x[1].lo),
-                   smoothMinimum(x[0].hi, x[1].hi, x[2].lo) + size(x[0].hi, x[1].hi));
+    const bool bounded = x[0].lo > -kHuge && x[1].lo > -kHuge && x[2].hi < kHuge;
+    const double a = above(x[0].hi), b = above(x[1].hi);
+    return outward(bounded ? smoothMinimum(x[0].lo, x[1].lo, x[2].hi) - size(x[0].lo, x[1].lo) : -kHuge,
+                   std::isinf(a) && std::isinf(b)
+                       ? kHuge
+                       : smoothMinimum(a, b, x[2].lo) + size(std::min(std::abs(a), std::abs(b)), 0.0));
 }
 double smoothMinimumSlope(V x, D d) {
     const double share = std::max(x[2] - std::abs(x[0] - x[1]), 0.0) / std::max(x[2], 1e-9);
@@ -90,13 +98,14 @@ double clampUnit(double x) { return std::clamp(x, -1.0, 1.0); }
 Interval noiseInterval(I x, NoiseSample (*noise)(double, double, double, double), double slope, double least,
                        double most) {
     if (!x[3].isPoint()) return {least, most};
-    double centre[3], squared = 0.0;
+    double centre[3], squared = 0.0, rounding = 1e-9;
     for (int i = 0; i < 3; ++i) {
         centre[i] = 0.5 * (x[i].lo + x[i].hi);
         squared += 0.25 * (x[i].hi - x[i].lo) * (x[i].hi - x[i].lo);
+        rounding += 4e-15 * absolute(x[i]).hi;
     }
     return lipschitzRange(noise(centre[0], centre[1], centre[2], x[3].lo).value, slope,
-                          std::sqrt(squared) + 1e-9, least, most);
+                          std::sqrt(squared) + rounding, least, most);
 }
 double noiseSlope(NoiseSample sample, D d) {
     return sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2];
@@ -164,8 +173,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "iSquare(%a)", "(2.0 * %a) * %A"),
     row(
         Op::exponential, "exp", 1, false, false, [](V x) { return std::exp(x[0]); },
-        [](I x) { return monotone([](double v) { return std::exp(v); }, x[0], 1e-13); },
-        [](V, double v, D d) { return v * d[0]; }, "exp(%a)", "iExp(%a)", "%v * %A"),
+        [](I x) { return exponential(x[0]); }, [](V, double v, D d) { return v * d[0]; }, "exp(%a)",
+        "iExp(%a)", "%v * %A"),
     row(
         Op::logarithm, "log", 1, false, false, [](V x) { return std::log(std::max(x[0], kTiny)); },
         [](I x) { return monotone([](double v) { return std::log(std::max(v, kTiny)); }, x[0], 1e-13); },
@@ -239,7 +248,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         [](I x) { return maximum(x[0], x[1]); }, [](V x, double, D d) { return x[0] >= x[1] ? d[0] : d[1]; },
         "max(%a, %b)", "max(%a, %b)", "%a >= %b ? %A : %B"),
     row(
-        Op::power, "pow", 2, false, false, [](V x) { return std::pow(std::max(x[0], 0.0), x[1]); },
+        Op::power, "pow", 2, false, false, [](V x) { return std::pow(std::max(0.0, x[0]), x[1]); },
         [](I x) { return power(x[0], x[1]); },
         [](V x, double v, D d) {
             return x[0] > 0.0 ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : 0.0;
@@ -267,16 +276,16 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0"),
     row(
         Op::less, "less", 2, true, false, [](V x) { return double(x[0] < x[1]); },
-        [](I x) { return truth(x[0].hi < x[1].lo, x[0].lo >= x[1].hi); }, zeroSlope, "(%a < %b)",
-        "vec2(%a.y < %b.x, %a.x < %b.y)", ""),
+        [](I x) { return truth(above(x[0].hi) < below(x[1].lo), below(x[0].lo) >= above(x[1].hi)); },
+        zeroSlope, "(%a < %b)", "vec2(%a.y < %b.x, %a.x < %b.y)", ""),
     row(
         Op::lessEqual, "lessEqual", 2, true, false, [](V x) { return double(x[0] <= x[1]); },
-        [](I x) { return truth(x[0].hi <= x[1].lo, x[0].lo > x[1].hi); }, zeroSlope, "(%a <= %b)",
-        "vec2(%a.y <= %b.x, %a.x <= %b.y)", ""),
+        [](I x) { return truth(above(x[0].hi) <= below(x[1].lo), below(x[0].lo) > above(x[1].hi)); },
+        zeroSlope, "(%a <= %b)", "vec2(%a.y <= %b.x, %a.x <= %b.y)", ""),
     row(
         Op::equal, "equal", 2, true, true, [](V x) { return double(x[0] == x[1]); },
         [](I x) {
-            return truth(x[0].isPoint() && x[1].isPoint() && x[0].lo == x[1].lo,
+            return truth(x[0].isPoint() && x[1].isPoint() && x[0].lo == x[1].lo && isBounded(x[0]),
                          x[0].hi < x[1].lo || x[1].hi < x[0].lo);
         },
         zeroSlope, "(%a == %b)", "iEqual(%a, %b)", ""),

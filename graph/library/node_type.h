@@ -72,6 +72,8 @@ struct OutputSpec {
 struct ExactnessArguments {
     /// Exactness of the named surface input; that of empty space if unconnected.
     std::function<Exactness(std::string_view)> surface;
+    /// Whether the named surface input's distance depends on this coordinate (0: x) of the position.
+    std::function<bool(std::string_view, int axis)> varies;
     /// Constant value of the named input's component; nullopt if it varies, is live or is linked to a field.
     std::function<std::optional<double>(std::string_view, int component)> constant;
     /// Chosen string of the named enum input.

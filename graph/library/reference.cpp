@@ -111,6 +111,7 @@ std::string exactnessText(const NodeType& type) {
     };
     ExactnessArguments arguments;
     arguments.surface = [](std::string_view) { return kExact; };
+    arguments.varies = [](std::string_view, int axis) { return axis != 2; };  // flat where it can matter
     arguments.constant = [&](std::string_view name, int component) -> std::optional<double> {
         const InputDefault* value = input(name);
         const auto i = static_cast<std::size_t>(component);

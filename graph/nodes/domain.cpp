@@ -272,7 +272,10 @@ for (int i = 0; i < 27; i++) {
     if (i == 0) s = copy; else s = min(s, copy);
 }
 return s;)"},
-        // As repeat, in the angle: u points to the first copy, v a quarter turn on.
+        // u points to the first copy, v a quarter turn on. Up to four copies are each looked at: their
+        // rotations are constants, so intervals are as narrow as those of one. Of more, the two that enclose
+        // p, as in repeat, but in the angle. It jumps from copy to copy alone: where the cut of atan2 would
+        // lie between them, it is turned by half a sector.
         {.id = "polar_repeat",
          .label = "Polar repeat",
          .category = Category::domain,
@@ -288,8 +291,9 @@ return s;)"},
               neighbours()},
          .outputs = kSurface,
          .exactness = repeated,
-         .body = R"(
-if (count == 1) return surface(p);
+         .body = std::string(kRotation) + R"(
+float n = max(round(count), 1.0);
+if (n == 1.0) return surface(p);
 vec3 w = length(axis) > 0.0 ? normalize(axis) : vec3(0.0, 1.0, 0.0);
 vec3 u = abs(w.x) < 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
 u = normalize(u - w * dot(u, w));
@@ -297,9 +301,22 @@ vec3 v = cross(w, u);
 float x = dot(p, u);
 float y = dot(p, v);
 float height = dot(p, w);
+if (neighbours && n <= 4.0) {
+    s = surface(p);
+    for (int i = 1; i < 4; i++) {
+        float c = cosOf(360.0 / n * i);
+        float t = sinOf(360.0 / n * i);
+        if (i < n) s = min(s, surface(w * height + u * (c * x + t * y) + v * (c * y - t * x)));
+    }
+    return s;
+}
+if (!neighbours && n == 2.0) return surface(w * height + u * abs(x) + v * (x < 0.0 ? -y : y));
 float r = length(vec2(x, y));
-float width = TAU / count;
-float angle = atan2(y, x == 0.0 && y == 0.0 ? 1.0 : x);
+float width = TAU / n;
+float odd = mod(n, 2.0);
+float turn = 0.5 * width * (neighbours ? odd : 1.0 - odd);
+vec2 side = vec2(x * cos(turn) + y * sin(turn), y * cos(turn) - x * sin(turn));
+float angle = turn + atan2(side.y, side.x == 0.0 && side.y == 0.0 ? 1.0 : side.x);
 if (!neighbours) {
     angle = mod(angle + 0.5 * width, width) - 0.5 * width;
     return surface(w * height + u * (r * cos(angle)) + v * (r * sin(angle)));

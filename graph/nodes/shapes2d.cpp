@@ -7,11 +7,11 @@ namespace {
 
 const std::vector<OutputSpec> kSurface = {{"surface", Type::surface}};
 
-/// Extruding keeps the class of a flat shape. Rounding shrinks the profile first, which is exact on smooth
-/// rims only.
+/// Extruding keeps the class of a flat shape. The slice of a solid is a bound: what is nearest may lie off
+/// the plane. Rounding shrinks the profile first, which is exact on smooth rims only.
 Exactness extrudedExactness(const ExactnessArguments& node) {
     const Exactness profile = node.surface("surface");
-    if (node.constant("rounding", 0) == 0.0) return profile;
+    if (node.constant("rounding", 0) == 0.0 && !node.varies("surface", 2)) return profile;
     return {false, false, std::max(profile.lipschitz, 1.0)};
 }
 
@@ -135,7 +135,9 @@ return 0.0 < size && foot >= 0.0 && foot <= size * size ? -line : (line > 0.0 ? 
         {.id = "extrude",
          .label = "Extrude",
          .category = Category::shape2d,
-         .doc = "Gives a flat shape thickness along z; of a solid it takes the slice at z = 0.",
+         .doc = "Gives a flat shape thickness along z; of a solid it takes the slice at z = 0, whose "
+                "distance is a "
+                "bound.",
          .inputs = {surfaceInput("surface", "The flat shape."),
                     length("half_height", 0.5, "Half the thickness along z."),
                     length("rounding", 0,

@@ -95,7 +95,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution),
                               options.method.value_or(program->method)};
-    const Result<Box> box = meshRegion(*program, request);
+    const Result<Box> box = meshRegion(*program, request, &*graph);
     if (!box) return fail(badInput(options, box.error()));
     prepareMesher(emitField(*program));
     progress.start("device", 15);

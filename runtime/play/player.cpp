@@ -108,7 +108,7 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
     if (!prepared.regionFound || !prepared.fieldMoves) {
         const std::vector<double> values = prepared.valuesAt(0.0);
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
-        const Result<Box> box = meshRegion(program, request);
+        const Result<Box> box = meshRegion(program, request, &prepared.graph);
         if (!box) return problem(prepared.graph, box.error().message);
         prepared.region = *box;
         return done();
@@ -133,11 +133,11 @@ Done Player::findSharedRegion(Prepared& prepared, const PlayerOptions& options) 
         if (found[i].extent != Extent::unbounded) continue;
         const std::vector<double> values = prepared.valuesAt(times[i]);
         for (std::size_t slot = 0; slot < values.size(); ++slot) program.live[slot].value = values[slot];
-        const Result<Box> box = meshRegion(program, request);
+        const Result<Box> box = meshRegion(program, request, &prepared.graph);
         return problem(prepared.graph, box.error().message + " (at " + std::to_string(times[i]) + " s)");
     }
     if (!all && prepared.timeline.tracks.empty()) {
-        const Result<Box> box = meshRegion(program, request);
+        const Result<Box> box = meshRegion(program, request, &prepared.graph);
         if (!box) return problem(prepared.graph, box.error().message);
     }
     if (!all) return problem(prepared.graph, "the solid is empty at every time of its timeline");
@@ -264,7 +264,7 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     if (!beyond) result = session.polygonise({*now.region, options.resolution, options.method, stages});
     if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
-        const Result<Box> own = meshRegion(session.program(), {{}, options.resolution});
+        const Result<Box> own = meshRegion(session.program(), {{}, options.resolution}, &now.graph);
         if (!own) return problem(now.graph, own.error().message);
         result = session.polygonise({joined(*now.region, *own), options.resolution, options.method, stages});
     }

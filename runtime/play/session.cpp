@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "graph/compile/endless.h"
 #include "graph/emit/glsl.h"
 #include "graph/evaluate/region.h"
 #include "runtime/measure/field_measure.h"
@@ -23,7 +24,7 @@ Error problem(std::string message) { return {.message = std::move(message)}; }
 
 }  // namespace
 
-Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
+Result<Box> meshRegion(const Program& program, const MeshRequest& request, const Graph* graph) {
     if (request.region || program.region) {
         const Box& box = request.region ? *request.region : *program.region;
         for (int axis = 0; axis < 3; ++axis) {
@@ -47,10 +48,14 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request) {
                     "region if it lies farther out") +
                 (particles ? "; if there are no particles yet, look at a later time, --time)" : ")"));
         }
-        case Extent::unbounded:
+        case Extent::unbounded: {
+            const std::string endless = graph ? endlessNode(*graph) : std::string();
             return problem(
-                "the solid has no bounds within 16 km of the origin: give a region (region_min and "
-                "region_max of the output, or --region x0 y0 z0 x1 y1 z1), or intersect it with a box");
+                "the solid has no bounds within 16 km of the origin" +
+                (endless.empty() ? "" : ": node " + endless + " goes on without end") +
+                "; give a region (region_min and region_max of a polygonize node, or --region x0 y0 "
+                "z0 x1 y1 z1), or intersect it with a box");
+        }
         case Extent::bounded: break;
     }
     return padded(found.box, resolution, 1.5);

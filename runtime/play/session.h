@@ -138,7 +138,8 @@ class Session {
 };
 
 /// The region that a program is meshed in: the request's, the program's own, or the solid's bounds with a
-/// margin of 1.5 cells. Errors as in Session::polygonise.
-Result<Box> meshRegion(const Program& program, const MeshRequest& request);
+/// margin of 1.5 cells. Errors as in Session::polygonise; with the graph that the program was compiled from,
+/// that of a solid without bounds names the node that goes on without end.
+Result<Box> meshRegion(const Program& program, const MeshRequest& request, const Graph* graph = nullptr);
 
 }  // namespace fw

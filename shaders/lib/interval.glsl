@@ -31,19 +31,21 @@ vec2 iPower(vec2 a, vec2 b) {
     vec4 p = vec4(iPowerOf(base.x, b.x), iPowerOf(base.x, b.y), iPowerOf(base.y, b.x), iPowerOf(base.y, b.y));
     return clamp(iSlack(vec2(min(min(p.x, p.y), min(p.z, p.w)), max(max(p.x, p.y), max(p.z, p.w)))), 0.0, 1e30);
 }
-// The quotient keeps one integer value over the interval: a shift; else the whole period.
+// The quotient keeps one integer value over the interval: a shift; else the whole period. Everything if b may be 0.
+// Quotients err by up to 2.5 units in the last place: what is left of a multiple may be a little below 0, or above b.
+vec2 iRemainder(vec2 a, vec2 b, float k, bool shifts, vec2 range) {
+    vec2 slack = (iAbs(a).y + iAbs(b).y) * vec2(-5e-7, 5e-7);
+    vec2 result = (shifts && b.x == b.y ? a - k * b.x : range) + slack;
+    return b.x <= 0.0 && b.y >= 0.0 ? vec2(-1e30, 1e30) : iCut(result);
+}
 vec2 iModulo(vec2 a, vec2 b) {
     float k = floor(a.x / b.x);
-    vec2 slack = (abs(k * b.x) + max(abs(a.x), abs(a.y))) * vec2(-2.4e-7, 2.4e-7);
-    return b.x == b.y && b.x > 0.0 && floor(a.y / b.x) == k ? a - k * b.x + slack : iOut(vec2(min(0.0, b.x), max(0.0, b.y)));
+    return iRemainder(a, b, k, floor(a.y / b.x) == k, vec2(min(0.0, b.x), max(0.0, b.y)));
 }
 vec2 iTruncatedModulo(vec2 a, vec2 b) {
-    float most = max(abs(b.x), abs(b.y));
-    float k = trunc(a.x / most);
-    vec2 slack = (abs(k * most) + max(abs(a.x), abs(a.y))) * vec2(-2.4e-7, 2.4e-7);
-    return b.x == b.y && most > 0.0 && trunc(a.y / most) == k
-               ? a - k * most + slack
-               : iOut(vec2(a.x < 0.0 ? max(-most, a.x) : 0.0, a.y > 0.0 ? min(most, a.y) : 0.0));
+    float most = iAbs(b).y, k = trunc(a.x / b.x);
+    return iRemainder(a, b, k, trunc(a.y / b.x) == k,
+                      vec2(a.x < 0.0 ? max(-most, a.x) : 0.0, a.y > 0.0 ? min(most, a.y) : 0.0));
 }
 vec2 iSin(vec2 a) {
     const float tau = 6.28318531, quarter = 1.57079633;
@@ -72,6 +74,8 @@ vec2 iSmoothMin(vec2 a, vec2 b, vec2 k) {
 }
 vec3 iCentre(vec2 x, vec2 y, vec2 z) { return 0.5 * vec3(x.x + x.y, y.x + y.y, z.x + z.y); }
 vec2 iNoise(float centre, vec2 x, vec2 y, vec2 z, float slope, float least, float most) {
-    float radius = 0.5 * length(vec3(x.y - x.x, y.y - y.x, z.y - z.x));
+    // What is lost of a place within its cell where coordinates are large.
+    float rounding = 5e-7 * (iAbs(x).y + iAbs(y).y + iAbs(z).y);
+    float radius = 0.5 * length(vec3(x.y - x.x, y.y - y.x, z.y - z.x)) + rounding;
     return clamp(centre + (slope * radius + 1e-4) * vec2(-1.0, 1.0), least, most);
 }

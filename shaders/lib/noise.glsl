@@ -64,20 +64,33 @@ vec4 simplexNoiseGradient(vec3 p, float seed) {
         float ramp = dot(direction, d), cube = t * t * t;
         sum += 72.0 * vec4(cube * t * direction - 8.0 * cube * ramp * d, cube * t * ramp);
     } while (++corner < 4);
+    sum.w = clamp(sum.w, -1.1, 1.1);  // where coordinates are too large for a place within their cell
     return sum;
 }
 float simplexNoise(vec3 p, float seed) { return simplexNoiseGradient(p, seed).w; }
 
+// The nearer of `nearest` (its offset and squared distance) and the point of the cell with this least corner.
+vec4 worleyNearer(vec4 nearest, vec3 p, vec3 corner, float seed) {
+    vec3 d = p - corner - unitHash(latticeHash(ivec3(corner), seed));
+    float squared = dot(d, d);
+    return squared < nearest.w ? vec4(d, squared) : nearest;
+}
+
+// The 27 cells around, then, where the nearest point found lies farther than their border, the 125: the point of the
+// own cell is at most sqrt(3) away, and cells three off are 2 away.
 vec4 worleyNoiseGradient(vec3 p, float seed) {
     vec3 cell = floor(p);
     vec4 nearest = vec4(0.0, 0.0, 0.0, 1e30);
     int c = 0;
-    do {
-        vec3 o = cell + vec3(c % 3, (c / 3) % 3, c / 9) - 1.0;
-        vec3 d = p - o - unitHash(latticeHash(ivec3(o), seed));
-        float squared = dot(d, d);
-        nearest = squared < nearest.w ? vec4(d, squared) : nearest;
-    } while (++c < 27);
+    do nearest = worleyNearer(nearest, p, cell + vec3(c % 3, (c / 3) % 3, c / 9) - 1.0, seed);
+    while (++c < 27);
+    vec3 side = min(p - cell, 1.0 - (p - cell));
+    float clear = 1.0 + min(side.x, min(side.y, side.z));
+    c = nearest.w > clear * clear ? 0 : 125;
+    while (c < 125) {
+        nearest = worleyNearer(nearest, p, cell + vec3(c % 5, (c / 5) % 5, c / 25) - 2.0, seed);
+        ++c;
+    }
     float value = sqrt(nearest.w);
     return vec4(value > 0.0 ? nearest.xyz / value : vec3(0.0), value);
 }

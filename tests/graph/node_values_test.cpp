@@ -340,5 +340,63 @@ TEST(NodeValues, MathsAgreesWithTheLibrary) {
     EXPECT_DOUBLE_EQ(mapped(R"("value": 3, "from_min": 1, "from_max": 1)"), 1);
 }
 
+/// Copies about the y axis of a ball at (2, 0.2, 0.1), looked at one by one.
+TEST(NodeValues, PolarRepeatIsTheUnionOfItsCopies) {
+    const std::string aside =
+        node("bead", "sphere", R"("radius": 0.3)") + "," +
+        node("aside", "translate", R"("surface": {"from": "bead"}, "offset": [2, 0.2, 0.1])");
+    for (int count = 1; count <= 12; ++count)
+        for (const bool neighbours : {true, false}) {
+            const Program program =
+                show(aside + "," +
+                     node("it", "polar_repeat",
+                          R"("surface": {"from": "aside"}, "count": )" + std::to_string(count) +
+                              (neighbours ? "" : R"(, "neighbours": false)")));
+            for (int n = 0; n < 200; ++n) {
+                const double at = 0.31 * n, radius = 0.05 * (n % 70);
+                const Point p{radius * std::cos(at), 0.01 * n - 1.0, radius * std::sin(at)};
+                double nearest = 1e9;
+                for (int k = 0; k < count; ++k) {
+                    // From +x towards -z, as a rotation about y goes.
+                    const double turn = 2 * pi * k / count;
+                    const double x = 2 * std::cos(turn) + 0.1 * std::sin(turn),
+                                 z = 0.1 * std::cos(turn) - 2 * std::sin(turn);
+                    nearest = std::min(nearest, std::hypot(p[0] - x, p[1] - 0.2, p[2] - z) - 0.3);
+                }
+                if (neighbours || nearest < 0.0)
+                    EXPECT_NEAR(valueAt(program, p), nearest, 1e-9) << count << " copies, point " << n;
+                else
+                    EXPECT_GE(valueAt(program, p), nearest - 1e-9) << count << " copies, point " << n;
+            }
+        }
+}
+
+TEST(NodeValues, PolarRepeatOfAnyCountInCodeIsDefined) {
+    for (const char* count : {"0", "-3", "1", "5"}) {
+        const Program program =
+            show(R"({"id": "it", "type": "expression", "code": "return polar_repeat(sphere(p, 0.3), )" +
+                 std::string(count) + R"();"})");
+        EXPECT_NEAR(valueAt(program, {2, 0.5, 0.25}), std::hypot(2, 0.5, 0.25) - 0.3, 1e-12) << count;
+    }
+}
+
+TEST(NodeValues, AnExtrudedSolidIsNotExact) {
+    const auto extruded = [](const std::string& more) {
+        return show(node("ball", "sphere", "") + "," + node("flat", "circle", "") + "," + more + "," +
+                    node("it", "extrude", R"("surface": {"from": "moved"})"));
+    };
+    const Program solid =
+        extruded(node("moved", "translate", R"("surface": {"from": "ball"}, "offset": [0, 0, 0.5])"));
+    EXPECT_FALSE(solid.exactness.outside || solid.exactness.inside);
+    EXPECT_TRUE(solid.exactness.bound());
+    EXPECT_EQ(solid.spoiledBy, "it");
+    // 1.062 where the slice of radius sqrt(3) / 2 is 1.134 away.
+    EXPECT_NEAR(valueAt(solid, {2, 0, 0}), std::hypot(2, 0.5) - 1, 1e-12);
+    EXPECT_TRUE(extruded(node("moved", "rotate", R"("surface": {"from": "flat"}, "angles": [0, 0, 40])"))
+                    .exactness.exact());
+    EXPECT_FALSE(extruded(node("moved", "rotate", R"("surface": {"from": "flat"}, "angles": [40, 0, 0])"))
+                     .exactness.exact());
+}
+
 }  // namespace
 }  // namespace fw

@@ -172,7 +172,9 @@ TEST(CommandInput, CodeThatMultipliesItsCost) {
 }
 
 TEST(CommandInput, SolidsThatCannotBeMeshed) {
-    expectBadGraph(document(R"({"id": "a", "type": "plane"})"), {"no bounds", "--region x0 y0 z0 x1 y1 z1"});
+    expectBadGraph(document(R"({"id": "a", "type": "plane"})"),
+                   {"no bounds", "node 'a' (Plane) goes on without end", "--region x0 y0 z0 x1 y1 z1",
+                    "of a polygonize node"});
     expectBadGraph(document(R"({"id": "b", "type": "sphere"},
                                {"id": "a", "type": "repeat", "inputs": {"surface": {"from": "b"}}})"),
                    {"no bounds"});

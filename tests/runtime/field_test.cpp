@@ -210,6 +210,16 @@ TEST(Noise, EqualCoordinatesAreNoSpecialCase) {
     }
 }
 
+TEST(Noise, WorleyLooksTwoCellsFar) {
+    // Where none of the 27 points around is within a metre, and one beyond them is nearer.
+    const Result<Program> program =
+        compiledExpression("return worley(p * 0.002 + vec3(-14.006, -20.025, 18.035));");
+    ASSERT_TRUE(program) << format(program.error());
+    const Agreement found = compare(*program, 4096, 1, 2.0f);
+    EXPECT_EQ(found.firstFailure, "");
+    EXPECT_EQ(found.close, found.points) << found.firstFar;
+}
+
 TEST(Power, OfNoughtIsWithinItsInterval) {
     // All three signs of the exponent, none of which folds.
     for (const char* exponent : {"max(p.y - 100.0, 0.0)", "max(p.y - 100.0, 0.0) + 1.0", "p.y"}) {
