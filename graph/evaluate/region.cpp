@@ -10,11 +10,11 @@ namespace fw {
 namespace {
 
 struct Field {
-    const Ir& ir;
     IrId root;
-    std::span<const double> parameters;
+    Tape tape;
+    mutable TapeMachine<double> machine = {};
 
-    bool outside(const Box& box) const { return evaluateInterval(ir, root, parameters, box).lo >= 0.0; }
+    bool outside(const Box& box) const { return machine.interval(tape, box).lo >= 0.0; }
 };
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
@@ -140,7 +140,7 @@ bool reachesBeyond(const Field& field, const Box& box) {
         if (!within) points.push_back(point);
     }
     std::vector<double> values(points.size());
-    evaluate(field.ir, field.root, field.parameters, points, values);
+    field.machine.evaluate(field.tape, points, values);
     return std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; });
 }
 
@@ -160,7 +160,7 @@ double longestSide(const Box& box) {
 }
 
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
-    const Field field{ir, distance, parameters};
+    const Field field{distance, makeTape(ir, distance, parameters)};
     if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
     // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
     const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
