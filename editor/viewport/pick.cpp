@@ -153,7 +153,7 @@ class Along {
         const glm::dvec3 a = ray.at(from), b = ray.at(to), lo = glm::min(a, b), hi = glm::max(a, b);
         const Interval range = machine.interval(tape, {{lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}});
         if (range.lo >= 0.0) return std::nullopt;
-        const Tape shorter = machine.shortens() ? machine.shortened(tape) : Tape();
+        const Tape shorter = machine.shortens() ? machine.shortenedForSigns(tape) : Tape();
         const Tape& inside = machine.shortens() ? shorter : tape;
         if (halvings == 0) {
             if (value(inside, to) >= 0.0) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <utility>
 
 namespace fw {
 
@@ -14,7 +15,16 @@ constexpr uint32_t kNumber = 1u << 31, kNone = ~0u;
 
 bool samples(Op op) { return op == Op::image || op == Op::volume; }
 
-int arityOf(Op op) { return opInfo(op).arity; }
+/// Arities alone, without the rest of the rows, for the loops over steps.
+using Arities = std::array<uint8_t, std::size_t(Op::count)>;
+const Arities& arities() {
+    static const Arities all = [] {
+        Arities each{};
+        for (const OpInfo& info : opTable()) each[std::size_t(info.op)] = uint8_t(info.arity);
+        return each;
+    }();
+    return all;
+}
 
 uint8_t positionsOf(const std::vector<TapeStep>& draft, uint32_t name) {
     if (name & kNumber) return 0;
@@ -42,63 +52,63 @@ uint32_t addStep(std::vector<TapeStep>& draft, Op op, std::array<uint32_t, kMaxA
     const auto lacks = [op](int form) {
         return form >= OpKernels<double>::kForms || !opKernels<double>()[std::size_t(op)]->values[form];
     };
-    for (int i = 0; i < arity && lacks(numbers); ++i)
-        if (numbers >> i & 1) operands[i] = addNumber(draft, operands[i]), numbers &= uint8_t(~(1 << i));
-    for (int i = 0; i < arity; ++i) operands[i] &= ~kNumber;
+    if (numbers != 0) {
+        for (int i = 0; i < arity && lacks(numbers); ++i)
+            if (numbers >> i & 1) operands[i] = addNumber(draft, operands[i]), numbers &= uint8_t(~(1 << i));
+        for (int i = 0; i < arity; ++i) operands[i] &= ~kNumber;
+    }
     draft.push_back({op, numbers, positions, 0, operands});
     return uint32_t(draft.size() + 2);
 }
 
-/// Gives registers to a draft's values, backwards from the roots.
+/// Gives registers to a draft's values, backwards from the roots. What none of them needs gets none.
 class Allocation {
   public:
-    Allocation(std::vector<TapeStep>& draft_, std::vector<uint32_t>& registers_)
+    Allocation(const std::vector<TapeStep>& draft_, std::vector<uint32_t>& registers_)
         : draft(draft_), registers(registers_) {}
 
     /// `roots` are values. With `partedByZ`, steps that do not depend on z come first.
     void run(Tape& tape, std::span<const uint32_t> roots, bool partedByZ) {
         registers.assign(draft.size() + 3, kNone);
-        std::size_t needed = 0;
-        for (uint32_t root : roots) registers[root] = 0;
-        for (std::size_t i = draft.size(); i-- > 0;) {
-            if (registers[i + 3] == kNone) continue;
-            ++needed;
-            eachOperand(draft[i], [&](uint32_t& value) { registers[value] = 0; });
-        }
-        for (std::size_t i = 0; i < draft.size(); ++i)
-            draft[i].result = registers[i + 3] == kNone ? kNone : 0;  // what is not needed is left out
-        registers.assign(draft.size() + 3, kNone);
         for (uint32_t axis = 0; axis < 3; ++axis) registers[axis] = axis;
         free.clear();
+        placed.resize(draft.size());
+        at = draft.size();
         count = 3;
-
-        tape.steps.resize(needed);
         tape.roots.clear();
         for (uint32_t root : roots) {
             if (registers[root] == kNone) registers[root] = count++;
             tape.roots.push_back(registers[root]);
         }
-        std::size_t at = needed;
-        if (partedByZ) {
-            sweep(
-                tape, at, [](const TapeStep& step) { return bool(step.positions & dependsOnZ); }, true);
-            tape.still = uint32_t(at);
-            sweep(
-                tape, at, [](const TapeStep& step) { return !(step.positions & dependsOnZ); }, false);
-        } else {
-            tape.still = 0;
-            sweep(
-                tape, at, [](const TapeStep&) { return true; }, false);
-        }
-        assert(at == 0);
+        if (partedByZ) sweep(dependsOnZ, true);
+        const std::size_t moving = at;
+        sweep(0, false);
+        tape.steps.assign(placed.begin() + std::ptrdiff_t(at), placed.end());
+        tape.still = partedByZ ? uint32_t(moving - at) : 0;
         tape.registers = count;
     }
 
   private:
-    template <class Visit>
-    static void eachOperand(TapeStep& step, Visit visit) {
-        for (int i = 0; i < arityOf(step.op); ++i)
-            if (!(step.numbers >> i & 1)) visit(step.operands[i]);
+    /// Places the steps that depend on these axes, of those that are not placed yet. With `keep`, what other
+    /// steps make has registers that none of these writes.
+    void sweep(uint8_t axes, bool keep) {
+        const Arities& arity = arities();
+        const auto moves = [&](const TapeStep& step) { return (step.positions & axes) == axes; };
+        for (std::size_t i = draft.size(); i-- > 0;) {
+            uint32_t& own = registers[i + 3];
+            if (own == kNone || own == kPlaced || !moves(draft[i])) continue;
+            TapeStep& step = placed[--at] = draft[i];
+            step.result = own;
+            for (int k = 0; k < arity[std::size_t(step.op)]; ++k) {
+                if (step.numbers >> k & 1) continue;
+                uint32_t& operand = registers[step.operands[k]];
+                if (operand == kNone)
+                    operand = keep && !moves(draft[step.operands[k] - 3]) ? count++ : take();
+                step.operands[k] = operand;
+            }
+            own = kPlaced;
+            free.push_back(step.result);
+        }
     }
 
     uint32_t take() {
@@ -108,27 +118,18 @@ class Allocation {
         return last;
     }
 
-    /// With `keep`, what other steps made has registers that none of these writes.
-    template <class Which>
-    void sweep(Tape& tape, std::size_t& at, Which which, bool keep) {
-        for (std::size_t i = draft.size(); i-- > 0;) {
-            if (draft[i].result == kNone || !which(draft[i])) continue;
-            TapeStep& step = tape.steps[--at] = draft[i];
-            step.result = registers[i + 3];
-            eachOperand(step, [&](uint32_t& operand) {
-                uint32_t& own = registers[operand];
-                if (own == kNone) own = keep && !which(draft[operand - 3]) ? count++ : take();
-                operand = own;
-            });
-            free.push_back(step.result);
-        }
-    }
+    static constexpr uint32_t kPlaced = kNone - 1;
 
-    std::vector<TapeStep>& draft;
+    const std::vector<TapeStep>& draft;
     std::vector<uint32_t>& registers;  // by value
-    std::vector<uint32_t> free;
+    std::size_t at = 0;                // the first step that is placed
     uint32_t count = 3;
+    // Kept between runs: tapes are made by the thousand.
+    static thread_local std::vector<uint32_t> free;
+    static thread_local std::vector<TapeStep> placed;
 };
+thread_local std::vector<uint32_t> Allocation::free;
+thread_local std::vector<TapeStep> Allocation::placed;
 
 /// The tape of a draft, whose roots are names.
 void allocate(Tape& tape, std::vector<TapeStep>& draft, std::vector<uint32_t>& registers,
@@ -152,9 +153,20 @@ uint8_t decided(Op op, const Interval* x) {
     }
 }
 
+/// The operand that has the sign of the step's result all over the box, counted from 1; or 0.
+uint8_t decidedSign(Op op, const Interval* x) {
+    if (op == Op::minimum) return x[1].lo > 0.0 ? 1 : x[0].lo > 0.0 ? 2 : 0;
+    if (op == Op::maximum) return x[1].hi < 0.0 ? 1 : x[0].hi < 0.0 ? 2 : 0;
+    return 0;
+}
+
+/// Whether the sign of the result follows from the operands' signs.
+bool keepsSigns(Op op) { return op == Op::minimum || op == Op::maximum || op == Op::negate; }
+
 /// Calls visit(id) for what the roots need, ascending.
 template <class Visit>
 void eachNeeded(const Ir& ir, std::span<const IrId> roots, Visit visit) {
+    const Arities& arity = arities();
     const IrId last = std::ranges::max(roots);
     std::vector<uint64_t> needed(last / 64 + 1);
     for (IrId root : roots) needed[root / 64] |= uint64_t(1) << root % 64;
@@ -162,7 +174,7 @@ void eachNeeded(const Ir& ir, std::span<const IrId> roots, Visit visit) {
         for (uint64_t left = needed[word]; left;) {
             const int bit = 63 - std::countl_zero(left);
             const IrNode& node = ir[IrId(word * 64 + std::size_t(bit))];
-            for (int i = 0; i < arityOf(node.op); ++i)
+            for (int i = 0; i < arity[std::size_t(node.op)]; ++i)
                 needed[node.operands[i] / 64] |= uint64_t(1) << node.operands[i] % 64;
             left = needed[word] & ((uint64_t(1) << bit) - 1);
         }
@@ -180,7 +192,7 @@ Tape makeTape(const Ir& ir, std::span<const IrId> roots, std::span<const double>
     const auto names = std::make_unique_for_overwrite<uint32_t[]>(size);  // set before they are read
     eachNeeded(ir, roots, [&](IrId id) {
         const IrNode& node = ir[id];
-        const int arity = arityOf(node.op);
+        const int arity = arities()[std::size_t(node.op)];
         if (id < 3) {
             names[id] = id;
         } else if (node.positions == 0) {
@@ -223,6 +235,7 @@ Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
         const double value = isSingle ? double(tape.numbers->floats[place]) : tape.numbers->doubles[place];
         return Interval{value, value};
     };
+    const std::span<const OpInfo> table = opTable();
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
         taken[i] = 0;
@@ -230,34 +243,37 @@ Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
             intervals[step.result] = number(step.operands[0]);
             continue;
         }
-        const OpInfo& info = opInfo(step.op);
+        const OpInfo& info = table[std::size_t(step.op)];
         Interval operands[kMaxArity];
         for (int k = 0; k < info.arity; ++k)
             operands[k] = step.numbers >> k & 1 ? number(step.operands[k]) : intervals[step.operands[k]];
         const SampledLayer layer = layerOf(tape, step);
-        taken[i] = decided(step.op, operands);
+        taken[i] = uint8_t(decided(step.op, operands) | decidedSign(step.op, operands) << 4);
         decisions += taken[i] != 0;
         intervals[step.result] =
-            isSingle ? singlePrecisionInterval(info, std::span(operands, std::size_t(info.arity)), layer)
-                     : info.interval(operands, layer);
+            isSingle && info.rounding != Rounding::none
+                ? singlePrecisionInterval(info, std::span(operands, std::size_t(info.arity)), layer)
+                : info.interval(operands, layer);
     }
     return intervals[tape.roots[0]];
 }
 
 template <class T>
 Tape TapeMachine<T>::shortened(const Tape& tape) {
+    const Arities& all = arities();
     draft.clear();
     names.assign(tape.registers, kNone);
     for (uint32_t axis = 0; axis < 3; ++axis) names[axis] = axis;
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
-        const int arity = arityOf(step.op);
+        const int arity = all[std::size_t(step.op)];
         std::array<uint32_t, kMaxArity> operands{};
         for (int k = 0; k < arity; ++k)
             operands[k] = step.numbers >> k & 1 ? step.operands[k] | kNumber : names[step.operands[k]];
         if (samples(step.op)) operands[kMaxArity - 1] = step.operands[kMaxArity - 1];
+        const int equal = taken[i] & 15;
         names[step.result] = step.op == Op::constant ? step.operands[0] | kNumber
-                             : taken[i]              ? operands[taken[i] - 1]
+                             : equal                 ? operands[std::size_t(equal - 1)]
                                                      : addStep(draft, step.op, operands, arity);
     }
     Tape result{.numbers = tape.numbers};
@@ -265,6 +281,23 @@ Tape TapeMachine<T>::shortened(const Tape& tape) {
     for (uint32_t root : tape.roots) roots.push_back(names[root]);
     allocate(result, draft, names, roots);
     return result;
+}
+
+template <class T>
+Tape TapeMachine<T>::shortenedForSigns(const Tape& tape) {
+    const Arities& all = arities();
+    // Of each register, whether more than the sign counts of what is in it, seen from the end.
+    names.assign(tape.registers, 0);
+    for (std::size_t i = 1; i < tape.roots.size(); ++i) names[tape.roots[i]] = 1;
+    for (std::size_t i = tape.steps.size(); i-- > 0;) {
+        const TapeStep& step = tape.steps[i];
+        const bool exact = std::exchange(names[step.result], 0);
+        if (!exact && taken[i] >> 4) taken[i] >>= 4;
+        if (!exact && keepsSigns(step.op)) continue;
+        for (int k = 0; k < all[std::size_t(step.op)]; ++k)
+            if (!(step.numbers >> k & 1)) names[step.operands[std::size_t(k)]] = 1;
+    }
+    return shortened(tape);
 }
 
 template <class T>
@@ -280,9 +313,8 @@ typename TapeMachine<T>::Operands TapeMachine<T>::operandsOf(const Tape& tape, c
         else
             return tape.numbers->doubles.data();
     }();
-    Operands operands{};
-    const int most = samples(step.op) ? kMaxArity - 1 : kMaxArity;
-    for (int i = 0; i < most; ++i)  // what lies beyond the arity is not read
+    Operands operands;
+    for (int i = 0; i < std::max<int>(arities()[std::size_t(step.op)], 1); ++i)
         operands.rows[i] =
             step.numbers >> i & 1 ? numbers + step.operands[i] : rows[step.operands[i]].numbers;
     return operands;
@@ -334,31 +366,41 @@ typename TapeMachine<T>::Gradients TapeMachine<T>::gradient(const Tape& tape, st
     make(tape);
     const auto kernels = opKernels<T>();
     const auto along = [](auto* row, std::size_t axis) { return row + (axis + 1) * kGradientPoints; };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t other = 0; other < 3; ++other)
-            std::fill_n(along(position(int(axis)), other), count, T(axis == other));
+    const Arities& all = arities();
+    // Of each register, which components of its gradient are there; the others are 0.
+    static constexpr T kZeros[kGradientPoints] = {};
+    names.resize(std::max<std::size_t>(names.size(), tape.registers));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::fill_n(along(position(int(axis)), axis), count, T(1));
+        names[axis] = 1u << axis;
+    }
     for (const TapeStep& step : tape.steps) {
         const Operands operands = operandsOf(tape, step);
         T* const result = rows[step.result].numbers;
+        names[step.result] = step.positions;
+        if (step.op == Op::constant) {
+            std::fill_n(result, count, *operands.rows[0]);
+            continue;
+        }
         const OpKernels<T>& own = *kernels[std::size_t(step.op)];
         const SampledLayer layer = layerOf(tape, step);
-        if (step.op == Op::constant)
-            std::fill_n(result, count, *operands.rows[0]);
-        else
-            own.values[step.numbers](operands.rows, result, count, layer);
+        own.values[step.numbers](operands.rows, result, count, layer);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(step.positions >> axis & 1)) {
-                std::fill_n(along(result, axis), count, T(0));
-                continue;
-            }
+            if (!(step.positions >> axis & 1)) continue;
             const T* slopes[kMaxArity];
-            for (int i = 0; i < kMaxArity; ++i)
-                slopes[i] = step.numbers >> i & 1 ? operands.rows[i] : along(operands.rows[i], axis);
+            for (int i = 0; i < all[std::size_t(step.op)]; ++i)  // a number's is not read
+                slopes[i] = step.numbers >> i & 1                              ? kZeros
+                            : names[step.operands[std::size_t(i)]] >> axis & 1 ? along(operands.rows[i], axis)
+                                                                               : kZeros;
             own.slopes[step.numbers](operands.rows, result, slopes, along(result, axis), count, layer);
         }
     }
-    const T* const root = rows[tape.roots[0]].numbers;
-    return {root, {along(root, 0), along(root, 1), along(root, 2)}};
+    const uint32_t first = tape.roots[0];
+    const T* const root = rows[first].numbers;
+    const auto component = [&](std::size_t axis) {
+        return names[first] >> axis & 1 ? static_cast<const T*>(along(root, axis)) : kZeros;
+    };
+    return {root, {component(0), component(1), component(2)}};
 }
 
 template <class T>

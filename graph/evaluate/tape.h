@@ -79,6 +79,10 @@ class TapeMachine {
     bool shortens() const { return decisions > 0; }
     /// The tape for the box of the last call of interval(), which was for this tape.
     Tape shortened(const Tape& tape);
+    /// The same for who looks at the first root's sign alone: below, at, or above 0. Of a minimum whose sign
+    /// is all that counts, what is above 0 all over the box is left out; of a maximum what is below. Near the
+    /// places where the value is 0 it is the full tape's.
+    Tape shortenedForSigns(const Tape& tape);
 
     /// Where to write the batch's positions along an axis, before each evaluation.
     T* position(int axis) { return rows[std::size_t(axis)].numbers; }
@@ -121,7 +125,9 @@ class TapeMachine {
 
     std::vector<Row> rows;            // by register
     std::vector<Interval> intervals;  // by register
-    std::vector<uint8_t> taken;       // by step: the operand that its result equals, counted from 1; or 0
+    /// By step: the operand that its result equals, counted from 1, or 0; and from bit 4 on the one that has
+    /// its sign.
+    std::vector<uint8_t> taken;
     std::size_t decisions = 0;
     std::vector<TapeStep> draft;  // of a shortened tape
     std::vector<uint32_t> names;  // by register, then by value of the draft

@@ -52,7 +52,7 @@ class Lines {
         if (f.lo >= 0.0 || f.hi < 0.0) return;
         const auto axis = std::size_t(along);
         if (piece.hi[axis] - piece.lo[axis] <= least) return close(along, piece, tape);
-        const Tape shorter = machine.shortens() ? machine.shortened(tape) : Tape();
+        const Tape shorter = machine.shortens() ? machine.shortenedForSigns(tape) : Tape();
         const bool worth =
             machine.shortens() && double(shorter.steps.size()) < kWorthKeeping * double(tape.steps.size());
         const double middle = 0.5 * (piece.lo[axis] + piece.hi[axis]);

@@ -76,7 +76,8 @@ void MesherHost::descend(Machine& machine, const MesherPush& push, uvec3 first, 
     if (f.lo >= push.margin || (f.hi < -push.margin && !atRim)) return;
     SharedTape own = tape;
     if (machine.shortens()) {
-        Tape shorter = machine.shortened(*tape);
+        // A margin is asked for where signs have not been enough.
+        Tape shorter = push.margin > 0 ? machine.shortened(*tape) : machine.shortenedForSigns(*tape);
         if (double(shorter.steps.size()) <= kWorthKeeping * double(tape->steps.size()))
             own = std::make_shared<Tape>(std::move(shorter));
     }

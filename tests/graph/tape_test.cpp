@@ -129,7 +129,7 @@ TEST(Tape, EveryOperationMeansTheSameInEveryEvaluator) {
 }
 
 TEST(Tape, ShortenedTapesKeepEveryValueOfRandomGraphs) {
-    std::size_t shorter = 0, tapes = 0;
+    std::size_t shorter = 0, fewer = 0, tapes = 0;
     const auto probe = [&]<class T>(TapeMachine<T>& machine, const Program& program, uint32_t seed) {
         const std::vector<double> parameters = program.parameters();
         const Tape whole = makeTape(program.ir, program.distance(), parameters);
@@ -166,6 +166,17 @@ TEST(Tape, ShortenedTapesKeepEveryValueOfRandomGraphs) {
                 ASSERT_TRUE(!finite || range.contains(double(values[i])))
                     << "seed " << seed << ", box of " << size << ": " << values[i];
             }
+            // Whose sign alone counts is shorter still.
+            machine.interval(whole, box);
+            const Tape signs = machine.shortenedForSigns(whole);
+            EXPECT_LE(signs.steps.size(), own.steps.size());
+            place();
+            const T* sided = machine.value(signs, count);
+            for (std::size_t i = 0; i < count; ++i)
+                ASSERT_TRUE(std::isnan(values[i]) ||
+                            ((sided[i] < 0) == (values[i] < 0) && (sided[i] > 0) == (values[i] > 0)))
+                    << "seed " << seed << ", box of " << size << ": " << values[i] << ", " << sided[i];
+            fewer += signs.steps.size() < own.steps.size();
             // A part of the box makes a shorter tape of the shortened one.
             Box part = box;
             part.hi[0] = double(T(0.5 * (box.lo[0] + box.hi[0])));
@@ -195,6 +206,7 @@ TEST(Tape, ShortenedTapesKeepEveryValueOfRandomGraphs) {
     }
     EXPECT_GT(tapes, 600u);
     EXPECT_GT(shorter, tapes / 4) << "nothing is dropped";
+    EXPECT_GT(fewer, tapes / 10) << "signs drop nothing more";
 }
 
 /// So many operations on values made before, the positions among them, any of which may be old.
