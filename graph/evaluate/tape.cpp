@@ -292,7 +292,7 @@ Tape TapeMachine<T>::shortenedForSigns(const Tape& tape) {
     for (std::size_t i = tape.steps.size(); i-- > 0;) {
         const TapeStep& step = tape.steps[i];
         const bool exact = std::exchange(names[step.result], 0);
-        if (!exact && taken[i] >> 4) taken[i] >>= 4;
+        if (!exact && !(taken[i] & 15)) taken[i] >>= 4;
         if (!exact && keepsSigns(step.op)) continue;
         for (int k = 0; k < all[std::size_t(step.op)]; ++k)
             if (!(step.numbers >> k & 1)) names[step.operands[std::size_t(k)]] = 1;

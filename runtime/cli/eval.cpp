@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "graph/base/parallel.h"
 #include "graph/base/result.h"
@@ -32,9 +34,9 @@ enum class Asked { values, gradients, bounds };
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// Reads exactly `count` finite numbers parted by blanks, or by one comma each; says what is wrong, or
-/// nothing. `nothing` tells of a line that is empty but for a comment.
-std::string readLine(const char* at, const char* end, double* numbers, std::size_t count, bool& nothing) {
+/// Reads, from `at` on, exactly `count` finite numbers parted by blanks, or by one comma each; says what is
+/// wrong, or nothing. `nothing` tells of a line that is empty but for a comment.
+std::string readLine(const char*& at, const char* end, double* numbers, std::size_t count, bool& nothing) {
     if (const void* comment = std::memchr(at, '#', std::size_t(end - at)))
         end = static_cast<const char*>(comment);
     const auto skip = [&] {
@@ -57,7 +59,7 @@ std::string readLine(const char* at, const char* end, double* numbers, std::size
         if (fault == std::errc::result_out_of_range)  // zero, if it is too near to that; or infinite
             numbers[i] = std::strtod(std::string(at, next).c_str(), nullptr);
         if (fault == std::errc::invalid_argument || !std::isfinite(numbers[i])) {
-            const char* word = from;
+            const char* word = at = from;
             while (word < end && !isBlank(*word) && *word != ',') ++word;
             return word == from ? "expected a number before " + inQuotes({from, end})
                                 : inQuotes({from, word}) + " is not a finite number";
@@ -90,6 +92,7 @@ struct Block {
     std::string_view text;
     std::string answers = {}, fault = {};
     std::size_t lines = 0;  // up to the fault and with it, if there is one
+    int column = 0;         // of the fault
 };
 
 /// Answers a block: the points of several lines at once.
@@ -115,7 +118,9 @@ void answer(const Tape& tape, Asked asked, Block& block) {
         const char* const stop = found ? static_cast<const char*>(found) : end;
         double numbers[6];
         bool nothing = false;
-        block.fault = readLine(at, stop, numbers, asked == Asked::bounds ? 6 : 3, nothing);
+        const char* place = at;
+        block.fault = readLine(place, stop, numbers, asked == Asked::bounds ? 6 : 3, nothing);
+        block.column = int(std::min<std::ptrdiff_t>(place - at, 1 << 20)) + 1;
         at = stop + 1;
         ++block.lines;
         if (nothing || !block.fault.empty()) continue;
@@ -126,6 +131,7 @@ void answer(const Tape& tape, Asked asked, Block& block) {
         }
         for (int axis = 0; axis < 3 && block.fault.empty(); ++axis)
             if (numbers[axis] > numbers[axis + 3])
+                block.column = 1,
                 block.fault = std::string("the first corner lies beyond the second along ") + "xyz"[axis] +
                               ": " + kBoxOrder;
         if (!block.fault.empty()) continue;
@@ -150,23 +156,24 @@ class Lines {
     /// Whole lines, as many as there are without waiting, at least one; empty at the end. They hold until the
     /// next call.
     std::string_view next() {
-        buffer.erase(0, given);
-        given = 0;
+        std::copy(buffer.begin() + std::ptrdiff_t(given), buffer.begin() + std::ptrdiff_t(filled),
+                  buffer.begin());
+        filled -= given;
         std::size_t whole = 0;
-        while (!ended && (whole == 0 || (buffer.size() < kChunk && more()))) {
-            const std::size_t before = buffer.size();
-            buffer.resize(std::max(before + kBlock, kChunk));
-            const ssize_t got = read(file, buffer.data() + before, buffer.size() - before);
-            buffer.resize(before + std::size_t(std::max<ssize_t>(got, 0)));
+        while (!ended && (whole == 0 || (filled < kChunk && more()))) {
+            const ssize_t got = read(file, buffer.data() + filled, buffer.size() - filled);
             if (got < 0 && errno == EINTR) continue;
             if (got < 0) fault = errno;
             ended = got <= 0;
-            const std::size_t newline = std::string_view(buffer).substr(before).rfind('\n');
-            if (newline != std::string::npos) whole = before + newline + 1;
-            if (whole == 0 && buffer.size() > kChunk) break;  // no line is that long
+            if (ended) break;
+            const std::size_t newline =
+                std::string_view(buffer.data() + filled, std::size_t(got)).rfind('\n');
+            if (newline != std::string::npos) whole = filled + newline + 1;
+            filled += std::size_t(got);
+            if (whole == 0 && filled >= kChunk) break;  // no line of numbers is that long
         }
-        given = ended || whole == 0 ? buffer.size() : whole;
-        return std::string_view(buffer).substr(0, given);
+        given = ended || whole == 0 ? filled : whole;
+        return {buffer.data(), given};
     }
 
     int fault = 0;  ///< errno, where reading failed
@@ -179,8 +186,8 @@ class Lines {
 
     bool own;
     int file;
-    std::string buffer;
-    std::size_t given = 0;
+    std::vector<char> buffer = std::vector<char>(kChunk);
+    std::size_t filled = 0, given = 0;  // bytes of it
     bool ended = false;
 };
 
@@ -188,12 +195,12 @@ class Lines {
 int evalLines(const Program& program, const std::string& path, Asked asked) {
     const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
     const std::string name = path == "-" ? "standard input" : path;
-    const auto refuse = [&](const std::string& message, std::size_t line) {
-        print(Error{.message = message, .file = name, .line = int(line)});
+    const auto refuse = [&](const std::string& message, std::size_t line = 0, int column = 0) {
+        print(Error{.message = message, .file = name, .line = int(line), .column = column});
         return kBadInput;
     };
     Lines lines(path);
-    if (!lines.opened()) return refuse(std::string("cannot be read: ") + std::strerror(errno), 0);
+    if (!lines.opened()) return refuse(std::string("cannot be read: ") + std::strerror(errno));
     std::size_t line = 0;
     for (std::string_view text; !(text = lines.next()).empty();) {
         std::vector<Block> blocks;
@@ -208,11 +215,11 @@ int evalLines(const Program& program, const std::string& path, Asked asked) {
         for (const Block& block : blocks) {
             std::fwrite(block.answers.data(), 1, block.answers.size(), stdout);
             line += block.lines;
-            if (!block.fault.empty()) return refuse(block.fault, line);
+            if (!block.fault.empty()) return refuse(block.fault, line, block.column);
         }
         if (std::fflush(stdout) != 0) return kDone;  // which is told behind every command
     }
-    if (lines.fault) return refuse(std::string("cannot be read: ") + std::strerror(lines.fault), 0);
+    if (lines.fault) return refuse(std::string("cannot be read: ") + std::strerror(lines.fault));
     return kDone;
 }
 
