@@ -142,6 +142,11 @@ void allocate(Tape& tape, std::vector<TapeStep>& draft, std::vector<uint32_t>& r
     if (tape.registers > 16 + tape.steps.size() / 6) allocation.run(tape, roots, false);
 }
 
+/// Whether intervals can tell which operand counts.
+bool decides(Op op) {
+    return op == Op::minimum || op == Op::maximum || op == Op::select || op == Op::smoothMinimum;
+}
+
 /// The operand that the step's result equals all over the box, counted from 1; or 0.
 uint8_t decided(Op op, const Interval* x) {
     switch (op) {
@@ -248,8 +253,10 @@ Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
         for (int k = 0; k < info.arity; ++k)
             operands[k] = step.numbers >> k & 1 ? number(step.operands[k]) : intervals[step.operands[k]];
         const SampledLayer layer = layerOf(tape, step);
-        taken[i] = uint8_t(decided(step.op, operands) | decidedSign(step.op, operands) << 4);
-        decisions += taken[i] != 0;
+        if (decides(step.op)) {
+            taken[i] = uint8_t(decided(step.op, operands) | decidedSign(step.op, operands) << 4);
+            decisions += taken[i] != 0;
+        }
         intervals[step.result] =
             isSingle && info.rounding != Rounding::none
                 ? singlePrecisionInterval(info, std::span(operands, std::size_t(info.arity)), layer)
@@ -262,6 +269,7 @@ template <class T>
 Tape TapeMachine<T>::shortened(const Tape& tape) {
     const Arities& all = arities();
     draft.clear();
+    draft.reserve(tape.steps.size());
     names.assign(tape.registers, kNone);
     for (uint32_t axis = 0; axis < 3; ++axis) names[axis] = axis;
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {

@@ -196,9 +196,9 @@ TEST_F(Command, EvalRefusesALineThatIsWrongByItsNumber) {
     expectRefusal(runCommand({"eval", graph, "--points", folder.folder.string()}), 1,
                   {"cannot be read: Is a directory"});
     expectRefusal(runCommand({"eval", graph, "--points", "-", "--at", "0", "0", "0"}), 2,
-                  {"--points excludes --at"});
+                  {"--at excludes --points"});
     expectRefusal(runCommand({"eval", graph, "--boxes", "-", "--gradient"}), 2,
-                  {"--boxes excludes --gradient"});
+                  {"--gradient excludes --boxes"});
 }
 
 TEST_F(Command, RegionsThatAreNoBoxAreUsage) {
