@@ -237,21 +237,25 @@ Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
     for (std::size_t axis = 0; axis < 3; ++axis) intervals[axis] = {box.lo[axis], box.hi[axis]};
     decisions = 0;
     const auto number = [&](uint32_t place) {
-        const double value = isSingle ? double(tape.numbers->floats[place]) : tape.numbers->doubles[place];
-        return Interval{value, value};
+        return isSingle ? double(tape.numbers->floats[place]) : tape.numbers->doubles[place];
     };
     const std::span<const OpInfo> table = opTable();
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
         taken[i] = 0;
         if (step.op == Op::constant) {
-            intervals[step.result] = number(step.operands[0]);
+            intervals[step.result] = {number(step.operands[0]), number(step.operands[0])};
             continue;
         }
         const OpInfo& info = table[std::size_t(step.op)];
         Interval operands[kMaxArity];
-        for (int k = 0; k < info.arity; ++k)
-            operands[k] = step.numbers >> k & 1 ? number(step.operands[k]) : intervals[step.operands[k]];
+        // End by end, as they were written: read as a whole, they would have to wait for the memory.
+        for (int k = 0; k < info.arity; ++k) {
+            const uint32_t place = step.operands[k];
+            const bool isNumber = step.numbers >> k & 1;
+            operands[k].lo = isNumber ? number(place) : intervals[place].lo;
+            operands[k].hi = isNumber ? number(place) : intervals[place].hi;
+        }
         const SampledLayer layer = layerOf(tape, step);
         if (decides(step.op)) {
             taken[i] = uint8_t(decided(step.op, operands) | decidedSign(step.op, operands) << 4);
