@@ -88,6 +88,11 @@ class Allocation {
         tape.registers = count;
     }
 
+    /// Bytes that this thread keeps for the next run.
+    static std::size_t keptBytes() {
+        return free.capacity() * sizeof(uint32_t) + placed.capacity() * sizeof(TapeStep);
+    }
+
   private:
     /// Places the steps that depend on these axes, of those that are not placed yet. With `keep`, what other
     /// steps make has registers that none of these writes.
@@ -430,7 +435,8 @@ void TapeMachine<T>::evaluate(const Tape& tape, std::span<const Point> points, s
 template <class T>
 std::size_t TapeMachine<T>::bytes() const {
     return rows.capacity() * sizeof(Row) + intervals.capacity() * sizeof(Interval) + taken.capacity() +
-           draft.capacity() * sizeof(TapeStep) + names.capacity() * sizeof(uint32_t);
+           draft.capacity() * sizeof(TapeStep) + names.capacity() * sizeof(uint32_t) +
+           Allocation::keptBytes();
 }
 
 template class TapeMachine<float>;

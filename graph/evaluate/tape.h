@@ -110,7 +110,7 @@ class TapeMachine {
     /// Values of the first root at any number of points.
     void evaluate(const Tape& tape, std::span<const Point> points, std::span<double> values);
 
-    /// Bytes that this takes beside the tapes.
+    /// Bytes that this and its thread take beside the tapes.
     std::size_t bytes() const;
 
   private:
