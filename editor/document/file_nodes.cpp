@@ -44,8 +44,8 @@ Graph shownAtFreeOutput(const Graph& graph, const Plug& surface) {
     const Wiring wiring(graph, "");
     for (const Node& node : graph.nodes) {
         const Plug input{node.id, "surface"};
-        if (roleOf(node.type) == NodeRole::output && !wiring.source(input) && !wiring.source({node.id, "mesh"}) &&
-            wiring.refusal(surface, input).empty())
+        if (roleOf(node.type) == NodeRole::output && !wiring.source(input) &&
+            !wiring.source({node.id, "mesh"}) && wiring.refusal(surface, input).empty())
             return connect(graph, "", surface, input);
     }
     return graph;

@@ -21,7 +21,7 @@ namespace fw::editor {
 namespace {
 
 constexpr std::size_t kSide = kThumbnailSide;
-static_assert(kSide <= TapeMachine::kBatch, "a row is one batch");
+static_assert(kSide <= TapeMachine<float>::kPoints, "a row is one batch");
 constexpr int kMostSteps = 160;
 constexpr glm::dvec3 kBackdrop(0.035, 0.037, 0.042);
 /// Of fields whose Lipschitz constant is unknown: steps of the solid's size that do not jump over much.
@@ -36,17 +36,20 @@ struct Rays {
 };
 
 struct Field {
-    const Program& program;
-    TapeMachine machine;
-    Tape tape;
-    double size;       ///< of the solid's box, metres
-    double lipschitz;  ///< infinite: unknown
+    Tape tape, colors;  ///< the distance, within the solid's box; and the base colour
+    double size;        ///< of the solid's box, metres
+    double lipschitz;   ///< infinite: unknown
+    TapeMachine<float> machine = {};
 
-    const double* at(const Rays& rays) {
-        for (std::size_t i = 0; i < kSide; ++i) {
-            const glm::dvec3 p = rays.eye + rays.along[i] * rays.direction[i];
-            for (int axis = 0; axis < 3; ++axis) machine.position(axis)[i] = p[axis];
+    /// Puts the ends of some of the rays where the machine reads them.
+    void place(const Rays& rays, std::size_t first, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::dvec3 p = rays.eye + rays.along[first + i] * rays.direction[first + i];
+            for (int axis = 0; axis < 3; ++axis) machine.position(axis)[i] = float(p[axis]);
         }
+    }
+    const float* at(const Rays& rays) {
+        place(rays, 0, kSide);
         return machine.value(tape, kSide);
     }
     double step(double distance) const {
@@ -72,7 +75,7 @@ void enter(Rays& rays, const Box& box) {
 
 void trace(Rays& rays, Field& field) {
     for (int step = 0; step < kMostSteps; ++step) {
-        const double* value = field.at(rays);
+        const float* value = field.at(rays);
         bool more = false;
         for (std::size_t i = 0; i < kSide; ++i) {
             if (rays.hit[i] || rays.along[i] > rays.end[i]) continue;
@@ -88,23 +91,20 @@ void trace(Rays& rays, Field& field) {
 /// The light that comes back from where the rays ended: a lamp at the left above, and a sky.
 std::array<glm::dvec3, kSide> shade(const Rays& rays, Field& field) {
     static const glm::dvec3 lamp = glm::normalize(glm::dvec3(-0.45, 0.75, 0.5));
-    field.at(rays);
     std::array<glm::dvec3, kSide> normal, color;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int other = 0; other < 3; ++other)
-            std::fill_n(field.machine.direction(other), kSide, axis == other ? 1.0 : 0.0);
-        const double* slope = field.machine.slope(field.tape, kSide);
-        for (std::size_t i = 0; i < kSide; ++i) normal[i][axis] = slope[i];
+    constexpr std::size_t kBatch = TapeMachine<float>::kGradientPoints;
+    for (std::size_t first = 0; first < kSide; first += kBatch) {
+        const std::size_t count = std::min(kBatch, kSide - first);
+        field.place(rays, first, count);
+        const auto [values, slopes] = field.machine.gradient(field.tape, count);
+        for (std::size_t i = 0; i < count; ++i)
+            normal[first + i] = {slopes[0][i], slopes[1][i], slopes[2][i]};
     }
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < kSide; ++i)
-        points.push_back(
-            {field.machine.position(0)[i], field.machine.position(1)[i], field.machine.position(2)[i]});
-    std::array<double, kSide> base;
+    field.place(rays, 0, kSide);
+    field.machine.value(field.colors, kSide);
     for (std::size_t c = 0; c < 3; ++c) {
-        evaluate(field.program.ir, field.program.surface[baseColorComponent + c], field.program.parameters(),
-                 points, base);
-        for (std::size_t i = 0; i < kSide; ++i) color[i][int(c)] = std::max(base[i], 0.0);
+        const float* base = field.machine.root(field.colors, c);
+        for (std::size_t i = 0; i < kSide; ++i) color[i][int(c)] = std::max(double(base[i]), 0.0);
     }
     for (std::size_t i = 0; i < kSide; ++i) {
         const double length = glm::length(normal[i]);
@@ -175,8 +175,9 @@ Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path,
     const Box box = padded(region.extent == Extent::bounded ? region.box : kUnbounded, kThumbnailSide, 1.0);
     double size = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) size = std::max(size, box.hi[axis] - box.lo[axis]);
-    Field field{*program, TapeMachine(program->ir, parameters), makeTape(program->ir, program->distance()),
-                size, program->exactness.lipschitz};
+    const std::span<const IrId> color = std::span(program->surface).subspan(baseColorComponent, 3);
+    Field field{makeTape(program->ir, program->distance(), parameters),
+                makeTape(program->ir, color, parameters), size, program->exactness.lipschitz};
     field.machine.interval(field.tape, box);
     field.tape = field.machine.shortened(field.tape);
     return Thumbnail{program->structureHash, draw(field, box), ofParticles};

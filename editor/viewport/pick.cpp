@@ -148,14 +148,15 @@ std::optional<std::pair<double, double>> within(const Box& box, const Ray& ray) 
 /// The field along a ray.
 class Along {
   public:
-    Along(TapeMachine& machine_, const Ray& ray_) : machine(machine_), ray(ray_) {}
+    explicit Along(const Ray& ray_) : ray(ray_) {}
 
     /// Where between the two the field is negative first.
     std::optional<double> hit(const Tape& tape, double from, double to, int halvings = kHalvings) {
         const glm::dvec3 a = ray.at(from), b = ray.at(to), lo = glm::min(a, b), hi = glm::max(a, b);
         const Interval range = machine.interval(tape, {{lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}});
         if (range.lo >= 0.0) return std::nullopt;
-        const Tape inside = machine.shortened(tape);
+        const Tape shorter = machine.shortens() ? machine.shortenedForSigns(tape) : Tape();
+        const Tape& inside = machine.shortens() ? shorter : tape;
         if (halvings == 0) {
             if (value(inside, to) >= 0.0) return std::nullopt;
             for (int i = 0; i < kRefinings; ++i) {
@@ -176,7 +177,7 @@ class Along {
         return *machine.value(tape, 1);
     }
 
-    TapeMachine& machine;
+    TapeMachine<double> machine;
     const Ray& ray;
 };
 
@@ -210,7 +211,8 @@ std::vector<double> slopesByParameter(const Ir& ir, IrId root, std::span<const d
             directions[i][i] = i < info.arity ? 1.0 : 0.0;
             values_[i] = operands[i], directions_[i] = directions[i], results[i] = values[id];
         }
-        info.gradients(values_, results, directions_, partial, std::size_t(info.arity), ir.layer(node));
+        opKernels<double>()[std::size_t(node.op)]->slopes[0](values_, results, directions_, partial,
+                                                             std::size_t(info.arity), ir.layer(node));
         for (int i = 0; i < info.arity; ++i)
             if (partial[i] != 0.0 && std::isfinite(partial[i]))
                 slopes[node.operands[std::size_t(i)]] += slopes[id] * partial[i];
@@ -234,9 +236,8 @@ std::string pick(const Seen& seen, double x, double y) {
     const auto part = within(seen.region, ray);
     if (!part) return {};
     const std::vector<double> parameters = program->parameters();
-    TapeMachine machine(program->ir, parameters);
     const auto t =
-        Along(machine, ray).hit(makeTape(program->ir, program->distance()), part->first, part->second);
+        Along(ray).hit(makeTape(program->ir, program->distance(), parameters), part->first, part->second);
     if (!t) return {};
     const std::vector<double> slopes =
         slopesByParameter(program->ir, program->distance(), parameters, ray.at(*t));

@@ -63,12 +63,19 @@ using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
 
 inline constexpr int kLeastParticleResolution = 8, kMostParticleResolution = 512;
 
-/// Reads a stage's numbers, with the live parameters' values. Whatever is wired to an input, they are fit to
-/// be reckoned with as floats: what is not a number counts as 0, and what is beyond 1e30 either way as that.
+/// A stage's numbers, with the live parameters' values. Must not outlive the stage. Whatever is wired to an
+/// input, they are fit to be reckoned with as floats: what is not a number counts as 0, and what is beyond
+/// 1e30 either way as that.
 class StageNumbers {
   public:
-    StageNumbers(const Ir& ir_, const ParticleStage& stage_, std::span<const double> parameters_)
-        : ir(ir_), stage(stage_), parameters(parameters_) {}
+    StageNumbers(const Ir& ir, const ParticleStage& stage, std::span<const double> parameters) {
+        std::vector<IrId> roots;
+        for (const auto& [input, components] : stage.numbers) {
+            places.emplace(input, roots.size());
+            roots.insert(roots.end(), components.begin(), components.end());
+        }
+        values = evaluate(ir, roots, parameters, {});
+    }
     double scalar(std::string_view input) const { return component(input, 0); }
     glm::dvec3 vector(std::string_view input) const {
         return {component(input, 0), component(input, 1), component(input, 2)};
@@ -77,12 +84,11 @@ class StageNumbers {
   private:
     double component(std::string_view input, std::size_t i) const {
         constexpr double kMost = 1e30;
-        const double value = evaluate(ir, stage.numbers.find(input)->second[i], parameters, {});
+        const double value = values[places.find(input)->second + i];
         return std::isnan(value) ? 0.0 : std::clamp(value, -kMost, kMost);
     }
-    const Ir& ir;
-    const ParticleStage& stage;
-    std::span<const double> parameters;
+    std::map<std::string_view, std::size_t> places;  // in `values`, of an input's first component
+    std::vector<double> values;
 };
 
 /// The volume of particles on cubic cells, so many along the longest side of the region, without samples.

@@ -12,10 +12,14 @@ namespace fw {
 namespace {
 
 struct Field {
-    const Ir& ir;
     IrId root;
-    std::span<const double> parameters;
-    JumpCases bounds{ir, root, parameters};
+    Tape tape;
+    JumpCases jumps;
+    TapeMachine<double> machine = {};
+
+    bool outside(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
+    /// The same, also where the field jumps within the box.
+    bool outsideInEachCase(const Box& box) { return outside(box) || jumps.outsideInEachCase(box); }
 };
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
@@ -28,7 +32,7 @@ std::optional<Box> boundByHalfSpaces(Field& field) {
             const auto empty = [&](double at) {
                 Box half = everywhere(kFarthest);
                 (side > 0 ? half.lo : half.hi)[axis] = side * at;
-                return field.bounds.outside(half);
+                return field.outside(half);
             };
             if (!empty(kFarthest * 0.999)) return std::nullopt;
             // `solid` is the farthest plane known to have something beyond it, `clear` one with nothing
@@ -97,7 +101,7 @@ std::optional<Box> shrink(Field& field, const Box& start, int patience, std::siz
             }
             budget -= 2;
             for (const Box& half : halves(cell))
-                if (!field.bounds.outsideInEachCase(half)) next.push_back(half);
+                if (!field.outsideInEachCase(half)) next.push_back(half);
         }
         if (next.empty()) return std::nullopt;
         cells = std::move(next);
@@ -118,7 +122,7 @@ bool touches(const Box& inner, const Box& outer) {
 }
 
 /// A sampled point beyond `box` lies inside the solid: at distances spread evenly over their logarithm.
-bool reachesBeyond(const Field& field, const Box& box) {
+bool reachesBeyond(Field& field, const Box& box) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     std::vector<Point> points;
@@ -141,7 +145,7 @@ bool reachesBeyond(const Field& field, const Box& box) {
         if (!within) points.push_back(point);
     }
     std::vector<double> values(points.size());
-    evaluate(field.ir, field.root, field.parameters, points, values);
+    field.machine.evaluate(field.tape, points, values);
     return std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; });
 }
 
@@ -161,8 +165,8 @@ double longestSide(const Box& box) {
 }
 
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
-    Field field{ir, distance, parameters};
-    if (field.bounds.outside(everywhere(kFarthest))) return {Extent::empty, {}};
+    Field field{distance, makeTape(ir, distance, parameters), JumpCases(ir, distance, parameters)};
+    if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
     // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
     const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {

@@ -2,61 +2,70 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 #include <type_traits>
 
+#include "graph/ir/kernels.h"
 #include "graph/ir/noise.h"
 
 namespace fw {
 
 namespace {
 
-using V = const double*;    // operands' values
-using D = const double*;    // operands' derivatives
 using I = const Interval*;  // operands' intervals
 using L = SampledLayer;
 
 constexpr double kTiny = 1e-30;  // least argument of a logarithm
 
-constexpr auto zeroSlope = [](V, double, D) { return 0.0; };
-constexpr auto leaf = [](V) { return assert(false), 0.0; };
+constexpr auto zeroSlope = []<class T>(const T*, T, const T*) { return T(0); };
+constexpr auto leaf = []<class T>(const T*) { return assert(false), T(0); };
 constexpr auto leafInterval = [](I) { return assert(false), Interval{}; };
 
-/// Calls a meaning, with the layer if it takes one.
-template <class Meaning, class... Arguments>
-constexpr auto call(L layer, Arguments... arguments) {
-    if constexpr (std::is_invocable_v<Meaning, Arguments..., L>)
-        return Meaning{}(arguments..., layer);
-    else
-        return Meaning{}(arguments...);
+template <int count>
+using Arity = std::integral_constant<int, count>;
+
+/// What a value's rounding depends on; see ops.h.
+constexpr Rounding roundingOf(Op op, bool boolean) {
+    switch (op) {
+        case Op::negate:
+        case Op::absolute:
+        case Op::sign:
+        case Op::floor:
+        case Op::ceil:
+        case Op::truncate:
+        case Op::minimum:
+        case Op::maximum:
+        case Op::select: return Rounding::none;
+        case Op::round:
+        case Op::modulo:
+        case Op::truncatedModulo:
+        case Op::smoothMinimum: return Rounding::magnitude;
+        default: return boolean ? Rounding::none : Rounding::result;
+    }
 }
 
 /// A row of the table, its meanings lambdas: only their types are used. The loops over arrays are made from
-/// the scalar meanings, which compile into them.
-template <class Value, class Range, class Slope>
-constexpr OpInfo row(Op op, const char* name, int arity, bool boolean, bool commutative, Value, Range, Slope,
-                     const char* glsl, const char* glslInterval, const char* glslGradient) {
+/// the scalar meanings (kernels.h), which compile into them.
+template <int arity, class Value, class Range, class Slope>
+constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool commutative, Value, Range,
+                     Slope, const char* glsl, const char* glslInterval, const char* glslGradient) {
     static_assert(std::is_empty_v<Value> && std::is_empty_v<Range> && std::is_empty_v<Slope>);
-    constexpr auto value = [](V operands, L layer) { return call<Value>(layer, operands); };
+    constexpr auto value = [](const double* operands, L layer) { return call<Value>(layer, operands); };
     constexpr auto interval = [](I operands, L layer) { return call<Range>(layer, operands); };
-    constexpr auto values = [](const double* const* operands, double* results, std::size_t count, L layer) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const double x[kMaxArity] = {operands[0][k], operands[1][k], operands[2][k], operands[3][k]};
-            results[k] = call<Value>(layer, V(x));
-        }
-    };
-    constexpr auto gradients = [](const double* const* operands, const double* results,
-                                  const double* const* derivatives, double* slopes, std::size_t count,
-                                  L layer) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const double x[kMaxArity] = {operands[0][k], operands[1][k], operands[2][k], operands[3][k]};
-            const double d[kMaxArity] = {derivatives[0][k], derivatives[1][k], derivatives[2][k],
-                                         derivatives[3][k]};
-            slopes[k] = call<Slope>(layer, V(x), results[k], D(d));
-        }
-    };
-    return {op,       name,   arity,     boolean, commutative,  value,
-            interval, values, gradients, glsl,    glslInterval, glslGradient};
+    return {op,
+            name,
+            arity,
+            boolean,
+            commutative,
+            roundingOf(op, boolean),
+            value,
+            interval,
+            {&kKernels<Value, Slope, arity, double, false>, &kKernels<Value, Slope, arity, double, true>},
+            {&kKernels<Value, Slope, arity, float, false>, &kKernels<Value, Slope, arity, float, true>},
+            glsl,
+            glslInterval,
+            glslGradient};
 }
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
@@ -70,9 +79,10 @@ Interval exponential(Interval a) {
 Interval truth(bool certain, bool impossible) { return {certain ? 1.0 : 0.0, impossible ? 0.0 : 1.0}; }
 /// Quadratic smooth minimum (Quilez): the corner where a = b is filled k / 4 deep, and nothing is changed
 /// where they are k apart.
-double smoothMinimum(double a, double b, double k) {
-    const double h = std::max(k - std::abs(a - b), 0.0);
-    return std::min(a, b) - h * h * (0.25 / std::max(k, 1e-9));
+template <class T>
+constexpr T smoothMinimum(T a, T b, T k) {
+    const T h = std::max(k - std::abs(a - b), T(0));
+    return std::min(a, b) - h * h * (T(0.25) / std::max(k, T(1e-9)));
 }
 /// It grows with a and b, and falls with k: so its ends are those of the operands, however wide these are.
 Interval smoothMinimumInterval(I x) {
@@ -86,13 +96,17 @@ Interval smoothMinimumInterval(I x) {
                        ? kHuge
                        : smoothMinimum(a, b, x[2].lo) + size(std::min(std::abs(a), std::abs(b)), 0.0));
 }
-double smoothMinimumSlope(V x, D d) {
-    const double share = std::max(x[2] - std::abs(x[0] - x[1]), 0.0) / std::max(x[2], 1e-9);
-    const double nearer = x[0] <= x[1] ? d[0] : d[1], other = x[0] <= x[1] ? d[1] : d[0];
-    if (share == 0.0) return nearer;
-    return nearer + 0.5 * share * (other - nearer) - share * (0.5 - 0.25 * share) * d[2];
+template <class T>
+constexpr T smoothMinimumSlope(const T* x, const T* d) {
+    const T share = std::max(x[2] - std::abs(x[0] - x[1]), T(0)) / std::max(x[2], T(1e-9));
+    const T nearer = x[0] <= x[1] ? d[0] : d[1], other = x[0] <= x[1] ? d[1] : d[0];
+    if (share == T(0)) return nearer;
+    return nearer + T(0.5) * share * (other - nearer) - share * (T(0.5) - T(0.25) * share) * d[2];
 }
-double clampUnit(double x) { return std::clamp(x, -1.0, 1.0); }
+template <class T>
+constexpr T clampUnit(T x) {
+    return std::clamp(x, T(-1), T(1));
+}
 
 /// Interval of a noise from its value at the box's centre and its greatest slope.
 Interval noiseInterval(I x, NoiseSample (*noise)(double, double, double, double), double slope, double least,
@@ -107,8 +121,9 @@ Interval noiseInterval(I x, NoiseSample (*noise)(double, double, double, double)
     return lipschitzRange(noise(centre[0], centre[1], centre[2], x[3].lo).value, slope,
                           std::sqrt(squared) + rounding, least, most);
 }
-double noiseSlope(NoiseSample sample, D d) {
-    return sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2];
+template <class T>
+T noiseSlope(const NoiseSample& sample, const T* d) {
+    return T(sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2]);
 }
 Interval hashInterval(I x) {
     for (int i = 0; i < 4; ++i)
@@ -118,237 +133,271 @@ Interval hashInterval(I x) {
 }
 
 constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
-    row(Op::constant, "constant", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""),
-    row(Op::parameter, "parameter", 0, false, false, leaf, leafInterval, zeroSlope, "", "", ""),
-    row(Op::positionX, "x", 0, false, false, leaf, leafInterval, zeroSlope, "p.x", "vec2(lo.x, hi.x)", "1.0"),
-    row(Op::positionY, "y", 0, false, false, leaf, leafInterval, zeroSlope, "p.y", "vec2(lo.y, hi.y)", "1.0"),
-    row(Op::positionZ, "z", 0, false, false, leaf, leafInterval, zeroSlope, "p.z", "vec2(lo.z, hi.z)", "1.0"),
+    row(Op::constant, "constant", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "", "", ""),
+    row(Op::parameter, "parameter", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "", "", ""),
+    row(Op::positionX, "x", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "p.x",
+        "vec2(lo.x, hi.x)", "1.0"),
+    row(Op::positionY, "y", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "p.y",
+        "vec2(lo.y, hi.y)", "1.0"),
+    row(Op::positionZ, "z", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "p.z",
+        "vec2(lo.z, hi.z)", "1.0"),
 
     row(
-        Op::negate, "negate", 1, false, false, [](V x) { return -x[0]; }, [](I x) { return -x[0]; },
-        [](V, double, D d) { return -d[0]; }, "-%a", "-%a.yx", "-%A"),
+        Op::negate, "negate", Arity<1>(), false, false, []<class T>(const T* x) { return -x[0]; },
+        [](I x) { return -x[0]; }, []<class T>(const T*, T, const T* d) { return -d[0]; }, "-%a", "-%a.yx",
+        "-%A"),
     row(
-        Op::absolute, "abs", 1, false, false, [](V x) { return std::abs(x[0]); },
-        [](I x) { return absolute(x[0]); }, [](V x, double, D d) { return x[0] < 0.0 ? -d[0] : d[0]; },
-        "abs(%a)", "iAbs(%a)", "%a < 0.0 ? -%A : %A"),
+        Op::absolute, "abs", Arity<1>(), false, false, []<class T>(const T* x) { return std::abs(x[0]); },
+        [](I x) { return absolute(x[0]); },
+        []<class T>(const T* x, T, const T* d) { return x[0] < T(0) ? -d[0] : d[0]; }, "abs(%a)", "iAbs(%a)",
+        "%a < 0.0 ? -%A : %A"),
     row(
-        Op::sign, "sign", 1, false, false, [](V x) { return double(x[0] > 0.0) - double(x[0] < 0.0); },
+        Op::sign, "sign", Arity<1>(), false, false,
+        []<class T>(const T* x) { return T(x[0] > T(0)) - T(x[0] < T(0)); },
         [](I x) {
             return Interval{double(x[0].lo > 0.0) - double(x[0].lo < 0.0),
                             double(x[0].hi > 0.0) - double(x[0].hi < 0.0)};
         },
         zeroSlope, "sign(%a)", "sign(%a)", ""),
     row(
-        Op::floor, "floor", 1, false, false, [](V x) { return std::floor(x[0]); },
+        Op::floor, "floor", Arity<1>(), false, false, []<class T>(const T* x) { return std::floor(x[0]); },
         [](I x) {
             return Interval{std::floor(x[0].lo), std::floor(x[0].hi)};
         },
         zeroSlope, "floor(%a)", "floor(%a)", ""),
     row(
-        Op::ceil, "ceil", 1, false, false, [](V x) { return std::ceil(x[0]); },
+        Op::ceil, "ceil", Arity<1>(), false, false, []<class T>(const T* x) { return std::ceil(x[0]); },
         [](I x) {
             return Interval{std::ceil(x[0].lo), std::ceil(x[0].hi)};
         },
         zeroSlope, "ceil(%a)", "ceil(%a)", ""),
     row(
-        Op::round, "round", 1, false, false, [](V x) { return std::floor(x[0] + 0.5); },
+        Op::round, "round", Arity<1>(), false, false,
+        []<class T>(const T* x) { return std::floor(x[0] + T(0.5)); },
         [](I x) {
             return Interval{std::floor(x[0].lo + 0.5), std::floor(x[0].hi + 0.5)};
         },
         zeroSlope, "floor(%a + 0.5)", "floor(%a + 0.5)", ""),
     row(
-        Op::truncate, "trunc", 1, false, false, [](V x) { return std::trunc(x[0]); },
+        Op::truncate, "trunc", Arity<1>(), false, false, []<class T>(const T* x) { return std::trunc(x[0]); },
         [](I x) {
             return Interval{std::trunc(x[0].lo), std::trunc(x[0].hi)};
         },
         zeroSlope, "trunc(%a)", "trunc(%a)", ""),
     row(
-        Op::squareRoot, "sqrt", 1, false, false, [](V x) { return std::sqrt(std::max(x[0], 0.0)); },
+        Op::squareRoot, "sqrt", Arity<1>(), false, false,
+        []<class T>(const T* x) { return std::sqrt(std::max(x[0], T(0))); },
         [](I x) { return monotone([](double v) { return std::sqrt(std::max(v, 0.0)); }, x[0], 0.0); },
-        [](V, double v, D d) { return v > 0.0 ? 0.5 * d[0] / v : 0.0; }, "sqrt(max(%a, 0.0))",
-        "iOut(sqrt(max(%a, 0.0)))", "%v > 0.0 ? (0.5 / %v) * %A : 0.0"),
+        []<class T>(const T*, T v, const T* d) { return v > T(0) ? T(0.5) * d[0] / v : T(0); },
+        "sqrt(max(%a, 0.0))", "iOut(sqrt(max(%a, 0.0)))", "%v > 0.0 ? (0.5 / %v) * %A : 0.0"),
     row(
-        Op::square, "square", 1, false, false, [](V x) { return x[0] * x[0]; },
-        [](I x) { return square(x[0]); }, [](V x, double, D d) { return 2.0 * x[0] * d[0]; }, "%a * %a",
-        "iSquare(%a)", "(2.0 * %a) * %A"),
+        Op::square, "square", Arity<1>(), false, false, []<class T>(const T* x) { return x[0] * x[0]; },
+        [](I x) { return square(x[0]); },
+        []<class T>(const T* x, T, const T* d) { return T(2) * x[0] * d[0]; }, "%a * %a", "iSquare(%a)",
+        "(2.0 * %a) * %A"),
     row(
-        Op::exponential, "exp", 1, false, false, [](V x) { return std::exp(x[0]); },
-        [](I x) { return exponential(x[0]); }, [](V, double v, D d) { return v * d[0]; }, "exp(%a)",
-        "iExp(%a)", "%v * %A"),
+        Op::exponential, "exp", Arity<1>(), false, false, []<class T>(const T* x) { return std::exp(x[0]); },
+        [](I x) { return exponential(x[0]); }, []<class T>(const T*, T v, const T* d) { return v * d[0]; },
+        "exp(%a)", "iExp(%a)", "%v * %A"),
     row(
-        Op::logarithm, "log", 1, false, false, [](V x) { return std::log(std::max(x[0], kTiny)); },
+        Op::logarithm, "log", Arity<1>(), false, false,
+        []<class T>(const T* x) { return std::log(std::max(x[0], T(kTiny))); },
         [](I x) { return monotone([](double v) { return std::log(std::max(v, kTiny)); }, x[0], 1e-13); },
-        [](V x, double, D d) { return x[0] > kTiny ? d[0] / x[0] : 0.0; }, "log(max(%a, 1e-30))",
-        "iSlack(log(max(%a, 1e-30)))", "%a > 1e-30 ? %A / %a : 0.0"),
+        []<class T>(const T* x, T, const T* d) { return x[0] > T(kTiny) ? d[0] / x[0] : T(0); },
+        "log(max(%a, 1e-30))", "iSlack(log(max(%a, 1e-30)))", "%a > 1e-30 ? %A / %a : 0.0"),
     row(
-        Op::sine, "sin", 1, false, false, [](V x) { return std::sin(x[0]); }, [](I x) { return sine(x[0]); },
-        [](V x, double, D d) { return std::cos(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)", "cos(%a) * %A"),
+        Op::sine, "sin", Arity<1>(), false, false, []<class T>(const T* x) { return std::sin(x[0]); },
+        [](I x) { return sine(x[0]); },
+        []<class T>(const T* x, T, const T* d) { return std::cos(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)",
+        "cos(%a) * %A"),
     row(
-        Op::cosine, "cos", 1, false, false, [](V x) { return std::cos(x[0]); },
+        Op::cosine, "cos", Arity<1>(), false, false, []<class T>(const T* x) { return std::cos(x[0]); },
         [](I x) {
             return sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
         },
-        [](V x, double, D d) { return -std::sin(x[0]) * d[0]; }, "cos(%a)", "iSin(%a + 1.57079633)",
-        "-sin(%a) * %A"),
+        []<class T>(const T* x, T, const T* d) { return -std::sin(x[0]) * d[0]; }, "cos(%a)",
+        "iSin(%a + 1.57079633)", "-sin(%a) * %A"),
     row(
-        Op::tangent, "tan", 1, false, false, [](V x) { return std::tan(x[0]); },
+        Op::tangent, "tan", Arity<1>(), false, false, []<class T>(const T* x) { return std::tan(x[0]); },
         [](I x) {
             return sine(x[0]) / sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
         },
-        [](V, double v, D d) { return (1.0 + v * v) * d[0]; }, "tan(%a)",
+        []<class T>(const T*, T v, const T* d) { return (T(1) + v * v) * d[0]; }, "tan(%a)",
         "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A"),
     row(
-        Op::arcSine, "asin", 1, false, false, [](V x) { return std::asin(clampUnit(x[0])); },
+        Op::arcSine, "asin", Arity<1>(), false, false,
+        []<class T>(const T* x) { return std::asin(clampUnit(x[0])); },
         [](I x) { return monotone([](double v) { return std::asin(clampUnit(v)); }, x[0], 1e-13); },
-        [](V x, double, D d) { return std::abs(x[0]) < 1.0 ? d[0] / std::sqrt(1.0 - x[0] * x[0]) : 0.0; },
+        []<class T>(const T* x, T, const T* d) {
+            return std::abs(x[0]) < T(1) ? d[0] / std::sqrt(T(1) - x[0] * x[0]) : T(0);
+        },
         "asin(clamp(%a, -1.0, 1.0))", "iSlack(asin(clamp(%a, -1.0, 1.0)))",
         "abs(%a) < 1.0 ? %A / sqrt(1.0 - %a * %a) : 0.0"),
     row(
-        Op::arcCosine, "acos", 1, false, false, [](V x) { return std::acos(clampUnit(x[0])); },
+        Op::arcCosine, "acos", Arity<1>(), false, false,
+        []<class T>(const T* x) { return std::acos(clampUnit(x[0])); },
         [](I x) {
             return outward(std::acos(clampUnit(x[0].hi)) - 1e-13, std::acos(clampUnit(x[0].lo)) + 1e-13);
         },
-        [](V x, double, D d) { return std::abs(x[0]) < 1.0 ? -d[0] / std::sqrt(1.0 - x[0] * x[0]) : 0.0; },
+        []<class T>(const T* x, T, const T* d) {
+            return std::abs(x[0]) < T(1) ? -d[0] / std::sqrt(T(1) - x[0] * x[0]) : T(0);
+        },
         "acos(clamp(%a, -1.0, 1.0))", "iSlack(acos(clamp(%a.yx, -1.0, 1.0)))",
         "abs(%a) < 1.0 ? -%A / sqrt(1.0 - %a * %a) : 0.0"),
     row(
-        Op::arcTangent, "atan", 1, false, false, [](V x) { return std::atan(x[0]); },
+        Op::arcTangent, "atan", Arity<1>(), false, false, []<class T>(const T* x) { return std::atan(x[0]); },
         [](I x) { return monotone([](double v) { return std::atan(v); }, x[0], 1e-13); },
-        [](V x, double, D d) { return d[0] / (1.0 + x[0] * x[0]); }, "atan(%a)", "iSlack(atan(%a))",
-        "%A / (1.0 + %a * %a)"),
+        []<class T>(const T* x, T, const T* d) { return d[0] / (T(1) + x[0] * x[0]); }, "atan(%a)",
+        "iSlack(atan(%a))", "%A / (1.0 + %a * %a)"),
     row(
-        Op::logicalNot, "not", 1, true, false, [](V x) { return 1.0 - x[0]; },
+        Op::logicalNot, "not", Arity<1>(), true, false, []<class T>(const T* x) { return T(1) - x[0]; },
         [](I x) {
             return Interval{1.0 - x[0].hi, 1.0 - x[0].lo};
         },
         zeroSlope, "!%a", "1.0 - %a.yx", ""),
 
     row(
-        Op::add, "add", 2, false, true, [](V x) { return x[0] + x[1]; }, [](I x) { return x[0] + x[1]; },
-        [](V, double, D d) { return d[0] + d[1]; }, "%a + %b", "%a + %b", "%A + %B"),
+        Op::add, "add", Arity<2>(), false, true, []<class T>(const T* x) { return x[0] + x[1]; },
+        [](I x) { return x[0] + x[1]; }, []<class T>(const T*, T, const T* d) { return d[0] + d[1]; },
+        "%a + %b", "%a + %b", "%A + %B"),
     row(
-        Op::subtract, "subtract", 2, false, false, [](V x) { return x[0] - x[1]; },
-        [](I x) { return x[0] - x[1]; }, [](V, double, D d) { return d[0] - d[1]; }, "%a - %b",
-        "iOut(%a - %b.yx)", "%A - %B"),
+        Op::subtract, "subtract", Arity<2>(), false, false, []<class T>(const T* x) { return x[0] - x[1]; },
+        [](I x) { return x[0] - x[1]; }, []<class T>(const T*, T, const T* d) { return d[0] - d[1]; },
+        "%a - %b", "iOut(%a - %b.yx)", "%A - %B"),
     row(
-        Op::multiply, "multiply", 2, false, true, [](V x) { return x[0] * x[1]; },
-        [](I x) { return x[0] * x[1]; }, [](V x, double, D d) { return x[1] * d[0] + x[0] * d[1]; },
-        "%a * %b", "iMultiply(%a, %b)", "%b * %A + %a * %B"),
+        Op::multiply, "multiply", Arity<2>(), false, true, []<class T>(const T* x) { return x[0] * x[1]; },
+        [](I x) { return x[0] * x[1]; },
+        []<class T>(const T* x, T, const T* d) { return x[1] * d[0] + x[0] * d[1]; }, "%a * %b",
+        "iMultiply(%a, %b)", "%b * %A + %a * %B"),
     row(
-        Op::divide, "divide", 2, false, false, [](V x) { return x[0] / x[1]; },
+        Op::divide, "divide", Arity<2>(), false, false, []<class T>(const T* x) { return x[0] / x[1]; },
         [](I x) { return x[0] / x[1]; },
-        [](V x, double v, D d) { return x[1] != 0.0 ? (d[0] - v * d[1]) / x[1] : 0.0; }, "%a / %b",
-        "iDivide(%a, %b)", "%b != 0.0 ? (%A - %v * %B) / %b : 0.0"),
+        []<class T>(const T* x, T v, const T* d) { return x[1] != T(0) ? (d[0] - v * d[1]) / x[1] : T(0); },
+        "%a / %b", "iDivide(%a, %b)", "%b != 0.0 ? (%A - %v * %B) / %b : 0.0"),
     row(
-        Op::minimum, "min", 2, false, true, [](V x) { return std::min(x[0], x[1]); },
-        [](I x) { return minimum(x[0], x[1]); }, [](V x, double, D d) { return x[0] <= x[1] ? d[0] : d[1]; },
-        "min(%a, %b)", "min(%a, %b)", "%a <= %b ? %A : %B"),
+        Op::minimum, "min", Arity<2>(), false, true, []<class T>(const T* x) { return std::min(x[0], x[1]); },
+        [](I x) { return minimum(x[0], x[1]); },
+        []<class T>(const T* x, T, const T* d) { return x[0] <= x[1] ? d[0] : d[1]; }, "min(%a, %b)",
+        "min(%a, %b)", "%a <= %b ? %A : %B"),
     row(
-        Op::maximum, "max", 2, false, true, [](V x) { return std::max(x[0], x[1]); },
-        [](I x) { return maximum(x[0], x[1]); }, [](V x, double, D d) { return x[0] >= x[1] ? d[0] : d[1]; },
-        "max(%a, %b)", "max(%a, %b)", "%a >= %b ? %A : %B"),
+        Op::maximum, "max", Arity<2>(), false, true, []<class T>(const T* x) { return std::max(x[0], x[1]); },
+        [](I x) { return maximum(x[0], x[1]); },
+        []<class T>(const T* x, T, const T* d) { return x[0] >= x[1] ? d[0] : d[1]; }, "max(%a, %b)",
+        "max(%a, %b)", "%a >= %b ? %A : %B"),
     row(
-        Op::power, "pow", 2, false, false, [](V x) { return std::pow(std::max(0.0, x[0]), x[1]); },
+        Op::power, "pow", Arity<2>(), false, false,
+        []<class T>(const T* x) { return std::pow(std::max(T(0), x[0]), x[1]); },
         [](I x) { return power(x[0], x[1]); },
-        [](V x, double v, D d) {
-            return x[0] > 0.0 ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : 0.0;
+        []<class T>(const T* x, T v, const T* d) {
+            return x[0] > T(0) ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : T(0);
         },
         "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0"),
     row(
-        Op::modulo, "mod", 2, false, false, [](V x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
+        Op::modulo, "mod", Arity<2>(), false, false,
+        []<class T>(const T* x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
         [](I x) { return modulo(x[0], x[1]); },
-        [](V x, double, D d) { return d[0] - std::floor(x[0] / x[1]) * d[1]; }, "mod(%a, %b)",
-        "iModulo(%a, %b)", "%A - floor(%a / %b) * %B"),
+        []<class T>(const T* x, T, const T* d) { return d[0] - std::floor(x[0] / x[1]) * d[1]; },
+        "mod(%a, %b)", "iModulo(%a, %b)", "%A - floor(%a / %b) * %B"),
     row(
-        Op::truncatedModulo, "fmod", 2, false, false,
-        [](V x) { return x[0] - x[1] * std::trunc(x[0] / x[1]); },
+        Op::truncatedModulo, "fmod", Arity<2>(), false, false,
+        []<class T>(const T* x) { return x[0] - x[1] * std::trunc(x[0] / x[1]); },
         [](I x) { return truncatedModulo(x[0], x[1]); },
-        [](V x, double, D d) { return d[0] - std::trunc(x[0] / x[1]) * d[1]; }, "(%a - %b * trunc(%a / %b))",
-        "iTruncatedModulo(%a, %b)", "%A - trunc(%a / %b) * %B"),
+        []<class T>(const T* x, T, const T* d) { return d[0] - std::trunc(x[0] / x[1]) * d[1]; },
+        "(%a - %b * trunc(%a / %b))", "iTruncatedModulo(%a, %b)", "%A - trunc(%a / %b) * %B"),
     row(
-        Op::arcTangent2, "atan2", 2, false, false, [](V x) { return std::atan2(x[0], x[1]); },
+        Op::arcTangent2, "atan2", Arity<2>(), false, false,
+        []<class T>(const T* x) { return std::atan2(x[0], x[1]); },
         [](I x) { return arcTangent2(x[0], x[1]); },
-        [](V x, double, D d) {
+        []<class T>(const T* x, T, const T* d) {
             const double squared = x[0] * x[0] + x[1] * x[1];
-            return squared > 0.0 ? (x[1] * d[0] - x[0] * d[1]) / squared : 0.0;
+            return squared > T(0) ? (x[1] * d[0] - x[0] * d[1]) / squared : T(0);
         },
         "fieldArcTangent2(%a, %b)", "iArcTangent2(%a, %b)",
         "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0"),
     row(
-        Op::less, "less", 2, true, false, [](V x) { return double(x[0] < x[1]); },
+        Op::less, "less", Arity<2>(), true, false, []<class T>(const T* x) { return T(x[0] < x[1]); },
         [](I x) { return truth(above(x[0].hi) < below(x[1].lo), below(x[0].lo) >= above(x[1].hi)); },
         zeroSlope, "(%a < %b)", "vec2(%a.y < %b.x, %a.x < %b.y)", ""),
     row(
-        Op::lessEqual, "lessEqual", 2, true, false, [](V x) { return double(x[0] <= x[1]); },
+        Op::lessEqual, "lessEqual", Arity<2>(), true, false,
+        []<class T>(const T* x) { return T(x[0] <= x[1]); },
         [](I x) { return truth(above(x[0].hi) <= below(x[1].lo), below(x[0].lo) > above(x[1].hi)); },
         zeroSlope, "(%a <= %b)", "vec2(%a.y <= %b.x, %a.x <= %b.y)", ""),
     row(
-        Op::equal, "equal", 2, true, true, [](V x) { return double(x[0] == x[1]); },
+        Op::equal, "equal", Arity<2>(), true, true, []<class T>(const T* x) { return T(x[0] == x[1]); },
         [](I x) {
             return truth(x[0].isPoint() && x[1].isPoint() && x[0].lo == x[1].lo && isBounded(x[0]),
                          x[0].hi < x[1].lo || x[1].hi < x[0].lo);
         },
         zeroSlope, "(%a == %b)", "iEqual(%a, %b)", ""),
     row(
-        Op::logicalAnd, "and", 2, true, true, [](V x) { return x[0] * x[1]; },
+        Op::logicalAnd, "and", Arity<2>(), true, true, []<class T>(const T* x) { return x[0] * x[1]; },
         [](I x) { return minimum(x[0], x[1]); }, zeroSlope, "(%a && %b)", "min(%a, %b)", ""),
     row(
-        Op::logicalOr, "or", 2, true, true, [](V x) { return std::max(x[0], x[1]); },
+        Op::logicalOr, "or", Arity<2>(), true, true, []<class T>(const T* x) { return std::max(x[0], x[1]); },
         [](I x) { return maximum(x[0], x[1]); }, zeroSlope, "(%a || %b)", "max(%a, %b)", ""),
 
     row(
-        Op::select, "select", 3, false, false, [](V x) { return x[0] != 0.0 ? x[1] : x[2]; },
+        Op::select, "select", Arity<3>(), false, false,
+        []<class T>(const T* x) { return x[0] != T(0) ? x[1] : x[2]; },
         [](I x) { return x[0].lo > 0.5   ? x[1]
                          : x[0].hi < 0.5 ? x[2]
                                          : hull(x[1], x[2]); },
-        [](V x, double, D d) { return x[0] != 0.0 ? d[1] : d[2]; }, "%a ? %b : %c", "iSelect(%a, %b, %c)",
-        "%a ? %B : %C"),
+        []<class T>(const T* x, T, const T* d) { return x[0] != T(0) ? d[1] : d[2]; }, "%a ? %b : %c",
+        "iSelect(%a, %b, %c)", "%a ? %B : %C"),
     row(
-        Op::smoothMinimum, "smoothMin", 3, false, false, [](V x) { return smoothMinimum(x[0], x[1], x[2]); },
+        Op::smoothMinimum, "smoothMin", Arity<3>(), false, false,
+        []<class T>(const T* x) { return smoothMinimum(x[0], x[1], x[2]); },
         [](I x) { return smoothMinimumInterval(x); },
-        [](V x, double, D d) { return smoothMinimumSlope(x, d); }, "fieldSmoothMin(%a, %b, %c)",
-        "iSmoothMin(%a, %b, %c)", "fieldSmoothMinSlope(%a, %b, %c, %A, %B, %C)"),
+        []<class T>(const T* x, T, const T* d) { return smoothMinimumSlope(x, d); },
+        "fieldSmoothMin(%a, %b, %c)", "iSmoothMin(%a, %b, %c)",
+        "fieldSmoothMinSlope(%a, %b, %c, %A, %B, %C)"),
 
     row(
-        Op::gradientNoise, "perlin", 4, false, false,
-        [](V x) { return gradientNoise(x[0], x[1], x[2], x[3]).value; },
+        Op::gradientNoise, "perlin", Arity<4>(), false, false,
+        []<class T>(const T* x) { return gradientNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) {
             return noiseInterval(x, gradientNoise, kGradientNoiseSlope, -kGradientNoiseRange,
                                  kGradientNoiseRange);
         },
-        [](V x, double, D d) { return noiseSlope(gradientNoise(x[0], x[1], x[2], x[3]), d); },
+        []<class T>(const T* x, T, const T* d) {
+            return noiseSlope(gradientNoise(x[0], x[1], x[2], x[3]), d);
+        },
         "gradientNoise(vec3(%a, %b, %c), %d)",
         "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)",
         "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
     row(
-        Op::simplexNoise, "simplex", 4, false, false,
-        [](V x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
+        Op::simplexNoise, "simplex", Arity<4>(), false, false,
+        []<class T>(const T* x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) {
             return noiseInterval(x, simplexNoise, kSimplexNoiseSlope, -kSimplexNoiseRange,
                                  kSimplexNoiseRange);
         },
-        [](V x, double, D d) { return noiseSlope(simplexNoise(x[0], x[1], x[2], x[3]), d); },
+        []<class T>(const T* x, T, const T* d) {
+            return noiseSlope(simplexNoise(x[0], x[1], x[2], x[3]), d);
+        },
         "simplexNoise(vec3(%a, %b, %c), %d)",
         "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)",
         "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
     row(
-        Op::worleyNoise, "worley", 4, false, false,
-        [](V x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
+        Op::worleyNoise, "worley", Arity<4>(), false, false,
+        []<class T>(const T* x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
-        [](V x, double, D d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
+        []<class T>(const T* x, T, const T* d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
         "worleyNoise(vec3(%a, %b, %c), %d)",
         "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)",
         "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
     row(
-        Op::cellHash, "hash", 4, false, false, [](V x) { return cellHash(x[0], x[1], x[2], x[3]); },
+        Op::cellHash, "hash", Arity<4>(), false, false,
+        []<class T>(const T* x) { return cellHash(x[0], x[1], x[2], x[3]); },
         [](I x) { return hashInterval(x); }, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)",
         "iCellHash(%a, %b, %c, %d)", ""),
 
     row(
-        Op::image, "image", 2, false, false,
-        [](V x, L layer) { return sampleImage(*layer.image, x[0], x[1]).value; },
+        Op::image, "image", Arity<2>(), false, false,
+        []<class T>(const T* x, L layer) { return sampleImage(*layer.image, x[0], x[1]).value; },
         [](I x, L layer) { return sampleImage(*layer.image, x[0], x[1]); },
-        [](V x, double, D d, L layer) {
+        []<class T>(const T* x, T, const T* d, L layer) {
             const ImageSample sample = sampleImage(*layer.image, x[0], x[1]);
             return sample.du * d[0] + sample.dv * d[1];
         },
@@ -356,12 +405,12 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "dot(fieldImage%i(vec2(%a, %b)).yz, vec2(%A, %B))"),
 
     row(
-        Op::volume, "volume", 3, false, false,
-        [](V x, L layer) {
+        Op::volume, "volume", Arity<3>(), false, false,
+        []<class T>(const T* x, L layer) {
             return sampleVolume(*layer.volume, {x[0], x[1], x[2]}).value;
         },
         [](I x, L layer) { return sampleVolume(*layer.volume, x); },
-        [](V x, double, D d, L layer) {
+        []<class T>(const T* x, T, const T* d, L layer) {
             const VolumeSample sample = sampleVolume(*layer.volume, {x[0], x[1], x[2]});
             return sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2];
         },
@@ -380,5 +429,59 @@ static_assert(inOrder(), "rows stand in the order of enum Op");
 
 const OpInfo& opInfo(Op op) { return kTable[static_cast<size_t>(op)]; }
 std::span<const OpInfo> opTable() { return kTable; }
+
+namespace {
+
+bool hasAvx2() {
+#if defined(__x86_64__) || defined(__i386__)
+    return __builtin_cpu_supports("avx2");
+#else
+    return false;
+#endif
+}
+
+template <class T>
+using AllKernels = std::array<const OpKernels<T>*, kTable.size()>;
+
+template <class T>
+AllKernels<T> kernelsHere(const OpKernels<T>* const (OpInfo::*forms)[2]) {
+    AllKernels<T> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = (kTable[i].*forms)[hasAvx2()];
+    return all;
+}
+
+}  // namespace
+
+template <>
+std::span<const OpKernels<double>* const> opKernels<double>() {
+    static const AllKernels<double> all = kernelsHere(&OpInfo::doubles);
+    return all;
+}
+template <>
+std::span<const OpKernels<float>* const> opKernels<float>() {
+    static const AllKernels<float> all = kernelsHere(&OpInfo::floats);
+    return all;
+}
+
+Interval singlePrecisionInterval(const OpInfo& info, std::span<const Interval> operands, SampledLayer layer) {
+    if (info.rounding == Rounding::none) return info.interval(operands.data(), layer);
+    constexpr double kPlaces = 3e-7;  // five of the last places
+    const auto grown = [](Interval a, double by) {
+        return Interval{std::max(a.lo - by, -kHuge), std::min(a.hi + by, kHuge)};
+    };
+    if (info.rounding == Rounding::result) {
+        const Interval range = info.interval(operands.data(), layer);
+        return grown(range, kPlaces * absolute(range).hi);
+    }
+    Interval around[kMaxArity];
+    double most = 0.0;
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        const double size = absolute(operands[i]).hi;
+        around[i] = grown(operands[i], kPlaces * size);
+        most = std::max(most, size);
+    }
+    const Interval range = info.interval(around, layer);
+    return info.op == Op::round ? range : grown(range, kPlaces * std::max(most, absolute(range).hi));
+}
 
 }  // namespace fw

@@ -1,6 +1,6 @@
 // The op table: every scalar operation of the IR with its name, arity and meanings.
 //
-// * value: double x double ... -> double, the reference
+// * value: T x T ... -> T, of which that in double is the reference
 // * interval: Interval x Interval ... -> Interval, containing the value of every point of its operands
 // * gradient: forward mode, the derivative of the result from the operands' derivatives, one direction at a
 // time
@@ -92,20 +92,39 @@ struct SampledLayer {
     const VolumeLayer* volume = nullptr;
 };
 
+/// An operation over rows of `count` numbers. An operand is a row, or a single number where its bit in the
+/// index is set; a form that is null is not there, and its numbers must be put into rows. Results overlap no
+/// operand.
+template <class T>
+struct OpKernels {
+    static constexpr int kForms = 9;
+    void (*values[kForms])(const T* const* operands, T* results, std::size_t count, SampledLayer layer);
+    /// One component of the results' derivative from those of the operands. A number has none: its place in
+    /// `derivatives` is not read.
+    void (*slopes[kForms])(const T* const* operands, const T* results, const T* const* derivatives, T* slopes,
+                           std::size_t count, SampledLayer layer);
+};
+
+/// How far a value in single precision may be from the exact one of its operands.
+enum class Rounding : uint8_t {
+    none,       ///< not at all
+    result,     ///< by some of its own last places
+    magnitude,  ///< by some last places of the greatest of result and operands, which may themselves be off
+                ///< by that when whole numbers are taken of them
+};
+
 struct OpInfo {
     Op op;
     const char* name;
     int arity;
     bool boolean;      ///< the result is a truth value
     bool commutative;  ///< operands may be swapped
+    Rounding rounding;
     // The last argument of each is what Ir::layer() gives for the node.
     double (*value)(const double* operands, SampledLayer layer);
     Interval (*interval)(const Interval* operands, SampledLayer layer);
-    /// value and one component of the result's derivative over arrays: `operands[i]` and `derivatives[i]`
-    /// hold `count` numbers each.
-    void (*values)(const double* const* operands, double* results, std::size_t count, SampledLayer layer);
-    void (*gradients)(const double* const* operands, const double* results, const double* const* derivatives,
-                      double* slopes, std::size_t count, SampledLayer layer);
+    const OpKernels<double>* doubles[2];  ///< for any processor, and for those with AVX2
+    const OpKernels<float>* floats[2];
     const char* glsl;
     const char* glslInterval;
     const char* glslGradient;  ///< "" where the derivative is zero everywhere
@@ -113,5 +132,17 @@ struct OpInfo {
 
 const OpInfo& opInfo(Op op);
 std::span<const OpInfo> opTable();
+
+/// The kernels of all operations for this processor, in the order of the table.
+template <class T>
+std::span<const OpKernels<T>* const> opKernels();
+template <>
+std::span<const OpKernels<double>* const> opKernels<double>();
+template <>
+std::span<const OpKernels<float>* const> opKernels<float>();
+
+/// An interval that contains every value of the operation in single precision, over operands of which the
+/// same holds.
+Interval singlePrecisionInterval(const OpInfo& info, std::span<const Interval> operands, SampledLayer layer);
 
 }  // namespace fw

@@ -90,6 +90,7 @@ int runCheck(const std::vector<std::string>& paths);
 struct EvalOptions {
     GraphOptions graph;
     std::vector<double> at, interval;
+    std::string points, boxes;  ///< files, or "-" for standard input
     bool gradient = false;
 };
 int runEval(const EvalOptions& options);

@@ -1,4 +1,4 @@
-// The commands that look at a graph or at the program without meshing: check, eval, compile, nodes, info.
+// The commands that look at a graph or at the program without meshing: check, compile, nodes, info.
 #include <cstdio>
 #include <string>
 
@@ -71,48 +71,6 @@ int runCheck(const std::vector<std::string>& paths) {
         }
     }
     return sound ? kDone : kBadInput;
-}
-
-int runEval(const EvalOptions& options) {
-    if (options.at.empty() && options.interval.empty()) {
-        std::fprintf(stderr,
-                     "fieldwright eval: give a point (--at x y z) or a box (--interval x0 y0 z0 x1 y1 z1)\n");
-        return kBadUsage;
-    }
-    const std::vector<double>& b = options.interval;
-    for (std::size_t axis = 0; axis < b.size() / 2; ++axis)
-        if (b[axis] > b[axis + 3]) {
-            std::fprintf(
-                stderr,
-                "fieldwright eval: --interval has its first corner beyond its second along %c: write "
-                "its least corner, then its greatest: x0 y0 z0 x1 y1 z1\n",
-                "xyz"[axis]);
-            return kBadUsage;
-        }
-    const std::optional<Graph> graph = openGraph(options.graph);
-    if (!graph) return kBadInput;
-    OpeningDevice device(std::launch::deferred, {});
-    CompileOptions compileOptions;
-    compileOptions.bake = meshFieldBaker([&] { return device.orNone(); });
-    const std::optional<Program> program =
-        openProgram(*graph, options.graph.time, std::move(compileOptions), [&] { return device.orNone(); });
-    if (!program) return kBadInput;
-    if (!options.at.empty()) {
-        const Point point{options.at[0], options.at[1], options.at[2]};
-        ValueGradient result;
-        evaluateGradient(program->ir, program->distance(), program->parameters(), std::span(&point, 1),
-                         std::span(&result, 1));
-        std::printf("%.17g\n", result.value);
-        if (options.gradient)
-            std::printf("%.17g %.17g %.17g\n", result.gradient[0] + 0.0, result.gradient[1] + 0.0,
-                        result.gradient[2] + 0.0);
-    }
-    if (!b.empty()) {
-        const Box box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-        const Interval range = evaluateInterval(program->ir, program->distance(), program->parameters(), box);
-        std::printf("%.17g %.17g\n", range.lo, range.hi);
-    }
-    return kDone;
 }
 
 int runCompile(const CompileCommandOptions& options) {

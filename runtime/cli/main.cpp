@@ -274,15 +274,36 @@ int run(int count, char** arguments) {
     CLI::App* evalCommand =
         app.add_subcommand("eval", "Evaluate a graph's field on the CPU, in double precision");
     addGraph(evalCommand, evalOptions.graph);
-    evalCommand->add_option("--at", evalOptions.at, "The point: x y z. Prints the distance (negative inside)")
-        ->expected(3)
-        ->check(finite());
-    evalCommand->add_flag("--gradient", evalOptions.gradient, "Print the gradient at the point too");
+    CLI::Option* at =
+        evalCommand
+            ->add_option("--at", evalOptions.at, "The point: x y z. Prints the distance (negative inside)")
+            ->expected(3)
+            ->check(finite());
+    CLI::Option* gradient = evalCommand->add_flag(
+        "--gradient", evalOptions.gradient, "Print the gradient too, with --points behind the distance");
+    CLI::Option* interval = evalCommand
+                                ->add_option("--interval", evalOptions.interval,
+                                             "A box: x0 y0 z0 x1 y1 z1. Prints bounds of the field over it")
+                                ->expected(6)
+                                ->check(finite());
+    CLI::Option* points =
+        evalCommand
+            ->add_option(
+                "--points", evalOptions.points,
+                "A file with a point a line, x y z, parted by blanks or commas; what is behind a # is "
+                "passed over. Prints a line for each, in order. - is standard input")
+            ->check(something())
+            ->excludes(at)
+            ->excludes(interval);
     evalCommand
-        ->add_option("--interval", evalOptions.interval,
-                     "A box: x0 y0 z0 x1 y1 z1. Prints bounds of the field over it")
-        ->expected(6)
-        ->check(finite());
+        ->add_option("--boxes", evalOptions.boxes,
+                     "A file with a box a line, x0 y0 z0 x1 y1 z1. Prints bounds for each, in order. - is "
+                     "standard input")
+        ->check(something())
+        ->excludes(at)
+        ->excludes(interval)
+        ->excludes(points)
+        ->excludes(gradient);
 
     CompileCommandOptions compileOptions;
     CLI::App* compileCommand = app.add_subcommand("compile", "Show what a graph compiles to");

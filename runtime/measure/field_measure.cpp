@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "graph/base/parallel.h"
-#include "graph/evaluate/tape.h"
+#include "graph/evaluate/evaluate.h"
 
 namespace fw {
 
@@ -40,8 +40,7 @@ double jitter(uint32_t a, uint32_t b, uint32_t c) {
 /// Looks along one line after another for places where the field changes its sign.
 class Lines {
   public:
-    Lines(const Program& program, const Tape& tape, double shortest)
-        : machine(program.ir, program.parameters()), whole(tape), least(shortest) {}
+    Lines(const Tape& tape, double shortest) : whole(tape), least(shortest) {}
 
     std::vector<Point> found;
 
@@ -53,8 +52,9 @@ class Lines {
         if (f.lo >= 0.0 || f.hi < 0.0) return;
         const auto axis = std::size_t(along);
         if (piece.hi[axis] - piece.lo[axis] <= least) return close(along, piece, tape);
-        const Tape shorter = machine.shortened(tape);
-        const bool worth = double(shorter.steps.size()) < kWorthKeeping * double(tape.steps.size());
+        const Tape shorter = machine.shortens() ? machine.shortenedForSigns(tape) : Tape();
+        const bool worth =
+            machine.shortens() && double(shorter.steps.size()) < kWorthKeeping * double(tape.steps.size());
         const double middle = 0.5 * (piece.lo[axis] + piece.hi[axis]);
         Box half = piece;
         half.hi[axis] = middle;
@@ -67,7 +67,7 @@ class Lines {
     /// Twice a batch of points within the piece: then the root is known to 1e-4 of its length.
     void close(int along, Box piece, const Tape& tape) {
         const auto axis = std::size_t(along);
-        constexpr int kCount = int(TapeMachine::kBatch);
+        constexpr int kCount = int(TapeMachine<double>::kPoints);
         for (int round = 0; round < 2; ++round) {
             const double from = piece.lo[axis], step = (piece.hi[axis] - from) / (kCount - 1);
             for (int i = 0; i < kCount; ++i)
@@ -85,7 +85,7 @@ class Lines {
         found.push_back(root);
     }
 
-    TapeMachine machine;
+    TapeMachine<double> machine;
     const Tape& whole;
     double least;
 };
@@ -108,12 +108,12 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
     for (int along = 0; along < 3; ++along)
         for (uint32_t i = 0; i < across(std::size_t(along + 1) % 3); ++i) rows.push_back({along, i});
 
-    const Tape tape = makeTape(program.ir, program.distance());
+    const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
     std::vector<std::vector<Point>> parts(rows.size());
     forBlocks(rows.size(), 1, [&](std::size_t, std::size_t at, std::size_t) {
         const auto [along, i] = rows[at];
         const std::size_t a = std::size_t(along), b = (a + 1) % 3, c = (a + 2) % 3;
-        Lines looking(program, tape, longest / kLeastPieces);
+        Lines looking(tape, longest / kLeastPieces);
         for (uint32_t j = 0; j < across(c); ++j) {
             Box line = region;
             const uint32_t place = uint32_t(along) << 30;
@@ -127,7 +127,8 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
     std::vector<Point> points;
     for (const std::vector<Point>& part : parts) points.insert(points.end(), part.begin(), part.end());
     std::vector<ValueGradient> fields(points.size());
-    evaluateGradient(program.ir, program.distance(), program.parameters(), points, fields);
+    TapeMachine<double> machine;
+    evaluateGradient(machine, tape, points, fields);
     std::vector<SurfacePoint> surface;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Point& g = fields[i].gradient;
@@ -141,9 +142,11 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
 
 MeasureOptions measureOf(const Program& program, const Box& region) {
     MeasureOptions measure;
-    const auto at = [&program](std::span<const Point> positions) {
+    const auto at = [tape = makeTape(program.ir, program.distance(), program.parameters())](
+                        std::span<const Point> positions) {
         std::vector<ValueGradient> results(positions.size());
-        evaluateGradient(program.ir, program.distance(), program.parameters(), positions, results);
+        TapeMachine<double> machine;
+        evaluateGradient(machine, tape, positions, results);
         return results;
     };
     measure.error = [at, region](std::span<const glm::dvec3> points, std::span<double> errors) {

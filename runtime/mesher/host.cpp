@@ -19,8 +19,9 @@ using gpu::uvec4;
 
 namespace {
 
-constexpr int kMostSteps = 10;       // as in vertices.comp
-constexpr double kTolerance = 0.02;  // ditto
+constexpr int kMostSteps = 10;                                       // as in vertices.comp
+constexpr double kTolerance = 0.02;                                  // ditto
+constexpr std::size_t kBatch = TapeMachine<float>::kGradientPoints;  // of vertices
 /// A tape that is not shorter than this part of the one before is not worth its memory.
 constexpr double kWorthKeeping = 0.8;
 
@@ -47,14 +48,12 @@ struct Search {
 }  // namespace
 
 MesherHost::MesherHost(const Ir& ir, IrId root, std::vector<double> parameters)
-    : field(std::make_shared<Tape>(makeTape(ir, root))) {
-    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
-        machines.emplace_back(ir, parameters);
-}
+    : field(std::make_shared<Tape>(makeTape(ir, root, parameters))),
+      machines(std::max(1u, std::thread::hardware_concurrency())) {}
 
-void MesherHost::parallel(std::size_t count, const std::function<void(TapeMachine&, std::size_t)>& work) {
+void MesherHost::parallel(std::size_t count, const std::function<void(Machine&, std::size_t)>& work) {
     std::atomic<std::size_t> next = 0;
-    const auto run = [&](TapeMachine& machine) {
+    const auto run = [&](Machine& machine) {
         for (std::size_t i; (i = next++) < count;) work(machine, i);
     };
     std::vector<std::jthread> threads;
@@ -62,7 +61,7 @@ void MesherHost::parallel(std::size_t count, const std::function<void(TapeMachin
     run(machines[0]);
 }
 
-void MesherHost::descend(TapeMachine& machine, const MesherPush& push, uvec3 first, uint32_t size,
+void MesherHost::descend(Machine& machine, const MesherPush& push, uvec3 first, uint32_t size,
                          const SharedTape& tape, Block& block) const {
     if (glm::any(glm::greaterThanEqual(first, push.cells + 2u))) return;
     const uvec3 last = first + size;
@@ -75,8 +74,13 @@ void MesherHost::descend(TapeMachine& machine, const MesherPush& push, uvec3 fir
     }
     const Interval f = machine.interval(*tape, box);
     if (f.lo >= push.margin || (f.hi < -push.margin && !atRim)) return;
-    SharedTape own = std::make_shared<Tape>(machine.shortened(*tape));
-    if (own->steps.size() > kWorthKeeping * tape->steps.size()) own = tape;
+    SharedTape own = tape;
+    if (machine.shortens()) {
+        // A margin is asked for where signs have not been enough.
+        Tape shorter = push.margin > 0 ? machine.shortened(*tape) : machine.shortenedForSigns(*tape);
+        if (double(shorter.steps.size()) <= kWorthKeeping * double(tape->steps.size()))
+            own = std::make_shared<Tape>(std::move(shorter));
+    }
     if (size == 8) {
         const uvec3 local = (first - block.first) / 8u;
         block.bricks[local.x | local.y << 3 | local.z << 6] = own;
@@ -93,7 +97,7 @@ MesherHost::Culled MesherHost::cull(const MesherPush& push) {
     Culled result;
     result.rows.resize(count * 64);
     result.blockCounts.resize(count);
-    parallel(count, [&](TapeMachine& machine, std::size_t i) {
+    parallel(count, [&](Machine& machine, std::size_t i) {
         const auto index = uint32_t(i);
         Block& block = blocks[i];
         block.first = uvec3(index % push.blocks.x, index / push.blocks.x % push.blocks.y,
@@ -117,8 +121,7 @@ const Tape& MesherHost::tapeOf(const MesherPush& push, uvec3 brick) const {
     return *at.bricks[local.x | local.y << 3 | local.z << 6];
 }
 
-void MesherHost::samplePlanes(TapeMachine& machine, const MesherPush& push, uvec3 brick,
-                              uvec3* planes) const {
+void MesherHost::samplePlanes(Machine& machine, const MesherPush& push, uvec3 brick, uvec3* planes) const {
     const Tape& tape = tapeOf(push, brick);
     const uvec3 first = brick * 8u;
     const auto within = [&](int axis, uint32_t i) {
@@ -128,17 +131,22 @@ void MesherHost::samplePlanes(TapeMachine& machine, const MesherPush& push, uvec
         machine.position(0)[i] = samplePosition(push, 0, first.x + i / 9);
         machine.position(1)[i] = samplePosition(push, 1, first.y + i % 9);
     }
+    // Which of the nine along an axis are within the grid.
+    uint32_t inGrid[3] = {};
+    for (int axis = 0; axis < 3; ++axis)
+        for (uint32_t i = 0; i < 9; ++i) inGrid[axis] |= uint32_t(within(axis, i)) << i;
     for (uint32_t z = 0; z < 9; ++z) {
         std::fill_n(machine.position(2), 81, samplePosition(push, 2, first.z + z));
-        const double* f = machine.value(tape, 81, z == 0 ? TapeMachine::kAllAxes : uint8_t(dependsOnZ));
+        const float* f = machine.value(tape, 81, z > 0);
         uvec3 bits(0);
-        for (uint32_t i = 0; i < 81; ++i) {
-            const uint32_t x = i / 9, y = i % 9;
-            if (!(f[i] < 0) || !within(0, x) || !within(1, y) || !within(2, z)) continue;
+        for (uint32_t x = 0; x < 9; ++x) {
+            uint32_t row = 0;
+            for (uint32_t y = 0; y < 9; ++y) row |= uint32_t(f[x * 9 + y] < 0) << y;
+            if (!(inGrid[0] >> x & 1) || !(inGrid[2] >> z & 1)) row = 0;
+            row &= inGrid[1];
             // sample.comp tells what the words hold.
-            if (x < 8 && y < 8) bits[x / 4] |= 1u << ((x & 3) * 8 + y);
-            if (x == 8) bits.z |= 1u << y;
-            if (y == 8) bits.z |= 1u << (9 + x);
+            if (x < 8) bits[x / 4] |= (row & 255) << (x & 3) * 8;
+            bits.z |= (x == 8 ? row : 0) | (row >> 8) << (9 + x);
         }
         planes[z] = bits;
     }
@@ -146,13 +154,13 @@ void MesherHost::samplePlanes(TapeMachine& machine, const MesherPush& push, uvec
 
 std::vector<uvec3> MesherHost::sample(const MesherPush& push, std::span<const uint32_t> brickList) {
     std::vector<uvec3> planes(brickList.size() * 9);
-    parallel(brickList.size(), [&](TapeMachine& machine, std::size_t slot) {
+    parallel(brickList.size(), [&](Machine& machine, std::size_t slot) {
         samplePlanes(machine, push, unpackBrick(brickList[slot]), &planes[slot * 9]);
     });
     return planes;
 }
 
-void MesherHost::placeVertices(TapeMachine& machine, const MesherPush& push, uvec3 brick,
+void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 brick,
                                std::span<const uint32_t> vertexList, std::span<const uint32_t> indices,
                                std::span<MeshVertex> result) const {
     struct Edge {
@@ -164,8 +172,10 @@ void MesherHost::placeVertices(TapeMachine& machine, const MesherPush& push, uve
     };
     const Tape& tape = tapeOf(push, brick);
     const std::size_t count = indices.size();
-    std::array<Edge, TapeMachine::kBatch> edges;
-    std::array<Search, TapeMachine::kBatch> searches;
+    std::array<Edge, kBatch> edges;
+    std::array<Search, kBatch> searches;
+    std::array<glm::dvec3, kBatch> gradients;
+    std::array<uint8_t, kBatch> sought;  // those whose root is not found
     for (std::size_t i = 0; i < count; ++i) {
         const uint32_t word = vertexList[indices[i]], bit = word & 31;
         Edge& edge = edges[i];
@@ -174,33 +184,28 @@ void MesherHost::placeVertices(TapeMachine& machine, const MesherPush& push, uve
         edge.begin = brick * 8u + uvec3((word >> 7 & 1) * 4 + (bit >> 3), bit & 7, word >> 8 & 7);
         for (int axis = 0; axis < 3; ++axis) edge.p[axis] = samplePosition(push, axis, edge.begin[axis]);
         edge.length = samplePosition(push, int(edge.axis), edge.begin[edge.axis] + 1) - edge.p[edge.axis];
+        sought[i] = uint8_t(i);
     }
-    const auto moveTo = [&](std::size_t i) {
-        for (uint32_t axis = 0; axis < 3; ++axis)
-            machine.position(int(axis))[i] =
-                edges[i].p[axis] + (axis == edges[i].axis ? searches[i].t * edges[i].length : 0.0);
-    };
-    bool all = false;
-    for (int step = 1; !all; ++step) {
-        for (std::size_t i = 0; i < count; ++i) {
-            moveTo(i);
-            for (uint32_t axis = 0; axis < 3; ++axis)
-                machine.direction(int(axis))[i] = axis == edges[i].axis ? edges[i].length : 0.0;
+    std::size_t left = count;
+    for (int step = 1; left > 0; ++step) {
+        for (std::size_t k = 0; k < left; ++k) {
+            const std::size_t i = sought[k];
+            glm::dvec3 at = edges[i].p;
+            at[edges[i].axis] += searches[i].t * edges[i].length;
+            for (int axis = 0; axis < 3; ++axis) machine.position(axis)[k] = float(at[axis]);
         }
-        const double* f = machine.value(tape, count);
-        const double* slope = machine.slope(tape, count);
-        all = true;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!searches[i].found) searches[i].step(f[i], slope[i], edges[i].insideAtA, step == kMostSteps);
-            all = all && searches[i].found;
+        const auto [f, g] = machine.gradient(tape, left);
+        std::size_t still = 0;
+        for (std::size_t k = 0; k < left; ++k) {
+            const std::size_t i = sought[k];
+            const Edge& edge = edges[i];
+            searches[i].step(f[k], g[edge.axis][k] * edge.length, edge.insideAtA, step == kMostSteps);
+            if (searches[i].found)
+                gradients[i] = {g[0][k], g[1][k], g[2][k]};
+            else
+                sought[still++] = uint8_t(i);
         }
-    }
-    std::array<glm::dvec3, TapeMachine::kBatch> gradients;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int other = 0; other < 3; ++other)
-            std::fill_n(machine.direction(other), count, other == axis ? 1.0 : 0.0);
-        const double* slope = machine.slope(tape, count);
-        for (std::size_t i = 0; i < count; ++i) gradients[i][axis] = slope[i];
+        left = still;
     }
     const glm::dvec3 inset = glm::dvec3(push.cellSize) * double(push.nudge);
     for (std::size_t i = 0; i < count; ++i) {
@@ -240,11 +245,11 @@ std::vector<MeshVertex> MesherHost::vertices(const MesherPush& push, std::span<c
     for (uint32_t i = 0; i < vertexList.size(); ++i) order[place[slotOf(vertexList[i])]++] = i;
 
     std::vector<MeshVertex> result(vertexList.size());
-    parallel(brickList.size(), [&](TapeMachine& machine, std::size_t slot) {
+    parallel(brickList.size(), [&](Machine& machine, std::size_t slot) {
         const std::span<const uint32_t> own(&order[0] + starts[slot], &order[0] + starts[slot + 1]);
-        for (std::size_t at = 0; at < own.size(); at += TapeMachine::kBatch)
+        for (std::size_t at = 0; at < own.size(); at += kBatch)
             placeVertices(machine, push, unpackBrick(brickList[slot]), vertexList,
-                          own.subspan(at, std::min(TapeMachine::kBatch, own.size() - at)), result);
+                          own.subspan(at, std::min(kBatch, own.size() - at)), result);
     });
     return result;
 }

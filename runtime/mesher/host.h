@@ -3,7 +3,7 @@
 // A new structure takes the driver tenths of a second to compile; until then this gives its mesh, from
 // shortened tapes (graph/evaluate/tape.h) at a few times the cost of the kernels. The other stages stay on
 // the device, as they are. The mesh is closed and oriented like the kernels' own, from the same table;
-// vertices may differ from theirs by rounding, since the host computes in double.
+// vertices may differ from theirs by rounding, although both compute in single precision.
 //
 // Lifetime: one run of the mesher at a time; what a stage leaves for the next is kept in between.
 #pragma once
@@ -36,6 +36,7 @@ class MesherHost {
                                           std::span<const uint32_t> vertexList);
 
   private:
+    using Machine = TapeMachine<float>;
     using SharedTape = std::shared_ptr<const Tape>;
     struct Block {
         gpu::uvec3 first;  // sample
@@ -43,18 +44,18 @@ class MesherHost {
             std::vector<SharedTape>(512);  // null where culled; x | y << 3 | z << 6
     };
 
-    void parallel(std::size_t count, const std::function<void(TapeMachine&, std::size_t)>& work);
-    void descend(TapeMachine& machine, const gpu::MesherPush& push, gpu::uvec3 first, uint32_t size,
+    void parallel(std::size_t count, const std::function<void(Machine&, std::size_t)>& work);
+    void descend(Machine& machine, const gpu::MesherPush& push, gpu::uvec3 first, uint32_t size,
                  const SharedTape& tape, Block& block) const;
     const Tape& tapeOf(const gpu::MesherPush& push, gpu::uvec3 brick) const;
-    void samplePlanes(TapeMachine& machine, const gpu::MesherPush& push, gpu::uvec3 brick,
+    void samplePlanes(Machine& machine, const gpu::MesherPush& push, gpu::uvec3 brick,
                       gpu::uvec3* planes) const;
-    void placeVertices(TapeMachine& machine, const gpu::MesherPush& push, gpu::uvec3 brick,
+    void placeVertices(Machine& machine, const gpu::MesherPush& push, gpu::uvec3 brick,
                        std::span<const uint32_t> vertexList, std::span<const uint32_t> indices,
                        std::span<gpu::MeshVertex> result) const;
 
     SharedTape field;
-    std::vector<TapeMachine> machines;  // one a thread
+    std::vector<Machine> machines;  // one a thread
     std::vector<Block> blocks;
 };
 

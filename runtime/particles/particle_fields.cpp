@@ -107,8 +107,9 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
         const double madeWith = std::exchange(part.radius, 0.0);  // no samples, should anything go wrong
         const Result<bool> moved = part.simulation.goTo(seconds, values, progress);
         if (!moved) return atNode(moved.error(), field);
-        const double radius = evaluate(field.ir, field.radius, now, {}),
-                     threshold = evaluate(field.ir, field.threshold, now, {});
+        const std::vector<double> numbers =
+            evaluate(field.ir, std::array{field.radius, field.threshold}, now, {});
+        const double radius = numbers[0], threshold = numbers[1];
         const bool same = radius == madeWith && threshold == part.threshold;
         changes.places |= *moved || !same;
         if (same && surfaces == part.surface && !(*moved && surfaces)) {

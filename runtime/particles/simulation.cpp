@@ -79,11 +79,10 @@ Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
 
 namespace {
 
-/// The distance to a surface at each of the places, with the live values of the graph.
-void distancesAt(const Program& surface, const std::vector<double>& values, std::span<const Point> places,
-                 std::span<double> distances) {
+/// The distance to a surface, with the live values of the graph.
+Tape distanceTape(const Program& surface, const std::vector<double>& values) {
     const std::span live(values.data(), std::min(surface.live.size(), values.size()));
-    evaluate(surface.ir, surface.distance(), live, places, distances);
+    return makeTape(surface.ir, surface.distance(), live);
 }
 
 /// A fluid's places at the start: even spacing in the tank, where the source is, and no nearer to the
@@ -111,15 +110,18 @@ Result<std::vector<glm::vec3>> placesIn(const Program& source, const Program* ob
     std::vector<glm::vec3> places;
     std::vector<Point> row(std::size_t(count.x));
     std::vector<double> distances(row.size()), room(row.size(), spacing);
+    TapeMachine<double> machine;
+    const Tape inSource = distanceTape(source, values),
+               inObstacle = obstacle ? distanceTape(*obstacle, values) : Tape();
     for (double z = 0; z < count.z; ++z)
         for (double y = 0; y < count.y; ++y) {
             for (std::size_t x = 0; x < row.size(); ++x) {
                 const glm::dvec3 p = lo + spacing * (first + glm::dvec3(double(x), y, z) + 0.5);
                 row[x] = {p.x, p.y, p.z};
             }
-            distancesAt(source, values, row, distances);
+            machine.evaluate(inSource, row, distances);
             if (std::ranges::none_of(distances, [](double distance) { return distance < 0.0; })) continue;
-            if (obstacle) distancesAt(*obstacle, values, row, room);
+            if (obstacle) machine.evaluate(inObstacle, row, room);
             for (std::size_t x = 0; x < row.size(); ++x)
                 if (distances[x] < 0.0 && room[x] >= 0.5 * spacing)
                     places.emplace_back(row[x][0], row[x][1], row[x][2]);

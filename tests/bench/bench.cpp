@@ -20,9 +20,10 @@ struct NamedTable {
 const NamedTable kTables[] = {{"process", processTable},     {"mesher", mesherTable},
                               {"prune", pruneTable},         {"mesh-to-field", meshFieldTable},
                               {"particles", particlesTable}, {"talk", talkTable},
-                              {"live", liveTable},           {"compile", compileTable},
-                              {"editor", editorTable},       {"interface", interfaceTable},
-                              {"light", lightTable},         {"peaks", peaksTable}};
+                              {"tapes", tapesTable},         {"live", liveTable},
+                              {"compile", compileTable},     {"editor", editorTable},
+                              {"interface", interfaceTable}, {"light", lightTable},
+                              {"peaks", peaksTable}};
 
 /// The value behind the first "key : value" of a file of such lines; empty if there is none.
 std::string lineValue(const char* path, const std::string& key) {

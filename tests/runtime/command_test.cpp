@@ -1,6 +1,9 @@
 // The command line of the real program: usage errors, help, and what goes to which stream.
 #include <gtest/gtest.h>
 
+#include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -121,6 +124,81 @@ TEST_F(Command, ResultsThatAreLostAreAFailure) {
         expectRefusal(runCommand(words, full), 3, {"cannot write the results to standard output"});
     EXPECT_EQ(runCommand({"compile", graph}, full).status, 3);
     EXPECT_EQ(runCommand({"check", graph}, full).status, 0);  // has nothing to say
+}
+
+TEST_F(Command, EvalAnswersEveryLineOfAFileInOrder) {
+    const auto eval = [&](std::vector<std::string> words, const std::string& text) {
+        const std::string path = folder.path("lines.txt");
+        test::writeText(path, text);
+        words.insert(words.begin(), {"eval", graph});
+        words.push_back(path);
+        return runCommand(words);
+    };
+    const CommandResult few =
+        eval({"--points"}, "# x y z\n2 0 0\n\n 0,-3.5 ,0 # far\r\n\t0 0 0\n+.5\t0,0\n1e1 1e-400 -0");
+    EXPECT_EQ(few.output, "0\n1.5\n-2\n-1.5\n8\n") << few.errors;
+    EXPECT_EQ(few.status, 0);
+    EXPECT_EQ(eval({"--gradient", "--points"}, "5 0 0\n0 -4 0\n").output, "3 1 0 0\n2 0 -1 0\n");
+    EXPECT_EQ(eval({"--boxes"}, "").output, "");
+    const CommandResult bounds = eval({"--boxes"}, "3 -1 -1 4 1 1\n0 0 0 0 0 0\n");
+    double lo = 0, hi = 0;
+    ASSERT_EQ(std::sscanf(bounds.output.c_str(), "%lf %lf", &lo, &hi), 2) << bounds.errors;
+    EXPECT_NEAR(lo, 1.0, 1e-9);
+    EXPECT_NEAR(hi, std::sqrt(18.0) - 2.0, 1e-9);
+
+    // More than are read at once, through a file and through a pipe.
+    std::string many, expected;
+    for (int i = 0; i < 500'000; ++i) {
+        char number[32];
+        many += std::to_string(i) + ", 0 0\n";
+        expected.append(number, std::to_chars(number, std::end(number), double(i - 2)).ptr) += '\n';
+    }
+    EXPECT_TRUE(eval({"--points"}, many).output == expected);
+    test::CommandOptions piped;
+    piped.wrapper = {"sh", "-c", "cat '" + folder.path("lines.txt") + "' | \"$0\" \"$@\""};
+    const CommandResult result = runCommand({"eval", graph, "--points", "-"}, piped);
+    EXPECT_TRUE(result.output == expected) << result.errors;
+    EXPECT_LT(result.peakMegabytes, 300.0);
+    piped.wrapper[2] += " | head -n 2";
+    const CommandResult cut = runCommand({"eval", graph, "--points", "-"}, piped);
+    EXPECT_EQ(cut.output, "-2\n-1\n");
+    EXPECT_EQ(cut.errors, "");
+}
+
+TEST_F(Command, EvalRefusesALineThatIsWrongByItsNumber) {
+    const auto refused = [&](const std::string& option, const std::string& text, const std::string& message,
+                             const std::string& before = "") {
+        SCOPED_TRACE(text.substr(0, 100));
+        test::writeText(folder.path("lines.txt"), text);
+        const CommandResult result = runCommand({"eval", graph, option, folder.path("lines.txt")});
+        EXPECT_EQ(result.status, 1);
+        EXPECT_NE(result.errors.find("lines.txt:" + message), std::string::npos) << result.errors;
+        EXPECT_EQ(result.output, before);
+    };
+    refused("--points", "2 0 0\n1 2\n", "2:4: error: expected 3 numbers, found 2", "0\n");
+    refused("--points", "2 0 0 0", "1:7: error: expected 3 numbers and no more: there is '0' behind them");
+    refused("--points", "\n# but\n1 two 3", "3:3: error: 'two' is not a finite number");
+    refused("--points", "1 nan 3", "1:3: error: 'nan' is not a finite number");
+    refused("--points", "1 2 1e999", "1:5: error: '1e999' is not a finite number");
+    refused("--points", "1,,3", "1:3: error: expected a number before ',3'");
+    refused("--points", "1 2 3,", "1:6: error: expected 3 numbers and no more");
+    refused("--points", "1-2 3 4", "1:2: error: expected a blank or a comma before '-2 3 4'");
+    refused("--points", "0x10 2 3", "1:2: error: expected a blank or a comma before 'x10 2 3'");
+    refused("--boxes", "0 1 0 1 0 1", "1:1: error: the first corner lies beyond the second along y");
+    std::string many;
+    for (int i = 0; i < 300'000; ++i) many += "3 0 0\n";
+    test::writeText(folder.path("lines.txt"), many + "3 0\n" + many);
+    const CommandResult late = runCommand({"eval", graph, "--points", folder.path("lines.txt")});
+    EXPECT_NE(late.errors.find("lines.txt:300001:4: error"), std::string::npos) << late.errors;
+    EXPECT_EQ(late.output.size(), 600'000u);
+    expectRefusal(runCommand({"eval", graph, "--points", folder.path("none.txt")}), 1,
+                  {"none.txt: error: cannot be read: No such file"});
+    expectRefusal(runCommand({"eval", graph, "--points", folder.folder.string()}), 1,
+                  {"cannot be read: Is a directory"});
+    expectRefusal(runCommand({"eval", graph, "--points", "-", "--at", "0", "0", "0"}), 2,
+                  {"--at excludes --points"});
+    expectRefusal(runCommand({"eval", graph, "--boxes", "-", "--gradient"}), 2,
+                  {"--gradient excludes --boxes"});
 }
 
 TEST_F(Command, RegionsThatAreNoBoxAreUsage) {
