@@ -1,10 +1,14 @@
 #include "graph/check/check.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "graph/compile/compile.h"
 #include "graph/document/named_parameters.h"
+#include "graph/document/sockets.h"
 #include "graph/document/timeline.h"
+#include "graph/language/resolve.h"
+#include "graph/library/node_type.h"
 
 namespace fw {
 
@@ -34,14 +38,38 @@ void dropPassingZeros(const Graph& graph, const Timeline& timeline, std::vector<
     });
 }
 
+/// What is wrong with the code of expressions whatever they are linked to: of a graph that cannot be
+/// compiled.
+void checkCode(const Graph& graph, const std::vector<Node>& nodes, const std::string& prefix,
+               std::vector<Error>& findings) {
+    for (const Node& node : nodes) {
+        if (roleOf(node.type) != NodeRole::expression || node.muted || node.code.empty()) continue;
+        language::Declared declared;
+        for (const auto& [name, input] : node.inputs) declared.inputs.emplace_back(name, typeOfValue(input));
+        for (Error& error : language::resolve(node.code, declared).errors) {
+            error.file = graph.path;
+            error.node = prefix + node.id;
+            error.line = node.codePlace.line, error.column = node.codePlace.column;
+            findings.push_back(std::move(error));
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<Error> check(const Graph& graph) {
     std::vector<Error> findings = checkStructure(graph);
-    if (hasErrors(findings)) return findings;
+    if (hasErrors(findings)) {
+        checkCode(graph, graph.nodes, "", findings);
+        for (const Group& group : graph.groups) checkCode(graph, group.nodes, group.id + "/", findings);
+        return findings;
+    }
     const Result<Timeline> timeline = readTimeline(graph);
     std::vector<Error> errors = compileErrors(graph);
     dropPassingZeros(graph, *timeline, errors);
+    std::ranges::stable_sort(errors, [](const Error& a, const Error& b) {
+        return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+    });
     for (Error& error : errors) findings.push_back(std::move(error));
     if (hasErrors(findings) || timeline->tracks.empty()) return findings;
     CompileOptions playing;  // code can ask for constants where the timeline has values that move

@@ -7,7 +7,7 @@
 namespace fw {
 
 /// All findings, errors and warnings; empty if there are none. At most 1,000 of the structure, the last of
-/// which then says that there are more. Code is compiled only where the structure is sound.
+/// which then says that there are more. Where the structure is not sound, code is checked by itself.
 std::vector<Error> check(const Graph& graph);
 
 }  // namespace fw

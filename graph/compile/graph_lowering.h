@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "graph/compile/compile.h"
-#include "graph/language/value.h"
+#include "graph/language/resolve.h"
 #include "graph/library/node_type.h"
 
 namespace fw {
@@ -98,6 +98,8 @@ class GraphLowering {
     std::vector<LiveParameter> live;
     std::map<std::string, NodeExactness, std::less<>> exactness;
     std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
+    /// Of a node's code and the types of its inputs (-1: unknown), for groups have it in each instance.
+    std::map<std::pair<const Node*, std::vector<int>>, language::Resolved> resolved;
     std::set<std::string, std::less<>> nearFields = {};  ///< particles_to_field without true distances
 
   private:

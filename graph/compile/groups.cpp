@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "graph/compile/graph_lowering.h"
+#include "graph/compile/mesh_recipe.h"
 #include "graph/language/lower.h"
 #include "graph/language/resolve.h"
 
@@ -134,6 +135,13 @@ Lowered lowerExpression(GraphLowering& lowering, const NodeAt& at) {
             const NodeOutput* from = lowering.linked(at, *link, failed);
             failed |= !from;
             if (!failed) value = from->value;
+            if (value.mesh && value.mesh->read) {
+                lowering.report(at, name,
+                                {.message = "takes a field, and a mesh from a file has none: put "
+                                            "mesh_to_field behind the mesh_file"});
+                failed = true;
+            }
+            value.mesh = nullptr;  // what is made of the field is another mesh
         } else {
             value = lowering.literal(at, {name, literalType(input), {}}, &input);
         }
@@ -141,7 +149,11 @@ Lowered lowerExpression(GraphLowering& lowering, const NodeAt& at) {
         declared.inputs.emplace_back(name, failed ? std::nullopt : std::optional(value.type));
         values.push_back(std::move(value));
     }
-    const language::Resolved resolved = language::resolve(at.node.code, declared);
+    std::vector<int> types;
+    for (const auto& [name, type] : declared.inputs) types.push_back(type ? int(*type) : -1);
+    const auto [found, fresh] = lowering.resolved.try_emplace({&at.node, std::move(types)});
+    if (fresh) found->second = language::resolve(at.node.code, declared);
+    const language::Resolved& resolved = found->second;
     for (const Error& error : resolved.errors) lowering.report(at, "", error);
     if (!fine || !resolved.code) return lowering.failure({});
     Result<std::vector<Value>> made =

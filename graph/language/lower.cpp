@@ -14,6 +14,9 @@ namespace fw::language {
 
 using Kind = Instruction::Kind;
 
+/// Bytes of a text that are moved in a step.
+constexpr std::size_t kTextStep = 64;
+
 std::vector<Value> Run::outputs() {
     enter(0, {1, 1});
     while (true) {
@@ -62,6 +65,7 @@ void Run::step(Place place) {
 void Run::enter(int index, Place place) {
     Frame frame{&code.functions[std::size_t(index)]};
     frame.live = ir.constant(1.0);
+    state.steps += frame.function->slots.size();
     frame.slots.resize(frame.function->slots.size());
     frame.logged.assign(frame.slots.size(), -1);
     const std::size_t count = frame.function->parameters.size();
@@ -114,6 +118,11 @@ Value Run::positionValue() const {
 
 // ---- instructions
 
+void Run::push(const Value& value) {
+    state.steps += value.text.size() / kTextStep;
+    stack.push_back(value);
+}
+
 Value Run::pop() {
     Value top = std::move(stack.back());
     stack.pop_back();
@@ -126,9 +135,10 @@ void Run::run(Frame& frame, const Instruction& i) {
         case Kind::text:
             stack.push_back(Value{Type::string});
             stack.back().text = code.texts[std::size_t(i.index)];
+            state.steps += stack.back().text.size() / kTextStep;
             return;
-        case Kind::slot: stack.push_back(*frame.slots[std::size_t(i.index)]); return;
-        case Kind::input: stack.push_back(inputs[std::size_t(i.index)]); return;
+        case Kind::slot: return push(*frame.slots[std::size_t(i.index)]);
+        case Kind::input: return push(inputs[std::size_t(i.index)]);
         case Kind::position: stack.push_back(positionValue()); return;
         case Kind::time: stack.push_back(Value{Type::scalar, {state.time}}); return;
         case Kind::negate: {

@@ -19,7 +19,12 @@ void Run::conditional(Frame& frame, const Instruction& i) {
     } else {
         const IrId condition = choices.back();
         choices.pop_back();
-        if (ir.isConstant(condition)) return;
+        if (ir.isConstant(condition)) {
+            // What was taken is as wide as what was not; a float may stand for a surface.
+            if (i.type != Type::surface)
+                stack.back() = checked(convert(state, stack.back(), i.type), i.place);
+            return;
+        }
         const Value no = pop(), yes = pop();
         stack.push_back(checked(choose(state, condition, yes, no), i.place));
     }
@@ -216,7 +221,9 @@ void Run::rejoin(Frame& frame, const Structure& own, const std::vector<Exit>& ex
             const Value* then = found != values.end()  ? found->second
                                 : frame.log[at].before ? &*frame.log[at].before
                                                        : nullptr;
-            if (!then) continue;
+            if (!then)
+                fail(place,
+                     "some places leave the loop before it gives a result: end the code with a return");
             step(place);
             now = alone || !now ? *then : checked(choose(state, exit.condition, *then, *now), place);
         }
@@ -237,7 +244,7 @@ void Run::depart(Frame& frame, const Instruction& i) {
         for (std::size_t at = loop.log; at < frame.log.size(); ++at) {
             const int slot = frame.log[at].slot;
             if (!seen.emplace(slot, true).second || !frame.slots[std::size_t(slot)]) continue;
-            step(i.place);
+            step(i.place), step(i.place);  // values are large
             exit.values.emplace_back(slot, *frame.slots[std::size_t(slot)]);
         }
         (i.kind == Kind::leave ? loop.left : loop.skipped).push_back(std::move(exit));

@@ -11,6 +11,7 @@ namespace {
 /// Thrown inside this file only, to leave a statement at its first mistake.
 struct Failure {
     Error error;
+    bool last = false;  ///< what follows would only be misread
 };
 
 std::optional<Type> declaredType(std::string_view name) {
@@ -41,8 +42,8 @@ int precedence(const Token& token) {
 }
 constexpr int kUnaryStrength = 7;
 
-[[noreturn]] void fail(const Token& token, const std::string& message) {
-    throw Failure{codeError(token.place, message)};
+[[noreturn]] void fail(const Token& token, const std::string& message, bool last = false) {
+    throw Failure{codeError(token.place, message), last};
 }
 
 std::string shown(const Token& token) {
@@ -68,7 +69,8 @@ class Reader {
         const Token& token = take();
         if (token.kind != Token::Kind::name)
             fail(token, "expected the name of " + std::string(what) + ", found " + shown(token));
-        if (isReserved(token.text) || declaredType(token.text))
+        if (isReserved(token.text) || declaredType(token.text) || token.text == "true" ||
+            token.text == "false")
             fail(token, "'" + std::string(token.text) + "' is a word of the language: choose another name");
         return std::string(token.text);
     }
@@ -108,8 +110,10 @@ class ExpressionReader {
     void emit(Expr expression) { made.push_back(std::move(expression)); }
     void open(Kind kind, Expr expression, int strength = 0) {
         if (static_cast<int>(stack.size()) + depth >= kMaxDepth)
-            fail(reader.peek(), "the code is nested deeper than " + std::to_string(kMaxDepth) +
-                                    " levels: split it over several statements");
+            fail(reader.peek(),
+                 "the code is nested deeper than " + std::to_string(kMaxDepth) +
+                     " levels: split it over several statements",
+                 true);
         stack.push_back({kind, std::move(expression), strength});
     }
     void close() {
@@ -244,6 +248,7 @@ class Parser {
     /// Goes on behind the statement that failed: after its semicolon, before the end of its block.
     void recover(const Failure& failure) {
         tree.errors.push_back(failure.error);
+        while (failure.last && !reader.ended()) reader.take();
         for (int blocks = 0; !reader.ended(); reader.take()) {
             const Token& token = reader.peek();
             if (blocks == 0 && token.is("}")) return;
@@ -269,7 +274,8 @@ class Parser {
         Nested(Parser& parser_) : parser(parser_) {
             if (++parser.depth > kMaxDepth)
                 fail(parser.reader.peek(),
-                     "the code is nested deeper than " + std::to_string(kMaxDepth) + " levels: split it");
+                     "the code is nested deeper than " + std::to_string(kMaxDepth) + " levels: split it",
+                     true);
         }
         ~Nested() { --parser.depth; }
     };
@@ -405,6 +411,9 @@ class Parser {
         if (reader.peek().kind == Token::Kind::name && declaredType(reader.peek().text) &&
             reader.peek(1).kind == Token::Kind::name)
             return declaration(std::move(made));
+        if (made.constant)
+            fail(reader.peek(), "expected a type behind 'const' (float, int, bool, vec2 or vec3), found " +
+                                    shown(reader.peek()));
         if (reader.peek().is("++") || reader.peek().is("--")) {
             made.operation = reader.take().text[0];
             target(made);

@@ -1,6 +1,7 @@
 #include "graph/language/resolve.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "graph/language/resolver.h"
 
@@ -10,8 +11,8 @@ using Kind = Instruction::Kind;
 
 namespace {
 
-/// Nothing assigned yet, or on some paths another name than on others.
-constexpr int kNone = -1, kDepends = -2;
+/// Nothing assigned yet; on some paths another name than on others; one that cannot be seen any more.
+constexpr int kNone = -1, kDepends = -2, kGone = -3;  // kGone: its block has ended
 
 constexpr int kMaxCalls = 64;
 
@@ -214,8 +215,9 @@ void Resolver::statement(StmtId id) {
             if (loops == 0) return error(s.place, "'break' and 'continue' belong inside a loop");
             return leaveStructure(s.kind == Stmt::Kind::leave ? Kind::leave : Kind::next, s.place);
         case Stmt::Kind::evaluate: {
-            const Operand value = expression(s.expression);
-            if (lonely < 0) {
+            Operand value = expression(s.expression);
+            if (value.type == Type::integer) value.type = Type::scalar;
+            if (lonely < 0 || (depth == 0 && value.type != slotType(lonely))) {
                 lonely = newSlot(value.type, &value);
                 made().slots.back().depth = 0;
                 emit({.kind = Kind::declare, .count = 1, .index = lonely, .place = s.place});
@@ -264,10 +266,13 @@ void Resolver::branch(const Stmt& s) {
 int Resolver::lastOf(const Side& before, const Side& first, const Side& second) const {
     if (first.last == kNone && second.last == kNone) return before.last;
     if (first.last == second.last) return first.last;
+    const auto gone = [&](int slot) { return slot >= 0 && made().slots[std::size_t(slot)].depth > depth; };
+    if (gone(first.last) || gone(second.last)) return kGone;
     if (first.last != kNone && second.last != kNone) return kDepends;
     const int one = first.last == kNone ? second.last : first.last;
-    if (one == kDepends || (one == lonely && before.last != lonely)) return kDepends;
-    return made().slots[std::size_t(one)].depth > depth ? kDepends : one;
+    if (one < 0) return one;
+    if (one == lonely && before.last != lonely) return kDepends;
+    return made().slots[std::size_t(one)].depth > depth ? kGone : one;
 }
 
 void Resolver::loop(const Stmt& s) {
@@ -298,10 +303,11 @@ void Resolver::loop(const Stmt& s) {
     names.close();
     ended = endedBefore;
     last = lastInside == kNone ? lastBefore : lastInside;
-    if (last >= 0 && made().slots[std::size_t(last)].depth > depth) last = kDepends;
+    if (last >= 0 && made().slots[std::size_t(last)].depth > depth) last = kGone;
 }
 
 void Resolver::returned(const Stmt& s) {
+    ended = true;
     if (s.expression.empty()) return error(s.place, "expected a value behind 'return', found none");
     const Operand value = expression(s.expression);
     const bool own = current > 0;
@@ -432,7 +438,11 @@ void Resolver::partialStore(int slot, const Stmt& s) {
               .target = slot,
               .place = s.place});
     } else {
-        const bool whole = isVector(*own) || isNumber(*own);
+        const bool whole = isVector(*own) || *own == Type::scalar;
+        for (std::size_t i = 1; i < s.swizzle.size(); ++i)
+            if (s.swizzle.find(s.swizzle[i]) < i)
+                return error(s.place, inQuotes("." + s.swizzle) +
+                                          " names a component twice: it cannot be assigned to");
         const auto packed = swizzleOf(s.swizzle, whole ? componentCount(*own) : 0);
         if (!packed) return error(s.place, aType(*own) + " has no " + inQuotes("." + s.swizzle));
         part = s.swizzle.size() == 3 ? Type::vec3 : s.swizzle.size() == 2 ? Type::vec2 : Type::scalar;
@@ -471,7 +481,10 @@ void Resolver::finish() {
     code.last = last >= 0 ? last : -1;
     const std::optional<Type> own = code.last >= 0 ? slotType(code.last) : std::nullopt;
     if (code.last < 0 && !code.returns && !damaged)
-        error(end, last == kDepends
+        error(end, last == kGone ? "what the code assigns last lives in a block that has ended: declare it "
+                                   "before, or end the code "
+                                   "with 'return …;'"
+                   : last == kDepends
                        ? "the code does not assign one name on every path: end it with 'return …;'"
                        : "the code has no result: end it with 'return …;' or assign the result last");
     if (own) {
@@ -498,6 +511,7 @@ Resolved resolve(std::string_view text, const Declared& declared) {
         Resolver resolver(tree, declared, surfaces);
         resolver.run();
         if (pass == 0 && surfaces.follow(resolver.slotCount())) continue;
+        assert(surfaces.given.empty() && "following the flow finds every name of a surface");
         resolved.errors = tree.errors;
         resolved.errors.insert(resolved.errors.end(), resolver.errors.begin(), resolver.errors.end());
         resolved.type = resolver.type;

@@ -131,6 +131,7 @@ void Resolver::name(const Expr& e) {
 }
 
 void Resolver::unknown(const Expr& e, std::string_view what) {
+    if (errors.size() >= kMaxCodeErrors) return;
     if (!tree.errors.empty()) return;  // it may be what could not be read that declares it
     std::vector<std::string> near = what == "name" ? std::vector<std::string>{"time", "pos"} : builtinNames();
     names.collect(near);
@@ -293,7 +294,9 @@ void Resolver::call(const Expr& e) {
         emit({.kind = slot >= 0 ? Kind::slot : Kind::input,
               .index = slot >= 0 ? slot : input,
               .place = e.place});
-        return callField(e, slot >= 0 ? slotType(slot) : ofInput, std::move(arguments));
+        callField(e, slot >= 0 ? slotType(slot) : ofInput, arguments);
+        if (slot >= 0 && slotType(slot) == Type::scalar) operands.back().sources = {slotBase + slot};
+        return;
     }
     if (const Builtin* builtin = findBuiltin(e.text)) return callBuiltin(e, *builtin, std::move(arguments));
 
@@ -378,7 +381,7 @@ void Resolver::callFunction(const Expr& e, int called, const std::vector<Operand
     emit({.kind = Kind::function, .type = function.result, .index = called + 1, .place = e.place});
 }
 
-void Resolver::callField(const Expr& e, std::optional<Type> field, std::vector<Operand> arguments) {
+void Resolver::callField(const Expr& e, std::optional<Type> field, const std::vector<Operand>& arguments) {
     push(field, e.place);
     if (arguments.size() != 1 || (field && componentCount(*field) == 0))
         return error(e.place, inQuotes(e.text) + " is a field: call it with one position, as in a(p)");

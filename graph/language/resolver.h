@@ -92,7 +92,7 @@ class Resolver {
     void callBuiltin(const Expr& e, const Builtin& builtin, std::vector<Operand> arguments);
     void callNode(const Expr& e, const NodeType& type, const std::vector<Operand>& arguments);
     void callFunction(const Expr& e, int index, const std::vector<Operand>& arguments);
-    void callField(const Expr& e, std::optional<Type> type, std::vector<Operand> arguments);
+    void callField(const Expr& e, std::optional<Type> type, const std::vector<Operand>& arguments);
     void condition(const Operand& operand);
     bool pushNamed(std::string_view name, Place place);
     std::optional<Type> inputType(std::string_view name, int* index) const;

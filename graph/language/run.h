@@ -75,6 +75,7 @@ class Run {
     Value positionValue() const;
     static Value boolean(IrId id) { return Value{Type::boolean, {id}}; }
     Value pop();
+    void push(const Value& value);
     void run(Frame& frame, const Instruction& i);
     void joined(const Instruction& i);
     IrId compared(char symbol, const Value& a, const Value& b);

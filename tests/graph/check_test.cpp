@@ -182,6 +182,17 @@ TEST(Check, RangesHoldForWhatComesByAWire) {
               {"argument 2 of 'prism' is its sides: the value 0 is out of range"});
 }
 
+TEST(Check, CodeIsCheckedBesideAStructureThatIsNotSound) {
+    const std::vector<std::string> findings = findingsOf(
+        std::string(kBall) +
+            R"(, {"id": "a", "type": "nothing"}, {"id": "e", "type": "expression", "code": "a = lenght(p); return 1 + (p.x > 0.);", "inputs": {"q": {"from": "a"}}})",
+        "", check);
+    ASSERT_EQ(findings.size(), 3u) << joined(findings);
+    EXPECT_NE(findings[0].find("unknown node type 'nothing'"), std::string::npos);
+    EXPECT_NE(findings[1].find("node 'e', code 1:5: unknown function 'lenght'"), std::string::npos);
+    EXPECT_NE(findings[2].find("found a bool"), std::string::npos);
+}
+
 TEST(Check, AGroupKeepsTheClassOfEachOutput) {
     const auto graph = [](const std::string& output) {
         return R"({"fieldwright": 1, "groups": [{"id": "g", "inputs": [{"name": "a", "type": "surface"}, {"name": "b", "type": "surface"}],

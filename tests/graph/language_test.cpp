@@ -448,5 +448,50 @@ TEST(Language, RangesHoldForArguments) {
     expectError("return union(sphere(p), sphere(p), 0.2, \"round-ish\");", "is not one of its choices");
 }
 
+TEST(Language, AKnownChoiceIsAsWideAsItsOtherSide) {
+    expectValue("c = true ? 0 : p; return c.y;", 0.0);
+    expectValue("return (true ? 5 : p).y;", 5.0);
+    expectValue("return length(true ? 1 : p);", std::sqrt(3.0));
+    expectValue("return (true ? 5 : p) == vec3(5, 1, 1) ? 1 : 2;", 2.0);
+    expectValue("c = false ? p : 5; return c[2];", 5.0);
+    expectValue("return image_grey(\"\", true ? 0 : p.xy) * 0;", 0.0);
+}
+
+TEST(Language, LoneExpressionsAreNumbersOfAnyKind) {
+    expectValue("if (p.x > 0.) 1; else 0.5;", 0.5, {-1, 0, 0});
+    expectValue("1; 0.5", 0.5);
+    expectValue("p; p.x", 0.3);
+    expectError("for (int i = 0; i < 3; i++) { if (p.x > 0.) break; 5.; }", "before it gives a result");
+}
+
+TEST(Language, AFieldElsewhereIsASurfaceIfItsNameComesToBeOne) {
+    const std::string red = "s = with_material(sphere(p, 1.0), vec3(1, 0, 0), 0.1, 1.0, vec3(0)); ";
+    expectValue(red + "d = 1; e = 2; if (p.x > 0.) d = s; e = d(p + 1.); return e.metallic;", 1.0);
+}
+
+TEST(Language, OddAssignmentsAreRefused) {
+    expectError("int i = 0; i.x = 1.5; return i;", "an int has no '.x'");
+    expectError("vec3 q = p; q.xx = vec2(1, 2); return q;", "names a component twice");
+    expectError("const x = 1; return x;", "expected a type behind 'const'");
+    expectError("true = 1; return 1;", "is a word of the language");
+    expectError("if (p.x > 0.) { d = 2.; } else { d = 1.; }", "lives in a block that has ended");
+    std::string chain = "if (p.x > 0.) return 1;";
+    for (int i = 0; i < 300; ++i) chain += " else if (p.x > 0.) return 1;";
+    EXPECT_EQ(language::resolve(chain, {}).errors.size(), 1u);
+}
+
+TEST(Language, WorkIsBoundedByWhatItCosts) {
+    std::string names, declarations = "float f(float x){ return x; ";
+    for (int i = 0; i < 20'000; ++i) {
+        names += "a" + std::to_string(i) + "=1;zz" + std::to_string(i) + ";";
+        declarations += "float a" + std::to_string(i) + ";";
+    }
+    expectError(names, "unknown name");
+    expectError(declarations + "} d = 0; for (int i = 0; i < 500000; i++) d += f(1); return d;", "steps");
+    expectError(
+        "k = \"" + std::string(1 << 20, 'x') + "\"; for (int i = 0; i < 500000; i++) k == k; return 1.;",
+        "steps");
+}
+
 }  // namespace
 }  // namespace fw

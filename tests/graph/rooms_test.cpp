@@ -26,7 +26,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"graph/language", "base library ir"},
     {"graph/compile", "base assets library document rules ir evaluate language"},
     {"graph/emit", "compile"},
-    {"graph/check", "document rules language compile"},
+    {"graph/check", "library document rules language compile"},
     {"graph/nodes", "assets library compile"},
 
     {"runtime/system", "graph"},
