@@ -58,7 +58,7 @@ void expectAcceptedCompiles(uint32_t seed, Make make) {
         ASSERT_TRUE(spirv) << format(spirv.error()) << "\n" << code.text << "\n" << field;
         ++compiled;
     }
-    std::printf("%d refused\n", refused);
+    testing::Test::RecordProperty("refused", refused);
     EXPECT_EQ(compiled, wanted);
     EXPECT_LT(refused, wanted);
 }
