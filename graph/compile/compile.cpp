@@ -18,6 +18,18 @@ const Node* outputNode(const Graph& graph) {
     return found == graph.nodes.end() ? nullptr : &*found;
 }
 
+/// Why no program can be made of a field whose operations these are.
+std::optional<Error> fieldProblem(const Graph& graph, const Node& output, const Ir& ir, IrId distance) {
+    if (ir.size() > kMaxIrOperations)
+        return errorAt(graph, &output,
+                       "the field has more than " + std::to_string(kMaxIrOperations) +
+                           " operations: use fewer nodes, copies or loops");
+    if (!ir.isConstant(distance) || std::isfinite(ir.number(distance))) return std::nullopt;
+    Error error = errorAt(graph, &output, "the field is not a number anywhere: look for a division by zero");
+    error.code = Error::Code::divisionByZero;  // it may be one at another time
+    return error;
+}
+
 /// How the mesh is made: by the polygonize node that it comes from, else by the output node.
 void readSettings(const Node& output, const MeshRecipe& recipe, Program& program) {
     program.stages = recipe.stages;
@@ -69,12 +81,7 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     std::copy_n(result.value.ids.begin(), 9, program.surface.begin());
     program.ir = lowering.state.ir.compact(program.surface);
     program.live = std::move(lowering.live);
-    if (program.ir.size() > kMaxIrOperations)
-        return errorAt(graph, output,
-                       "the field has more than " + std::to_string(kMaxIrOperations) +
-                           " operations: use fewer nodes, copies or loops");
-    if (program.ir.isConstant(program.distance()) && !std::isfinite(program.ir.number(program.distance())))
-        return errorAt(graph, output, "the field is not a number anywhere: look for a division by zero");
+    if (auto problem = fieldProblem(graph, *output, program.ir, program.distance())) return *problem;
     program.structureHash = program.ir.hash(program.surface);
     program.families = findFamilies(program.ir, program.distance());
     program.exactness = result.exactness;
@@ -91,7 +98,17 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
     GraphLowering lowering(graph, unmeasured);
     std::vector<const Node*> all;
     for (const Node& node : graph.nodes) all.push_back(&node);
-    lowering.lowerAll(graph.nodes, "", nullptr, all);
+    const LoweredNodes lowered = lowering.lowerAll(graph.nodes, "", nullptr, all);
+    const Node* output = outputNode(graph);
+    if (!hasErrors(lowering.findings) && output) {
+        // Only what the output needs counts.
+        std::array<IrId, 9> surface = lowered.at(output->id).outputs[0].value.ids;
+        const bool small = lowering.state.ir.size() <= kMaxIrOperations;
+        const Ir needed = small ? Ir() : lowering.state.ir.compact(surface);
+        if (auto problem =
+                fieldProblem(graph, *output, small ? lowering.state.ir : needed, surface[distanceComponent]))
+            lowering.findings.push_back(*problem);
+    }
     return std::move(lowering.findings);
 }
 

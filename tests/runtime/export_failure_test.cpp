@@ -16,8 +16,8 @@
 
 #include "runtime/export/export.h"
 #include "runtime/system/output_file.h"
-#include "tests/support/meshes.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {

@@ -19,8 +19,8 @@
 #include "runtime/measure/mesh_report.h"
 #include "runtime/measure/read_back.h"
 #include "runtime/mesh/creases.h"
-#include "tests/support/meshes.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {

@@ -19,8 +19,8 @@
 
 #include "graph/compile/compile.h"
 #include "graph/emit/glsl.h"
-#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/plot.h"
 
 namespace fw {

@@ -12,8 +12,8 @@
 
 #include "runtime/export/export.h"
 #include "runtime/measure/read_back.h"
-#include "tests/support/meshes.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/command.h"
-#include "tests/support/meshes.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {

@@ -15,10 +15,10 @@
 #include "runtime/mesher/host.h"
 #include "runtime/play/player.h"
 #include "runtime/play/session.h"
-#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
-#include "tests/support/meshes.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/graph/random_graph.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {

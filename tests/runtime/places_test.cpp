@@ -7,8 +7,8 @@
 
 #include "graph/document/json.h"
 #include "runtime/play/session.h"
-#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
+#include "tests/support/graph/expression_graph.h"
 
 namespace fw {
 namespace {

@@ -13,8 +13,8 @@
 #include "runtime/play/mesh_program.h"
 #include "runtime/play/session.h"
 #include "tests/support/device_field.h"
-#include "tests/support/graph/expression_graph.h"
 #include "tests/support/gpu.h"
+#include "tests/support/graph/expression_graph.h"
 #include "tests/support/graph/random_graph.h"
 
 namespace fw {

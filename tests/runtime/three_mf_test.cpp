@@ -10,8 +10,8 @@
 #include "runtime/export/formats.h"
 #include "runtime/measure/mesh_report.h"
 #include "runtime/mesh/corners.h"
-#include "tests/support/meshes.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {

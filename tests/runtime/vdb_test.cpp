@@ -11,8 +11,8 @@
 #include "runtime/export/export.h"
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/command.h"
-#include "tests/support/meshes.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/meshes.h"
 
 namespace fw {
 namespace {
