@@ -28,10 +28,8 @@ struct Search {
 };
 
 Node* outputOf(Graph& graph) {
-    const auto found = std::ranges::find_if(graph.nodes, [](const Node& node) {
-        const NodeType* type = findNodeType(node.type);
-        return type && type->id == "output";
-    });
+    const auto found = std::ranges::find_if(
+        graph.nodes, [](const Node& node) { return roleOf(node.type) == NodeRole::output; });
     return found == graph.nodes.end() ? nullptr : &*found;
 }
 
@@ -65,8 +63,8 @@ std::optional<Link> stepInside(Search& search, const Link& at) {
     std::map<std::string, std::string> ids;
     std::string entrance, exit;
     for (const Node& node : group->nodes) {
-        if (node.type == "group_input") entrance = node.id;
-        if (node.type == "group_output") exit = node.id;
+        if (roleOf(node.type) == NodeRole::groupInput) entrance = node.id;
+        if (roleOf(node.type) == NodeRole::groupOutput) exit = node.id;
         std::string id;
         for (int number = 0; id.empty() || search.graph.node(id) || search.names.contains(id); ++number)
             id = "inner_" + std::to_string(search.names.size() + std::size_t(number));
@@ -121,7 +119,12 @@ std::optional<Link> endlessInput(Search& search, const Node& node) {
 std::string endlessNode(const Graph& graph) {
     Search search{graph, {}, 0};
     const Node* output = outputOf(search.graph);
-    std::optional<Link> at = output ? endlessInput(search, *output) : std::nullopt;
+    if (!output) return {};
+    // What the output shows is known to be endless: of its one input no look is needed.
+    std::vector<Link> shown;
+    for (const auto& [name, value] : output->inputs)
+        if (const Link* link = std::get_if<Link>(&value.value)) shown.push_back(*link);
+    std::optional<Link> at = shown.size() == 1 ? std::optional(shown[0]) : endlessInput(search, *output);
     if (!at) return {};
     while (true) {
         const Node node = *search.graph.node(at->node);
