@@ -12,8 +12,8 @@
 namespace fw {
 
 /// The id of that node, in a group as "instance/node", and its label: "'ground' (Plane)". After two dozen
-/// looks, the farthest up that is known to have no bounds. Empty if the solid has bounds, or nothing is
-/// connected. The graph compiles.
+/// looks, the farthest up that is known to have no bounds. Empty if nothing is connected. The graph compiles
+/// to a solid that has none.
 std::string endlessNode(const Graph& graph);
 
 }  // namespace fw

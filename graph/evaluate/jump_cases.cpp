@@ -92,14 +92,9 @@ JumpCases::JumpCases(const Ir& ir_, IrId root_, std::span<const double> paramete
     }
 }
 
-bool JumpCases::outside(const Box& box) {
-    for (IrId axis = 0; axis < 3 && axis <= root; ++axis) ranges[axis] = {box.lo[axis], box.hi[axis]};
-    jumped = false;
-    return atLeastZero(0, 0);
-}
-
 bool JumpCases::outsideInEachCase(const Box& box) {
-    return outside(box) || (jumped && atLeastZero(0, kMostSplits));
+    for (IrId axis = 0; axis < 3 && axis <= root; ++axis) ranges[axis] = {box.lo[axis], box.hi[axis]};
+    return atLeastZero(0, kMostSplits);
 }
 
 bool JumpCases::atLeastZero(std::size_t first, int splits) {
@@ -110,10 +105,9 @@ bool JumpCases::atLeastZero(std::size_t first, int splits) {
         for (int k = 0; k < info.arity; ++k) operands[k] = ranges[node.operands[k]];
         Interval& range = ranges[steps[i]];
         range = info.interval(operands, ir.layer(node));
-        if (!jumpsAnywhere(node.op) || node.positions == 0) continue;
+        if (splits == 0 || !jumpsAnywhere(node.op) || node.positions == 0) continue;
         const Cases cases = casesOf(node.op, operands, range);
-        jumped |= cases.count > 0;
-        if (splits == 0 || cases.count == 0) continue;
+        if (cases.count == 0) continue;
         for (int c = 0; c < cases.count; ++c) {
             range = cases.ranges[std::size_t(c)];
             if (!atLeastZero(i + 1, splits - 1)) return false;

@@ -21,9 +21,7 @@ class JumpCases {
   public:
     JumpCases(const Ir& ir, IrId root, std::span<const double> parameters);
 
-    /// The field is at least 0 everywhere in the box: proven, or false. By its interval alone.
-    bool outside(const Box& box);
-    /// The same, also where the field jumps within the box.
+    /// The field is at least 0 everywhere in the box, also where it jumps there: proven, or false.
     bool outsideInEachCase(const Box& box);
 
   private:
@@ -33,7 +31,6 @@ class JumpCases {
     IrId root;
     std::vector<IrId> steps;  // the operations that the root needs
     std::vector<Interval> ranges;
-    bool jumped = false;  // within the box of the last call
 };
 
 }  // namespace fw
