@@ -132,11 +132,11 @@ Value Run::pop() {
 void Run::run(Frame& frame, const Instruction& i) {
     switch (i.kind) {
         case Kind::number: stack.push_back(constantValue(state, i.type, std::array{i.number})); return;
-        case Kind::text:
-            stack.push_back(Value{Type::string});
-            stack.back().text = code.texts[std::size_t(i.index)];
-            state.steps += stack.back().text.size() / kTextStep;
-            return;
+        case Kind::text: {
+            Value value{Type::string};
+            value.text = code.texts[std::size_t(i.index)];
+            return push(value);
+        }
         case Kind::slot: return push(*frame.slots[std::size_t(i.index)]);
         case Kind::input: return push(inputs[std::size_t(i.index)]);
         case Kind::position: stack.push_back(positionValue()); return;

@@ -185,13 +185,14 @@ void Run::loop(Frame& frame, const Instruction& i) {
                  "the loop's bounds must be known when the graph is compiled: numbers, or inputs that are "
                  "not linked or live");
         own.firstBegan = frame.live;
-        own.condition = IrId(own.left.size() + frame.returns);
+        own.departures = own.left.size() + frame.returns;
         if (ir.isConstant(condition, 0.0)) frame.at = std::size_t(i.target);
     } else if (i.kind == Kind::step) {
         const std::vector<Exit> skipped = std::move(own.skipped);
         own.skipped.clear();
         rejoin(frame, own, skipped, i.place);
-        if (!skipped.empty() && own.condition == own.left.size() + frame.returns) frame.live = own.firstBegan;
+        if (!skipped.empty() && own.departures == own.left.size() + frame.returns)
+            frame.live = own.firstBegan;
         skipUnreached(frame, i);
     } else if (i.kind == Kind::repeat) {
         frame.at = std::size_t(i.index);

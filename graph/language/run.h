@@ -38,6 +38,7 @@ struct Structure {
     bool loops = false;
     std::vector<Exit> left = {}, skipped = {};  ///< by break; by continue, in this iteration
     std::size_t returns = 0;                    ///< of the frame, when it began
+    std::size_t departures = 0;                 ///< breaks and returns, when this iteration began
 };
 
 /// One running function.
