@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "graph/check/check.h"
-#include "graph/emit/glsl.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/play/mesh_program.h"
 #include "runtime/system/clock.h"
@@ -87,7 +86,7 @@ Result<ExportState> ExportJob::Shared::make() {
     if (!start("region")) return stopped;
     const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
     if (!region) return region.error();
-    prepareMesher(emitField(*program));
+    prepareKernels(*program);
     if (!start("device")) return stopped;
     Result<Device>& device = opening.get();
     if (!device) return device.error();

@@ -16,6 +16,7 @@
 #include "graph/document/graph.h"
 #include "runtime/gpu/device.h"
 #include "runtime/measure/mesh_requirements.h"
+#include "runtime/play/session.h"
 
 namespace fw::cli {
 
@@ -71,6 +72,7 @@ struct RenderCommandOptions {
     MeshOptions mesh;
     std::string output, size = "1280x720", view = "picture";
     int samples = 16;
+    FieldBy quality = FieldBy::sooner;
     bool reference = false;
     std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
     bool overwrite = false;
@@ -80,6 +82,7 @@ int runRender(const RenderCommandOptions& options);
 struct PlayOptions {
     MeshOptions mesh;
     std::string size = "1280x720";
+    FieldBy quality = FieldBy::sooner;
     bool headless = false;
     std::optional<int> frames;  ///< after which it ends
 };

@@ -130,6 +130,19 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
                         "Index or part of the name of the device (see fieldwright info)");
 }
 
+void addQuality(CLI::App* command, FieldBy& quality) {
+    static const std::map<std::string, FieldBy> names = {
+        {"auto", FieldBy::sooner}, {"full", FieldBy::kernels}, {"draft", FieldBy::tapes}};
+    command
+        ->add_option_function<std::string>(
+            "--quality", [&quality](const std::string& name) { quality = names.at(name); },
+            "full: light is traced through the field; draft: of the mesh alone, sooner; auto: full, but a "
+            "draft "
+            "where the driver would take long to compile the field")
+        ->check(CLI::IsMember(names))
+        ->default_str("auto");
+}
+
 /// Ctrl-C asks the running command to stop, as onInterrupt says.
 void listenForInterrupt() {
     struct sigaction action {};
@@ -241,6 +254,7 @@ int run(int count, char** arguments) {
             "as points or spheres, in place of their surface")
         ->check(CLI::IsMember(renderViews()))
         ->default_str(renderOptions.view);
+    addQuality(renderCommand, renderOptions.quality);
     renderCommand->add_flag(
         "--reference", renderOptions.reference,
         "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
@@ -256,6 +270,7 @@ int run(int count, char** arguments) {
                 std::string(14 - std::min<std::size_t>(std::strlen(help.key), 13), ' ') + help.does;
     playCommand->footer(keys);
     addMesh(playCommand, playOptions.mesh);
+    addQuality(playCommand, playOptions.quality);
     playCommand->add_option("--size", playOptions.size, "Width and height in pixels: WxH")
         ->default_str(playOptions.size);
     playCommand->add_flag("--headless", playOptions.headless,

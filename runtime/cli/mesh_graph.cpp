@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cstdio>
 
-#include "graph/emit/glsl.h"
 #include "runtime/bake/mesh_field_baker.h"
 
 namespace fw::cli {
@@ -97,7 +96,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
                               options.method.value_or(program->method)};
     const Result<Box> box = meshRegion(*program, request, &*graph);
     if (!box) return fail(badInput(options, box.error()));
-    prepareMesher(emitField(*program));
+    prepareKernels(*program);
     progress.start("device", 15);
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), fail(kBadUsage);

@@ -16,7 +16,7 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
     {
         Progress progress;
         int status = kDone;
-        player = openPlayer(options.mesh, progress, {}, status);
+        player = openPlayer(options.mesh, progress, {.fieldBy = options.quality}, status);
         if (!player) return status;
     }
     const Timeline& timeline = player->timeline();

@@ -177,6 +177,7 @@ int playInWindow(const PlayOptions& options, std::pair<int, int> size) {
         int status = kDone;
         PlayerOptions wishes;
         wishes.deviceOptions = desktop.deviceOptions();
+        wishes.fieldBy = options.quality;
         player = openPlayer(options.mesh, progress, wishes, status);
         if (!player) return status;
     }

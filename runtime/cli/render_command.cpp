@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "graph/compile/effort.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
@@ -18,6 +19,11 @@ bool isPng(const std::string& path) {
     return extension == ".png";
 }
 
+uint32_t viewOf(const RenderCommandOptions& options) {
+    const std::vector<std::string>& views = renderViews();
+    return static_cast<uint32_t>(std::find(views.begin(), views.end(), options.view) - views.begin());
+}
+
 }  // namespace
 
 const std::vector<std::string>& renderViews() {
@@ -28,12 +34,26 @@ const std::vector<std::string>& renderViews() {
 }
 
 RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size) {
-    const auto& views = renderViews();
     RenderOptions render{.width = size.first, .height = size.second, .samples = options.samples};
     render.reference = options.reference;
-    render.show = static_cast<uint32_t>(std::find(views.begin(), views.end(), options.view) - views.begin());
+    render.show = viewOf(options);
     render.cancel = &interrupted;
     return render;
+}
+
+FieldBy renderedBy(const RenderCommandOptions& options) {
+    const uint32_t view = viewOf(options);
+    return options.reference || view == RENDER_AMBIENT || showsField(view) ? FieldBy::kernels
+                                                                           : options.quality;
+}
+
+void noteDraft(const Player& player, const RenderCommandOptions& options) {
+    if (player.byTapes() && options.quality == FieldBy::sooner)
+        std::fprintf(
+            stderr,
+            "%s: note: a draft, of the mesh alone: the driver would take about %.0f s to compile the "
+            "field; --quality full waits for it\n",
+            options.output.c_str(), 2 * secondsToCompile(player.program()));
 }
 
 int runRender(const RenderCommandOptions& options) {
@@ -58,7 +78,8 @@ int runRender(const RenderCommandOptions& options) {
     Progress progress;
     int status = kDone;
     std::optional<BeforeOutput> nothing(std::in_place);
-    std::optional<Player> player = openPlayer(options.mesh, progress, {.liveParameters = false}, status);
+    std::optional<Player> player =
+        openPlayer(options.mesh, progress, {.liveParameters = false, .fieldBy = renderedBy(options)}, status);
     if (!player) return status;
     progress.start("mesh", 50);
     RenderOptions render = renderOptions(options, *size);
@@ -76,6 +97,7 @@ int runRender(const RenderCommandOptions& options) {
     const Done written = savePicture(*picture, options.output, &interrupted);
     if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
     progress.finish();
+    noteDraft(*player, options);
     if (mesh->capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());

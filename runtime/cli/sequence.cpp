@@ -112,7 +112,8 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     {
         Progress progress;
         int status = kDone;
-        player = openPlayer(options.mesh, progress, {.liveParameters = false}, status, accept);
+        player = openPlayer(options.mesh, progress, {.liveParameters = false, .fieldBy = renderedBy(options)},
+                            status, accept);
         if (!player) return status;
     }
     if (!player->moves())
@@ -142,6 +143,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
                 nothing.reset();
                 if (!picture && interrupted) break;
                 if (!picture) return badInput(options.mesh, picture.error());
+                if (progress.made == 0) noteDraft(*player, options);
                 const Done written = savePicture(*picture, path, &interrupted);
                 if (!written && interrupted) break;
                 if (!written) return print(written.error()), kSystemFailure;

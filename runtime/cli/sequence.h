@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/cli/commands.h"
+#include "runtime/play/player.h"
 #include "runtime/render/renderer.h"
 #include "runtime/system/clock.h"
 
@@ -53,6 +54,10 @@ class SequenceProgress {
 const std::vector<std::string>& renderViews();
 /// The options that all pictures of the command share.
 RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size);
+/// Who evaluates the field for them: kernels if a view traces it.
+FieldBy renderedBy(const RenderCommandOptions& options);
+/// Says of a picture that is a draft for lack of a quick compiler why it is one.
+void noteDraft(const Player& player, const RenderCommandOptions& options);
 
 /// `render` with --from, --to or --fps.
 int runSequence(const RenderCommandOptions& options, std::pair<int, int> size);

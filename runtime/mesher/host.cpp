@@ -19,11 +19,13 @@ using gpu::uvec4;
 
 namespace {
 
-constexpr int kMostSteps = 10;                                       // as in vertices.comp
+constexpr int kMostNewtonSteps = 10;                                 // as in vertices.comp
 constexpr double kTolerance = 0.02;                                  // ditto
 constexpr std::size_t kBatch = TapeMachine<float>::kGradientPoints;  // of vertices
 /// A tape that is not shorter than this part of the one before is not worth its memory.
 constexpr double kWorthKeeping = 0.8;
+/// Of all shortened tapes of a run together: about 256 MB.
+constexpr int64_t kMostSteps = (256 << 20) / sizeof(TapeStep);
 
 float samplePosition(const MesherPush& push, int axis, uint32_t i) {
     return push.origin[axis] + float(int(i) - 1) * push.cellSize[axis];
@@ -47,8 +49,10 @@ struct Search {
 
 }  // namespace
 
-MesherHost::MesherHost(const Ir& ir, IrId root, std::vector<double> parameters)
+MesherHost::MesherHost(const Ir& ir, IrId root, const std::vector<double>& parameters,
+                       std::span<const IrId> color_)
     : field(std::make_shared<Tape>(makeTape(ir, root, parameters))),
+      color(color_.empty() ? Tape{} : makeTape(ir, color_, parameters)),
       machines(std::max(1u, std::thread::hardware_concurrency())) {}
 
 void MesherHost::parallel(std::size_t count, const std::function<void(Machine&, std::size_t)>& work) {
@@ -62,8 +66,8 @@ void MesherHost::parallel(std::size_t count, const std::function<void(Machine&, 
 }
 
 void MesherHost::descend(Machine& machine, const MesherPush& push, uvec3 first, uint32_t size,
-                         const SharedTape& tape, Block& block) const {
-    if (glm::any(glm::greaterThanEqual(first, push.cells + 2u))) return;
+                         const SharedTape& tape, Block& block) {
+    if (glm::any(glm::greaterThanEqual(first, glm::min(push.cells + 2u, push.end * 8u + 8u)))) return;
     const uvec3 last = first + size;
     Box box;
     bool atRim = false;
@@ -78,7 +82,9 @@ void MesherHost::descend(Machine& machine, const MesherPush& push, uvec3 first, 
     if (machine.shortens()) {
         // A margin is asked for where signs have not been enough.
         Tape shorter = push.margin > 0 ? machine.shortened(*tape) : machine.shortenedForSigns(*tape);
-        if (double(shorter.steps.size()) <= kWorthKeeping * double(tape->steps.size()))
+        const auto steps = int64_t(shorter.steps.size());
+        if (double(steps) <= kWorthKeeping * double(tape->steps.size()) &&
+            stepsLeft.fetch_sub(steps) >= steps)
             own = std::make_shared<Tape>(std::move(shorter));
     }
     if (size == 8) {
@@ -94,14 +100,15 @@ void MesherHost::descend(Machine& machine, const MesherPush& push, uvec3 first, 
 MesherHost::Culled MesherHost::cull(const MesherPush& push) {
     const std::size_t count = std::size_t(push.blocks.x) * push.blocks.y * push.blocks.z;
     blocks.assign(count, {});
+    stepsLeft = kMostSteps;
     Culled result;
     result.rows.resize(count * 64);
     result.blockCounts.resize(count);
     parallel(count, [&](Machine& machine, std::size_t i) {
         const auto index = uint32_t(i);
         Block& block = blocks[i];
-        block.first = uvec3(index % push.blocks.x, index / push.blocks.x % push.blocks.y,
-                            index / push.blocks.x / push.blocks.y) *
+        block.first = (push.begin / 8u + uvec3(index % push.blocks.x, index / push.blocks.x % push.blocks.y,
+                                               index / push.blocks.x / push.blocks.y)) *
                       64u;
         descend(machine, push, block.first, 64, field, block);
         uint32_t place = 0;
@@ -116,7 +123,7 @@ MesherHost::Culled MesherHost::cull(const MesherPush& push) {
 }
 
 const Tape& MesherHost::tapeOf(const MesherPush& push, uvec3 brick) const {
-    const uvec3 block = brick / 8u, local = brick % 8u;
+    const uvec3 block = (brick - push.begin) / 8u, local = brick % 8u;
     const Block& at = blocks[(block.z * push.blocks.y + block.y) * push.blocks.x + block.x];
     return *at.bricks[local.x | local.y << 3 | local.z << 6];
 }
@@ -199,7 +206,7 @@ void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 b
         for (std::size_t k = 0; k < left; ++k) {
             const std::size_t i = sought[k];
             const Edge& edge = edges[i];
-            searches[i].step(f[k], g[edge.axis][k] * edge.length, edge.insideAtA, step == kMostSteps);
+            searches[i].step(f[k], g[edge.axis][k] * edge.length, edge.insideAtA, step == kMostNewtonSteps);
             if (searches[i].found)
                 gradients[i] = {g[0][k], g[1][k], g[2][k]};
             else
@@ -250,6 +257,24 @@ std::vector<MeshVertex> MesherHost::vertices(const MesherPush& push, std::span<c
         for (std::size_t at = 0; at < own.size(); at += kBatch)
             placeVertices(machine, push, unpackBrick(brickList[slot]), vertexList,
                           own.subspan(at, std::min(kBatch, own.size() - at)), result);
+    });
+    return result;
+}
+
+std::vector<glm::vec3> MesherHost::colors(std::span<const MeshVertex> at) {
+    constexpr std::size_t kBatchOfColors = Machine::kPoints;
+    std::vector<glm::vec3> result(at.size());
+    parallel((at.size() + kBatchOfColors - 1) / kBatchOfColors, [&](Machine& machine, std::size_t batch) {
+        const std::size_t first = batch * kBatchOfColors;
+        const std::size_t count = std::min(kBatchOfColors, at.size() - first);
+        for (std::size_t i = 0; i < count; ++i)
+            for (int axis = 0; axis < 3; ++axis) machine.position(axis)[i] = at[first + i].position[axis];
+        machine.value(color, count);
+        for (int channel = 0; channel < 3; ++channel) {
+            const float* values = machine.root(color, std::size_t(channel));
+            for (std::size_t i = 0; i < count; ++i)
+                result[first + i][channel] = glm::clamp(values[i], 0.0f, 1.0f);
+        }
     });
     return result;
 }

@@ -184,6 +184,10 @@ bool isChunked(const MesherPush& push, bool dual) {
     return push.vertexCapacity > MESHER_VERTEX_CHUNK || push.triangleCapacity > MESHER_TRIANGLE_CHUNK;
 }
 
+bool hasColors(const MesherConfig& config) {
+    return config.colors && (!config.host || config.host->hasColors());
+}
+
 void record(Commands& commands, const MesherPipelines& pipelines, const MesherBuffers& b,
             const MesherConfig& config, MesherPush push) {
     const Device& device = commands.device;
@@ -318,8 +322,15 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
                       {12, b.corners},
                       chunkOf(device, 13, b.triangles, push.chunk, uint64_t(MESHER_QUAD_CHUNK) * 24)});
     }
-    if (!config.colors || config.host) return;
+    if (!hasColors(config)) return;
     beginStage(commands, "colors");
+    if (config.host) {
+        flush(commands);
+        const uint32_t count = download<MesherCounts>(device, b.counts, 1)[0].vertices;
+        const auto at = download<gpu::MeshVertex>(device, b.vertices, std::min(count, push.vertexCapacity));
+        upload(device, b.colors, config.host->colors(at));
+        return;
+    }
     for (push.chunk = 0; push.chunk < vertexChunks; ++push.chunk)
         indirect(colors, MESHER_VERTICES + push.chunk,
                  {chunkOfVertices(b.vertices),
@@ -400,7 +411,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     const glm::uvec3 blockCount = glm::min(end + 1u, gridBlocks) - first;
     const glm::uvec3 tileCells = glm::min(cells, (end - first) * 64u);
     const bool dual = config.method == MeshMethod::dualContouring;
-    assert(!(dual || config.host) || (first == glm::uvec3(0) && end == gridBlocks));
+    assert(!dual || (first == glm::uvec3(0) && end == gridBlocks));
     const Limits most = limitsOf(device, dual);
     guessCapacities(device, buffers, tileCells, most);
     MesherPush push{};
@@ -416,8 +427,8 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     if (dual) build(device, pipelines, {classifyDual, topGroupsDual, patches, contour, quads});
     push.blocksListed = std::max({tileCells.x, tileCells.y, tileCells.z}) >= kCellsForBlocks && !config.host;
     if (push.blocksListed) build(device, pipelines, {blocks});
-    const bool wantColors = config.colors && !config.host;
-    if (wantColors) build(device, pipelines, {colors});
+    const bool wantColors = hasColors(config);
+    if (wantColors && !config.host) build(device, pipelines, {colors});
     const bool families = config.families && !config.families->empty() && !config.host;
     // On the longest grids the heads cannot be bound: every brick then evaluates all members.
     if (families && config.pruned &&

@@ -65,10 +65,9 @@ struct MesherConfig {
     bool pruned = true;    ///< a brick evaluates only the members that can matter in it; likewise
     MesherTile tile = {};  ///< of the region, the whole by default; only marching cubes takes another
     MeshMethod method = MeshMethod::marchingCubes;
-    bool colors = false;  ///< also the base colour at each vertex
-    MesherHost* host =
-        nullptr;         ///< evaluates the field instead of kernels, which then need not be built; no colours
-    bool timed = false;  ///< fill MesherResult::stages (see commands.h for what that costs)
+    bool colors = false;         ///< also the base colour at each vertex
+    MesherHost* host = nullptr;  ///< evaluates the field instead of kernels, which then need not be built
+    bool timed = false;          ///< fill MesherResult::stages (see commands.h for what that costs)
 };
 
 inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits

@@ -82,7 +82,7 @@ Result<Player> Player::create(Graph graph, Device&& device, const PlayerOptions&
 }
 
 Player::Player(Device device, PlayerOptions options_)
-    : session(std::move(device)),
+    : session(std::move(device), options_.fieldBy),
       bake(toldBaker(session.device(), options_.baking)),
       options(std::move(options_)) {}
 
@@ -270,7 +270,6 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
-    meshedOnHost = options.compileBehind && session.compiling();
     return result;
 }
 
@@ -360,10 +359,6 @@ Done Player::reload(Graph graph) { return reload(std::move(graph), options); }
 
 bool Player::compiling() {
     const bool meshing = session.compiling(), drafting = session.drafting();
-    // The mesh of the host has no colours, and its new vertices are not on the field.
-    if (!meshing && std::exchange(meshedOnHost, false) &&
-        (now.program.hasMaterial() || std::ranges::any_of(now.program.stages, &projectsVertices)))
-        meshed.reset();
     return meshing || drafting;
 }
 

@@ -50,6 +50,7 @@ struct PlayerOptions {
     /// Nothing waits for kernels to be compiled: until they are there, meshes are made on the host and
     /// pictures are drafts (Session::replaceProgram).
     bool compileBehind = false;
+    FieldBy fieldBy = FieldBy::sooner;  ///< of the player's creation, as its device
     bool checked = false;     ///< check() was called: only what the output needs must be free of errors
     bool fieldViews = false;  ///< pictures will be of the views that showsField()
     /// Called while a mesh is made a field, with what is done of it: from 0 to 1. That of a player's creation
@@ -137,6 +138,9 @@ class Player {
     /// call.
     bool compiling();
 
+    /// Whether pictures are drafts, and stay so: Session::byTapes().
+    bool byTapes() const { return session.byTapes(); }
+
     /// The samples of the particles' fields as they were made last, for the host.
     std::vector<FieldVolumePtr> particleVolumes() const { return session.particleVolumes(); }
     /// Places for particles that fly now, of which some may be empty.
@@ -171,8 +175,7 @@ class Player {
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
-    std::optional<MesherResult> meshed;  ///< of the values that the session has
-    bool meshedOnHost = false;
+    std::optional<MesherResult> meshed;   ///< of the values that the session has
     std::vector<gpu::MeshVertex> points;  ///< the outline; empty until it is asked for
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "graph/compile/effort.h"
 #include "graph/compile/endless.h"
 #include "graph/emit/glsl.h"
 #include "graph/evaluate/region.h"
@@ -11,6 +12,7 @@
 #include "runtime/mesh/creases.h"
 #include "runtime/mesher/host.h"
 #include "runtime/stages/decimate.h"
+#include "runtime/stages/project_host.h"
 #include "runtime/system/clock.h"
 
 namespace fw {
@@ -21,6 +23,12 @@ namespace {
 constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
+
+Error tooLargeToLookInto(const Program& program) {
+    return problem("this view traces the field, whose code would keep the driver busy for about " +
+                   std::to_string(std::lround(secondsToCompile(program))) +
+                   " s: ask for full quality, or choose another view");
+}
 
 }  // namespace
 
@@ -82,7 +90,11 @@ Result<CellGrid> cellGrid(const Box& region, int resolution) {
     return grid;
 }
 
-Session::Session(Device device) : gpu(std::make_unique<Device>(std::move(device))) {}
+void prepareKernels(const Program& program) {
+    if (secondsToCompile(program) <= kMostSecondsToCompile) prepareMesher(emitField(program));
+}
+
+Session::Session(Device device, FieldBy by_) : gpu(std::make_unique<Device>(std::move(device))), by(by_) {}
 
 Session::~Session() {
     if (overtaken) *overtaken = true;
@@ -113,11 +125,25 @@ void Session::take(Program program) {
     upload(*gpu, parameters, values);
 }
 
+bool Session::tapesAreSooner(int resolution) const {
+    if (by != FieldBy::sooner) return by == FieldBy::tapes;
+    const double compiling = secondsToCompile(current);
+    return compiling > kMostSecondsToCompile && secondsByTapes(current, resolution) < compiling;
+}
+
+bool Session::beyondDriver() const {
+    return by == FieldBy::tapes || (by == FieldBy::sooner && secondsToCompile(current) > kMostSecondsBehind);
+}
+
 bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     take(std::move(program));
     if (std::exchange(kernelsBehind, false)) renderer.reset();
-    if (built && builtHash == current.structureHash) return false;
+    if (hasMesherKernels() || tapesAreSooner(current.resolution)) return false;
+    buildKernels(stages);
+    return true;
+}
 
+void Session::buildKernels(std::vector<StageTime>* stages) {
     const auto start = Clock::now();
     const std::string field = emitField(current);
     if (stages) stages->push_back({"emit", millisecondsSince(start)});
@@ -127,7 +153,6 @@ bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     if (stages) stages->push_back({"pipelines", millisecondsSince(compiling)});
     builtHash = current.structureHash;
     built = true;
-    return true;
 }
 
 void Session::replaceProgram(Program program, const FieldKernelOptions& kernels) {
@@ -139,17 +164,16 @@ void Session::replaceProgram(Program program, const FieldKernelOptions& kernels)
 }
 
 bool Session::compiling() {
-    const auto isBuilt = [&] { return built && builtHash == current.structureHash; };
     if (next.valid() && next.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         MesherPipelines made = next.get();
-        if (nextHash == current.structureHash && !isBuilt()) {
+        if (nextHash == current.structureHash && !hasMesherKernels()) {
             pipelines = std::move(made);
             if (!kernelsBehind) renderer.reset();
             builtHash = nextHash;
             built = true;
         }
     }
-    if (isBuilt()) return false;
+    if (hasMesherKernels() || !kernelsBehind || beyondDriver()) return false;
     if (!next.valid()) {  // one structure at a time; what was replaced meanwhile is passed over
         nextHash = current.structureHash;
         next = std::async(std::launch::async, [device = gpu.get(), field = emitField(current),
@@ -161,7 +185,7 @@ bool Session::compiling() {
 }
 
 bool Session::drafting() {
-    if (!kernelsBehind) return false;
+    if (!kernelsBehind || beyondDriver()) return false;
     const bool meshing = compiling();  // the mesher's kernels come first
     const auto there = [&] { return hasKernels && kernelsHash == current.structureHash; };
     const auto wanted = [&] { return nextKernelsHash == current.structureHash && overtaken && !*overtaken; };
@@ -243,27 +267,38 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.timed = timed;
     std::optional<MesherHost> host;
     std::optional<Program> evaluated;
-    if (compiling()) {
+    const bool waits = compiling();
+    tapes = !waits && !hasMesherKernels() && (kernelsBehind || tapesAreSooner(resolution));
+    if (waits || tapes) {
         evaluated = onHost();
-        config.host = &host.emplace(evaluated->ir, evaluated->distance(), evaluated->parameters());
+        const std::span<const IrId> color(&evaluated->surface[baseColorComponent], 3);
+        config.host = &host.emplace(evaluated->ir, evaluated->distance(), evaluated->parameters(),
+                                    config.colors ? color : std::span<const IrId>());
+    } else if (!hasMesherKernels()) {
+        buildKernels(nullptr);
     }
     Result<MesherResult> result = runMesher(*gpu, pipelines, buffers, config);
     if (result && request.stages && !current.stages.empty())
-        if (const Done staged = runStages(*result, *region, !host, timed); !staged) return staged.error();
+        if (const Done staged = runStages(*result, *region, evaluated ? &*evaluated : nullptr, timed);
+            !staged)
+            return staged.error();
     return result;
 }
 
-Done Session::runStages(MesherResult& result, const Box& region, bool kernels, bool timed) {
+Done Session::runStages(MesherResult& result, const Box& region, const Program* evaluated, bool timed) {
     if (!stagePipelines) stagePipelines = createMeshStagePipelines(*gpu);
     MeshStageConfig config{.pipelines = &*stagePipelines,
                            .lo = grid.lo,
                            .hi = grid.hi,
                            .cellSize = grid.cellSize,
                            .field = fieldBuffers(),
-                           .project = kernels,
                            .timed = timed};
     const bool projects = std::ranges::any_of(current.stages, &projectsVertices);
-    if (kernels && projects && (!stagePipelines->project || projectionHash != current.structureHash)) {
+    if (evaluated && projects)
+        config.projectOnHost =
+            [&, tape = makeTape(evaluated->ir, evaluated->distance(), evaluated->parameters())](
+                auto push, auto vertices) { projectOnHost(tape, push, vertices); };
+    if (!evaluated && projects && (!stagePipelines->project || projectionHash != current.structureHash)) {
         stagePipelines->project = createProjection(*gpu, emitField(current));
         projectionHash = current.structureHash;
     }
@@ -306,9 +341,12 @@ Mesh Session::download(const MesherResult& result) const {
 }
 
 template <class Draw>
-auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw) {
+auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
+    -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options)) {
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
-    const bool draft = drafting() || !current.stages.empty();
+    const bool draft = drafting() || tapes || !current.stages.empty();
+    if (tapes && (showsField(options.show) || options.show == RENDER_AMBIENT))
+        return tooLargeToLookInto(current);
     if (!renderer) renderer = createRenderer(*gpu);
     if (!draft && renderer->field.empty())
         setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));

@@ -40,28 +40,46 @@ Result<CellGrid> cellGrid(const Box& region, int resolution);
 
 inline constexpr int kMostResolution = 4096;
 
+/// Translates a kernel of the program, if it will have some, while the device is not yet open:
+/// prepareMesher().
+void prepareKernels(const Program& program);
+
+/// Kernels that are compiled behind take at most so long: the device is busy with them, and the next
+/// structure waits.
+inline constexpr double kMostSecondsBehind = 20;
+
+/// Who evaluates a program's field: kernels that the driver compiles, with light that they trace through the
+/// field; or tapes on the host, with pictures that are drafts (runtime/render/draft.h).
+enum class FieldBy {
+    sooner,  ///< kernels, but of a field whose code keeps the driver longer than tapes take for a mesh: tapes
+    kernels,  ///< however long the driver takes
+    tapes,
+};
+
 class Session {
   public:
-    explicit Session(Device device);
+    explicit Session(Device device, FieldBy by = FieldBy::sooner);
 
     const Device& device() const { return *gpu; }
     /// The device again, of a session that has had no program. It is at its end.
     Device release() { return std::move(*gpu); }
 
-    /// Makes `program` the one that is meshed. Builds pipelines only if the structure changed; returns
-    /// whether it did. Stage times go to `stages`.
+    /// Makes `program` the one that is meshed. Builds pipelines only if the structure changed and tapes are
+    /// not sooner done; returns whether it did. Stage times go to `stages`.
     bool setProgram(Program program, std::vector<StageTime>* stages = nullptr);
     const Program& program() const { return current; }
 
     /// The same without waiting: kernels of a new structure are compiled on a thread of their own. Until they
-    /// are there, polygonise() evaluates the field on the host (runtime/mesher/host.h), and its mesh has no
-    /// colours; then the renderer's are compiled, and until those are there pictures are drafts
-    /// (runtime/render/draft.h). `kernels` says which of them are wanted.
+    /// are there, polygonise() evaluates the field on the host (runtime/mesher/host.h); then the renderer's
+    /// are compiled, and until those are there pictures are drafts. `kernels` says which of them are wanted.
+    /// Those that would keep a thread busy for more than kMostSecondsBehind are not compiled at all.
     void replaceProgram(Program program, const FieldKernelOptions& kernels = {});
-    /// Whether the next polygonise() would do without the program's kernels.
+    /// Whether the next polygonise() would do without the program's kernels until they are there.
     bool compiling();
-    /// Whether the next picture would be a draft.
+    /// Whether the next picture would be a draft until the program's kernels are there.
     bool drafting();
+    /// Whether the last mesh came from tapes, and pictures of it stay drafts.
+    bool byTapes() const { return tapes; }
 
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
@@ -106,13 +124,22 @@ class Session {
     /// The program with the samples of its particles, for the host to evaluate.
     Program onHost() const;
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
-    /// What the program does to the mesh that was made in `region`; `kernels` tells whether by its kernels.
-    Done runStages(MesherResult& result, const Box& region, bool kernels, bool timed);
+    bool hasMesherKernels() const { return built && builtHash == current.structureHash; }
+    bool tapesAreSooner(int resolution) const;
+    /// Whether kernels that are wanted behind are not worth their wait.
+    bool beyondDriver() const;
+    void buildKernels(std::vector<StageTime>* stages);
+    /// What the program does to the mesh that was made in `region`; `program` is what the host evaluates, if
+    /// it has the kernels' part.
+    Done runStages(MesherResult& result, const Box& region, const Program* onHost, bool timed);
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
     template <class Draw>
-    auto draw(const MesherResult& result, RenderOptions options, Draw draw);
+    auto draw(const MesherResult& result, RenderOptions options, Draw draw)
+        -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options));
 
     std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
+    FieldBy by;
+    bool tapes = false;
     Program current;
     uint64_t builtHash = 0;
     bool built = false;

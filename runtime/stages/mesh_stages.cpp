@@ -9,7 +9,6 @@
 
 #include "runtime/mesh/creases.h"
 #include "runtime/system/clock.h"
-#include "shaders/mesh/stages.h"
 
 namespace fw {
 
@@ -165,10 +164,19 @@ void splitEdges(Commands& commands, Run& run, bool project) {
         beginStage(commands, "project");
         push.first = push.vertices;
         push.vertices = edges;
-        bound = {{5, b.vertices, 0, bytes}};
-        addField(bound, run.config.field);
-        dispatch(commands, pipelines.project, run.groups(edges), push, bound);
-        barrier(commands);
+        if (run.config.projectOnHost) {
+            flush(commands);
+            const std::size_t first = push.first * sizeof(gpu::MeshVertex);
+            std::vector<gpu::MeshVertex> made(edges);
+            downloadBytes(run.device, b.vertices, made.data(), edges * sizeof made[0], first);
+            run.config.projectOnHost(push, made);
+            uploadBytes(run.device, b.vertices, made.data(), edges * sizeof made[0], first);
+        } else {
+            bound = {{5, b.vertices, 0, bytes}};
+            addField(bound, run.config.field);
+            dispatch(commands, pipelines.project, run.groups(edges), push, bound);
+            barrier(commands);
+        }
     }
     std::swap(run.mesh.vertices, b.vertices);
     std::swap(run.mesh.triangles, b.triangles);
@@ -294,10 +302,7 @@ Done runMeshStages(const Device& device, MeshStageBuffers& buffers, MesherBuffer
              ++level) {
             fit = fits(run, "level " + std::to_string(level) + " of subdivide",
                        result.vertices + 3ull * (result.triangles / 2), 4ull * result.triangles);
-            if (fit)
-                runNow(run, [&](Commands& commands) {
-                    splitEdges(commands, run, stage.project && config.project);
-                });
+            if (fit) runNow(run, [&](Commands& commands) { splitEdges(commands, run, stage.project); });
         }
         if (!fit) return fit.error();
     }

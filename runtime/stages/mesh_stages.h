@@ -26,6 +26,8 @@
 #include "runtime/gpu/counting_sort.h"
 #include "runtime/mesher/mesher.h"
 
+#include "shaders/mesh/stages.h"  // after shared.h
+
 namespace fw {
 
 struct MeshStagePipelines {
@@ -51,7 +53,8 @@ struct MeshStageConfig {
     glm::vec3 lo{-1.0f}, hi{1.0f};  ///< the region that was meshed
     float cellSize = 0;             ///< metres; how small a part may become depends on it
     FieldBuffers field = {};        ///< as MesherConfig's
-    bool project = true;            ///< false: without the field's kernel, new vertices stay on their edges
+    /// In place of the field's kernel, where the host evaluates the field (project_host.h).
+    std::function<void(const gpu::MeshPush& push, std::span<gpu::MeshVertex> vertices)> projectOnHost = {};
     /// Does decimation on the host: whether it changed the mesh, which lies closer than that many metres.
     std::function<bool(Mesh& mesh, double error)> decimate = {};
     bool timed = false;

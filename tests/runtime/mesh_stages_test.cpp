@@ -38,11 +38,8 @@ Mesh changed(const Mesh& mesh, const std::vector<MeshStage>& stages, MesherResul
     buffers.counts = createBuffer(test::device(), sizeof(gpu::MesherCounts));
     uploadMesh(test::device(), buffers, mesh, result);
     const MeshStagePipelines pipelines = createMeshStagePipelines(test::device());
-    MeshStageConfig config{.pipelines = &pipelines,
-                           .lo = glm::vec3(-2),
-                           .hi = glm::vec3(2),
-                           .cellSize = 0.05f,
-                           .project = false};
+    MeshStageConfig config{
+        .pipelines = &pipelines, .lo = glm::vec3(-2), .hi = glm::vec3(2), .cellSize = 0.05f};
     const Done ran = runMeshStages(test::device(), stageBuffers, buffers, result, stages, config);
     if (!ran) throw SystemError(format(ran.error()));
     if (told) *told = result;
@@ -121,11 +118,13 @@ const std::string kBall = R"({"id": "ball", "type": "sphere", "inputs": {"radius
 
 /// A session on a device of its own, under the validation layer.
 struct Checked {
+    FieldBy by = FieldBy::sooner;
     Session session{[] {
-        Result<Device> device = createDevice({.validation = true});
-        if (!device) throw SystemError(format(device.error()));
-        return std::move(*device);
-    }()};
+                        Result<Device> device = createDevice({.validation = true});
+                        if (!device) throw SystemError(format(device.error()));
+                        return std::move(*device);
+                    }(),
+                    by};
     ~Checked() { EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>()); }
 
     MesherResult run(Program program, std::vector<MeshStage> stages, const MeshRequest& request) {
@@ -226,7 +225,7 @@ TEST(MeshStages, RandomGraphsKeepTheirTopology) {
     MeshStageBuffers stageBuffers;
     const MeshStagePipelines stagePipelines = createMeshStagePipelines(test::device());
     const MeshStageConfig stageConfig{
-        .pipelines = &stagePipelines, .lo = glm::vec3(-2.1f), .hi = glm::vec3(2.1f), .project = false};
+        .pipelines = &stagePipelines, .lo = glm::vec3(-2.1f), .hi = glm::vec3(2.1f)};
     int meshed = 0;
     for (uint32_t seed = 1; meshed < 100; ++seed) {
         ASSERT_LT(seed, 2000u);
@@ -245,7 +244,8 @@ TEST(MeshStages, RandomGraphsKeepTheirTopology) {
         ++meshed;
         const Mesh before = downloadMesh(test::device(), buffers, *result);
         const Report of = reportOf(before);
-        for (const auto& [stage, times] : {std::pair{smooth(1), 1}, {subdivide(1), 4}, {smooth(3), 4}}) {
+        for (const auto& [stage, times] :
+             {std::pair{smooth(1), 1}, {subdivide(1, false), 4}, {smooth(3), 4}}) {
             const std::vector<MeshStage> stages = {stage};
             const Done ran =
                 runMeshStages(test::device(), stageBuffers, buffers, *result, stages, stageConfig);
@@ -311,6 +311,21 @@ TEST(MeshStages, EachProjectedLevelBringsASphereFourTimesAsNear) {
     }
     EXPECT_GT(farFromBall(checked.mesh(ball, {subdivide(1, false)}, request)), 4 * before)
         << "in the middle of their edges";
+}
+
+TEST(MeshStages, TheHostProjectsAsTheKernelDoes) {
+    Checked kernels, tapes{FieldBy::tapes};
+    // A ball that leaves its region, closed at five of its sides.
+    const MeshRequest request{.region = Box{{-0.31, -0.9, -0.57}, {0.42, 0.123, 0.7}}, .resolution = 31};
+    const Program ball = programOf(graphOf(kBall));
+    const Mesh expected = kernels.mesh(ball, {subdivide(2)}, request);
+    const Mesh ours = tapes.mesh(ball, {subdivide(2)}, request);
+    ASSERT_TRUE(tapes.session.byTapes());
+    ASSERT_EQ(ours.indices, expected.indices);
+    for (std::size_t v = 0; v < ours.positions.size(); ++v) {
+        ASSERT_LT(glm::distance(ours.positions[v], expected.positions[v]), 1e-4f);
+        ASSERT_GT(glm::dot(ours.normals[v], expected.normals[v]), 0.999f);
+    }
 }
 
 TEST(MeshStages, NormalsFromConnectivityAreTheSpheres) {

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <glm/geometric.hpp>
 #include <thread>
 
+#include "graph/compile/effort.h"
 #include "graph/document/json.h"
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/gpu.h"
@@ -22,10 +25,29 @@ Program sample(const std::string& name) {
 }
 
 /// A session on a device of its own, as a program has it.
-Session openSession() {
+Session openSession(FieldBy by = FieldBy::sooner) {
     Result<Device> device = createDevice({});
     if (!device) throw SystemError(format(device.error()));
-    return Session(std::move(*device));
+    return Session(std::move(*device), by);
+}
+
+/// A ball under as many waves of unlike directions: about fourteen operations each.
+Program wavyBall(int waves) {
+    std::string code = "return length(p) - 1.0";
+    for (int i = 0; i < waves; ++i) {
+        char wave[120];
+        std::snprintf(wave, sizeof wave, " + %.6f * sin(dot(p, vec3(%.3f, %.3f, %.3f)))", 0.3 / waves,
+                      1 + 0.01 * i, 8 - 0.013 * i, 3 + 0.017 * (i % 37));
+        code += wave;
+    }
+    const Result<Graph> graph =
+        parseGraph(R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": "expression", "code": ")" + code +
+                       R"(;"}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}}]})",
+                   "waves.field.json", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<Program> program = compile(*graph);
+    if (!program) throw SystemError(format(program.error()));
+    return std::move(*program);
 }
 
 Mesh meshOf(Session& session) {
@@ -103,6 +125,59 @@ TEST(Session, StagesRunBeforeTheKernelsAreThereAndAgainByThem) {
     EXPECT_EQ(second.positions, expected.positions);
     EXPECT_EQ(second.colors, expected.colors);
     EXPECT_EQ(second.indices, expected.indices);
+}
+
+TEST(Session, TapesTakeWhatTheDriverWouldCompileForMinutes) {
+    const Program program = wavyBall(1000);
+    ASSERT_GT(secondsToCompile(program), kMostSecondsBehind);
+    Session waiting = openSession();
+    const std::size_t pipelines = waiting.device().record->pipelines;
+    EXPECT_FALSE(waiting.setProgram(program));
+    EXPECT_EQ(waiting.device().record->pipelines, pipelines);
+    expectClosed(meshOf(waiting));
+    EXPECT_TRUE(waiting.byTapes());
+
+    Session behind = openSession();
+    behind.replaceProgram(program);
+    EXPECT_FALSE(behind.compiling() || behind.drafting()) << "nothing better will come";
+    const Result<MesherResult> result = behind.polygonise({std::nullopt, 48});
+    ASSERT_TRUE(result);
+    Picture picture;
+    RenderOptions options{.width = 64, .height = 48};
+    EXPECT_TRUE(behind.renderLive(*result, options, picture));
+    options.show = RENDER_SLICE;
+    const Result<bool> slice = behind.renderLive(*result, options, picture);
+    ASSERT_FALSE(slice);
+    EXPECT_NE(slice.error().message.find("keep the driver busy"), std::string::npos);
+    // A field of another size is the kernels' again.
+    EXPECT_TRUE(waiting.setProgram(sample("tower")));
+    expectClosed(meshOf(waiting));
+    EXPECT_FALSE(waiting.byTapes());
+}
+
+TEST(Session, KernelsAreCompiledWhereTapesWouldTakeLonger) {
+    const Program program = wavyBall(120);
+    const double compiling = secondsToCompile(program);
+    ASSERT_GT(compiling, kMostSecondsToCompile);
+    EXPECT_LT(secondsByTapes(program, 64), compiling);
+    EXPECT_GT(secondsByTapes(program, kMostResolution), compiling);
+}
+
+TEST(Session, ColorsByTapesAreTheKernelsColors) {
+    for (const char* name : {"mushroom", "island", "worn_steps"}) {
+        SCOPED_TRACE(name);
+        Session kernels = openSession(FieldBy::kernels), tapes = openSession(FieldBy::tapes);
+        kernels.setProgram(sample(name));
+        tapes.setProgram(sample(name));
+        const Mesh expected = meshOf(kernels), ours = meshOf(tapes);
+        EXPECT_TRUE(tapes.byTapes());
+        ASSERT_EQ(ours.colors.size(), ours.positions.size());
+        ASSERT_EQ(ours.positions.size(), expected.positions.size());
+        std::size_t other = 0;  // next to a border of two colours, a vertex may be of the other one
+        for (std::size_t v = 0; v < ours.colors.size(); ++v)
+            other += glm::distance(ours.colors[v], expected.colors[v]) > 0.01f;
+        EXPECT_LT(double(other), 0.01 * double(ours.colors.size()));
+    }
 }
 
 TEST(Session, ClosesWhileKernelsAreBeingCompiled) {

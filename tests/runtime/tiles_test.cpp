@@ -106,10 +106,10 @@ bool expectTilesMakeUpTheWhole(Session& session, const MeshRequest& request, int
     return true;
 }
 
-Session sessionOf(Program program) {
+Session sessionOf(Program program, FieldBy by = FieldBy::kernels) {
     Result<Device> device = createDevice({});
     if (!device) throw SystemError(format(device.error()));
-    Session session(std::move(*device));
+    Session session(std::move(*device), by);
     session.setProgram(std::move(program));
     return session;
 }
@@ -159,6 +159,20 @@ TEST(Tiles, OfRandomGraphsMakeUpTheWholeMesh) {
         capped += session.polygonise(request)->capped ? 1 : 0;
     }
     EXPECT_GT(capped, 0);
+}
+
+TEST(Tiles, ByTapesMakeUpTheWholeMesh) {
+    for (const char* name : {"mushroom", "brick_block", "worn_steps"}) {
+        SCOPED_TRACE(name);
+        const Result<Graph> graph = readGraph(samplePath(name), nullptr);
+        ASSERT_TRUE(graph);
+        Program program = programOf(*graph);
+        program.method = MeshMethod::marchingCubes;
+        program.stages.clear();
+        Session session = sessionOf(std::move(program), FieldBy::tapes);
+        EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {{}, 135}));
+        EXPECT_TRUE(session.byTapes());
+    }
 }
 
 TEST(Tiles, BlocksAreCulledInTilesToo) {
