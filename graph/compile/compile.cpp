@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/base/words.h"
+#include "graph/compile/effort.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/document/named_parameters.h"
 #include "graph/rules/structure.h"
@@ -28,6 +29,26 @@ std::optional<Error> fieldProblem(const Graph& graph, const Node& output, const 
     Error error = errorAt(graph, &output, "the field is not a number anywhere: look for a division by zero");
     error.code = Error::Code::divisionByZero;  // it may be one at another time
     return error;
+}
+
+/// A warning if the driver would be busy with the field for long, at the node that has most part in that.
+std::optional<Error> slowness(const Graph& graph, const GraphLowering& lowering, IrId distance) {
+    const Ir& ir = lowering.state.ir;
+    if (secondsToCompile(codeWeight(ir, distance, {})) <= kMostSecondsToCompile) return std::nullopt;
+    const Families families = findFamilies(ir, distance);
+    const double weight = codeWeight(ir, distance, families), seconds = secondsToCompile(weight);
+    if (seconds <= kMostSecondsToCompile) return std::nullopt;
+    const NodeEffort most = effortByNode(ir, std::span(&distance, 1), families, lowering.origins).front();
+    const Node* node = graph.node(most.node.substr(0, most.node.find('/')));
+    const auto rounded = [](double number) { return std::to_string(std::lround(number)); };
+    Error warning = errorAt(graph, node,
+                            "the driver would be busy with the field's code for about " + rounded(seconds) +
+                                " s, and " + rounded(100 * most.code / std::max(weight, 1.0)) +
+                                " % of it comes from here: the host makes meshes where that is sooner, and "
+                                "pictures are drafts ('fieldwright compile --cost' has what each node adds)");
+    warning.node = most.node;
+    warning.severity = Error::Severity::warning;
+    return warning;
 }
 
 /// How the mesh is made: by the polygonize node that it comes from, else by the output node.
@@ -81,6 +102,7 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     std::copy_n(result.value.ids.begin(), 9, program.surface.begin());
     program.ir = lowering.state.ir.compact(program.surface);
     program.live = std::move(lowering.live);
+    program.origins = std::move(lowering.origins);
     if (auto problem = fieldProblem(graph, *output, program.ir, program.distance())) return *problem;
     program.structureHash = program.ir.hash(program.surface);
     program.families = findFamilies(program.ir, program.distance());
@@ -108,6 +130,8 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
         if (auto problem =
                 fieldProblem(graph, *output, small ? lowering.state.ir : needed, surface[distanceComponent]))
             lowering.findings.push_back(*problem);
+        else if (auto slow = slowness(graph, lowering, surface[distanceComponent]))
+            lowering.findings.push_back(*slow);
     }
     return std::move(lowering.findings);
 }

@@ -1,7 +1,8 @@
 #include "graph/compile/effort.h"
 
 #include <algorithm>
-#include <vector>
+#include <functional>
+#include <utility>
 
 namespace fw {
 
@@ -32,41 +33,72 @@ double weightOf(Op op) {
     }
 }
 
-double weightOf(const Program& program, bool families) {
-    const Ir& ir = program.ir;
-    std::vector<bool> needed(ir.size());
-    needed[program.distance()] = true;
-    double weight = 0;
-    for (IrId id = program.distance() + 1; id-- > 0;) {
+/// Which of the operations that `roots` need are in the code: of a family those of one member.
+std::vector<bool> inCode(const Ir& ir, std::span<const IrId> roots, const Families& families) {
+    std::vector<bool> needed(ir.size()), steps(ir.size());
+    for (const IrId root : roots) needed[root] = true;
+    for (IrId id = static_cast<IrId>(ir.size()); id-- > 0;) {
         if (!needed[id]) continue;
-        const auto group = program.families.groups.find(id);
-        if (!families || group == program.families.groups.end()) {
-            weight += weightOf(ir[id].op);
+        const auto group = families.groups.find(id);
+        if (group == families.groups.end()) {
             for (int i = 0; i < opInfo(ir[id].op).arity; ++i) needed[ir[id].operands[i]] = true;
             continue;
         }
         for (const IrId other : group->second.others) needed[other] = true;
         for (const uint32_t number : group->second.families) {
-            const Family& family = program.families.all[number];
-            for (const IrId step : family.steps) weight += weightOf(ir[step].op);
+            const Family& family = families.all[number];
+            for (const IrId step : family.steps) steps[step] = true;
             for (const IrId input : family.inputs) needed[input] = true;
         }
     }
+    for (IrId id = 0; id < ir.size(); ++id) needed[id] = needed[id] || steps[id];
+    return needed;
+}
+
+double weightOf(const Ir& ir, const std::vector<bool>& needed) {
+    double weight = 0;
+    for (IrId id = 0; id < ir.size(); ++id)
+        if (needed[id]) weight += weightOf(ir[id].op);
     return weight;
 }
 
 }  // namespace
 
-double codeWeight(const Program& program) { return weightOf(program, true); }
+double codeWeight(const Ir& ir, IrId distance, const Families& families) {
+    return weightOf(ir, inCode(ir, std::span(&distance, 1), families));
+}
+
+double secondsToCompile(double weight) { return kSecondsAWeight * weight * (1 + weight / kWeightOfTwice); }
 
 double secondsToCompile(const Program& program) {
-    const double weight = codeWeight(program);
-    return kSecondsAWeight * weight * (1 + weight / kWeightOfTwice);
+    return secondsToCompile(codeWeight(program.ir, program.distance(), program.families));
 }
 
 double secondsByTapes(const Program& program, int resolution) {
     const double points = kPointsASquare * double(resolution) * double(resolution);
-    return kTapeSecondsAWeight * points * weightOf(program, false);
+    return kTapeSecondsAWeight * points * codeWeight(program.ir, program.distance(), {});
+}
+
+std::vector<NodeEffort> effortByNode(const Ir& ir, std::span<const IrId> roots, const Families& families,
+                                     std::span<const std::string> origins) {
+    const std::vector<bool> sampled = inCode(ir, roots, {}), coded = inCode(ir, roots, families);
+    std::vector<NodeEffort> all(origins.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].node = origins[i];
+    for (IrId id = 0; id < ir.size(); ++id) {
+        if (!sampled[id] || opInfo(ir[id].op).arity == 0) continue;
+        NodeEffort& effort = all[ir.origin(id)];
+        ++effort.operations;
+        effort.sample += weightOf(ir[id].op);
+        effort.code += coded[id] ? weightOf(ir[id].op) : 0;
+    }
+    std::erase_if(all, [](const NodeEffort& effort) { return effort.operations == 0; });
+    std::ranges::stable_sort(all, std::greater(),
+                             [](const NodeEffort& effort) { return std::pair(effort.code, effort.sample); });
+    return all;
+}
+
+std::vector<NodeEffort> effortByNode(const Program& program) {
+    return effortByNode(program.ir, program.surface, program.families, program.origins);
 }
 
 }  // namespace fw

@@ -62,7 +62,11 @@ LoweredNodes GraphLowering::lowerAll(const std::vector<Node>& nodes, const std::
 Lowered GraphLowering::lower(const NodeAt& at) {
     if (state.ir.size() > 2 * kMaxIrOperations) return failure({});
     if (at.node.muted && !at.type.open && !at.type.outputs.empty()) return passOn(at, &at.type.outputs);
-    return at.type.lower ? at.type.lower(*this, at) : lowerBody(at);
+    const uint32_t outer = state.ir.setOrigin(uint32_t(origins.size()));
+    origins.push_back(at.path());
+    Lowered lowered = at.type.lower ? at.type.lower(*this, at) : lowerBody(at);
+    state.ir.setOrigin(outer);
+    return lowered;
 }
 
 Lowered GraphLowering::lowerBody(const NodeAt& at) {

@@ -97,6 +97,7 @@ class GraphLowering {
     std::vector<Error> findings;  ///< errors and warnings
     std::vector<LiveParameter> live;
     std::map<std::string, NodeExactness, std::less<>> exactness;
+    std::vector<std::string> origins = {""};        ///< Program::origins
     std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
     /// Of a node's code and the types of its inputs (-1: unknown), for groups have it in each instance.
     std::map<std::pair<const Node*, std::vector<int>>, language::Resolved> resolved;

@@ -42,6 +42,10 @@ struct Program {
     /// Of nodes with a surface, of several outputs the first one's; in groups by "instance/node".
     std::map<std::string, NodeExactness, std::less<>> nodeExactness;
 
+    /// Nodes, in groups "instance/node": Ir::origin() of an operation is the place of the one that it came
+    /// from. The first stands for none.
+    std::vector<std::string> origins = {""};
+
     int resolution = 128;  ///< cells along the longest side
     MeshMethod method = MeshMethod::marchingCubes;
     std::optional<Box> region;      ///< given by a polygonize node

@@ -34,7 +34,7 @@ Ir::Ir() {
 IrId Ir::intern(const IrNode& node) {
     const Key key{node.op, node.operands, std::bit_cast<uint64_t>(node.number)};
     const auto [entry, isNew] = known.try_emplace(key, static_cast<IrId>(nodes.size()));
-    if (isNew) nodes.push_back(node);
+    if (isNew) nodes.push_back(node), origins.push_back(origin_);
     return entry->second;
 }
 
@@ -251,6 +251,7 @@ IrId Ir::substitute(IrId root, std::array<IrId, 3> position) {
         const auto known_ = done.find(id);
         return known_ == done.end() ? kNone : known_->second;
     };
+    const uint32_t asker = origin_;
     std::vector<IrId> pending{root};
     while (!pending.empty()) {
         const IrId id = pending.back();
@@ -268,9 +269,11 @@ IrId Ir::substitute(IrId root, std::array<IrId, 3> position) {
         }
         if (!ready) continue;
         pending.pop_back();
+        setOrigin(origins[id]);
         done[id] = make(node.op, node.number, std::span<const IrId>(operands.data(), arity));
         ++remembered, ++visited;
     }
+    setOrigin(asker);
     return find(root);
 }
 
@@ -297,6 +300,7 @@ Ir Ir::compact(std::span<IrId> roots) const {
             node.number = double(volume) * kVolumeLayers + double(number_ % kVolumeLayers);
         }
         for (int i = 0; i < opInfo(node.op).arity; ++i) node.operands[i] = renumbered[node.operands[i]];
+        result.setOrigin(origins[id]);
         renumbered[id] = result.intern(node);
     }
     for (IrId& root : roots) root = renumbered[root];

@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "graph/ir/ops.h"
@@ -67,6 +68,10 @@ class Ir {
     /// What a node samples.
     SampledLayer layer(const IrNode& node) const;
 
+    /// Operations that are new from here on are of this origin; at first 0. Returns the one before.
+    uint32_t setOrigin(uint32_t of) { return std::exchange(origin_, of); }
+    uint32_t origin(IrId id) const { return origins[id]; }
+
     /// The id of op(operands), folded where possible.
     IrId add(Op op, std::span<const IrId> operands);
     IrId add(Op op, IrId a) { return add(op, std::array{a}); }
@@ -114,6 +119,8 @@ class Ir {
     IrId simplify(Op op, std::span<const IrId> operands);
 
     std::vector<IrNode> nodes;
+    std::vector<uint32_t> origins;  ///< of nodes
+    uint32_t origin_ = 0;           ///< of the next one
     std::vector<FieldImagePtr> pictures;
     std::vector<FieldVolumePtr> grids;
     std::unordered_map<Key, IrId, KeyHash> known;

@@ -101,6 +101,7 @@ int runEval(const EvalOptions& options);
 struct CompileCommandOptions {
     GraphOptions graph;
     std::string emit = "glsl";
+    bool cost = false;  ///< by node, instead
     std::vector<std::string> live;
 };
 int runCompile(const CompileCommandOptions& options);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "graph/check/check.h"
+#include "graph/compile/effort.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
 #include "graph/document/timeline.h"
@@ -73,6 +74,34 @@ int runCheck(const std::vector<std::string>& paths) {
     return sound ? kDone : kBadInput;
 }
 
+namespace {
+
+void printCost(const Program& program) {
+    const std::vector<NodeEffort> efforts = effortByNode(program);
+    NodeEffort all{.node = "all"};
+    for (const NodeEffort& effort : efforts) {
+        all.operations += effort.operations;
+        all.sample += effort.sample;
+        all.code += effort.code;
+    }
+    const auto share = [](double part, double whole) { return whole > 0 ? 100 * part / whole : 0.0; };
+    const auto line = [&](const NodeEffort& effort) {
+        std::printf("%10zu %10.0f %4.0f %% %10.0f %4.0f %%  %s\n", effort.operations, effort.sample,
+                    share(effort.sample, all.sample), effort.code, share(effort.code, all.code),
+                    effort.node.c_str());
+    };
+    std::printf("%10s %17s %17s  %s\n", "operations", "a sample", "code", "node");
+    for (const NodeEffort& effort : efforts) line(effort);
+    line(all);
+    const double compiling = secondsToCompile(program);
+    std::printf(
+        "about %.2g s for a software driver to compile the mesher's kernels, %.2g s for a mesh of %d "
+        "cells by tapes\n",
+        compiling, secondsByTapes(program, program.resolution), program.resolution);
+}
+
+}  // namespace
+
 int runCompile(const CompileCommandOptions& options) {
     OpeningDevice device(std::launch::deferred, {});
     CompileOptions compileOptions;
@@ -88,7 +117,9 @@ int runCompile(const CompileCommandOptions& options) {
                  program->exactness.exact()
                      ? "exact distance"
                      : ("not an exact distance since node " + inQuotes(program->spoiledBy)).c_str());
-    if (options.emit == "ir") {
+    if (options.cost) {
+        printCost(*program);
+    } else if (options.emit == "ir") {
         std::fputs(program->ir.text(program->surface).c_str(), stdout);
     } else if (options.emit == "glsl") {
         std::fputs(emitField(*program).c_str(), stdout);

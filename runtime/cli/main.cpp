@@ -327,6 +327,12 @@ int run(int count, char** arguments) {
         ->check(CLI::IsMember({"glsl", "ir", "spirv"}))
         ->default_str("glsl");
     compileCommand
+        ->add_flag(
+            "--cost", compileOptions.cost,
+            "Print what each node adds to the field instead: operations, what a sample of them costs and "
+            "what code they are, in additions; and about how long meshes of it take")
+        ->excludes("--emit");
+    compileCommand
         ->add_option("--live", compileOptions.live,
                      "Keep this input a parameter instead of folding it: node.input")
         ->take_all()
