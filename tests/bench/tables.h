@@ -34,6 +34,7 @@ void fluidTable(Bench& bench);      ///< steps of a fluid
 void talkTable(Bench& bench);       ///< the slide's table
 void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
 void tapesTable(Bench& bench);      ///< fields on the host
+void largeTable(Bench& bench);      ///< fields that a driver compiles for long
 void liveTable(Bench& bench);       ///< a live parameter changes
 void compileTable(Bench& bench);    ///< a graph's structure changes
 void editorTable(Bench& bench);     ///< the editor's preview: a hand moves, a structure changes

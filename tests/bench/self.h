@@ -1,0 +1,27 @@
+// This program as a process of its own, as a user starts it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fw::bench {
+
+struct Outcome {
+    int status = 0;           ///< exit status, -1 if it did not exit
+    double milliseconds = 0;  ///< wall clock
+    uint64_t peakBytes = 0;   ///< greatest resident set, or this process's at the spawn if that was more
+};
+
+/// Runs this program with arguments; caches lie in `cache`, what it prints is dropped. Watching its memory
+/// costs it some time.
+Outcome runSelf(std::vector<std::string> arguments, const std::string& cache);
+
+/// A folder of its own under the system's for temporary files, removed with its content at the end.
+struct TemporaryFolder {
+    TemporaryFolder();
+    ~TemporaryFolder();
+    std::string path;
+};
+
+}  // namespace fw::bench
