@@ -13,26 +13,6 @@ constexpr double kWeightOfTwice = 8000;        // at which an operation costs tw
 constexpr double kTapeSecondsAWeight = 2e-10;  // and point
 constexpr double kPointsASquare = 120;  // evaluated for each square of a cell in a section of the region
 
-double weightOf(Op op) {
-    switch (op) {
-        case Op::constant:
-        case Op::parameter:
-        case Op::positionX:
-        case Op::positionY:
-        case Op::positionZ: return 0;
-        case Op::sine:
-        case Op::cosine:
-        case Op::arcTangent2: return 5;
-        case Op::tangent: return 10;
-        case Op::power: return 7;
-        case Op::gradientNoise: return 60;
-        case Op::simplexNoise: return 45;
-        case Op::worleyNoise: return 110;
-        case Op::cellHash: return 25;
-        default: return 1;
-    }
-}
-
 /// Which of the operations that `roots` need are in the code: of a family those of one member.
 std::vector<bool> inCode(const Ir& ir, std::span<const IrId> roots, const Families& families) {
     std::vector<bool> needed(ir.size()), steps(ir.size());
@@ -58,7 +38,7 @@ std::vector<bool> inCode(const Ir& ir, std::span<const IrId> roots, const Famili
 double weightOf(const Ir& ir, const std::vector<bool>& needed) {
     double weight = 0;
     for (IrId id = 0; id < ir.size(); ++id)
-        if (needed[id]) weight += weightOf(ir[id].op);
+        if (needed[id]) weight += opInfo(ir[id].op).weight;
     return weight;
 }
 
@@ -88,8 +68,8 @@ std::vector<NodeEffort> effortByNode(const Ir& ir, std::span<const IrId> roots, 
         if (!sampled[id] || opInfo(ir[id].op).arity == 0) continue;
         NodeEffort& effort = all[ir.origin(id)];
         ++effort.operations;
-        effort.sample += weightOf(ir[id].op);
-        effort.code += coded[id] ? weightOf(ir[id].op) : 0;
+        effort.sample += opInfo(ir[id].op).weight;
+        effort.code += coded[id] ? opInfo(ir[id].op).weight : 0;
     }
     std::erase_if(all, [](const NodeEffort& effort) { return effort.operations == 0; });
     std::ranges::stable_sort(all, std::greater(),

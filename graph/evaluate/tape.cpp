@@ -136,6 +136,8 @@ class Allocation {
 thread_local std::vector<uint32_t> Allocation::free;
 thread_local std::vector<TapeStep> Allocation::placed;
 
+constexpr std::size_t kMostKept = 512;  // rows of TapeMachine: 384 KiB
+
 /// The tape of a draft, whose roots are names.
 void allocate(Tape& tape, std::vector<TapeStep>& draft, std::vector<uint32_t>& registers,
               std::span<uint32_t> roots) {
@@ -143,8 +145,9 @@ void allocate(Tape& tape, std::vector<TapeStep>& draft, std::vector<uint32_t>& r
         if (root & kNumber) root = addNumber(draft, root);
     Allocation allocation(draft, registers);
     allocation.run(tape, roots, true);
-    // Few planes save what many registers cost.
-    if (tape.registers > 16 + tape.steps.size() / 6) allocation.run(tape, roots, false);
+    // Few planes save what many registers cost, least of all where caches near the processor do not hold them.
+    if (tape.registers > std::min<std::size_t>(16 + tape.steps.size() / 6, kMostKept))
+        allocation.run(tape, roots, false);
 }
 
 /// Whether intervals can tell which operand counts.

@@ -8,6 +8,7 @@
 
 #include "graph/ir/kernels.h"
 #include "graph/ir/noise.h"
+#include "graph/ir/sine.h"
 
 namespace fw {
 
@@ -49,7 +50,8 @@ constexpr Rounding roundingOf(Op op, bool boolean) {
 /// the scalar meanings (kernels.h), which compile into them.
 template <int arity, class Value, class Range, class Slope>
 constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool commutative, Value, Range,
-                     Slope, const char* glsl, const char* glslInterval, const char* glslGradient) {
+                     Slope, const char* glsl, const char* glslInterval, const char* glslGradient,
+                     int weight = arity > 0) {
     static_assert(std::is_empty_v<Value> && std::is_empty_v<Range> && std::is_empty_v<Slope>);
     constexpr auto value = [](const double* operands, L layer) { return call<Value>(layer, operands); };
     constexpr auto interval = [](I operands, L layer) { return call<Range>(layer, operands); };
@@ -65,7 +67,8 @@ constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool c
             {&kKernels<Value, Slope, arity, float, false>, &kKernels<Value, Slope, arity, float, true>},
             glsl,
             glslInterval,
-            glslGradient};
+            glslGradient,
+            weight};
 }
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
@@ -206,24 +209,24 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         []<class T>(const T* x, T, const T* d) { return x[0] > T(kTiny) ? d[0] / x[0] : T(0); },
         "log(max(%a, 1e-30))", "iSlack(log(max(%a, 1e-30)))", "%a > 1e-30 ? %A / %a : 0.0"),
     row(
-        Op::sine, "sin", Arity<1>(), false, false, []<class T>(const T* x) { return std::sin(x[0]); },
+        Op::sine, "sin", Arity<1>(), false, false, []<class T>(const T* x) { return sineOf(x[0]); },
         [](I x) { return sine(x[0]); },
-        []<class T>(const T* x, T, const T* d) { return std::cos(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)",
-        "cos(%a) * %A"),
+        []<class T>(const T* x, T, const T* d) { return cosineOf(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)",
+        "cos(%a) * %A", 5),
     row(
-        Op::cosine, "cos", Arity<1>(), false, false, []<class T>(const T* x) { return std::cos(x[0]); },
+        Op::cosine, "cos", Arity<1>(), false, false, []<class T>(const T* x) { return cosineOf(x[0]); },
         [](I x) {
             return sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
         },
-        []<class T>(const T* x, T, const T* d) { return -std::sin(x[0]) * d[0]; }, "cos(%a)",
-        "iSin(%a + 1.57079633)", "-sin(%a) * %A"),
+        []<class T>(const T* x, T, const T* d) { return -sineOf(x[0]) * d[0]; }, "cos(%a)",
+        "iSin(%a + 1.57079633)", "-sin(%a) * %A", 5),
     row(
         Op::tangent, "tan", Arity<1>(), false, false, []<class T>(const T* x) { return std::tan(x[0]); },
         [](I x) {
             return sine(x[0]) / sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
         },
         []<class T>(const T*, T v, const T* d) { return (T(1) + v * v) * d[0]; }, "tan(%a)",
-        "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A"),
+        "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A", 10),
     row(
         Op::arcSine, "asin", Arity<1>(), false, false,
         []<class T>(const T* x) { return std::asin(clampUnit(x[0])); },
@@ -291,7 +294,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         []<class T>(const T* x, T v, const T* d) {
             return x[0] > T(0) ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : T(0);
         },
-        "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0"),
+        "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0", 7),
     row(
         Op::modulo, "mod", Arity<2>(), false, false,
         []<class T>(const T* x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
@@ -313,7 +316,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return squared > T(0) ? (x[1] * d[0] - x[0] * d[1]) / squared : T(0);
         },
         "fieldArcTangent2(%a, %b)", "iArcTangent2(%a, %b)",
-        "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0"),
+        "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0", 5),
     row(
         Op::less, "less", Arity<2>(), true, false, []<class T>(const T* x) { return T(x[0] < x[1]); },
         [](I x) { return truth(above(x[0].hi) < below(x[1].lo), below(x[0].lo) >= above(x[1].hi)); },
@@ -365,7 +368,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         },
         "gradientNoise(vec3(%a, %b, %c), %d)",
         "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)",
-        "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+        "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)", 60),
     row(
         Op::simplexNoise, "simplex", Arity<4>(), false, false,
         []<class T>(const T* x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
@@ -378,7 +381,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         },
         "simplexNoise(vec3(%a, %b, %c), %d)",
         "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)",
-        "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+        "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)", 45),
     row(
         Op::worleyNoise, "worley", Arity<4>(), false, false,
         []<class T>(const T* x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
@@ -386,12 +389,12 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         []<class T>(const T* x, T, const T* d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
         "worleyNoise(vec3(%a, %b, %c), %d)",
         "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)",
-        "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+        "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)", 110),
     row(
         Op::cellHash, "hash", Arity<4>(), false, false,
         []<class T>(const T* x) { return cellHash(x[0], x[1], x[2], x[3]); },
         [](I x) { return hashInterval(x); }, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)",
-        "iCellHash(%a, %b, %c, %d)", ""),
+        "iCellHash(%a, %b, %c, %d)", "", 25),
 
     row(
         Op::image, "image", Arity<2>(), false, false,

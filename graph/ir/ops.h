@@ -128,6 +128,7 @@ struct OpInfo {
     const char* glsl;
     const char* glslInterval;
     const char* glslGradient;  ///< "" where the derivative is zero everywhere
+    int weight;                ///< of the code that it becomes, and about of its time; an addition is 1
 };
 
 const OpInfo& opInfo(Op op);

@@ -104,9 +104,9 @@ TEST_F(CommandOutput, CtrlCEndsACompilationOfTheDriver) {
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})");
     CommandOptions options;
     options.interruptAfterMs = 3000;
-    const CommandResult result = runCommand(to(folder.path("a.stl"), "8"), options);
-    EXPECT_EQ(result.status, 130);
-    EXPECT_EQ(result.errors, "fieldwright: interrupted; nothing was written\n");
+    const CommandResult result =
+        runCommand({"render", graph, "-o", folder.path("a.png"), "--quality", "full"}, options);
+    expectRefusal(result, 130, {"fieldwright: interrupted; nothing was written\n"});
     EXPECT_LT(result.cpuSeconds, 20.0);
     EXPECT_TRUE(folder.names().empty());
 }
