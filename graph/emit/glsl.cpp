@@ -23,7 +23,7 @@ class Emitter : GlslStatements {
         }
         parameters();
         images();
-        volumes();
+        texels();
         if (usesNoise) text += "#include \"lib/noise.glsl\"\n";
         if (usesSmoothMinimum) text += "#include \"lib/smooth_minimum.glsl\"\n";
         text +=
@@ -87,16 +87,22 @@ class Emitter : GlslStatements {
         }
         if (paint) text += "#endif\n";
     }
-    /// The same for volumes; of a colour, only the value is asked for in shaders.
-    void volumes() {
-        if (ir.volumes().empty()) return;
-        const bool paint = paintOnly(Op::volume);
+    /// The same for volumes and outlines, which lie in one buffer of texels.
+    void texels() {
+        if (ir.volumes().empty() && ir.outlines().empty()) return;
+        const bool paint = paintOnly(Op::volume) && paintOnly(Op::outline);
         if (paint) text += "#ifdef FIELD_MATERIAL\n";
         text += "layout(set = 0, binding = " + std::to_string(kFieldVolumesBinding) +
-                ", rgba32ui) restrict readonly uniform uimageBuffer fieldVolumes;\n"
-                "#include \"lib/volume.glsl\"\n";
-        const std::vector<bool> sampled = layersOf(Op::volume, ir.volumes().size() * kVolumeLayers);
+                ", rgba32ui) restrict readonly uniform uimageBuffer fieldVolumes;\n";
         std::size_t first = 0;
+        if (!ir.volumes().empty()) volumes(first);
+        if (!ir.outlines().empty()) outlines(first);
+        if (paint) text += "#endif\n";
+    }
+    /// Of a colour, only the value is asked for in shaders.
+    void volumes(std::size_t& first) {
+        text += "#include \"lib/volume.glsl\"\n";
+        const std::vector<bool> sampled = layersOf(Op::volume, ir.volumes().size() * kVolumeLayers);
         for (std::size_t v = 0; v < ir.volumes().size(); ++v) {
             const FieldVolume& volume = *ir.volumes()[v];
             const VolumeGrid& grid = volume.grid;
@@ -134,7 +140,21 @@ class Emitter : GlslStatements {
             }
             first += texelCount(volume);
         }
-        if (paint) text += "#endif\n";
+    }
+    void outlines(std::size_t first) {
+        text +=
+            "#define OUTLINE_LEVELS " + std::to_string(kOutlineLevels) + "\n#include \"lib/outline.glsl\"\n";
+        for (std::size_t number = 0; number < ir.outlines().size(); ++number) {
+            const Outline& outline = *ir.outlines()[number];
+            const std::string name = std::to_string(number), grid = "fieldOutlineGrid" + name;
+            text += "const OutlineGrid " + grid + " = OutlineGrid(" + std::to_string(first) + ", " +
+                    std::to_string(outline.cells) + ", " + std::to_string(outline.farCells) + ", " +
+                    pair(outline.centre[0], outline.centre[1]) + ", " + glslLiteral(outline.halfWidth) +
+                    ", " + glslLiteral(outline.least) + ");\nvec3 fieldOutline" + name +
+                    "(vec2 p) { return outlineSample(" + grid + ", p); }\nvec2 fieldOutlineRange" + name +
+                    "(vec2 x, vec2 y) { return outlineRange(" + grid + ", x, y); }\n";
+            first += outline.texels.size();
+        }
     }
     static std::string pair(double a, double b) {
         return "vec2(" + glslLiteral(a) + ", " + glslLiteral(b) + ")";
@@ -215,6 +235,16 @@ class Emitter : GlslStatements {
 };
 
 }  // namespace
+
+std::vector<uint32_t> fieldTexels(const Ir& ir) {
+    if (ir.outlines().empty()) return volumeTexels(ir.volumes());
+    std::vector<uint32_t> words;
+    if (!ir.volumes().empty()) words = volumeTexels(ir.volumes());
+    for (const OutlinePtr& outline : ir.outlines())
+        for (const OutlineTexel& texel : outline->texels)
+            words.insert(words.end(), texel.begin(), texel.end());
+    return words;
+}
 
 std::string emitField(const Program& program) { return Emitter(program).run(); }
 

@@ -6,7 +6,9 @@
 // literals; live parameters are globals that fieldBegin() loads once per invocation.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "graph/compile/compile.h"
 
@@ -17,9 +19,12 @@ inline constexpr int kFieldParametersBinding = 15;
 /// Binding of the storage buffer with the words of all images, one image after the other in the order of
 /// Ir::images().
 inline constexpr int kFieldImagesBinding = 14;
-/// Binding of the texel buffer with the texels of all volumes, one after the other in the order of
-/// Ir::volumes().
+/// Binding of the texel buffer with fieldTexels().
 inline constexpr int kFieldVolumesBinding = 16;
+
+/// The texels of all volumes and then of all outlines, each one after the other in the order of Ir::volumes()
+/// and Ir::outlines(), four words each. Never empty.
+std::vector<uint32_t> fieldTexels(const Ir& ir);
 
 /// The field's text. Equal programs (by structureHash) give equal text.
 std::string emitField(const Program& program);

@@ -13,8 +13,6 @@ namespace {
 // number's place with this bit.
 constexpr uint32_t kNumber = 1u << 31, kNone = ~0u;
 
-bool samples(Op op) { return op == Op::image || op == Op::volume; }
-
 /// Arities alone, without the rest of the rows, for the loops over steps.
 using Arities = std::array<uint8_t, std::size_t(Op::count)>;
 const Arities& arities() {
@@ -32,7 +30,7 @@ uint8_t positionsOf(const std::vector<TapeStep>& draft, uint32_t name) {
 }
 
 SampledLayer layerOf(const Tape& tape, const TapeStep& step) {
-    return samples(step.op) ? tape.numbers->layers[step.operands[kMaxArity - 1]] : SampledLayer{};
+    return samplesLayer(step.op) ? tape.numbers->layers[step.operands[kMaxArity - 1]] : SampledLayer{};
 }
 
 /// Adds a step that puts a number into a register.
@@ -145,7 +143,8 @@ void allocate(Tape& tape, std::vector<TapeStep>& draft, std::vector<uint32_t>& r
         if (root & kNumber) root = addNumber(draft, root);
     Allocation allocation(draft, registers);
     allocation.run(tape, roots, true);
-    // Few planes save what many registers cost, least of all where caches near the processor do not hold them.
+    // Few planes save what many registers cost, least of all where caches near the processor do not hold
+    // them.
     if (tape.registers > std::min<std::size_t>(16 + tape.steps.size() / 6, kMostKept))
         allocation.run(tape, roots, false);
 }
@@ -218,7 +217,7 @@ Tape makeTape(const Ir& ir, std::span<const IrId> roots, std::span<const double>
         } else {
             std::array<uint32_t, kMaxArity> operands{};
             for (int i = 0; i < arity; ++i) operands[i] = names[node.operands[i]];
-            if (samples(node.op)) {
+            if (samplesLayer(node.op)) {
                 operands[kMaxArity - 1] = uint32_t(pool->layers.size());
                 pool->layers.push_back(ir.layer(node));
             }
@@ -290,7 +289,7 @@ Tape TapeMachine<T>::shortened(const Tape& tape) {
         std::array<uint32_t, kMaxArity> operands{};
         for (int k = 0; k < arity; ++k)
             operands[k] = step.numbers >> k & 1 ? step.operands[k] | kNumber : names[step.operands[k]];
-        if (samples(step.op)) operands[kMaxArity - 1] = step.operands[kMaxArity - 1];
+        if (samplesLayer(step.op)) operands[kMaxArity - 1] = step.operands[kMaxArity - 1];
         const int equal = taken[i] & 15;
         names[step.result] = step.op == Op::constant ? step.operands[0] | kNumber
                              : equal                 ? operands[std::size_t(equal - 1)]

@@ -205,16 +205,24 @@ IrId Ir::sample(uint32_t volume, VolumeChannel channel, std::array<IrId, 3> plac
     return make(Op::volume, double(volume * kVolumeLayers + uint32_t(channel)), place);
 }
 
+uint32_t Ir::addOutline(const OutlinePtr& outline) { return placeIn(polygons, outline); }
+
+IrId Ir::sample(uint32_t outline, IrId x, IrId y) {
+    assert(outline < polygons.size());
+    return make(Op::outline, double(outline), std::array{x, y});
+}
+
 SampledLayer Ir::layer(const IrNode& node) const {
     const auto number = static_cast<std::size_t>(node.number);
     SampledLayer layer;
     if (node.op == Op::image) layer.image = &pictures[number / kImageLayers]->layers[number % kImageLayers];
     if (node.op == Op::volume) layer.volume = &grids[number / kVolumeLayers]->layers[number % kVolumeLayers];
+    if (node.op == Op::outline) layer.outline = polygons[number].get();
     return layer;
 }
 
 IrId Ir::add(Op op, std::span<const IrId> operands) {
-    assert(op != Op::image && op != Op::volume);  // sample() knows of which
+    assert(!samplesLayer(op));  // sample() knows of which
     return make(op, 0.0, operands);
 }
 
@@ -299,6 +307,8 @@ Ir Ir::compact(std::span<IrId> roots) const {
             const uint32_t volume = result.addVolume(grids[number_ / kVolumeLayers]);
             node.number = double(volume) * kVolumeLayers + double(number_ % kVolumeLayers);
         }
+        if (node.op == Op::outline)
+            node.number = double(result.addOutline(polygons[static_cast<std::size_t>(node.number)]));
         for (int i = 0; i < opInfo(node.op).arity; ++i) node.operands[i] = renumbered[node.operands[i]];
         result.setOrigin(origins[id]);
         renumbered[id] = result.intern(node);
@@ -315,6 +325,7 @@ uint64_t Ir::hash(std::span<const IrId> roots) const {
     }
     for (const FieldImagePtr& image : pictures) hash = mix(hash, image->hash);
     for (const FieldVolumePtr& volume : grids) hash = mix(hash, volume->hash);
+    for (const OutlinePtr& outline : polygons) hash = mix(hash, outline->hash);
     for (IrId root : roots) hash = mix(hash, root);
     return hash;
 }

@@ -39,10 +39,11 @@ struct IrNode {
     double number = 0.0;  ///< of a constant; the slot of a parameter; the layer of a sample (Ir::layer)
 };
 
+/// Whether an operation samples what its node's own number names.
+constexpr bool samplesLayer(Op op) { return op == Op::image || op == Op::volume || op == Op::outline; }
+
 /// Whether a node's own number is part of what it is.
-constexpr bool ownsNumber(Op op) {
-    return op == Op::constant || op == Op::parameter || op == Op::image || op == Op::volume;
-}
+constexpr bool ownsNumber(Op op) { return op == Op::constant || op == Op::parameter || samplesLayer(op); }
 
 class Ir {
   public:
@@ -65,6 +66,11 @@ class Ir {
     void replaceVolume(std::size_t number, FieldVolumePtr volume);
     /// A channel of a volume of volumes() at (x, y, z); see volume.h.
     IrId sample(uint32_t volume, VolumeChannel channel, std::array<IrId, 3> place);
+    /// The number of the outline among outlines(), which it joins if it is new.
+    uint32_t addOutline(const OutlinePtr& outline);
+    const std::vector<OutlinePtr>& outlines() const { return polygons; }
+    /// The distance to an outline of outlines() at (x, y); see outline.h.
+    IrId sample(uint32_t outline, IrId x, IrId y);
     /// What a node samples.
     SampledLayer layer(const IrNode& node) const;
 
@@ -90,11 +96,11 @@ class Ir {
     /// Operations visited by all substitutions so far: their cost.
     std::size_t substituted() const { return visited; }
 
-    /// A copy with only what `roots` need, images and volumes included, in a stable order; `roots` are
+    /// A copy with only what `roots` need, what they sample included, in a stable order; `roots` are
     /// renumbered. The three position leaves stay ids 0, 1, 2.
     Ir compact(std::span<IrId> roots) const;
 
-    /// Hash of operations, constants, slots, images, volumes and roots: equal for equal code, whatever the
+    /// Hash of operations, constants, slots, what is sampled and roots: equal for equal code, whatever the
     /// parameters' values.
     uint64_t hash(std::span<const IrId> roots) const;
 
@@ -123,6 +129,7 @@ class Ir {
     uint32_t origin_ = 0;           ///< of the next one
     std::vector<FieldImagePtr> pictures;
     std::vector<FieldVolumePtr> grids;
+    std::vector<OutlinePtr> polygons;
     std::unordered_map<Key, IrId, KeyHash> known;
     std::unordered_map<Key, std::unordered_map<IrId, IrId>, KeyHash> substitutions;
     std::size_t remembered = 0;  ///< entries in `substitutions`

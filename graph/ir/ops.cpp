@@ -419,6 +419,17 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         },
         "fieldVolume%i(vec3(%a, %b, %c)).w", "fieldVolumeRange%i(%a, %b, %c)",
         "dot(fieldVolume%i(vec3(%a, %b, %c)).xyz, vec3(%A, %B, %C))"),
+
+    row(
+        Op::outline, "outline", Arity<2>(), false, false,
+        []<class T>(const T* x, L layer) { return sampleOutline(*layer.outline, x[0], x[1]).value; },
+        [](I x, L layer) { return sampleOutline(*layer.outline, x[0], x[1]); },
+        []<class T>(const T* x, T, const T* d, L layer) {
+            const OutlineSample sample = sampleOutline(*layer.outline, x[0], x[1]);
+            return sample.dx * d[0] + sample.dy * d[1];
+        },
+        "fieldOutline%i(vec2(%a, %b)).z", "fieldOutlineRange%i(%a, %b)",
+        "dot(fieldOutline%i(vec2(%a, %b)).xy, vec2(%A, %B))", 60),
 }};
 
 constexpr bool inOrder() {

@@ -21,6 +21,7 @@
 #include <string_view>
 
 #include "graph/assets/image.h"
+#include "graph/assets/outline.h"
 #include "graph/assets/volume.h"
 #include "graph/base/interval.h"
 
@@ -81,15 +82,18 @@ enum class Op : uint8_t {
     image,
     // three operands: x, y, z; which layer of which volume is part of the node
     volume,
+    // two operands: x, y; of which outline is part of the node
+    outline,
     count
 };
 
 inline constexpr int kMaxArity = 4;
 
-/// What an operation samples: nothing, but for `image` and `volume`.
+/// What an operation samples: nothing, but for `image`, `volume` and `outline`.
 struct SampledLayer {
     const ImageLayer* image = nullptr;
     const VolumeLayer* volume = nullptr;
+    const Outline* outline = nullptr;
 };
 
 /// An operation over rows of `count` numbers. An operand is a row, or a single number where its bit in the

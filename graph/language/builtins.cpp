@@ -366,6 +366,15 @@ Result<Value> countOf(Lowering& s, Arguments a) {
     return scalar(number(s, static_cast<double>(a[0].points->size() / 2)), Type::integer);
 }
 
+/// The distance to a closed outline.
+Result<Value> outlineAt(Lowering& s, Arguments a) {
+    if (a[1].points->empty()) return scalar(number(s, kEmptyDistance));
+    if (a[1].points->size() > 2 * kMaxCorners)
+        return Error{"an outline of " + std::to_string(a[1].points->size() / 2) + " points: at most " +
+                     std::to_string(kMaxCorners) + " are allowed"};
+    return scalar(s.ir.sample(s.ir.addOutline(outlineThrough(*a[1].points)), a[0].ids[0], a[0].ids[1]));
+}
+
 /// The (u, v) behind an image.
 std::pair<IrId, IrId> imagePlace(Arguments a) {
     return a[1].type == Type::vec2 ? std::pair(a[1].ids[0], a[1].ids[1])
@@ -459,7 +468,7 @@ const std::vector<Builtin>& table() {
         {"perlin", 1, 2, noiseType<Type::scalar>, noise<Op::gradientNoise>}, {"simplex", 1, 2, noiseType<Type::scalar>, noise<Op::simplexNoise>}, {"worley", 1, 2, noiseType<Type::scalar>, noise<Op::worleyNoise>},
         {"hash", 1, 2, noiseType<Type::scalar>, noise<Op::cellHash>}, {"hash3", 1, 2, noiseType<Type::vec3>, hash3},
         {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 5, withMaterialType, withMaterial},
-        {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf},
+        {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf}, {"outline", 2, 2, fixed<Type::scalar, Type::vec2, Type::points>, outlineAt},
         {"image_color", 2, 3, imageType<Type::vec3, true>, imageColor}, {"image_grey", 2, 3, imageType<Type::scalar, true>, imageGrey}, {"image_size", 1, 1, imageType<Type::vec2, false>, imageSize},
         {"image_range", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, false); }},
         {"image_slope", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, true); }},

@@ -47,6 +47,8 @@ std::vector<NodeType> shape2dNodes() {
          .outputs = kSurface,
          .exactness = always(kExact),
          .body = std::string(kExtent) + "return ext2(abs(p.xy) - half_extents);"},
+        // Few corners are quicker in the code than from a table.
+        //
         // Sign by counting the edges that a ray to the right crosses; the nearest edge gives the magnitude,
         // as a signed distance to its line where the foot lies inside the edge, so that the gradient is right
         // on the outline too: with normals that point to +x (or +y), a place on an edge counts to the same
@@ -70,6 +72,12 @@ int n = count(points);
 if (n == 0) return empty();
 vec2 lo = points[0];
 vec2 hi = points[0];
+for (int i = 1; i < n; i++) {
+    lo = min(lo, points[i]);
+    hi = max(hi, points[i]);
+}
+vec2 bounds = max(lo - p.xy, p.xy - hi);
+if (n > 12) return max(outline(p.xy, points), bounds.x, bounds.y);
 float near = 1e18;
 float line = 1e9;
 bool onEdge = false;
@@ -77,8 +85,6 @@ bool inside = false;
 for (int i = 0; i < n; i++) {
     vec2 a = points[i];
     vec2 b = points[i + 1 < n ? i + 1 : 0];
-    lo = min(lo, a);
-    hi = max(hi, a);
     vec2 along = b - a;
     vec2 q = p.xy - a;
     float foot = dot(q, along);
@@ -99,7 +105,6 @@ for (int i = 0; i < n; i++) {
 float d = sqrt(near);
 float wanted = inside ? -1.0 : 1.0;
 float found = line < 0.0 ? -1.0 : 1.0;
-vec2 bounds = max(lo - p.xy, p.xy - hi);
 return max(onEdge ? line * (wanted * found) : wanted * d, bounds.x, bounds.y);)"},
         {.id = "regular_polygon",
          .label = "Regular polygon",

@@ -29,7 +29,7 @@ using Kind = ParticleStage::Kind;
 Obstacle obstacleOf(const Device& device, std::shared_ptr<const Program> program) {
     Obstacle obstacle{.program = std::move(program)};
     const std::vector<uint32_t> images = imageWords(obstacle.program->ir.images()),
-                                volumes = volumeTexels(obstacle.program->ir.volumes());
+                                volumes = fieldTexels(obstacle.program->ir);
     reserve(device, obstacle.images, 4 * images.size());
     reserve(device, obstacle.volumes, 4 * volumes.size());
     upload(device, obstacle.images, images);

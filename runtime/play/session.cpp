@@ -102,7 +102,8 @@ Session::~Session() {
 
 void Session::take(Program program) {
     const bool sameImages = images && program.ir.images() == current.ir.images();
-    const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes();
+    const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes() &&
+                             program.ir.outlines() == current.ir.outlines();
     current = std::move(program);
     if (!sameImages) {
         const std::vector<uint32_t> words = imageWords(current.ir.images());
@@ -110,7 +111,7 @@ void Session::take(Program program) {
         upload(*gpu, images, words);
     }
     if (!sameVolumes) {
-        const std::vector<uint32_t> texels = volumeTexels(current.ir.volumes());
+        const std::vector<uint32_t> texels = fieldTexels(current.ir);
         reserve(*gpu, volumes, texels.size() * sizeof(uint32_t));
         upload(*gpu, volumes, texels);
     }

@@ -84,6 +84,7 @@ uint64_t tileKey(const Session& session, const TilePlan& plan) {
     hash.add(program.parameters());
     hash.add(imageWords(program.ir.images()));
     for (const FieldVolumePtr& volume : program.ir.volumes()) hash.add(volume->words);
+    for (const OutlinePtr& outline : program.ir.outlines()) hash.add(outline->corners);
     for (const Family& family : program.families.all) hash.add(family.table);
     const gpu::DraftMaterial material = session.material();
     hash.add(&material, sizeof material);

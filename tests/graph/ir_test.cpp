@@ -43,6 +43,9 @@ struct Applied {
         else if (op == Op::volume)
             root = ir.sample(ir.addVolume(ballVolume()), tricubicChannel,
                              {ir.position(0), ir.position(1), ir.position(2)});
+        else if (op == Op::outline)
+            root = ir.sample(ir.addOutline(outlineThrough(std::array{-0.5, -0.4, 0.6, -0.3, 0.1, 0.7})),
+                             ir.position(0), ir.position(1));
         else if (op == Op::select)
             root = ir.add(op, isPositive, ir.position(1), ir.position(2));
         else if (op == Op::logicalNot)

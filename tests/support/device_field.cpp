@@ -9,7 +9,7 @@ FieldResources::FieldResources(const Program& program) {
     const std::vector<uint32_t> words = imageWords(program.ir.images());
     images = createBuffer(device(), words.size() * sizeof(uint32_t));
     upload(device(), images, words);
-    const std::vector<uint32_t> texels = volumeTexels(program.ir.volumes());
+    const std::vector<uint32_t> texels = fieldTexels(program.ir);
     volumes = createBuffer(device(), texels.size() * sizeof(uint32_t));
     upload(device(), volumes, texels);
 }
