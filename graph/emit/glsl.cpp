@@ -77,7 +77,7 @@ class Emitter : GlslStatements {
                 const std::string where = std::to_string(first) + "u, ivec2(" + std::to_string(image.width) +
                                           ", " + std::to_string(image.height) + "), ";
                 const std::string channel = std::to_string(layer.channel);
-                text += "vec3 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
+                text += "vec4 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
                         where + "uv, " + channel + "); }\n" + "vec2 fieldImageRange" +
                         std::to_string(number) + "(vec2 u, vec2 v) { return imageRange(" + where + "u, v, " +
                         channel + ", " + pair(layer.slopeU, layer.slopeV) + ", " +

@@ -85,12 +85,14 @@ std::string GlslStatements::layerNumber(IrId id) const {
     return std::to_string(static_cast<int>(ir.number(id)));
 }
 
-void GlslStatements::valueStatement(IrId id, std::string_view pattern) {
+void GlslStatements::statement(std::string_view type, const std::string& name, IrId id,
+                               std::string_view pattern) {
     text += "    ";
-    text += typeOf(id);
-    text += " " + value(id) + " = ";
-    fill(text, pattern,
-         [&](char letter) { return letter == 'i' ? layerNumber(id) : operand(id, letter - 'a'); });
+    text += type;
+    text += " " + name + " = ";
+    fill(text, pattern, [&](char letter) {
+        return letter == 'i' ? layerNumber(id) : letter == 's' ? sample(id) : operand(id, letter - 'a');
+    });
     text += ";\n";
 }
 
@@ -113,7 +115,9 @@ GlslStatements::Derivatives GlslStatements::noDerivatives() const {
 }
 
 void GlslStatements::gradientStatement(IrId id, Derivatives& known) {
-    valueStatement(id);
+    const std::string_view pattern = opInfo(ir[id].op).glslSample;
+    if (!pattern.empty()) statement("vec4", sample(id), id, pattern);
+    valueStatement(id, pattern.empty() ? opInfo(ir[id].op).glsl : "%s.w");
     for (int axis = 0; axis < 3; ++axis) known[axis][id] = derivative(id, axis, known[axis]);
 }
 
@@ -138,7 +142,7 @@ std::string GlslStatements::derivative(IrId id, int axis, const std::vector<std:
     } else {
         fill(expression, pattern, [&](char letter) -> std::string {
             if (letter == 'v') return value(id);
-            if (letter == 'i') return layerNumber(id);
+            if (letter == 's') return sample(id);
             if (letter >= 'a') return operand(id, letter - 'a');
             return of(letter - 'A').empty() ? "0.0" : of(letter - 'A');
         });

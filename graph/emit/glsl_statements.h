@@ -1,6 +1,7 @@
 // The GLSL statements of single operations, of which glsl.cpp and glsl_pruned.cpp make functions.
 //
-// A value of the IR is a variable: v12 its value, i12 its interval, gx12 its derivative along x. Constants
+// A value of the IR is a variable: v12 its value, i12 its interval, gx12 its derivative along x, s12
+// what is sampled of it. Constants
 // are literals, live parameters globals, neither is a variable.
 //
 // Lifetime: made for one text; refers to the Program.
@@ -40,7 +41,7 @@ class GlslStatements {
     std::string interval(IrId id) const;
 
     /// Defines the value. `pattern` is the operation's, or of a position what to take for it.
-    void valueStatement(IrId id, std::string_view pattern);
+    void valueStatement(IrId id, std::string_view pattern) { statement(typeOf(id), value(id), id, pattern); }
     void valueStatement(IrId id) { valueStatement(id, opInfo(ir[id].op).glsl); }
     void valueStatements(const std::vector<bool>& needed);
     void intervalStatement(IrId id);
@@ -63,6 +64,9 @@ class GlslStatements {
   private:
     std::string intervalOperand(IrId user, int i) const;
     std::string layerNumber(IrId id) const;
+    /// The variable that holds what OpInfo::glslSample gives of the operation.
+    static std::string sample(IrId id) { return "s" + std::to_string(id); }
+    void statement(std::string_view type, const std::string& name, IrId id, std::string_view pattern);
     std::string derivative(IrId id, int axis, const std::vector<std::string>& known);
 
     const Program& program;

@@ -16,6 +16,7 @@ namespace {
 using I = const Interval*;  // operands' intervals
 using L = SampledLayer;
 
+constexpr const char* kChainRule = "dot(%s.xyz, vec3(%A, %B, %C))";
 constexpr double kTiny = 1e-30;  // least argument of a logarithm
 
 constexpr auto zeroSlope = []<class T>(const T*, T, const T*) { return T(0); };
@@ -49,7 +50,8 @@ constexpr Rounding roundingOf(Op op, bool boolean) {
 /// the scalar meanings (kernels.h), which compile into them.
 template <int arity, class Value, class Range, class Slope>
 constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool commutative, Value, Range,
-                     Slope, const char* glsl, const char* glslInterval, const char* glslGradient) {
+                     Slope, const char* glsl, const char* glslInterval, const char* glslGradient,
+                     const char* glslSample = "") {
     static_assert(std::is_empty_v<Value> && std::is_empty_v<Range> && std::is_empty_v<Slope>);
     constexpr auto value = [](const double* operands, L layer) { return call<Value>(layer, operands); };
     constexpr auto interval = [](I operands, L layer) { return call<Range>(layer, operands); };
@@ -65,7 +67,8 @@ constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool c
             {&kKernels<Value, Slope, arity, float, false>, &kKernels<Value, Slope, arity, float, true>},
             glsl,
             glslInterval,
-            glslGradient};
+            glslGradient,
+            glslSample};
 }
 
 Interval monotone(double (*f)(double), Interval a, double slack) {
@@ -364,8 +367,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return noiseSlope(gradientNoise(x[0], x[1], x[2], x[3]), d);
         },
         "gradientNoise(vec3(%a, %b, %c), %d)",
-        "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)",
-        "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+        "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)", kChainRule,
+        "gradientNoiseGradient(vec3(%a, %b, %c), %d)"),
     row(
         Op::simplexNoise, "simplex", Arity<4>(), false, false,
         []<class T>(const T* x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
@@ -377,16 +380,16 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return noiseSlope(simplexNoise(x[0], x[1], x[2], x[3]), d);
         },
         "simplexNoise(vec3(%a, %b, %c), %d)",
-        "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)",
-        "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+        "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)", kChainRule,
+        "simplexNoiseGradient(vec3(%a, %b, %c), %d)"),
     row(
         Op::worleyNoise, "worley", Arity<4>(), false, false,
         []<class T>(const T* x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
         []<class T>(const T* x, T, const T* d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
         "worleyNoise(vec3(%a, %b, %c), %d)",
-        "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)",
-        "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)"),
+        "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)", kChainRule,
+        "worleyNoiseGradient(vec3(%a, %b, %c), %d)"),
     row(
         Op::cellHash, "hash", Arity<4>(), false, false,
         []<class T>(const T* x) { return cellHash(x[0], x[1], x[2], x[3]); },
@@ -401,8 +404,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             const ImageSample sample = sampleImage(*layer.image, x[0], x[1]);
             return sample.du * d[0] + sample.dv * d[1];
         },
-        "fieldImage%i(vec2(%a, %b)).x", "fieldImageRange%i(%a, %b)",
-        "dot(fieldImage%i(vec2(%a, %b)).yz, vec2(%A, %B))"),
+        "fieldImage%i(vec2(%a, %b)).w", "fieldImageRange%i(%a, %b)", "dot(%s.xy, vec2(%A, %B))",
+        "fieldImage%i(vec2(%a, %b))"),
 
     row(
         Op::volume, "volume", Arity<3>(), false, false,
@@ -414,8 +417,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             const VolumeSample sample = sampleVolume(*layer.volume, {x[0], x[1], x[2]});
             return sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2];
         },
-        "fieldVolume%i(vec3(%a, %b, %c)).w", "fieldVolumeRange%i(%a, %b, %c)",
-        "dot(fieldVolume%i(vec3(%a, %b, %c)).xyz, vec3(%A, %B, %C))"),
+        "fieldVolume%i(vec3(%a, %b, %c)).w", "fieldVolumeRange%i(%a, %b, %c)", kChainRule,
+        "fieldVolume%i(vec3(%a, %b, %c))"),
 }};
 
 constexpr bool inOrder() {
