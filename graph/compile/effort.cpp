@@ -13,26 +13,6 @@ constexpr double kWeightOfTwice = 8000;        // at which an operation costs tw
 constexpr double kTapeSecondsAWeight = 2e-10;  // and point
 constexpr double kPointsASquare = 120;  // evaluated for each square of a cell in a section of the region
 
-double weightOf(Op op) {
-    switch (op) {
-        case Op::constant:
-        case Op::parameter:
-        case Op::positionX:
-        case Op::positionY:
-        case Op::positionZ: return 0;
-        case Op::sine:
-        case Op::cosine:
-        case Op::arcTangent2: return 5;
-        case Op::tangent: return 10;
-        case Op::power: return 7;
-        case Op::gradientNoise: return 60;
-        case Op::simplexNoise: return 45;
-        case Op::worleyNoise: return 110;
-        case Op::cellHash: return 25;
-        default: return 1;
-    }
-}
-
 /// Which of the operations that `roots` need are in the code: of a family those of one member.
 std::vector<bool> inCode(const Ir& ir, std::span<const IrId> roots, const Families& families) {
     std::vector<bool> needed(ir.size()), steps(ir.size());
@@ -63,6 +43,26 @@ double weightOf(const Ir& ir, const std::vector<bool>& needed) {
 }
 
 }  // namespace
+
+double weightOf(Op op) {
+    switch (op) {
+        case Op::constant:
+        case Op::parameter:
+        case Op::positionX:
+        case Op::positionY:
+        case Op::positionZ: return 0;
+        case Op::sine:
+        case Op::cosine:
+        case Op::arcTangent2: return 5;
+        case Op::tangent: return 10;
+        case Op::power: return 7;
+        case Op::gradientNoise: return 60;
+        case Op::simplexNoise: return 45;
+        case Op::worleyNoise: return 110;
+        case Op::cellHash: return 25;
+        default: return 1;
+    }
+}
 
 double codeWeight(const Ir& ir, IrId distance, const Families& families) {
     return weightOf(ir, inCode(ir, std::span(&distance, 1), families));

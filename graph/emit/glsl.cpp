@@ -191,12 +191,12 @@ class Emitter : GlslStatements {
 
     void rows() {
         GlslStages stages(*this, program, false);
-        text += "#ifdef FIELD_ROWS\n";
+        text += "#ifdef FIELD_ROWS\n" + along();
         stages.planeFunction();
         stages.rowFunction();
-        text += "float fieldAt(FieldRow row, float y) {\n";
+        text += "float fieldAt(FieldRow row, float at) {\n";
         stages.unpack(1, "row");
-        stages.define(2, "y");
+        stages.define(2);
         text += "    return " + value(program.distance()) + ";\n}\n#endif\n";
     }
 

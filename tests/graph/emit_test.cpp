@@ -37,5 +37,20 @@ TEST(Emit, AGradientSamplesEachNoiseOnce) {
     }
 }
 
+TEST(Emit, RowsGoAlongTheAxisThatSavesMost) {
+    const auto along = [](const std::string& place) {
+        const std::string text = textOf("q = " + place +
+                                        ";\nd = length(q.xy) - 1;\nfor (int i = 1; i < 9; i++) d = max(d, "
+                                        "length(q.xy - vec2(i, 0)) - i);\n"
+                                        "return max(d, abs(q.z) - 0.3);");
+        const std::size_t at = text.find("#define FIELD_ALONG ");
+        return at == std::string::npos ? '-' : text[at + 20];
+    };
+    EXPECT_EQ(along("p"), '2');      // an extrusion along z
+    EXPECT_EQ(along("p.zyx"), '0');  // along x
+    EXPECT_EQ(along("p.xzy"), '-');  // along y, as it is without
+    EXPECT_EQ(textOf("return length(p) - 1;").find("FIELD_ALONG"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace fw
