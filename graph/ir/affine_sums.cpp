@@ -99,16 +99,12 @@ class AffineWriter {
         return true;
     }
 
+    /// Terms are added whatever their signs, so that members of families stay alike.
     IrId write(const AffineForm& form) {
-        // A positive term comes first, if there is one: the others are added or subtracted.
         IrId sum = ir.constant(0.0);
-        for (const bool positive : {true, false})
-            for (int axis = 0; axis < 3; ++axis) {
-                const double factor = form[std::size_t(axis)];
-                if (factor == 0.0 || (factor > 0.0) != positive) continue;
-                const IrId term = ir.add(Op::multiply, ir.position(axis), ir.constant(std::abs(factor)));
-                sum = ir.add(positive ? Op::add : Op::subtract, sum, term);
-            }
+        for (int axis = 0; axis < 3; ++axis)
+            sum = ir.add(Op::add, sum,
+                         ir.add(Op::multiply, ir.position(axis), ir.constant(form[std::size_t(axis)])));
         return ir.add(Op::add, sum, ir.constant(form[3]));
     }
 
