@@ -24,7 +24,7 @@ uint ofEachRow(uvec3 rows) {
 
 #ifndef FIELD_ALONG
 const ivec3 axes = ivec3(2, 0, 1);  // of planes, rows and samples
-uint columnAt(uvec3 rows, uint x, uint z) { return rows[x / 3] >> (x % 3) * 9 & 511; }
+uint columnAt(uvec3 rows, uint x, uint z) { return (x < 3 ? rows.x : x < 6 ? rows.y : rows.z) >> (x % 3) * 9 & 511; }
 #elif FIELD_ALONG == 0
 const ivec3 axes = ivec3(2, 1, 0);
 uint columnAt(uvec3 rows, uint x, uint z) { return ofEachRow(rows >> x); }
@@ -56,7 +56,8 @@ uvec3 signsOf(uvec3 first, uint plane) {
 #endif
             bits |= f < 0.0 ? 1u << k : 0u;
         } while (++k < 9);
-        rows |= mix(uvec3(0), uvec3(bits << (r % 3) * 9), equal(uvec3(r / 3), uvec3(0, 1, 2)));
+        bits <<= (r % 3) * 9;
+        rows |= uvec3(r < 3 ? bits : 0, r >= 3 && r < 6 ? bits : 0, r >= 6 ? bits : 0);
     } while (++r < 9);
     return rows;
 }
@@ -80,12 +81,13 @@ void main() {
     bool planeWithin = (within.z >> z & 1) != 0;
 
     uvec3 bits = uvec3(0);
-    for (uint x = 0; x < 9; ++x) {
+    uint x = 0;
+    do {
         uint column = (within.x >> x & 1) != 0 ? columnAt(rows, x, z) & within.y : 0;
         uint low = (column & 255) << (x & 3) * 8;
         bits.x |= x < 4 ? low : 0;
         bits.y |= x >= 4 && x < 8 ? low : 0;
         bits.z |= (x == 8 ? column : 0) | (column >> 8) << (9 + x);
-    }
+    } while (++x < 9);
     if (valid) planes[slot * 9 + z] = planeWithin ? bits : uvec3(0);
 }
