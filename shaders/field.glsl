@@ -5,16 +5,17 @@
 //   FIELD_VALUE     float fieldValue(vec3 p)                    distance: < 0 inside, >= 0 outside
 //   FIELD_GRADIENT  vec4 fieldGradient(vec3 p)                  xyz = gradient, w = value
 //   FIELD_INTERVAL  vec2 fieldInterval(vec3 lo, vec3 hi)        (least, greatest) bound of the value over a box
-//   FIELD_ROWS      FieldPlane fieldPlane(float z); FieldRow fieldRow(FieldPlane plane, float x);
-//                   float fieldAt(FieldRow row, float y)        the value, with what does not depend on y hoisted
+//   FIELD_ROWS      FieldPlane fieldPlane(float at); FieldRow fieldRow(FieldPlane plane, float at);
+//                   float fieldAt(FieldRow row, float at)       the value, from positions along z, x and y, with what does
+//                   not depend on y hoisted; along z, y and x where FIELD_ALONG is 0, along x, y and z where it is 2
 //   FIELD_PRUNED    with some of the above: of the members of families (graph/ir/families.h) those alone are evaluated that are
 //                   listed for a place, which bool fieldChoose(uint place) sets: false if it is known to hold no surface
 //   FIELD_PRUNE     with FIELD_PRUNED and FIELD_INTERVAL: void fieldPrune(vec3 lo, vec3 hi, uint place), which writes the
 //                   place's lists, out of those chosen; the shader declares uint fieldAllocate(uint entries) and
 //                   bool fieldMayHold(vec2 f), whether an interval lets the place hold surface, before
 //   FIELD_MATERIAL  FieldMaterial fieldMaterial(vec3 p)
-// If the field has families, FIELD_FAMILIES is their number, and rows are FieldColumn fieldColumn(FieldRow row, float y[9]);
-// float fieldAt(FieldRow row, FieldColumn column, uint k, float y), where y is y[k].
+// If the field has families, FIELD_FAMILIES is their number, and rows are FieldColumn fieldColumn(FieldRow row, float at[9]);
+// float fieldAt(FieldRow row, FieldColumn column, uint k, float at), where at is at[k].
 // A shader, with any of them, calls fieldBegin() first in main: it loads the live parameters once per invocation.
 // Live parameters stand in the storage buffer at binding FIELD_PARAMETERS (15), images in the one at
 // FIELD_IMAGES (14), those of volumes at FIELD_VOLUMES (16), each only if the field has some; the families' tables follow the live parameters. With FIELD_PRUNED and families the tables are also at FIELD_TABLES (9), the lists

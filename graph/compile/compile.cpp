@@ -7,6 +7,7 @@
 #include "graph/compile/effort.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/document/named_parameters.h"
+#include "graph/ir/affine_sums.h"
 #include "graph/rules/structure.h"
 
 namespace fw {
@@ -100,6 +101,7 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     const NodeOutput& result = lowered.at(output->id).outputs[0];
     Program program;
     std::copy_n(result.value.ids.begin(), 9, program.surface.begin());
+    writeOutAffine(lowering.state.ir, program.surface);
     program.ir = lowering.state.ir.compact(program.surface);
     program.live = std::move(lowering.live);
     program.origins = std::move(lowering.origins);

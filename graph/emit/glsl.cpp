@@ -77,7 +77,7 @@ class Emitter : GlslStatements {
                 const std::string where = std::to_string(first) + "u, ivec2(" + std::to_string(image.width) +
                                           ", " + std::to_string(image.height) + "), ";
                 const std::string channel = std::to_string(layer.channel);
-                text += "vec3 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
+                text += "vec4 fieldImage" + std::to_string(number) + "(vec2 uv) { return imageSample(" +
                         where + "uv, " + channel + "); }\n" + "vec2 fieldImageRange" +
                         std::to_string(number) + "(vec2 u, vec2 v) { return imageRange(" + where + "u, v, " +
                         channel + ", " + pair(layer.slopeU, layer.slopeV) + ", " +
@@ -150,7 +150,7 @@ class Emitter : GlslStatements {
             text += "const OutlineGrid " + grid + " = OutlineGrid(" + std::to_string(first) + ", " +
                     std::to_string(outline.cells) + ", " + std::to_string(outline.farCells) + ", " +
                     pair(outline.centre[0], outline.centre[1]) + ", " + glslLiteral(outline.halfWidth) +
-                    ", " + glslLiteral(outline.least) + ");\nvec3 fieldOutline" + name +
+                    ", " + glslLiteral(outline.least) + ");\nvec4 fieldOutline" + name +
                     "(vec2 p) { return outlineSample(" + grid + ", p); }\nvec2 fieldOutlineRange" + name +
                     "(vec2 x, vec2 y) { return outlineRange(" + grid + ", x, y); }\n";
             first += outline.texels.size();
@@ -211,12 +211,12 @@ class Emitter : GlslStatements {
 
     void rows() {
         GlslStages stages(*this, program, false);
-        text += "#ifdef FIELD_ROWS\n";
+        text += "#ifdef FIELD_ROWS\n" + along();
         stages.planeFunction();
         stages.rowFunction();
-        text += "float fieldAt(FieldRow row, float y) {\n";
+        text += "float fieldAt(FieldRow row, float at) {\n";
         stages.unpack(1, "row");
-        stages.define(2, "y");
+        stages.define(2);
         text += "    return " + value(program.distance()) + ";\n}\n#endif\n";
     }
 

@@ -8,7 +8,7 @@ namespace fw {
 
 namespace {
 
-constexpr int kSamples = 9;  // of a column, which stands for nine samples along y
+constexpr int kSamples = 9;  // of a column, which stands for nine samples of a row
 
 class FamilyEmitter : GlslStatements {
   public:
@@ -29,7 +29,7 @@ class FamilyEmitter : GlslStatements {
         intervalFunction();
         text += "#ifdef FIELD_PRUNE\n";
         pruneFunction();
-        text += "#endif\n#endif\n#ifdef FIELD_ROWS\n";
+        text += "#endif\n#endif\n#ifdef FIELD_ROWS\n" + along();
         rowFunctions();
         text += "#endif\n";
         return std::move(text);
@@ -318,9 +318,9 @@ class FamilyEmitter : GlslStatements {
             "float i) {\n"
             "    return k == 0u ? a : k == 1u ? b : k == 2u ? c : k == 3u ? d : k == 4u ? e : k == 5u ? f : "
             "k == 6u ? g : k == 7u ? h : i;\n}\n"
-            "float fieldAt(FieldRow row, FieldColumn column, uint k, float y) {\n";
+            "float fieldAt(FieldRow row, FieldColumn column, uint k, float at) {\n";
         stages.unpack(1, "row");
-        stages.define(2, "y");
+        stages.define(2);
         text += "    return " + value(root) + ";\n}\n";
     }
 
@@ -342,7 +342,7 @@ class FamilyEmitter : GlslStatements {
             }
         }
         text += "struct FieldColumn { float unused;" + members +
-                " };\nFieldColumn fieldColumn(FieldRow row, float y[9]) {\n";
+                " };\nFieldColumn fieldColumn(FieldRow row, float at[9]) {\n";
         stages.unpack(1, "row");
         const std::vector<bool> wanted = neededBy(inputs, true);
         for (IrId id = 0; id < ir.size(); ++id) {
@@ -353,8 +353,8 @@ class FamilyEmitter : GlslStatements {
                 if (wanted[id] && group)
                     define(*group, "float", value(id), &GlslStatements::value);
                 else if (wanted[id])
-                    valueStatement(id, ir[id].op == Op::positionY ? "y[" + std::to_string(k) + "]"
-                                                                  : std::string(opInfo(ir[id].op).glsl));
+                    valueStatement(id, ir[id].op == leafOf(2) ? "at[" + std::to_string(k) + "]"
+                                                              : std::string(opInfo(ir[id].op).glsl));
             });
         }
         text += "    return FieldColumn(0.0" + values + ");\n}\n";

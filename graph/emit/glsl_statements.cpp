@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "graph/compile/effort.h"
+
 namespace fw {
 
 namespace {
@@ -33,8 +35,46 @@ std::string glslLiteral(double value) {
     return narrow < 0.0f ? "(" + text + ")" : text;
 }
 
-int stageOf(const IrNode& node) {
-    return node.positions & dependsOnY ? 2 : node.positions & dependsOnX ? 1 : 0;
+namespace {
+
+/// Along y, x and z: the orders that the sampling of bricks knows.
+constexpr std::array<SampleOrder, 3> kOrders = {{{2, 0, 1}, {2, 1, 0}, {0, 1, 2}}};
+constexpr double kSampleWeight = 8;  ///< of what is done with a sample's sign, in additions
+
+int stageIn(const SampleOrder& order, std::size_t positions) {
+    return positions >> order[2] & 1 ? 2 : positions >> order[1] & 1 ? 1 : 0;
+}
+
+}  // namespace
+
+const SampleOrder& sampleOrder(const Program& program) {
+    const Ir& ir = program.ir;
+    std::vector<bool> needed(ir.size(), false);
+    needed[program.distance()] = true;
+    std::array<double, 8> weight{};  // by PositionMask
+    for (IrId id = static_cast<IrId>(ir.size()); id-- > 0;) {
+        if (!needed[id]) continue;
+        weight[ir[id].positions] += weightOf(ir[id].op);
+        for (int i = 0; i < opInfo(ir[id].op).arity; ++i) needed[ir[id].operands[i]] = true;
+    }
+    const auto cost = [&](const SampleOrder& order) {  // of a brick
+        double sum = 729 * kSampleWeight;
+        for (std::size_t positions = 0; positions < weight.size(); ++positions)
+            sum += weight[positions] * std::array{9, 81, 729}[std::size_t(stageIn(order, positions))];
+        return sum;
+    };
+    const SampleOrder& best = *std::ranges::min_element(kOrders, {}, cost);
+    return cost(best) < 0.9 * cost(kOrders[0]) ? best : kOrders[0];
+}
+
+int GlslStatements::stageOf(const IrNode& node) const { return stageIn(order, node.positions); }
+
+Op GlslStatements::leafOf(int stage) const {
+    return static_cast<Op>(static_cast<int>(Op::positionX) + order[std::size_t(stage)]);
+}
+
+std::string GlslStatements::along() const {
+    return order == kOrders[0] ? "" : "#define FIELD_ALONG " + std::to_string(order[2]) + "\n";
 }
 
 std::vector<IrId> GlslStatements::operandsOf(IrId id, bool grouped) const {
@@ -85,12 +125,14 @@ std::string GlslStatements::layerNumber(IrId id) const {
     return std::to_string(static_cast<int>(ir.number(id)));
 }
 
-void GlslStatements::valueStatement(IrId id, std::string_view pattern) {
+void GlslStatements::statement(std::string_view type, const std::string& name, IrId id,
+                               std::string_view pattern) {
     text += "    ";
-    text += typeOf(id);
-    text += " " + value(id) + " = ";
-    fill(text, pattern,
-         [&](char letter) { return letter == 'i' ? layerNumber(id) : operand(id, letter - 'a'); });
+    text += type;
+    text += " " + name + " = ";
+    fill(text, pattern, [&](char letter) {
+        return letter == 'i' ? layerNumber(id) : letter == 's' ? sample(id) : operand(id, letter - 'a');
+    });
     text += ";\n";
 }
 
@@ -113,7 +155,9 @@ GlslStatements::Derivatives GlslStatements::noDerivatives() const {
 }
 
 void GlslStatements::gradientStatement(IrId id, Derivatives& known) {
-    valueStatement(id);
+    const std::string_view pattern = opInfo(ir[id].op).glslSample;
+    if (!pattern.empty()) statement("vec4", sample(id), id, pattern);
+    valueStatement(id, pattern.empty() ? opInfo(ir[id].op).glsl : "%s.w");
     for (int axis = 0; axis < 3; ++axis) known[axis][id] = derivative(id, axis, known[axis]);
 }
 
@@ -138,7 +182,7 @@ std::string GlslStatements::derivative(IrId id, int axis, const std::vector<std:
     } else {
         fill(expression, pattern, [&](char letter) -> std::string {
             if (letter == 'v') return value(id);
-            if (letter == 'i') return layerNumber(id);
+            if (letter == 's') return sample(id);
             if (letter >= 'a') return operand(id, letter - 'a');
             return of(letter - 'A').empty() ? "0.0" : of(letter - 'A');
         });
@@ -158,11 +202,11 @@ GlslStages::GlslStages(GlslStatements& statements, const Program& program, bool 
     for (IrId id = 0; id < ir.size(); ++id)
         if (wanted[id])
             for (IrId operand : to.operandsOf(id, grouped))
-                lastReader[operand] = std::max(lastReader[operand], stageOf(ir[id]));
+                lastReader[operand] = std::max(lastReader[operand], to.stageOf(ir[id]));
 }
 
 bool GlslStages::kept(IrId id, int stage) const {
-    return wanted[id] && !to.isInline(ir[id]) && stageOf(ir[id]) <= stage && lastReader[id] > stage;
+    return wanted[id] && !to.isInline(ir[id]) && to.stageOf(ir[id]) <= stage && lastReader[id] > stage;
 }
 
 void GlslStages::unpack(int stage, const std::string& from) {
@@ -175,12 +219,11 @@ void GlslStages::unpack(int stage, const std::string& from) {
     }
 }
 
-void GlslStages::define(int stage, const std::string& axis) const {
+void GlslStages::define(int stage) const {
     for (IrId id = 0; id < ir.size(); ++id) {
-        if (!wanted[id] || to.isInline(ir[id]) || stageOf(ir[id]) != stage) continue;
+        if (!wanted[id] || to.isInline(ir[id]) || to.stageOf(ir[id]) != stage) continue;
         if (own && own(id)) continue;
-        const bool leaf = ir[id].op >= Op::positionX && ir[id].op <= Op::positionZ;
-        to.valueStatement(id, leaf ? axis : opInfo(ir[id].op).glsl);
+        to.valueStatement(id, ir[id].op == to.leafOf(stage) ? "at" : opInfo(ir[id].op).glsl);
     }
 }
 
@@ -200,16 +243,16 @@ void GlslStages::pack(int stage, const std::string& type) {
 
 void GlslStages::planeFunction() {
     structure(0, "FieldPlane");
-    to.text += "FieldPlane fieldPlane(float z) {\n";
-    define(0, "z");
+    to.text += "FieldPlane fieldPlane(float at) {\n";
+    define(0);
     pack(0, "FieldPlane");
 }
 
 void GlslStages::rowFunction() {
     structure(1, "FieldRow");
-    to.text += "FieldRow fieldRow(FieldPlane plane, float x) {\n";
+    to.text += "FieldRow fieldRow(FieldPlane plane, float at) {\n";
     unpack(0, "plane");
-    define(1, "x");
+    define(1);
     pack(1, "FieldRow");
 }
 

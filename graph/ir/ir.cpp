@@ -44,6 +44,45 @@ IrId Ir::constant(double value) {
 
 IrId Ir::parameter(uint32_t slot) { return intern({Op::parameter, 0, true, {}, static_cast<double>(slot)}); }
 
+IrId Ir::collect(Op op, IrId a, IrId b) {
+    struct Multiple {
+        IrId of;
+        double factor;
+    };
+    const auto multiple = [&](IrId x) -> Multiple {
+        const IrNode& node = nodes[x];
+        if (node.op == Op::negate) return {node.operands[0], -1.0};
+        if (node.op == Op::multiply)
+            for (int i : {0, 1})
+                if (isConstant(node.operands[i])) return {node.operands[1 - i], number(node.operands[i])};
+        return {x, 1.0};
+    };
+    const auto times = [&](IrId x, double factor) {
+        const bool kept = factor == 0.0 || (std::abs(factor) > 1e-30 && std::abs(factor) < kHuge);
+        return kept ? add(Op::multiply, x, constant(factor)) : kNone;  // a float holds it, and its inverse
+    };
+    const Multiple x = multiple(a), y = multiple(b);
+    if (op == Op::multiply) {
+        if (isConstant(b))
+            return x.of != a && x.factor * number(b) != 0.0 ? times(x.of, x.factor * number(b)) : kNone;
+        if (isConstant(a)) return collect(op, b, a);
+        return x.factor == -1.0 && y.factor == -1.0 ? add(op, x.of, y.of) : kNone;
+    }
+    if (x.of == y.of) return times(x.of, op == Op::add ? x.factor + y.factor : x.factor - y.factor);
+    const IrNode sum = nodes[b];  // of c - (d + z), c - (z - d), c - (d - z)
+    if (op == Op::add || !isConstant(a) || (sum.op != Op::add && sum.op != Op::subtract)) return kNone;
+    for (int i : {0, 1}) {
+        const IrId other = sum.operands[1 - i];
+        if (!isConstant(sum.operands[i])) continue;
+        const bool back = sum.op == Op::subtract && i == 0;
+        const double rest =
+            number(a) + (sum.op == Op::subtract && i == 1 ? 1.0 : -1.0) * number(sum.operands[i]);
+        if (!std::isfinite(rest)) return kNone;
+        return back ? add(Op::add, other, constant(rest)) : add(Op::subtract, constant(rest), other);
+    }
+    return kNone;
+}
+
 IrId Ir::simplify(Op op, std::span<const IrId> operands) {
     const auto is = [&](int i, double value) { return isConstant(operands[i], value); };
     const auto made = [&](int i, Op by) { return nodes[operands[i]].op == by; };
@@ -71,6 +110,7 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
         case Op::negate:
             if (made(0, Op::negate)) return inner(0, 0);
             if (made(0, Op::subtract)) return add(Op::subtract, inner(0, 1), inner(0, 0));
+            if (made(0, Op::multiply)) return collect(Op::multiply, a, constant(-1.0));
             break;
         case Op::absolute:
             if (made(0, Op::absolute) || made(0, Op::square) || made(0, Op::squareRoot)) return a;
@@ -94,7 +134,7 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
                 if (isConstant(operands[i]))
                     if (const IrId moved = shifted(operands[1 - i], number(operands[i])); moved != kNone)
                         return moved;
-            break;
+            return collect(op, a, b);
         case Op::subtract:
             if (a == b) return constant(0.0);
             if (is(1, 0.0)) return a;
@@ -102,7 +142,7 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
             if (made(1, Op::negate)) return add(Op::add, a, inner(1, 0));
             if (isConstant(b))
                 if (const IrId moved = shifted(a, -number(b)); moved != kNone) return moved;
-            break;
+            return collect(op, a, b);
         case Op::multiply:
             if (a == b) return add(Op::square, a);
             for (int i : {0, 1}) {
@@ -111,7 +151,7 @@ IrId Ir::simplify(Op op, std::span<const IrId> operands) {
                 if (is(i, 1.0)) return other;
                 if (is(i, -1.0)) return add(Op::negate, other);
             }
-            break;
+            return collect(op, a, b);
         case Op::divide:
             if (is(1, 1.0)) return a;
             if (is(1, -1.0)) return add(Op::negate, a);

@@ -123,6 +123,9 @@ class Ir {
     IrId intern(const IrNode& node);
     /// The identity that makes op(operands) an existing or simpler value, or kNone.
     IrId simplify(Op op, std::span<const IrId> operands);
+    /// op(a, b) as an operation on what a and b are made from, their constants folded into one; or kNone. No
+    /// interval gets wider: each operand stands once where it stood once or twice.
+    IrId collect(Op op, IrId a, IrId b);
 
     std::vector<IrNode> nodes;
     std::vector<uint32_t> origins;  ///< of nodes

@@ -17,6 +17,7 @@ namespace {
 using I = const Interval*;  // operands' intervals
 using L = SampledLayer;
 
+constexpr const char* kChainRule = "dot(%s.xyz, vec3(%A, %B, %C))";
 constexpr double kTiny = 1e-30;  // least argument of a logarithm
 
 constexpr auto zeroSlope = []<class T>(const T*, T, const T*) { return T(0); };
@@ -51,7 +52,7 @@ constexpr Rounding roundingOf(Op op, bool boolean) {
 template <int arity, class Value, class Range, class Slope>
 constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool commutative, Value, Range,
                      Slope, const char* glsl, const char* glslInterval, const char* glslGradient,
-                     int weight = arity > 0) {
+                     const char* glslSample = "", int weight = arity > 0) {
     static_assert(std::is_empty_v<Value> && std::is_empty_v<Range> && std::is_empty_v<Slope>);
     constexpr auto value = [](const double* operands, L layer) { return call<Value>(layer, operands); };
     constexpr auto interval = [](I operands, L layer) { return call<Range>(layer, operands); };
@@ -68,6 +69,7 @@ constexpr OpInfo row(Op op, const char* name, Arity<arity>, bool boolean, bool c
             glsl,
             glslInterval,
             glslGradient,
+            glslSample,
             weight};
 }
 
@@ -212,21 +214,21 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         Op::sine, "sin", Arity<1>(), false, false, []<class T>(const T* x) { return sineOf(x[0]); },
         [](I x) { return sine(x[0]); },
         []<class T>(const T* x, T, const T* d) { return cosineOf(x[0]) * d[0]; }, "sin(%a)", "iSin(%a)",
-        "cos(%a) * %A", 5),
+        "cos(%a) * %A", "", 5),
     row(
         Op::cosine, "cos", Arity<1>(), false, false, []<class T>(const T* x) { return cosineOf(x[0]); },
         [](I x) {
             return sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
         },
         []<class T>(const T* x, T, const T* d) { return -sineOf(x[0]) * d[0]; }, "cos(%a)",
-        "iSin(%a + 1.57079633)", "-sin(%a) * %A", 5),
+        "iSin(%a + 1.57079633)", "-sin(%a) * %A", "", 5),
     row(
         Op::tangent, "tan", Arity<1>(), false, false, []<class T>(const T* x) { return std::tan(x[0]); },
         [](I x) {
             return sine(x[0]) / sine(x[0] + Interval{std::numbers::pi / 2, std::numbers::pi / 2});
         },
         []<class T>(const T*, T v, const T* d) { return (T(1) + v * v) * d[0]; }, "tan(%a)",
-        "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A", 10),
+        "iDivide(iSin(%a), iSin(%a + 1.57079633))", "(1.0 + %v * %v) * %A", "", 10),
     row(
         Op::arcSine, "asin", Arity<1>(), false, false,
         []<class T>(const T* x) { return std::asin(clampUnit(x[0])); },
@@ -294,7 +296,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         []<class T>(const T* x, T v, const T* d) {
             return x[0] > T(0) ? v * (x[1] / x[0] * d[0] + std::log(x[0]) * d[1]) : T(0);
         },
-        "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0", 7),
+        "fieldPower(%a, %b)", "iPower(%a, %b)", "%a > 0.0 ? %v * ((%b / %a) * %A + log(%a) * %B) : 0.0", "",
+        7),
     row(
         Op::modulo, "mod", Arity<2>(), false, false,
         []<class T>(const T* x) { return x[0] - x[1] * std::floor(x[0] / x[1]); },
@@ -316,7 +319,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return squared > T(0) ? (x[1] * d[0] - x[0] * d[1]) / squared : T(0);
         },
         "fieldArcTangent2(%a, %b)", "iArcTangent2(%a, %b)",
-        "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0", 5),
+        "(%a != 0.0 || %b != 0.0) ? (%b * %A - %a * %B) / (%a * %a + %b * %b) : 0.0", "", 5),
     row(
         Op::less, "less", Arity<2>(), true, false, []<class T>(const T* x) { return T(x[0] < x[1]); },
         [](I x) { return truth(above(x[0].hi) < below(x[1].lo), below(x[0].lo) >= above(x[1].hi)); },
@@ -367,8 +370,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return noiseSlope(gradientNoise(x[0], x[1], x[2], x[3]), d);
         },
         "gradientNoise(vec3(%a, %b, %c), %d)",
-        "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)",
-        "noiseChain(gradientNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)", 60),
+        "iNoise(gradientNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 3.7, -1.1, 1.1)", kChainRule,
+        "gradientNoiseGradient(vec3(%a, %b, %c), %d)", 60),
     row(
         Op::simplexNoise, "simplex", Arity<4>(), false, false,
         []<class T>(const T* x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
@@ -380,21 +383,21 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return noiseSlope(simplexNoise(x[0], x[1], x[2], x[3]), d);
         },
         "simplexNoise(vec3(%a, %b, %c), %d)",
-        "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)",
-        "noiseChain(simplexNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)", 45),
+        "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)", kChainRule,
+        "simplexNoiseGradient(vec3(%a, %b, %c), %d)", 45),
     row(
         Op::worleyNoise, "worley", Arity<4>(), false, false,
         []<class T>(const T* x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
         []<class T>(const T* x, T, const T* d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
         "worleyNoise(vec3(%a, %b, %c), %d)",
-        "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)",
-        "noiseChain(worleyNoiseGradient(vec3(%a, %b, %c), %d), %A, %B, %C)", 110),
+        "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)", kChainRule,
+        "worleyNoiseGradient(vec3(%a, %b, %c), %d)", 110),
     row(
         Op::cellHash, "hash", Arity<4>(), false, false,
         []<class T>(const T* x) { return cellHash(x[0], x[1], x[2], x[3]); },
         [](I x) { return hashInterval(x); }, zeroSlope, "cellHash(vec3(%a, %b, %c), %d)",
-        "iCellHash(%a, %b, %c, %d)", "", 25),
+        "iCellHash(%a, %b, %c, %d)", "", "", 25),
 
     row(
         Op::image, "image", Arity<2>(), false, false,
@@ -404,8 +407,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             const ImageSample sample = sampleImage(*layer.image, x[0], x[1]);
             return sample.du * d[0] + sample.dv * d[1];
         },
-        "fieldImage%i(vec2(%a, %b)).x", "fieldImageRange%i(%a, %b)",
-        "dot(fieldImage%i(vec2(%a, %b)).yz, vec2(%A, %B))"),
+        "fieldImage%i(vec2(%a, %b)).w", "fieldImageRange%i(%a, %b)", "dot(%s.xy, vec2(%A, %B))",
+        "fieldImage%i(vec2(%a, %b))"),
 
     row(
         Op::volume, "volume", Arity<3>(), false, false,
@@ -417,8 +420,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             const VolumeSample sample = sampleVolume(*layer.volume, {x[0], x[1], x[2]});
             return sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2];
         },
-        "fieldVolume%i(vec3(%a, %b, %c)).w", "fieldVolumeRange%i(%a, %b, %c)",
-        "dot(fieldVolume%i(vec3(%a, %b, %c)).xyz, vec3(%A, %B, %C))"),
+        "fieldVolume%i(vec3(%a, %b, %c)).w", "fieldVolumeRange%i(%a, %b, %c)", kChainRule,
+        "fieldVolume%i(vec3(%a, %b, %c))"),
 
     row(
         Op::outline, "outline", Arity<2>(), false, false,
@@ -428,8 +431,8 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             const OutlineSample sample = sampleOutline(*layer.outline, x[0], x[1]);
             return sample.dx * d[0] + sample.dy * d[1];
         },
-        "fieldOutline%i(vec2(%a, %b)).z", "fieldOutlineRange%i(%a, %b)",
-        "dot(fieldOutline%i(vec2(%a, %b)).xy, vec2(%A, %B))", 60),
+        "fieldOutline%i(vec2(%a, %b)).w", "fieldOutlineRange%i(%a, %b)", "dot(%s.xy, vec2(%A, %B))",
+        "fieldOutline%i(vec2(%a, %b))", 60),
 }};
 
 constexpr bool inOrder() {

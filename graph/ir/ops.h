@@ -10,8 +10,8 @@
 // constants, the CPU evaluators, the GLSL emitters and the tests, is driven by the row.
 //
 // In the GLSL templates %a %b %c %d are the operands, %v is the result's value, %A %B %C %D are the
-// operands' derivatives along a direction, and %i is the number of the layer that the operation
-// samples. Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals
+// operands' derivatives along a direction, %s is the variable that holds `glslSample`, and %i is the number
+// of the layer that the operation samples. Booleans are 0 or 1 on the CPU and `bool` in GLSL; their intervals
 // are vec2(0|1, 0|1). Sums and roots round in GLSL intervals as they do in values; see lib/interval.glsl.
 #pragma once
 
@@ -132,7 +132,10 @@ struct OpInfo {
     const char* glsl;
     const char* glslInterval;
     const char* glslGradient;  ///< "" where the derivative is zero everywhere
-    int weight;                ///< of the code that it becomes, and about of its time; an addition is 1
+    /// The derivatives by the first three operands and the value, a vec4, where one pass gives them all; else
+    /// "".
+    const char* glslSample;
+    int weight;  ///< of the code that it becomes, and about of its time; an addition is 1
 };
 
 const OpInfo& opInfo(Op op);

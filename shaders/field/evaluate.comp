@@ -20,14 +20,22 @@ struct FieldSample {
 };
 layout(binding = 1, scalar) writeonly buffer Samples { FieldSample samples[]; };
 
-float byRows(vec3 p) {
-    FieldRow row = fieldRow(fieldPlane(p.z), p.x);
-#ifdef FIELD_FAMILIES
-    float y[9];
-    for (int k = 0; k < 9; ++k) y[k] = p.y + float(k);
-    return fieldAt(row, fieldColumn(row, y), 0, p.y);
+#ifndef FIELD_ALONG
+const ivec3 axes = ivec3(2, 0, 1);
+#elif FIELD_ALONG == 0
+const ivec3 axes = ivec3(2, 1, 0);
 #else
-    return fieldAt(row, p.y);
+const ivec3 axes = ivec3(0, 1, 2);
+#endif
+
+float byRows(vec3 p) {
+    FieldRow row = fieldRow(fieldPlane(p[axes.x]), p[axes.y]);
+#ifdef FIELD_FAMILIES
+    float at[9];
+    for (int k = 0; k < 9; ++k) at[k] = p[axes.z] + float(k);
+    return fieldAt(row, fieldColumn(row, at), 0, p[axes.z]);
+#else
+    return fieldAt(row, p[axes.z]);
 #endif
 }
 

@@ -9,8 +9,8 @@ float imageTexel(uint first, ivec2 size, ivec2 at, int channel) {
     return c <= 0.04045 ? c * (1.0 / 12.92) : pow((c + 0.055) * (1.0 / 1.055), 2.4);
 }
 
-// The value and its derivatives by u and v.
-vec3 imageSample(uint first, ivec2 size, vec2 uv, int channel) {
+// (d/du, d/dv, 0, value).
+vec4 imageSample(uint first, ivec2 size, vec2 uv, int channel) {
     vec2 scale = vec2(size);
     vec2 unit = vec2(abs(uv.x) < 1e7 ? fract(uv.x) : 0.0, abs(uv.y) < 1e7 ? fract(uv.y) : 0.0);
     vec2 at = unit * scale - 0.5, base = floor(at), f = at - base;
@@ -20,12 +20,12 @@ vec3 imageSample(uint first, ivec2 size, vec2 uv, int channel) {
     float a = imageTexel(first, size, lo, channel), b = imageTexel(first, size, ivec2(hi.x, lo.y), channel);
     float c = imageTexel(first, size, ivec2(lo.x, hi.y), channel), d = imageTexel(first, size, hi, channel);
     float below = mix(a, b, f.x), above = mix(c, d, f.x);
-    return vec3(mix(below, above, f.y), scale.x * mix(b - a, d - c, f.y), scale.y * (above - below));
+    return vec4(scale.x * mix(b - a, d - c, f.y), scale.y * (above - below), 0.0, mix(below, above, f.y));
 }
 
 // Contains every value over a box of u and v; `slope` bounds the derivatives and `range` the values.
 vec2 imageRange(uint first, ivec2 size, vec2 u, vec2 v, int channel, vec2 slope, vec2 range) {
-    float centre = imageSample(first, size, 0.5 * vec2(u.x + u.y, v.x + v.y), channel).x;
+    float centre = imageSample(first, size, 0.5 * vec2(u.x + u.y, v.x + v.y), channel).w;
     float far = max(max(-u.x, u.y), max(-v.x, v.y));
     float reach = dot(slope, 0.5 * vec2(u.y - u.x, v.y - v.x) + 2.4e-7 * (1.0 + far)) + 1e-5;
     return far > 1e6 ? range + vec2(-1e-5, 1e-5) : clamp(centre + vec2(-reach, reach), range.x - 1e-5, range.y + 1e-5);

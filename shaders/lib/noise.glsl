@@ -98,8 +98,6 @@ float worleyNoise(vec3 p, float seed) { return worleyNoiseGradient(p, seed).w; }
 
 float cellHash(vec3 p, float seed) { return unitHash(latticeHash(ivec3(floor(p)), seed)).x; }
 
-float noiseChain(vec4 noise, float dx, float dy, float dz) { return dot(noise.xyz, vec3(dx, dy, dz)); }
-
 // Interval of cellHash: one value if the box stays within a cell.
 vec2 iCellHash(vec2 x, vec2 y, vec2 z, vec2 seed) {
     bool single = floor(x.x) == floor(x.y) && floor(y.x) == floor(y.y) && floor(z.x) == floor(z.y) && seed.x == seed.y;

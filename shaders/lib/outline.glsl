@@ -27,8 +27,8 @@ bool outlineLeft(vec2 along, vec2 q) {
     return side > 0.0 || (side == 0.0 && along.x > 0.0);
 }
 
-// The distance's derivatives and the distance.
-vec3 outlineSample(OutlineGrid grid, vec2 p) {
+// The distance's derivatives, 0 and the distance.
+vec4 outlineSample(OutlineGrid grid, vec2 p) {
     uvec4 cell = outlineCell(grid, p);
     int list = grid.first + int(cell.x), count = int(cell.y & 65535u), met = int(cell.y >> 16 & 32767u);
     vec2 known = uintBitsToFloat(cell.zw), turn = vec2(known.x, p.y);
@@ -54,13 +54,13 @@ vec3 outlineSample(OutlineGrid grid, vec2 p) {
     vec2 off = foot <= 0.0 ? from : from - best;
     float distance_ = length(off);
     // Within the edge by its line, which is exact near it.
-    return foot > 0.0 && foot < 1.0 ? scale * vec3(-best.y, best.x, side)
-                                    : sign_ * vec3(distance_ > 0.0 ? off / distance_ : vec2(0.0), distance_);
+    return foot > 0.0 && foot < 1.0 ? scale * vec4(-best.y, best.x, 0.0, side)
+                                    : sign_ * vec4(distance_ > 0.0 ? off / distance_ : vec2(0.0), 0.0, distance_);
 }
 
 // Contains every value over a box of x and y.
 vec2 outlineRange(OutlineGrid grid, vec2 x, vec2 y) {
-    float centre = outlineSample(grid, 0.5 * vec2(x.x + x.y, y.x + y.y)).z;
+    float centre = outlineSample(grid, 0.5 * vec2(x.x + x.y, y.x + y.y)).w;
     float far = max(max(-x.x, x.y), max(-y.x, y.y)) + abs(centre) + grid.halfWidth;
     float reach = 0.5 * length(vec2(x.y - x.x, y.y - y.x)) + 1e-6 * far;
     return vec2(max(centre - reach, grid.least - 1e-6 * far), centre + reach);

@@ -180,6 +180,36 @@ TEST(Ir, SumsWithConstantsAreOneSum) {
     EXPECT_DOUBLE_EQ(evaluate(ir, ir.add(Op::add, reversed, one), {}, Point{5, 0, 0}), -3.0);
 }
 
+TEST(Ir, MultiplesAreOneMultiple) {
+    Ir ir;
+    const IrId x = ir.position(0), y = ir.position(1);
+    const auto number = [&](double value) { return ir.constant(value); };
+    const auto times = [&](IrId of, double factor) { return ir.add(Op::multiply, of, number(factor)); };
+    EXPECT_EQ(times(times(x, 2.0), 3.0), times(x, 6.0));
+    EXPECT_EQ(times(times(x, 2.0), 0.5), x);
+    EXPECT_EQ(ir.add(Op::negate, times(x, 2.0)), times(x, -2.0));
+    EXPECT_EQ(times(ir.add(Op::negate, x), 2.0), times(x, -2.0));
+    EXPECT_EQ(ir.add(Op::multiply, ir.add(Op::negate, x), ir.add(Op::negate, y)), ir.add(Op::multiply, x, y));
+    EXPECT_EQ(ir.add(Op::add, times(x, 2.0), times(x, 3.0)), times(x, 5.0));
+    EXPECT_EQ(ir.add(Op::add, x, x), times(x, 2.0));
+    EXPECT_EQ(ir.add(Op::subtract, times(x, 2.0), x), x);
+    EXPECT_TRUE(ir.isConstant(ir.add(Op::add, times(x, 2.0), times(x, -2.0)), 0.0));
+    EXPECT_EQ(ir.add(Op::divide, times(x, 3.0), number(3.0)), x);
+    // A float would not hold the product.
+    EXPECT_NE(times(times(x, 1e20), 1e20), times(x, 1e40));
+    EXPECT_FALSE(ir.isConstant(times(times(x, 1e-200), 1e-200)));
+}
+
+TEST(Ir, ADifferenceFromAConstantTakesInConstants) {
+    Ir ir;
+    const IrId x = ir.position(0), five = ir.constant(5.0), two = ir.constant(2.0);
+    const IrId plus = ir.add(Op::add, x, two), minus = ir.add(Op::subtract, x, two),
+               from = ir.add(Op::subtract, two, x);
+    EXPECT_EQ(ir.add(Op::subtract, five, plus), ir.add(Op::subtract, ir.constant(3.0), x));
+    EXPECT_EQ(ir.add(Op::subtract, five, minus), ir.add(Op::subtract, ir.constant(7.0), x));
+    EXPECT_EQ(ir.add(Op::subtract, five, from), ir.add(Op::add, x, ir.constant(3.0)));
+}
+
 TEST(Ir, SubstitutionIsEvaluationElsewhere) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-2.0, 2.0);

@@ -44,11 +44,17 @@ vec2 fieldInterval(vec3 lo, vec3 hi) { return )" +
            interval + R"(; }
 #endif
 #ifdef FIELD_ROWS
-struct FieldPlane { float z; };
-struct FieldRow { float x, z; };
-FieldPlane fieldPlane(float z) { return FieldPlane(z); }
-FieldRow fieldRow(FieldPlane plane, float x) { return FieldRow(x, plane.z); }
-float fieldAt(FieldRow row, float y) { return fieldValueOf(vec3(row.x, y, row.z)); }
+struct FieldPlane { float a; };
+struct FieldRow { float a, b; };
+FieldPlane fieldPlane(float at) { return FieldPlane(at); }
+FieldRow fieldRow(FieldPlane plane, float at) { return FieldRow(plane.a, at); }
+#ifndef FIELD_ALONG
+float fieldAt(FieldRow row, float at) { return fieldValueOf(vec3(row.b, at, row.a)); }
+#elif FIELD_ALONG == 0
+float fieldAt(FieldRow row, float at) { return fieldValueOf(vec3(at, row.b, row.a)); }
+#else
+float fieldAt(FieldRow row, float at) { return fieldValueOf(vec3(row.a, row.b, at)); }
+#endif
 #endif
 #ifdef FIELD_MATERIAL
 FieldMaterial fieldMaterial(vec3 p) { return FieldMaterial(p * 0.25 + 0.5, 0.5, 0.0, vec3(0)); }
@@ -305,6 +311,22 @@ TEST_P(EachMethod, TwoLevelsOfCullingGiveTheSameMeshAsOne) {
         volume += expectClosed(polygonise(field, half).mesh).volume;
     }
     EXPECT_NEAR(report.volume, volume, 1e-5);
+}
+
+TEST_P(EachMethod, SameBytesAlongEveryAxis) {
+    const std::string field =
+        lipschitzField("max(length(p - vec3(0.1, 0.2, 0.3)) - 0.9, 0.2 - length(p.xy + 0.3 * p.z))", "1.2");
+    MesherConfig config = cube(-1.3f, 1.3f, 41, GetParam());
+    config.cells = glm::ivec3(41, 38, 45);
+    const Mesh usual = polygonise(field, config).mesh;
+    ASSERT_GT(expectClosed(usual).triangles, 1000u);
+    for (const char* along : {"#define FIELD_ALONG 0\n", "#define FIELD_ALONG 2\n"}) {
+        SCOPED_TRACE(along);
+        const Mesh mesh = polygonise(along + field, config).mesh;
+        EXPECT_EQ(mesh.indices, usual.indices);
+        ASSERT_EQ(mesh.positions.size(), usual.positions.size());
+        EXPECT_EQ(0, std::memcmp(mesh.positions.data(), usual.positions.data(), mesh.positions.size() * 12));
+    }
 }
 
 TEST_P(EachMethod, SameBytesOnEveryRun) {
