@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <queue>
 #include <random>
-
-#include "graph/evaluate/jump_cases.h"
+#include <utility>
 
 namespace fw {
 
@@ -14,12 +14,9 @@ namespace {
 struct Field {
     IrId root;
     Tape tape;
-    JumpCases jumps;
     TapeMachine<double> machine = {};
 
-    bool outside(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
-    /// The same, also where the field jumps within the box.
-    bool outsideInEachCase(const Box& box) { return outside(box) || jumps.outsideInEachCase(box); }
+    bool positive(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
 };
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
@@ -32,7 +29,7 @@ std::optional<Box> boundByHalfSpaces(Field& field) {
             const auto empty = [&](double at) {
                 Box half = everywhere(kFarthest);
                 (side > 0 ? half.lo : half.hi)[axis] = side * at;
-                return field.outside(half);
+                return field.positive(half);
             };
             if (!empty(kFarthest * 0.999)) return std::nullopt;
             // `solid` is the farthest plane known to have something beyond it, `clear` one with nothing
@@ -69,16 +66,6 @@ std::array<Box, 2> halves(const Box& cell) {
     return result;
 }
 
-Box hull(const std::vector<Box>& cells) {
-    Box bound = cells.front();
-    for (const Box& cell : cells)
-        for (int axis = 0; axis < 3; ++axis) {
-            bound.lo[axis] = std::min(bound.lo[axis], cell.lo[axis]);
-            bound.hi[axis] = std::max(bound.hi[axis], cell.hi[axis]);
-        }
-    return bound;
-}
-
 /// A cell that is at a face of the hull, so that the hull may shrink if the cell is split.
 bool holdsUp(const Box& bound, const Box& cell) {
     for (int axis = 0; axis < 3; ++axis)
@@ -86,33 +73,88 @@ bool holdsUp(const Box& bound, const Box& cell) {
     return false;
 }
 
-/// The hull of what is left of `start` when cells that are provably empty are dropped and those at the hull's
-/// faces are split, round by round; none if nothing is left. Ends after `patience` rounds that did not move
+/// The cells of an octree that may hold some of the solid, looked at only where the hull hangs on them.
+///
+/// In a round those at the hull's faces are cut in halves, and what is provably empty is dropped. But a face
+/// stays where it is as soon as one cell there is left: the others wait, and catch up on the rounds that they
+/// have missed when that one is gone. The hulls are those of an octree that is looked at everywhere.
+class Cells {
+  public:
+    Cells(Field& field_, const Box& start, std::size_t budget_)
+        : field(field_), budget(budget_), hulls{start} {
+        add(start, 0);
+    }
+
+    /// Another round; false if nothing is left.
+    bool advance() {
+        Box next = hull();
+        for (std::size_t face = 0; face < faces.size(); ++face) {
+            const std::optional<double> at = settled(face);
+            if (!at) return false;
+            (face % 2 ? next.hi : next.lo)[face / 2] = face % 2 ? *at : -*at;
+        }
+        hulls.push_back(next);
+        return true;
+    }
+    const Box& hull() const { return hulls.back(); }
+    bool canSplit() const { return budget >= 2; }
+    std::size_t left() const { return budget; }
+
+  private:
+    struct Cell {
+        Box box;
+        std::size_t rounds;  // that it is through
+        bool split = false;
+    };
+
+    /// Where the face is after this round, outwards; none if no cell is left.
+    std::optional<double> settled(std::size_t face) {
+        auto& queue = faces[face];
+        while (!queue.empty()) {
+            const auto [at, number] = queue.top();
+            Cell& cell = cells[number];
+            while (!cell.split && cell.rounds < hulls.size() && !holdsUp(hulls[cell.rounds], cell.box))
+                ++cell.rounds;
+            if (!cell.split && (cell.rounds == hulls.size() || !canSplit())) return at;
+            queue.pop();
+            if (std::exchange(cell.split, true)) continue;
+            budget -= 2;
+            const std::size_t rounds = cell.rounds + 1;
+            for (const Box& half : halves(cell.box))
+                if (!field.machine.outside(field.tape, half)) add(half, rounds);
+        }
+        return std::nullopt;
+    }
+
+    void add(const Box& box, std::size_t rounds) {
+        for (std::size_t face = 0; face < faces.size(); ++face)
+            faces[face].emplace(face % 2 ? box.hi[face / 2] : -box.lo[face / 2], cells.size());
+        cells.push_back({box, rounds});
+    }
+
+    Field& field;
+    std::size_t budget;
+    std::vector<Box> hulls;  // before each round
+    std::vector<Cell> cells;
+    /// Cells by how far out they are at each of the hull's faces; of those at one place the last first, as it
+    /// is through the most rounds.
+    std::array<std::priority_queue<std::pair<double, std::size_t>>, 6> faces;
+};
+
+/// The hull of what is left of `start`; none if nothing is. Ends after `patience` rounds that did not move
 /// the hull (three rounds halve the cells), or after `budget` interval evaluations.
 std::optional<Box> shrink(Field& field, const Box& start, int patience, std::size_t budget) {
-    std::vector<Box> cells{start};
-    Box bound = start;
-    for (int idle = 0; idle < patience && budget >= 2; ++idle) {
-        std::vector<Box> next;
-        for (const Box& cell : cells) {
-            if (!holdsUp(bound, cell) || budget < 2) {
-                next.push_back(cell);
-                continue;
-            }
-            budget -= 2;
-            for (const Box& half : halves(cell))
-                if (!field.outsideInEachCase(half)) next.push_back(half);
-        }
-        if (next.empty()) return std::nullopt;
-        cells = std::move(next);
-        const Box smaller = hull(cells);
+    Cells cells(field, start, budget);
+    for (int idle = 0; idle < patience && cells.canSplit(); ++idle) {
+        const Box before = cells.hull();
+        if (!cells.advance()) return std::nullopt;
+        const Box& smaller = cells.hull();
         for (int axis = 0; axis < 3; ++axis) {
-            const double moved = smaller.lo[axis] - bound.lo[axis] + bound.hi[axis] - smaller.hi[axis];
-            if (moved > 0.01 * longestSide(bound)) idle = -1;
+            const double moved = smaller.lo[axis] - before.lo[axis] + before.hi[axis] - smaller.hi[axis];
+            if (moved > 0.01 * longestSide(before)) idle = -1;
         }
-        bound = smaller;
     }
-    return bound;
+    return cells.hull();
 }
 
 bool touches(const Box& inner, const Box& outer) {
@@ -165,8 +207,8 @@ double longestSide(const Box& box) {
 }
 
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
-    Field field{distance, makeTape(ir, distance, parameters), JumpCases(ir, distance, parameters)};
-    if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
+    Field field{distance, makeTape(ir, distance, parameters)};
+    if (field.positive(everywhere(kFarthest))) return {Extent::empty, {}};
     // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
     const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {

@@ -23,8 +23,10 @@
 // and volumes. A TapeMachine belongs to one thread, and serves any tape.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "graph/base/box.h"
@@ -75,6 +77,8 @@ class TapeMachine {
     /// An interval that contains every value of the tape's first root over the box, as this machine computes
     /// it.
     Interval interval(const Tape& tape, const Box& box);
+    /// The first root is at least 0 all over the box, also where it jumps there: proven, or false.
+    bool outside(const Tape& tape, const Box& box) requires std::is_same_v<T, double>;
     /// Whether the last call of interval() decided anything.
     bool shortens() const { return decisions > 0; }
     /// The tape for the box of the last call of interval(), which was for this tape.
@@ -121,6 +125,12 @@ class TapeMachine {
         const T* rows[kMaxArity];
     };
     void make(const Tape& tape);
+    /// Makes room for intervals, and puts the box into its registers.
+    void enter(const Tape& tape, const Box& box);
+    /// Puts a step's interval into its register, and gives those of its operands.
+    std::array<Interval, kMaxArity> takeInterval(const Tape& tape, const TapeStep& step);
+    bool outsideFrom(const Tape& tape, std::size_t first, int splits,
+                     bool wholeFirst) requires std::is_same_v<T, double>;
     Operands operandsOf(const Tape& tape, const TapeStep& step) const;
 
     std::vector<Row> rows;            // by register
