@@ -49,16 +49,11 @@ JumpCases wholeNumbers(Interval whole) {
 }  // namespace
 
 JumpCases jumpCases(Op op, const Interval* operands, Interval whole) {
-    switch (op) {
-        case Op::floor:
-        case Op::ceil:
-        case Op::round:
-        case Op::truncate: return wholeNumbers(whole);
-        case Op::modulo: return remainders(operands[0], operands[1]);
-        case Op::arcTangent2: return angles(operands[0], operands[1]);
-        case Op::select: return choices(operands[0], operands[1], operands[2]);
-        default: return {};
-    }
+    if (!mayJump(op)) return {};
+    if (op == Op::modulo) return remainders(operands[0], operands[1]);
+    if (op == Op::arcTangent2) return angles(operands[0], operands[1]);
+    if (op == Op::select) return choices(operands[0], operands[1], operands[2]);
+    return wholeNumbers(whole);
 }
 
 }  // namespace fw

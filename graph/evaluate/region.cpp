@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <queue>
 #include <random>
@@ -18,6 +19,9 @@ struct Field {
 
     bool positive(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
 };
+
+/// A tape is shortened if of so many steps one was decided.
+constexpr std::size_t kWorthShortening = 16;
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
 
@@ -73,6 +77,12 @@ bool holdsUp(const Box& bound, const Box& cell) {
     return false;
 }
 
+/// What a search may take.
+struct Budget {
+    std::size_t looks;  ///< boxes that are looked at
+    std::size_t steps;  ///< of tapes, on intervals
+};
+
 /// The cells of an octree that may hold some of the solid, looked at only where the hull hangs on them.
 ///
 /// In a round those at the hull's faces are cut in halves, and what is provably empty is dropped. But a face
@@ -80,9 +90,13 @@ bool holdsUp(const Box& bound, const Box& cell) {
 /// have missed when that one is gone. The hulls are those of an octree that is looked at everywhere.
 class Cells {
   public:
-    Cells(Field& field_, const Box& start, std::size_t budget_)
-        : field(field_), budget(budget_), hulls{start} {
-        add(start, 0);
+    Cells(Field& field_, const Box& start, const Budget& budget)
+        : field(field_),
+          lastLook(budget.looks),
+          lastStep(field.machine.intervalSteps() + budget.steps),
+          hulls{start} {
+        add(start, 0, std::make_shared<const Tape>(field.tape));
+        for (std::size_t face = 0; face < faces.size(); ++face) enter(face, 0);
     }
 
     /// Another round; false if nothing is left.
@@ -97,14 +111,14 @@ class Cells {
         return true;
     }
     const Box& hull() const { return hulls.back(); }
-    bool canSplit() const { return budget >= 2; }
-    std::size_t left() const { return budget; }
+    bool canSplit() const { return looks + 2 <= lastLook && field.machine.intervalSteps() < lastStep; }
 
   private:
     struct Cell {
         Box box;
-        std::size_t rounds;  // that it is through
-        bool split = false;
+        std::size_t rounds;                // that it is through
+        std::shared_ptr<const Tape> tape;  // the field there; none once it is split
+        std::size_t first = 0, last = 0;   // what is left of its halves then, from `first` to before `last`
     };
 
     /// Where the face is after this round, outwards; none if no cell is left.
@@ -112,38 +126,58 @@ class Cells {
         auto& queue = faces[face];
         while (!queue.empty()) {
             const auto [at, number] = queue.top();
-            Cell& cell = cells[number];
-            while (!cell.split && cell.rounds < hulls.size() && !holdsUp(hulls[cell.rounds], cell.box))
-                ++cell.rounds;
-            if (!cell.split && (cell.rounds == hulls.size() || !canSplit())) return at;
+            if (cells[number].tape) {
+                std::size_t& rounds = cells[number].rounds;
+                while (rounds < hulls.size() && !holdsUp(hulls[rounds], cells[number].box)) ++rounds;
+                if (rounds == hulls.size() || !canSplit()) return at;
+                split(number);
+            }
             queue.pop();
-            if (std::exchange(cell.split, true)) continue;
-            budget -= 2;
-            const std::size_t rounds = cell.rounds + 1;
-            for (const Box& half : halves(cell.box))
-                if (!field.machine.outside(field.tape, half)) add(half, rounds);
+            for (std::size_t half = cells[number].first; half < cells[number].last; ++half) enter(face, half);
         }
         return std::nullopt;
     }
 
-    void add(const Box& box, std::size_t rounds) {
-        for (std::size_t face = 0; face < faces.size(); ++face)
-            faces[face].emplace(face % 2 ? box.hi[face / 2] : -box.lo[face / 2], cells.size());
-        cells.push_back({box, rounds});
+    void split(std::size_t number) {
+        const Box box = cells[number].box;
+        const std::size_t rounds = cells[number].rounds + 1;
+        const std::shared_ptr<const Tape> tape = std::exchange(cells[number].tape, nullptr);
+        cells[number].first = cells.size();
+        for (const Box& half : halves(box)) look(half, rounds, tape);
+        cells[number].last = cells.size();
+    }
+
+    void look(const Box& box, std::size_t rounds, std::shared_ptr<const Tape> tape) {
+        TapeMachine<double>& machine = field.machine;
+        ++looks;
+        if (machine.interval(*tape, box).lo >= 0.0) return;
+        const bool jumps = machine.jumps();
+        if (kWorthShortening * machine.decidedSteps() > tape->steps.size())
+            tape = std::make_shared<const Tape>(machine.shortenedForSigns(*tape));
+        if (!jumps || !machine.positiveInEachCase(*tape, box)) add(box, rounds, std::move(tape));
+    }
+
+    void add(const Box& box, std::size_t rounds, std::shared_ptr<const Tape> tape) {
+        cells.push_back({box, rounds, std::move(tape)});
+    }
+
+    void enter(std::size_t face, std::size_t number) {
+        const Box& box = cells[number].box;
+        faces[face].emplace(face % 2 ? box.hi[face / 2] : -box.lo[face / 2], number);
     }
 
     Field& field;
-    std::size_t budget;
+    std::size_t looks = 0, lastLook, lastStep;
     std::vector<Box> hulls;  // before each round
     std::vector<Cell> cells;
     /// Cells by how far out they are at each of the hull's faces; of those at one place the last first, as it
-    /// is through the most rounds.
+    /// is through the most rounds. Halves take the place of their cell once it is the first.
     std::array<std::priority_queue<std::pair<double, std::size_t>>, 6> faces;
 };
 
 /// The hull of what is left of `start`; none if nothing is. Ends after `patience` rounds that did not move
-/// the hull (three rounds halve the cells), or after `budget` interval evaluations.
-std::optional<Box> shrink(Field& field, const Box& start, int patience, std::size_t budget) {
+/// the hull (three rounds halve the cells), or once the budget is spent.
+std::optional<Box> shrink(Field& field, const Box& start, int patience, const Budget& budget) {
     Cells cells(field, start, budget);
     for (int idle = 0; idle < patience && cells.canSplit(); ++idle) {
         const Box before = cells.hull();
@@ -209,8 +243,8 @@ double longestSide(const Box& box) {
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
     Field field{distance, makeTape(ir, distance, parameters)};
     if (field.positive(everywhere(kFarthest))) return {Extent::empty, {}};
-    // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
-    const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
+    // Some 5 ms of interval arithmetic, more only where a field has tens of thousands of operations.
+    const Budget budget{20'000, std::max<std::size_t>(400'000, 64 * field.tape.steps.size())};
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
         for (int axis = 0; axis < 3; ++axis)
             if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};
@@ -225,7 +259,8 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
         if (tight ? touches(*tight, start) : reach < kMostReach) continue;
         if (reachesBeyond(field, tight.value_or(start))) continue;
         if (!tight) return {Extent::empty, {}};
-        return {Extent::bounded, shrink(field, *tight, 18, 4 * budget).value_or(*tight)};
+        return {Extent::bounded,
+                shrink(field, *tight, 18, {4 * budget.looks, 4 * budget.steps}).value_or(*tight)};
     }
     return {Extent::unbounded, {}};
 }

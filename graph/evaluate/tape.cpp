@@ -277,7 +277,7 @@ template <class T>
 Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
     enter(tape, box);
     if (taken.size() < tape.steps.size()) taken.resize(tape.steps.size());
-    decisions = 0;
+    decisions = 0, jumped = false, stepsRun += tape.steps.size();
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
         const std::array<Interval, kMaxArity> operands = takeInterval(tape, step);
@@ -287,38 +287,38 @@ Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
                 uint8_t(decided(step.op, operands.data()) | decidedSign(step.op, operands.data()) << 4);
             decisions += taken[i] != 0;
         }
+        if (mayJump(step.op) && !jumped)
+            jumped = jumpCases(step.op, operands.data(), intervals[step.result]).count > 0;
     }
     return intervals[tape.roots[0]];
 }
 
 template <class T>
-bool TapeMachine<T>::outside(const Tape& tape, const Box& box) requires std::is_same_v<T, double> {
+bool TapeMachine<T>::positiveInEachCase(const Tape& tape, const Box& box) requires std::is_same_v<T, double> {
     enter(tape, box);
-    return outsideFrom(tape, 0, kMostSplits, true);
+    return positiveFrom(tape, 0, kMostSplits);
 }
 
-/// Runs the steps from `first` on, in each case of the first jump that is met; with `wholeFirst` only if they
-/// prove nothing of the whole.
+/// Runs the steps from `first` on, in each case of the first jump that is met.
 template <class T>
-bool TapeMachine<T>::outsideFrom(const Tape& tape, std::size_t first, int splits,
-                                 bool wholeFirst) requires std::is_same_v<T, double> {
-    JumpCases cases;
-    std::size_t jump = 0;
-    std::vector<Interval> before;
-    for (std::size_t i = first; i < tape.steps.size() && (wholeFirst || cases.count == 0); ++i) {
+bool TapeMachine<T>::positiveFrom(const Tape& tape, std::size_t first,
+                                  int splits) requires std::is_same_v<T, double> {
+    for (std::size_t i = first; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
         const std::array<Interval, kMaxArity> operands = takeInterval(tape, step);
-        if (splits == 0 || cases.count > 0) continue;
-        cases = jumpCases(step.op, operands.data(), intervals[step.result]);
-        if (cases.count > 0) jump = i, before = intervals;
+        ++stepsRun;
+        if (splits == 0 || !mayJump(step.op)) continue;
+        const JumpCases cases = jumpCases(step.op, operands.data(), intervals[step.result]);
+        if (cases.count == 0) continue;
+        const std::vector<Interval> before(intervals.begin(), intervals.begin() + tape.registers);
+        for (int c = 0; c < cases.count; ++c) {
+            std::ranges::copy(before, intervals.begin());
+            intervals[step.result] = cases.ranges[std::size_t(c)];
+            if (!positiveFrom(tape, i + 1, splits - 1)) return false;
+        }
+        return true;
     }
-    if ((wholeFirst || cases.count == 0) && intervals[tape.roots[0]].lo >= 0.0) return true;
-    for (int c = 0; c < cases.count; ++c) {
-        std::ranges::copy(before, intervals.begin());
-        intervals[tape.steps[jump].result] = cases.ranges[std::size_t(c)];
-        if (!outsideFrom(tape, jump + 1, splits - 1, false)) return false;
-    }
-    return cases.count > 0;
+    return intervals[tape.roots[0]].lo >= 0.0;
 }
 
 template <class T>

@@ -77,10 +77,17 @@ class TapeMachine {
     /// An interval that contains every value of the tape's first root over the box, as this machine computes
     /// it.
     Interval interval(const Tape& tape, const Box& box);
-    /// The first root is at least 0 all over the box, also where it jumps there: proven, or false.
-    bool outside(const Tape& tape, const Box& box) requires std::is_same_v<T, double>;
+    /// Whether some operation jumped between few values over the box of the last call of interval().
+    bool jumps() const { return jumped; }
+    /// The first root is at least 0 all over the box in each case of such jumps (jump_cases.h): proven, or
+    /// false.
+    bool positiveInEachCase(const Tape& tape, const Box& box) requires std::is_same_v<T, double>;
     /// Whether the last call of interval() decided anything.
     bool shortens() const { return decisions > 0; }
+    /// So many steps were decided by it.
+    std::size_t decidedSteps() const { return decisions; }
+    /// So many steps were run on intervals since the machine was made.
+    std::size_t intervalSteps() const { return stepsRun; }
     /// The tape for the box of the last call of interval(), which was for this tape.
     Tape shortened(const Tape& tape);
     /// The same for who looks at the first root's sign alone: below, at, or above 0. Of a minimum whose sign
@@ -129,8 +136,7 @@ class TapeMachine {
     void enter(const Tape& tape, const Box& box);
     /// Puts a step's interval into its register, and gives those of its operands.
     std::array<Interval, kMaxArity> takeInterval(const Tape& tape, const TapeStep& step);
-    bool outsideFrom(const Tape& tape, std::size_t first, int splits,
-                     bool wholeFirst) requires std::is_same_v<T, double>;
+    bool positiveFrom(const Tape& tape, std::size_t first, int splits) requires std::is_same_v<T, double>;
     Operands operandsOf(const Tape& tape, const TapeStep& step) const;
 
     std::vector<Row> rows;            // by register
@@ -139,6 +145,8 @@ class TapeMachine {
     /// its sign.
     std::vector<uint8_t> taken;
     std::size_t decisions = 0;
+    bool jumped = false;
+    std::size_t stepsRun = 0;     // on intervals
     std::vector<TapeStep> draft;  // of a shortened tape
     std::vector<uint32_t> names;  // by register, then by value of the draft
 };
