@@ -222,22 +222,43 @@ std::vector<double> slopesByParameter(const Ir& ir, IrId root, std::span<const d
 
 }  // namespace
 
-std::string pick(const Seen& seen, double x, double y) {
+struct Picker::Probed {
+    Probes probes;
+    std::optional<Program> program;  ///< none if the graph has errors
+    std::vector<double> parameters;
+    Tape tape;
+};
+
+Picker::Picker() = default;
+Picker::~Picker() = default;
+
+const Picker::Probed& Picker::probedOf(const Seen& seen) {
+    if (probed && asked.graph == seen.graph && asked.pinned == seen.pinned && asked.seconds == seen.seconds &&
+        asked.particles == seen.particles)
+        return *probed;
     double seconds = seen.seconds;
-    const Probes probes(shownAt(*seen.graph, seen.pinned, seconds));
+    probed = std::make_unique<Probed>(Probes(shownAt(*seen.graph, seen.pinned, seconds)));
+    asked = seen;
     CompileOptions options;
-    options.live = probes.live();
+    options.live = probed->probes.live();
     options.time = seconds;
     options.bake = boxInPlace;  // what is seen was measured, and is remembered
-    Result<Program> program = compile(probes.graph(), options);
-    if (!program) return {};
+    Result<Program> program = compile(probed->probes.graph(), options);
+    if (!program) return *probed;
     useParticles(*program, seen.particles);
+    probed->parameters = program->parameters();
+    probed->tape = makeTape(program->ir, program->distance(), probed->parameters);
+    probed->program = std::move(*program);
+    return *probed;
+}
+
+std::string Picker::pick(const Seen& seen, double x, double y) {
     const Ray ray = rayThrough(seen, x, y);
     const auto part = within(seen.region, ray);
     if (!part) return {};
-    const std::vector<double> parameters = program->parameters();
-    const auto t =
-        Along(ray).hit(makeTape(program->ir, program->distance(), parameters), part->first, part->second);
+    const auto& [probes, program, parameters, tape] = probedOf(seen);
+    if (!program) return {};
+    const auto t = Along(ray).hit(tape, part->first, part->second);
     if (!t) return {};
     const std::vector<double> slopes =
         slopesByParameter(program->ir, program->distance(), parameters, ray.at(*t));

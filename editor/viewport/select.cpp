@@ -80,8 +80,8 @@ void pickUnderMouse(Editor& editor, bool besides) {
               .camera = viewport.shown.seen,
               .aspect = double(viewport.aspect()),
               .particles = viewport.shown.particles};
-    viewport.aside.ask([seen = std::move(seen), x, y, besides]() -> Aside::Answer {
-        return [path = pick(seen, x, y), besides](Editor& to) { selectHit(to, path, besides); };
+    viewport.aside.ask([&picker = viewport.picker, seen = std::move(seen), x, y, besides]() -> Aside::Answer {
+        return [path = picker.pick(seen, x, y), besides](Editor& to) { selectHit(to, path, besides); };
     });
 }
 

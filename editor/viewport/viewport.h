@@ -20,6 +20,7 @@
 #include "editor/viewport/aside.h"
 #include "editor/viewport/grips.h"
 #include "editor/viewport/orbit.h"
+#include "editor/viewport/pick.h"
 
 namespace fw::editor {
 
@@ -71,6 +72,7 @@ struct Viewport {
     bool hovered = false;
     CameraDrag drag;
     Gizmo gizmo;
+    Picker picker;  ///< the thread's aside
     Aside aside{[] { Shell::wake(); }};
 
     /// Pixels that the picture should have; 0 before the first frame.

@@ -44,26 +44,6 @@ double weightOf(const Ir& ir, const std::vector<bool>& needed) {
 
 }  // namespace
 
-double weightOf(Op op) {
-    switch (op) {
-        case Op::constant:
-        case Op::parameter:
-        case Op::positionX:
-        case Op::positionY:
-        case Op::positionZ: return 0;
-        case Op::sine:
-        case Op::cosine:
-        case Op::arcTangent2: return 5;
-        case Op::tangent: return 10;
-        case Op::power: return 7;
-        case Op::gradientNoise: return 60;
-        case Op::simplexNoise: return 45;
-        case Op::worleyNoise: return 110;
-        case Op::cellHash: return 25;
-        default: return 1;
-    }
-}
-
 double codeWeight(const Ir& ir, IrId distance, const Families& families) {
     return weightOf(ir, inCode(ir, std::span(&distance, 1), families));
 }

@@ -13,9 +13,6 @@
 
 namespace fw {
 
-/// What an operation costs, in additions; 0 for what is there at no cost.
-double weightOf(Op op);
-
 /// Operations in the code of a distance, each weighed by what it is compiled to beside an addition. Members
 /// of a family count once.
 double codeWeight(const Ir& ir, IrId distance, const Families& families);

@@ -54,7 +54,7 @@ const SampleOrder& sampleOrder(const Program& program) {
     std::array<double, 8> weight{};  // by PositionMask
     for (IrId id = static_cast<IrId>(ir.size()); id-- > 0;) {
         if (!needed[id]) continue;
-        weight[ir[id].positions] += weightOf(ir[id].op);
+        weight[ir[id].positions] += opInfo(ir[id].op).weight;
         for (int i = 0; i < opInfo(ir[id].op).arity; ++i) needed[ir[id].operands[i]] = true;
     }
     const auto cost = [&](const SampleOrder& order) {  // of a brick

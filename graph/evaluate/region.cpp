@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <queue>
 #include <random>
-
-#include "graph/evaluate/jump_cases.h"
+#include <utility>
 
 namespace fw {
 
@@ -14,13 +15,13 @@ namespace {
 struct Field {
     IrId root;
     Tape tape;
-    JumpCases jumps;
     TapeMachine<double> machine = {};
 
-    bool outside(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
-    /// The same, also where the field jumps within the box.
-    bool outsideInEachCase(const Box& box) { return outside(box) || jumps.outsideInEachCase(box); }
+    bool positive(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
 };
+
+/// A tape is shortened if of so many steps one was decided.
+constexpr std::size_t kWorthShortening = 16;
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
 
@@ -32,7 +33,7 @@ std::optional<Box> boundByHalfSpaces(Field& field) {
             const auto empty = [&](double at) {
                 Box half = everywhere(kFarthest);
                 (side > 0 ? half.lo : half.hi)[axis] = side * at;
-                return field.outside(half);
+                return field.positive(half);
             };
             if (!empty(kFarthest * 0.999)) return std::nullopt;
             // `solid` is the farthest plane known to have something beyond it, `clear` one with nothing
@@ -69,16 +70,6 @@ std::array<Box, 2> halves(const Box& cell) {
     return result;
 }
 
-Box hull(const std::vector<Box>& cells) {
-    Box bound = cells.front();
-    for (const Box& cell : cells)
-        for (int axis = 0; axis < 3; ++axis) {
-            bound.lo[axis] = std::min(bound.lo[axis], cell.lo[axis]);
-            bound.hi[axis] = std::max(bound.hi[axis], cell.hi[axis]);
-        }
-    return bound;
-}
-
 /// A cell that is at a face of the hull, so that the hull may shrink if the cell is split.
 bool holdsUp(const Box& bound, const Box& cell) {
     for (int axis = 0; axis < 3; ++axis)
@@ -86,33 +77,118 @@ bool holdsUp(const Box& bound, const Box& cell) {
     return false;
 }
 
-/// The hull of what is left of `start` when cells that are provably empty are dropped and those at the hull's
-/// faces are split, round by round; none if nothing is left. Ends after `patience` rounds that did not move
-/// the hull (three rounds halve the cells), or after `budget` interval evaluations.
-std::optional<Box> shrink(Field& field, const Box& start, int patience, std::size_t budget) {
-    std::vector<Box> cells{start};
-    Box bound = start;
-    for (int idle = 0; idle < patience && budget >= 2; ++idle) {
-        std::vector<Box> next;
-        for (const Box& cell : cells) {
-            if (!holdsUp(bound, cell) || budget < 2) {
-                next.push_back(cell);
-                continue;
-            }
-            budget -= 2;
-            for (const Box& half : halves(cell))
-                if (!field.outsideInEachCase(half)) next.push_back(half);
-        }
-        if (next.empty()) return std::nullopt;
-        cells = std::move(next);
-        const Box smaller = hull(cells);
-        for (int axis = 0; axis < 3; ++axis) {
-            const double moved = smaller.lo[axis] - bound.lo[axis] + bound.hi[axis] - smaller.hi[axis];
-            if (moved > 0.01 * longestSide(bound)) idle = -1;
-        }
-        bound = smaller;
+/// What a search may take.
+struct Budget {
+    std::size_t looks;  ///< boxes that are looked at
+    std::size_t steps;  ///< of tapes, on intervals
+};
+
+/// The cells of an octree that may hold some of the solid, looked at only where the hull hangs on them.
+///
+/// In a round those at the hull's faces are cut in halves, and what is provably empty is dropped. But a face
+/// stays where it is as soon as one cell there is left: the others wait, and catch up on the rounds that they
+/// have missed when that one is gone. The hulls are those of an octree that is looked at everywhere.
+class Cells {
+  public:
+    Cells(Field& field_, const Box& start, const Budget& budget)
+        : field(field_),
+          lastLook(budget.looks),
+          lastStep(field.machine.intervalSteps() + budget.steps),
+          hulls{start} {
+        add(start, 0, std::make_shared<const Tape>(field.tape));
+        for (std::size_t face = 0; face < faces.size(); ++face) enter(face, 0);
     }
-    return bound;
+
+    /// Another round; false if nothing is left.
+    bool advance() {
+        Box next = hull();
+        for (std::size_t face = 0; face < faces.size(); ++face) {
+            const std::optional<double> at = settled(face);
+            if (!at) return false;
+            (face % 2 ? next.hi : next.lo)[face / 2] = face % 2 ? *at : -*at;
+        }
+        hulls.push_back(next);
+        return true;
+    }
+    const Box& hull() const { return hulls.back(); }
+    bool canSplit() const { return looks + 2 <= lastLook && field.machine.intervalSteps() < lastStep; }
+
+  private:
+    struct Cell {
+        Box box;
+        std::size_t rounds;                // that it is through
+        std::shared_ptr<const Tape> tape;  // the field there; none once it is split
+        std::size_t first = 0, last = 0;   // what is left of its halves then, from `first` to before `last`
+    };
+
+    /// Where the face is after this round, outwards; none if no cell is left.
+    std::optional<double> settled(std::size_t face) {
+        auto& queue = faces[face];
+        while (!queue.empty()) {
+            const auto [at, number] = queue.top();
+            if (cells[number].tape) {
+                std::size_t& rounds = cells[number].rounds;
+                while (rounds < hulls.size() && !holdsUp(hulls[rounds], cells[number].box)) ++rounds;
+                if (rounds == hulls.size() || !canSplit()) return at;
+                split(number);
+            }
+            queue.pop();
+            for (std::size_t half = cells[number].first; half < cells[number].last; ++half) enter(face, half);
+        }
+        return std::nullopt;
+    }
+
+    void split(std::size_t number) {
+        const Box box = cells[number].box;
+        const std::size_t rounds = cells[number].rounds + 1;
+        const std::shared_ptr<const Tape> tape = std::exchange(cells[number].tape, nullptr);
+        cells[number].first = cells.size();
+        for (const Box& half : halves(box)) look(half, rounds, tape);
+        cells[number].last = cells.size();
+    }
+
+    void look(const Box& box, std::size_t rounds, std::shared_ptr<const Tape> tape) {
+        TapeMachine<double>& machine = field.machine;
+        ++looks;
+        if (machine.interval(*tape, box).lo >= 0.0) return;
+        const bool jumps = machine.jumps();
+        if (kWorthShortening * machine.decidedSteps() > tape->steps.size())
+            tape = std::make_shared<const Tape>(machine.shortenedForSigns(*tape));
+        if (!jumps || !machine.positiveInEachCase(*tape, box)) add(box, rounds, std::move(tape));
+    }
+
+    void add(const Box& box, std::size_t rounds, std::shared_ptr<const Tape> tape) {
+        cells.push_back({box, rounds, std::move(tape)});
+    }
+
+    void enter(std::size_t face, std::size_t number) {
+        const Box& box = cells[number].box;
+        faces[face].emplace(face % 2 ? box.hi[face / 2] : -box.lo[face / 2], number);
+    }
+
+    Field& field;
+    std::size_t looks = 0, lastLook, lastStep;
+    std::vector<Box> hulls;  // before each round
+    std::vector<Cell> cells;
+    /// Cells by how far out they are at each of the hull's faces; of those at one place the last first, as it
+    /// is through the most rounds. Halves take the place of their cell once it is the first.
+    std::array<std::priority_queue<std::pair<double, std::size_t>>, 6> faces;
+};
+
+/// The hull of what is left of `start`; none if nothing is. Ends after `patience` rounds that did not move
+/// the hull (three rounds halve the cells), or once the budget is spent.
+std::optional<Box> shrink(Field& field, const Box& start, int patience, const Budget& budget) {
+    Cells cells(field, start, budget);
+    for (int idle = 0; idle < patience && cells.canSplit(); ++idle) {
+        const Box before = cells.hull();
+        if (!cells.advance()) return std::nullopt;
+        const Box& smaller = cells.hull();
+        for (int axis = 0; axis < 3; ++axis) {
+            const double moved = smaller.lo[axis] - before.lo[axis] + before.hi[axis] - smaller.hi[axis];
+            if (moved > 0.01 * longestSide(before)) idle = -1;
+        }
+    }
+    return cells.hull();
 }
 
 bool touches(const Box& inner, const Box& outer) {
@@ -165,10 +241,10 @@ double longestSide(const Box& box) {
 }
 
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
-    Field field{distance, makeTape(ir, distance, parameters), JumpCases(ir, distance, parameters)};
-    if (field.outside(everywhere(kFarthest))) return {Extent::empty, {}};
-    // About 20 ms of interval arithmetic, more only where a field has tens of thousands of operations.
-    const std::size_t budget = std::clamp<std::size_t>(2'000'000 / (distance + 1), 64, 20'000);
+    Field field{distance, makeTape(ir, distance, parameters)};
+    if (field.positive(everywhere(kFarthest))) return {Extent::empty, {}};
+    // Some 5 ms of interval arithmetic, more only where a field has tens of thousands of operations.
+    const Budget budget{20'000, std::max<std::size_t>(400'000, 64 * field.tape.steps.size())};
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
         for (int axis = 0; axis < 3; ++axis)
             if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};
@@ -183,7 +259,8 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
         if (tight ? touches(*tight, start) : reach < kMostReach) continue;
         if (reachesBeyond(field, tight.value_or(start))) continue;
         if (!tight) return {Extent::empty, {}};
-        return {Extent::bounded, shrink(field, *tight, 18, 4 * budget).value_or(*tight)};
+        return {Extent::bounded,
+                shrink(field, *tight, 18, {4 * budget.looks, 4 * budget.steps}).value_or(*tight)};
     }
     return {Extent::unbounded, {}};
 }

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "graph/evaluate/jump_cases.h"
+
 namespace fw {
 
 namespace {
@@ -12,6 +14,9 @@ namespace {
 // In a draft, step i makes value 3 + i, and the position is the values 0, 1, 2. A name is a value, or a
 // number's place with this bit.
 constexpr uint32_t kNumber = 1u << 31, kNone = ~0u;
+
+/// So many jumps are split in one box; more meet only where it is large.
+constexpr int kMostSplits = 6;
 
 /// Arities alone, without the rest of the rows, for the loops over steps.
 using Arities = std::array<uint8_t, std::size_t(Op::count)>;
@@ -237,43 +242,85 @@ Tape makeTape(const Ir& ir, IrId root, std::span<const double> parameters) {
 }
 
 template <class T>
-Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
-    constexpr bool isSingle = std::is_same_v<T, float>;
+void TapeMachine<T>::enter(const Tape& tape, const Box& box) {
     if (intervals.size() < tape.registers) intervals.resize(tape.registers);
-    if (taken.size() < tape.steps.size()) taken.resize(tape.steps.size());
     for (std::size_t axis = 0; axis < 3; ++axis) intervals[axis] = {box.lo[axis], box.hi[axis]};
-    decisions = 0;
+}
+
+template <class T>
+[[gnu::always_inline]] inline std::array<Interval, kMaxArity> TapeMachine<T>::takeInterval(
+    const Tape& tape, const TapeStep& step) {
+    constexpr bool isSingle = std::is_same_v<T, float>;
     const auto number = [&](uint32_t place) {
         return isSingle ? double(tape.numbers->floats[place]) : tape.numbers->doubles[place];
     };
-    const std::span<const OpInfo> table = opTable();
+    std::array<Interval, kMaxArity> operands;
+    if (step.op == Op::constant) {
+        intervals[step.result] = {number(step.operands[0]), number(step.operands[0])};
+        return operands;
+    }
+    const OpInfo& info = opTable()[std::size_t(step.op)];
+    // End by end, as they were written: read as a whole, they would have to wait for the memory.
+    for (std::size_t k = 0; k < std::size_t(info.arity); ++k) {
+        const uint32_t place = step.operands[k];
+        const bool isNumber = step.numbers >> k & 1;
+        operands[k].lo = isNumber ? number(place) : intervals[place].lo;
+        operands[k].hi = isNumber ? number(place) : intervals[place].hi;
+    }
+    const SampledLayer layer = layerOf(tape, step);
+    intervals[step.result] =
+        isSingle && info.rounding != Rounding::none
+            ? singlePrecisionInterval(info, std::span(operands).first(std::size_t(info.arity)), layer)
+            : info.interval(operands.data(), layer);
+    return operands;
+}
+
+template <class T>
+Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
+    enter(tape, box);
+    if (taken.size() < tape.steps.size()) taken.resize(tape.steps.size());
+    decisions = 0, jumped = false, stepsRun += tape.steps.size();
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
+        const std::array<Interval, kMaxArity> operands = takeInterval(tape, step);
         taken[i] = 0;
-        if (step.op == Op::constant) {
-            intervals[step.result] = {number(step.operands[0]), number(step.operands[0])};
-            continue;
-        }
-        const OpInfo& info = table[std::size_t(step.op)];
-        Interval operands[kMaxArity];
-        // End by end, as they were written: read as a whole, they would have to wait for the memory.
-        for (int k = 0; k < info.arity; ++k) {
-            const uint32_t place = step.operands[k];
-            const bool isNumber = step.numbers >> k & 1;
-            operands[k].lo = isNumber ? number(place) : intervals[place].lo;
-            operands[k].hi = isNumber ? number(place) : intervals[place].hi;
-        }
-        const SampledLayer layer = layerOf(tape, step);
         if (decides(step.op)) {
-            taken[i] = uint8_t(decided(step.op, operands) | decidedSign(step.op, operands) << 4);
+            taken[i] =
+                uint8_t(decided(step.op, operands.data()) | decidedSign(step.op, operands.data()) << 4);
             decisions += taken[i] != 0;
         }
-        intervals[step.result] =
-            isSingle && info.rounding != Rounding::none
-                ? singlePrecisionInterval(info, std::span(operands, std::size_t(info.arity)), layer)
-                : info.interval(operands, layer);
+        if (mayJump(step.op) && !jumped)
+            jumped = jumpCases(step.op, operands.data(), intervals[step.result]).count > 0;
     }
     return intervals[tape.roots[0]];
+}
+
+template <class T>
+bool TapeMachine<T>::positiveInEachCase(const Tape& tape, const Box& box) requires std::is_same_v<T, double> {
+    enter(tape, box);
+    return positiveFrom(tape, 0, kMostSplits);
+}
+
+/// Runs the steps from `first` on, in each case of the first jump that is met.
+template <class T>
+bool TapeMachine<T>::positiveFrom(const Tape& tape, std::size_t first,
+                                  int splits) requires std::is_same_v<T, double> {
+    for (std::size_t i = first; i < tape.steps.size(); ++i) {
+        const TapeStep& step = tape.steps[i];
+        const std::array<Interval, kMaxArity> operands = takeInterval(tape, step);
+        ++stepsRun;
+        if (splits == 0 || !mayJump(step.op)) continue;
+        const JumpCases cases = jumpCases(step.op, operands.data(), intervals[step.result]);
+        if (cases.count == 0) continue;
+        const std::vector<Interval> before(intervals.begin(), intervals.begin() + tape.registers);
+        for (int c = 0; c < cases.count; ++c) {
+            std::ranges::copy(before, intervals.begin());
+            intervals[step.result] = cases.ranges[std::size_t(c)];
+            if (!positiveFrom(tape, i + 1, splits - 1)) return false;
+        }
+        return true;
+    }
+    return intervals[tape.roots[0]].lo >= 0.0;
 }
 
 template <class T>

@@ -23,8 +23,10 @@
 // and volumes. A TapeMachine belongs to one thread, and serves any tape.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "graph/base/box.h"
@@ -75,8 +77,17 @@ class TapeMachine {
     /// An interval that contains every value of the tape's first root over the box, as this machine computes
     /// it.
     Interval interval(const Tape& tape, const Box& box);
+    /// Whether some operation jumped between few values over the box of the last call of interval().
+    bool jumps() const { return jumped; }
+    /// The first root is at least 0 all over the box in each case of such jumps (jump_cases.h): proven, or
+    /// false.
+    bool positiveInEachCase(const Tape& tape, const Box& box) requires std::is_same_v<T, double>;
     /// Whether the last call of interval() decided anything.
     bool shortens() const { return decisions > 0; }
+    /// So many steps were decided by it.
+    std::size_t decidedSteps() const { return decisions; }
+    /// So many steps were run on intervals since the machine was made.
+    std::size_t intervalSteps() const { return stepsRun; }
     /// The tape for the box of the last call of interval(), which was for this tape.
     Tape shortened(const Tape& tape);
     /// The same for who looks at the first root's sign alone: below, at, or above 0. Of a minimum whose sign
@@ -121,6 +132,11 @@ class TapeMachine {
         const T* rows[kMaxArity];
     };
     void make(const Tape& tape);
+    /// Makes room for intervals, and puts the box into its registers.
+    void enter(const Tape& tape, const Box& box);
+    /// Puts a step's interval into its register, and gives those of its operands.
+    std::array<Interval, kMaxArity> takeInterval(const Tape& tape, const TapeStep& step);
+    bool positiveFrom(const Tape& tape, std::size_t first, int splits) requires std::is_same_v<T, double>;
     Operands operandsOf(const Tape& tape, const TapeStep& step) const;
 
     std::vector<Row> rows;            // by register
@@ -129,6 +145,8 @@ class TapeMachine {
     /// its sign.
     std::vector<uint8_t> taken;
     std::size_t decisions = 0;
+    bool jumped = false;
+    std::size_t stepsRun = 0;     // on intervals
     std::vector<TapeStep> draft;  // of a shortened tape
     std::vector<uint32_t> names;  // by register, then by value of the draft
 };

@@ -41,7 +41,7 @@ Graph nodes(const std::string& list, const std::string& rest = "") {
 /// What is picked where this point is seen.
 std::string at(const Seen& seen, glm::vec3 point) {
     const glm::vec4 clip = toClip(cameraView(seen.camera, {}, float(seen.aspect))) * glm::vec4(point, 1.0f);
-    return pick(seen, double(clip.x / clip.w), double(clip.y / clip.w));
+    return Picker().pick(seen, double(clip.x / clip.w), double(clip.y / clip.w));
 }
 
 Graph sample(const std::string& name) {
@@ -71,7 +71,7 @@ TEST(Pick, TheShapeUnderTheCursorThroughTransforms) {
 
 TEST(Pick, NothingOutsideOfTheRegionOrTheSolid) {
     Seen seen = seenOf(nodes(kTwo));
-    EXPECT_EQ(pick(seen, 0.99, 0.99), "");
+    EXPECT_EQ(Picker().pick(seen, 0.99, 0.99), "");
     seen.region = {{-20, -20, -20}, {0, 20, 20}};
     EXPECT_EQ(at(seen, {2, 0, 0}), "");
     EXPECT_EQ(at(seen, {-2, 0, 0}), "box");
@@ -141,6 +141,32 @@ TEST(Pick, TheTimelineMovesWhatIsHit) {
     seen.seconds = 1.0;
     EXPECT_EQ(at(seen, {0, 0, 0}), "");
     EXPECT_EQ(at(seen, {2, 0, 0}), "ball");
+}
+
+TEST(Pick, APickerAnswersForWhatIsSeenNow) {
+    Picker picker;
+    Seen seen = seenOf(nodes(kTwo));
+    const auto inTheMiddle = [&] { return picker.pick(seen, 0, 0); };
+    EXPECT_EQ(inTheMiddle(), "");
+    seen.pinned = "box";
+    EXPECT_EQ(inTheMiddle(), "box");
+    EXPECT_EQ(inTheMiddle(), "box") << "as it was kept";
+    seen.graph = seenOf(nodes(R"({"id": "box", "type": "sphere"})")).graph;
+    seen.pinned = "box";
+    EXPECT_EQ(inTheMiddle(), "box");
+    seen.graph = seenOf(nodes(R"(
+      {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+      {"id": "moved", "type": "translate", "inputs": {"surface": {"from": "ball"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "moved"}}})",
+                              R"(, "timeline": {"length": 2, "tracks": [{"node": "moved", "input": "offset",
+      "keys": [{"time": 0, "value": [0, 0, 0]}, {"time": 1, "value": [2, 0, 0]}]}]})"))
+                     .graph;
+    seen.pinned = "";
+    EXPECT_EQ(inTheMiddle(), "ball");
+    seen.seconds = 1.0;
+    EXPECT_EQ(inTheMiddle(), "");
+    seen.graph = seenOf(nodes(R"({"id": "ball", "type": "no such type"})")).graph;
+    EXPECT_EQ(inTheMiddle(), "");
 }
 
 TEST(Pick, Samples) {
