@@ -138,6 +138,8 @@ std::optional<IrId> CommonFormFinder::sum(const Row& row) {
     return value;
 }
 
+/// The first one's operation, its operands in the order they have there: where a device fuses a product with
+/// a sum, that is which.
 std::optional<IrId> CommonFormFinder::operation(const Row& row) {
     const IrNode& first = ir[row[0]];
     const int arity = opInfo(first.op).arity;
@@ -154,7 +156,7 @@ std::optional<IrId> CommonFormFinder::operation(const Row& row) {
     for (int i = 0; i < arity; ++i) {
         const std::optional<IrId> operand = form(operands[i]);
         if (!operand) return std::nullopt;
-        made.operands[i] = *operand;
+        made.operands[std::size_t(orderOf(first)[std::size_t(i)])] = *operand;
     }
     return step(made);
 }
