@@ -43,7 +43,9 @@ Interval modulo(Interval a, Interval b) {
         if (first == std::floor(a.hi / b.lo)) return shifted(a, first, b.lo);
     }
     const double slack = 4.5e-16 * absolute(a).hi + 1e-300;
-    return outward(std::min(0.0, b.lo) - slack, std::max(0.0, b.hi) + slack);
+    // Divided by what has no bound, a number may be too small for its sign to show, and is its own remainder.
+    const Interval left = isBounded(b) ? Interval{0.0, 0.0} : a;
+    return outward(std::min({0.0, b.lo, left.lo}) - slack, std::max({0.0, b.hi, left.hi}) + slack);
 }
 
 Interval truncatedModulo(Interval a, Interval b) {

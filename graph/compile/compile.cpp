@@ -33,8 +33,8 @@ std::optional<Error> fieldProblem(const Graph& graph, const Node& output, const 
 }
 
 /// A warning if the driver would be busy with the field for long, at the node that has most part in that.
-std::optional<Error> slowness(const Graph& graph, const GraphLowering& lowering, IrId distance) {
-    const Ir& ir = lowering.state.ir;
+std::optional<Error> slowness(const Graph& graph, GraphLowering& lowering, IrId distance) {
+    Ir& ir = lowering.state.ir;
     if (secondsToCompile(codeWeight(ir, distance, {})) <= kMostSecondsToCompile) return std::nullopt;
     const Families families = findFamilies(ir, distance);
     const double weight = codeWeight(ir, distance, families), seconds = secondsToCompile(weight);

@@ -65,10 +65,10 @@ std::vector<NodeEffort> effortByNode(const Ir& ir, std::span<const IrId> roots, 
     std::vector<NodeEffort> all(origins.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i].node = origins[i];
     for (IrId id = 0; id < ir.size(); ++id) {
-        if (!sampled[id] || opInfo(ir[id].op).arity == 0) continue;
+        if ((!sampled[id] && !coded[id]) || opInfo(ir[id].op).arity == 0) continue;
         NodeEffort& effort = all[ir.origin(id)];
-        ++effort.operations;
-        effort.sample += opInfo(ir[id].op).weight;
+        effort.operations += sampled[id] ? 1 : 0;
+        effort.sample += sampled[id] ? opInfo(ir[id].op).weight : 0;
         effort.code += coded[id] ? opInfo(ir[id].op).weight : 0;
     }
     std::erase_if(all, [](const NodeEffort& effort) { return effort.operations == 0; });

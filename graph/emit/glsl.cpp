@@ -46,12 +46,12 @@ class Emitter : GlslStatements {
   private:
     void parameters() {
         text += "struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };\n";
-        const bool tablesAlone = program.live.empty() && !program.families.empty();
-        if (tablesAlone) text += "#ifndef FIELD_PRUNED\n";
-        if (tablesAlone || !program.live.empty())
+        const bool listsAlone = program.live.empty() && program.families.listed > 0;
+        if (listsAlone) text += "#ifndef FIELD_PRUNED\n";
+        if (!program.families.empty() || !program.live.empty())
             text += "layout(set = 0, binding = " + std::to_string(kFieldParametersBinding) +
                     ", std430) readonly buffer FieldParameters { float fieldParameters[]; };\n";
-        if (tablesAlone) text += "#endif\n";
+        if (listsAlone) text += "#endif\n";
         for (std::size_t slot = 0; slot < program.live.size(); ++slot)
             text += "float fieldP" + std::to_string(slot) + ";\n";
         text += "void fieldBegin() {\n";

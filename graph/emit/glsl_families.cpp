@@ -1,5 +1,6 @@
 #include "graph/emit/glsl_families.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "graph/emit/glsl_statements.h"
@@ -9,6 +10,15 @@ namespace fw {
 namespace {
 
 constexpr int kSamples = 9;  // of a column, which stands for nine samples of a row
+
+/// Picks one of the samples, and begins the function of its value.
+constexpr const char* kFieldPick =
+    "float fieldPick(uint k, float a, float b, float c, float d, float e, float f, float g, float h, float "
+    "i) "
+    "{\n"
+    "    return k == 0u ? a : k == 1u ? b : k == 2u ? c : k == 3u ? d : k == 4u ? e : k == 5u ? f : "
+    "k == 6u ? g : k == 7u ? h : i;\n}\n"
+    "float fieldAt(FieldRow row, FieldColumn column, uint k, float at) {\n";
 
 class FamilyEmitter : GlslStatements {
   public:
@@ -27,15 +37,22 @@ class FamilyEmitter : GlslStatements {
         gradientFunction();
         text += "#endif\n#ifdef FIELD_INTERVAL\n#include \"lib/interval.glsl\"\n";
         intervalFunction();
-        text += "#ifdef FIELD_PRUNE\n";
-        pruneFunction();
-        text += "#endif\n#endif\n#ifdef FIELD_ROWS\n" + along();
+        if (program.families.listed > 0) {
+            text += "#ifdef FIELD_PRUNE\n";
+            pruneFunction();
+            text += "#endif\n";
+        }
+        text += "#endif\n#ifdef FIELD_ROWS\n" + along();
         rowFunctions();
         text += "#endif\n";
         return std::move(text);
     }
 
   private:
+    bool isListed(uint32_t family) const { return family < program.families.listed; }
+    bool isListed(const FamilyGroup& group) const {
+        return std::ranges::any_of(group.families, [&](uint32_t f) { return isListed(f); });
+    }
     static std::string number(uint32_t n) { return std::to_string(n); }
     static std::string list(uint32_t family) { return "fieldList" + number(family); }
     static bool isLess(const FamilyGroup& group) { return group.op == Op::minimum; }
@@ -48,66 +65,79 @@ class FamilyEmitter : GlslStatements {
     std::string start(const FamilyGroup& group, std::string (GlslStatements::*named)(IrId) const) const {
         return group.chain() ? (this->*named)(group.others[0]) : limit(group);
     }
-    std::string width(const Family& family) const { return operand(family.link, 2); }
     /// What `all` becomes with one member more. A minimum takes what a lane that is done repeats, a chain
     /// not.
     std::string with(const FamilyGroup& group, uint32_t family, const std::string& all,
                      const std::string& own, bool isInterval = false) const {
         if (!group.chain()) return fold(group) + "(" + all + ", " + own + ")";
-        const std::string width = this->width(program.families.all[family]);
-        return "i < fieldLength" + number(family) + "() ? " +
-               (isInterval ? "iSmoothMin(" : "fieldSmoothMin(") + all + ", " + own +
-               (isInterval ? ", vec2(" + width + "))" : ", " + width + ")") + " : " + all;
+        const IrId blend = program.families.all[family].blend;
+        return (isListed(family) ? "i < fieldLength" + number(family) + "() ? " : "") +
+               (isInterval ? "iSmoothMin(" : "fieldSmoothMin(") + all + ", " + own + ", " +
+               (isInterval ? interval(blend) : value(blend)) + ")" + (isListed(family) ? " : " + all : "");
     }
     const FamilyGroup* groupAt(IrId id) const {
         const auto group = program.families.groups.find(id);
         return group == program.families.groups.end() ? nullptr : &group->second;
     }
 
+    /// Whether the loops over a group's members are for all samples of a column.
+    bool isOfColumn(IrId id, const FamilyGroup& group) const {
+        return stageOf(ir[id]) == 2 && isListed(group);
+    }
+
     void tables() {
         const std::vector<Family>& all = program.families.all;
-        const std::string count = std::to_string(all.size());
+        const uint32_t listed = program.families.listed;
         const auto binding = [](int at) { return "layout(set = 0, binding = " + std::to_string(at) + ", "; };
+        const std::string ofParameters =
+            "vec4 fieldTexel(uint t) {\n    uint at = " + std::to_string(program.live.size()) + "u + " +
+            number(kTexel) +
+            "u * t;\n    return vec4(fieldParameters[at], fieldParameters[at + 1u], fieldParameters[at + "
+            "2u], "
+            "fieldParameters[at + 3u]);\n}\n";
+        if (listed == 0) {
+            text +=
+                ofParameters + "#ifdef FIELD_PRUNED\nbool fieldChoose(uint place) { return true; }\n#endif\n";
+            return;
+        }
+        const std::string count = number(listed);
         text += "#define FIELD_FAMILIES " + count + "\n#ifdef FIELD_PRUNED\n" + binding(kFieldHeadsBinding) +
                 "std430) buffer FieldHeads { uvec2 fieldHeads[]; };\n" + binding(kFieldListsBinding) +
                 "std430) buffer FieldLists { uint fieldLists[]; };\n" + binding(kFieldTablesBinding) +
                 "rgba32ui) readonly uniform uimageBuffer fieldTables;\n"
                 "vec4 fieldTexel(uint t) { return uintBitsToFloat(imageLoad(fieldTables, int(t))); }\n";
-        for (uint32_t f = 0; f < all.size(); ++f)
+        for (uint32_t f = 0; f < listed; ++f)
             text += "uvec2 " + list(f) + ";\nuint fieldLength" + number(f) + "() { return " + list(f) +
                     ".y; }\nuint fieldEntry" + number(f) + "(uint i) { return fieldLists[" + list(f) +
                     ".x + min(i, " + list(f) + ".y - 1u)]; }\n";
         text += "bool fieldChoose(uint place) {\n";
-        for (uint32_t f = 0; f < all.size(); ++f)
+        for (uint32_t f = 0; f < listed; ++f)
             text += "    " + list(f) + " = fieldHeads[place * " + count + "u + " + number(f) + "u];\n";
-        text += "    return " + list(0) + ".y != 0u;\n}\n#else\nvec4 fieldTexel(uint t) {\n    uint at = " +
-                std::to_string(program.live.size()) + "u + " + number(kTexel) +
-                "u * t;\n    return vec4(fieldParameters[at], fieldParameters[at + 1u], fieldParameters[at + "
-                "2u], "
-                "fieldParameters[at + 3u]);\n}\n";
-        for (uint32_t f = 0; f < all.size(); ++f)
+        text += "    return " + list(0) + ".y != 0u;\n}\n#else\n" + ofParameters;
+        for (uint32_t f = 0; f < listed; ++f)
             text += "uint fieldLength" + number(f) + "() { return " + number(all[f].members) +
                     "u; }\nuint fieldEntry" + number(f) + "(uint i) { return i; }\n";
         text += "#endif\n";
     }
 
-    /// A loop over the list of a family. A lane that is done with its own repeats the last.
+    /// A loop over the list of a family, or all rows. A lane that is done with its own repeats the last.
     template <class Body>
     void loop(uint32_t number_, Body body) {
         const Family& family = program.families.all[number_];
         std::size_t first = 0;
         for (uint32_t f = 0; f < number_; ++f) first += program.families.all[f].table.size() / kTexel;
         text += "    {\n    uint i = 0u;\n    do {\n    uint m = " + std::to_string(first) + "u + " +
-                number(family.width / kTexel) + "u * fieldEntry" + number(number_) + "(i);\n";
+                number(family.width / kTexel) + "u * " +
+                (isListed(number_) ? "fieldEntry" + number(number_) + "(i)" : "i") + ";\n";
         for (uint32_t t = 0; t < family.width / kTexel; ++t)
             text += "    vec4 t" + number(t) + " = fieldTexel(m + " + number(t) + "u);\n";
         for (uint32_t c = 0; c < family.width; ++c)
-            text +=
-                "    float c" + number(c) + " = t" + number(c / kTexel) + "[" + number(c % kTexel) + "];\n";
-        member = &family;
+            text += "    float c" + number(family.firstColumn + c) + " = t" + number(c / kTexel) + "[" +
+                    number(c % kTexel) + "];\n";
         body(family);
-        member = nullptr;
-        text += "    } while (++i < fieldLength" + number(number_) + "());\n    }\n";
+        text += "    } while (++i < " +
+                (isListed(number_) ? "fieldLength" + number(number_) + "()" : number(family.members) + "u") +
+                ");\n    }\n";
     }
 
     /// Defines a group's value by its families' F0, F1, …, which are there.
@@ -139,11 +169,11 @@ class FamilyEmitter : GlslStatements {
 
     void groupValue(IrId id, const FamilyGroup& group) {
         for (uint32_t f : group.families) {
-            const std::string best = "F" + number(f);
+            const std::string best = "F" + number(f) + suffix;
             text += "    float " + best + " = " + start(group, &GlslStatements::value) + ";\n";
             loop(f, [&](const Family& family) {
                 for (IrId step : family.steps) valueStatement(step);
-                text += "    " + best + " = " + with(group, f, best, value(family.steps.back())) + ";\n";
+                text += "    " + best + " = " + with(group, f, best, value(family.value)) + ";\n";
             });
         }
         define(group, "float", value(id), &GlslStatements::value);
@@ -188,9 +218,9 @@ class FamilyEmitter : GlslStatements {
             loop(f, [&](const Family& family) {
                 for (IrId step : family.steps) gradientStatement(step, known);
                 if (group.chain())
-                    text += "    " + best + " = " + with(group, f, best, whole(family.steps.back())) + ";\n";
+                    text += "    " + best + " = " + with(group, f, best, whole(family.value)) + ";\n";
                 else
-                    offer(family.steps.back());
+                    offer(family.value);
             });
         if (!group.chain())
             for (IrId other : group.others) offer(other);
@@ -214,8 +244,7 @@ class FamilyEmitter : GlslStatements {
                 text += "    vec2 " + all + " = vec2(" + start(*group, &GlslStatements::interval) + ");\n";
                 loop(f, [&](const Family& family) {
                     for (IrId step : family.steps) intervalStatement(step);
-                    text += "    " + all + " = " + with(*group, f, all, interval(family.steps.back()), true) +
-                            ";\n";
+                    text += "    " + all + " = " + with(*group, f, all, interval(family.value), true) + ";\n";
                 });
             }
             define(*group, "vec2", interval(id), &GlslStatements::interval);
@@ -238,21 +267,23 @@ class FamilyEmitter : GlslStatements {
         intervalStatements();
         text += "    bool open = " + list(0) + ".y != 0u && fieldMayHold(iMargin(" + interval(root) +
                 ", reach));\n";
-        for (uint32_t f = 0; f < program.families.all.size(); ++f)
+        for (uint32_t f = 0; f < program.families.listed; ++f)
             text += "    if (!open) " + list(f) + ".y = 0u;\n";
         for (const auto& [id, group] : program.families.groups) {
+            if (!isListed(group)) continue;
             if (group.chain()) {
                 pruneChain(group);
                 continue;
             }
             const bool less = isLess(group);
             for (uint32_t f : group.families) {
+                if (!isListed(f)) continue;
                 text += "    {\n    float limit = iMargin(" + interval(id) + ", reach)." +
                         (less ? "y" : "x") + ";\n    uint at = open ? fieldAllocate(" + list(f) +
                         ".y) : 0u, kept = 0u;\n";
                 loop(f, [&](const Family& family) {
                     for (IrId step : family.steps) intervalStatement(step);
-                    text += "    bool apart = iMargin(" + interval(family.steps.back()) + ", reach)." +
+                    text += "    bool apart = iMargin(" + interval(family.value) + ", reach)." +
                             (less ? "x > limit" : "y < limit") + " || i >= " + list(f) + ".y;\n" +
                             "    if (!apart && at != 0u) fieldLists[at + kept] = fieldEntry" + number(f) +
                             "(i);\n    kept += apart ? 0u : 1u;\n";
@@ -271,16 +302,16 @@ class FamilyEmitter : GlslStatements {
                 ", chain = start;\n    uint at = open ? fieldAllocate(" + list(f) + ".y) : 0u, kept = 0u;\n";
         loop(f, [&](const Family& family) {
             for (IrId step : family.steps) intervalStatement(step);
-            text += "    float width = " + width(family) +
-                    ";\n    vec2 own = " + interval(family.steps.back()) +
+            text += "    vec2 width = " + interval(family.blend) +
+                    ";\n    vec2 own = " + interval(family.value) +
                     ", wide = iMargin(own, reach), before = iMargin(chain, reach);\n    bool listed = i < " +
                     list(f) +
-                    ".y, apart = !listed || before.y + width < wide.x;\n    bool over = listed && wide.y + "
-                    "width < min(before.x, iMargin(start, reach).x);\n    kept = over ? 0u : kept;\n    if "
+                    ".y, apart = !listed || before.y + width.y < wide.x;\n    bool over = listed && wide.y + "
+                    "width.y < min(before.x, iMargin(start, reach).x);\n    kept = over ? 0u : kept;\n    if "
                     "(!apart && at != 0u) fieldLists[at + kept] = fieldEntry" +
                     number(f) +
                     "(i);\n    kept += apart ? 0u : 1u;\n    chain = apart ? chain : over ? own : "
-                    "iSmoothMin(chain, own, vec2(width));\n";
+                    "iSmoothMin(chain, own, width);\n";
         });
         endList(f);
     }
@@ -298,7 +329,7 @@ class FamilyEmitter : GlslStatements {
         GlslStages stages(*this, program, true, [&](IrId id) {
             const FamilyGroup* group = groupAt(id);
             if (!group) return false;
-            if (stageOf(ir[id]) < 2) {  // it does not vary along a column
+            if (!isOfColumn(id, *group)) {
                 groupValue(id, *group);
                 return true;
             }
@@ -312,13 +343,12 @@ class FamilyEmitter : GlslStatements {
         });
         stages.planeFunction();
         stages.rowFunction();
-        columnFunction(stages);
-        text +=
-            "float fieldPick(uint k, float a, float b, float c, float d, float e, float f, float g, float h, "
-            "float i) {\n"
-            "    return k == 0u ? a : k == 1u ? b : k == 2u ? c : k == 3u ? d : k == 4u ? e : k == 5u ? f : "
-            "k == 6u ? g : k == 7u ? h : i;\n}\n"
-            "float fieldAt(FieldRow row, FieldColumn column, uint k, float at) {\n";
+        if (program.families.listed == 0) {
+            text += "float fieldAt(FieldRow row, float at) {\n";
+        } else {
+            columnFunction(stages);
+            text += kFieldPick;
+        }
         stages.unpack(1, "row");
         stages.define(2);
         text += "    return " + value(root) + ";\n}\n";
@@ -329,7 +359,7 @@ class FamilyEmitter : GlslStatements {
         std::vector<IrId> inputs;
         std::string members, values;
         for (const auto& [id, group] : program.families.groups) {
-            if (stageOf(ir[id]) < 2) continue;
+            if (!isOfColumn(id, group)) continue;
             if (group.chain()) inputs.push_back(group.others[0]);
             for (uint32_t f : group.families) {
                 const Family& family = program.families.all[f];
@@ -348,9 +378,12 @@ class FamilyEmitter : GlslStatements {
         for (IrId id = 0; id < ir.size(); ++id) {
             if (stageOf(ir[id]) < 2) continue;
             const FamilyGroup* group = needed[id] ? groupAt(id) : nullptr;
-            if (group) columnLoops(*group);
+            const bool ofColumn = group && isOfColumn(id, *group);
+            if (ofColumn) columnLoops(*group);
             forSamples([&](int k) {
-                if (wanted[id] && group)
+                if (wanted[id] && group && !ofColumn)
+                    groupValue(id, *group);
+                else if (wanted[id] && group)
                     define(*group, "float", value(id), &GlslStatements::value);
                 else if (wanted[id])
                     valueStatement(id, ir[id].op == leafOf(2) ? "at[" + std::to_string(k) + "]"
@@ -382,8 +415,7 @@ class FamilyEmitter : GlslStatements {
                 forSamples([&](int) {
                     for (IrId step : family.steps)
                         if (stageOf(ir[step]) == 2) valueStatement(step);
-                    text +=
-                        "    " + all() + " = " + with(group, f, all(), value(family.steps.back())) + ";\n";
+                    text += "    " + all() + " = " + with(group, f, all(), value(family.value)) + ";\n";
                 });
             });
         }

@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "graph/compile/effort.h"
-
 namespace fw {
 
 namespace {
@@ -101,24 +99,13 @@ std::vector<bool> GlslStatements::neededBy(std::span<const IrId> roots, bool gro
 std::string GlslStatements::value(IrId id) const {
     if (ir.isConstant(id)) return glslLiteral(ir.number(id));
     if (ir[id].op == Op::parameter) return "fieldP" + std::to_string(static_cast<int>(ir.number(id)));
+    if (ir[id].op == Op::column) return "c" + std::to_string(static_cast<int>(ir.number(id)));
     const std::string name = "v" + std::to_string(id);
     return stageOf(ir[id]) == 2 ? name + suffix : name;
 }
 
 std::string GlslStatements::interval(IrId id) const {
     return isInline(ir[id]) ? "vec2(" + value(id) + ")" : "i" + std::to_string(id);
-}
-
-std::string GlslStatements::operand(IrId user, int i) const {
-    if (member)
-        if (const auto column = member->columns.find({user, i}); column != member->columns.end())
-            return "c" + std::to_string(column->second);
-    return value(ir[user].operands[i]);
-}
-
-std::string GlslStatements::intervalOperand(IrId user, int i) const {
-    const IrId id = ir[user].operands[i];
-    return isInline(ir[id]) ? "vec2(" + operand(user, i) + ")" : interval(id);
 }
 
 std::string GlslStatements::layerNumber(IrId id) const {
@@ -131,7 +118,9 @@ void GlslStatements::statement(std::string_view type, const std::string& name, I
     text += type;
     text += " " + name + " = ";
     fill(text, pattern, [&](char letter) {
-        return letter == 'i' ? layerNumber(id) : letter == 's' ? sample(id) : operand(id, letter - 'a');
+        return letter == 'i'   ? layerNumber(id)
+               : letter == 's' ? sample(id)
+                               : value(ir[id].operands[letter - 'a']);
     });
     text += ";\n";
 }
@@ -143,8 +132,9 @@ void GlslStatements::valueStatements(const std::vector<bool>& needed) {
 
 void GlslStatements::intervalStatement(IrId id) {
     text += "    vec2 " + interval(id) + " = ";
-    fill(text, opInfo(ir[id].op).glslInterval,
-         [&](char letter) { return letter == 'i' ? layerNumber(id) : intervalOperand(id, letter - 'a'); });
+    fill(text, opInfo(ir[id].op).glslInterval, [&](char letter) {
+        return letter == 'i' ? layerNumber(id) : interval(ir[id].operands[letter - 'a']);
+    });
     text += ";\n";
 }
 
@@ -178,12 +168,13 @@ std::string GlslStatements::derivative(IrId id, int axis, const std::vector<std:
         expression = "-" + of(1);
     } else if (node.op == Op::multiply && (of(0).empty() || of(1).empty())) {
         const int varying = of(0).empty() ? 1 : 0;
-        expression = operand(id, 1 - varying) + " * " + of(varying);
+        expression = value(ir[id].operands[1 - varying]) + " * " + of(varying);
     } else {
         fill(expression, pattern, [&](char letter) -> std::string {
             if (letter == 'v') return value(id);
             if (letter == 's') return sample(id);
-            if (letter >= 'a') return operand(id, letter - 'a');
+            if (letter == 'i') return layerNumber(id);
+            if (letter >= 'a') return value(ir[id].operands[letter - 'a']);
             return of(letter - 'A').empty() ? "0.0" : of(letter - 'A');
         });
     }

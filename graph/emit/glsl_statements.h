@@ -1,7 +1,7 @@
-// The GLSL statements of single operations, of which glsl.cpp and glsl_pruned.cpp make functions.
+// The GLSL statements of single operations, of which glsl.cpp and glsl_families.cpp make functions.
 //
 // A value of the IR is a variable: v12 its value, i12 its interval, gx12 its derivative along x, s12 what is
-// sampled of it. Constants are literals, live parameters globals, neither is a variable.
+// sampled of it; c3 is a column. Constants are literals, live parameters globals, neither is a variable.
 //
 // Lifetime: made for one text; refers to the Program.
 #pragma once
@@ -47,7 +47,9 @@ class GlslStatements {
     /// The ids that a value is made from; `grouped` as above.
     std::vector<IrId> operandsOf(IrId id, bool grouped) const;
 
-    static bool isInline(const IrNode& node) { return node.op == Op::constant || node.op == Op::parameter; }
+    static bool isInline(const IrNode& node) {
+        return node.op == Op::constant || node.op == Op::parameter || node.op == Op::column;
+    }
     std::string_view typeOf(IrId id) const { return opInfo(ir[id].op).boolean ? "bool" : "float"; }
     std::string value(IrId id) const;
     std::string interval(IrId id) const;
@@ -65,16 +67,10 @@ class GlslStatements {
     /// Defines the value and its derivatives, and puts those into `known`.
     void gradientStatement(IrId id, Derivatives& known);
 
-    /// While set, operands in its columns are variables c0, c1, … in place of literals.
-    const Family* member = nullptr;
     /// While set, what varies along a row is one of several variables of the name: v12_3.
     std::string suffix;
 
-    /// What the operation takes in: a value's name, a literal or a column.
-    std::string operand(IrId user, int i) const;
-
   private:
-    std::string intervalOperand(IrId user, int i) const;
     std::string layerNumber(IrId id) const;
     /// The variable that holds what OpInfo::glslSample gives of the operation.
     static std::string sample(IrId id) { return "s" + std::to_string(id); }

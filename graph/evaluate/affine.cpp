@@ -29,7 +29,8 @@ std::vector<bool> affineUpTo(const Ir& ir, IrId last) {
             case Op::multiply: affine[id] = all && (flat(0) || flat(1)); break;
             case Op::divide: affine[id] = all && flat(1); break;
             case Op::select: affine[id] = all && flat(0); break;
-            default: affine[id] = node.positions == 0;
+            case Op::column: affine[id] = false; break;
+            default: affine[id] = node.positions == 0 && all;
         }
     }
     return affine;

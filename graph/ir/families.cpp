@@ -1,40 +1,30 @@
 #include "graph/ir/families.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <span>
+
+#include "graph/ir/common_form.h"
 
 namespace fw {
 
 namespace {
 
-// A loop pays, in the device's time and the compiler's, from so many members and operations of all of them
-// on.
-constexpr std::size_t kLeastMembers = 6, kLeastOperations = 240;
+// From so many members on they are listed; a loop over them pays from so many operations of all of them on.
+constexpr std::size_t kListedMembers = 17, kLeastOperations = 240;
+// A loop over fewer makes a sample slower, and pays where it keeps so many operations from a compiler.
+constexpr std::size_t kLeastSaved = 700;
 constexpr std::size_t kLeastSteps = 4;      // of a member: less is not worth a load
-constexpr std::size_t kMostSteps = 400;     // bounds the search as well
+constexpr std::size_t kMostSteps = 1000;    // bounds the search as well
 constexpr std::size_t kLinkSteps = 8;       // what a smooth minimum counts as
 constexpr std::size_t kMostFamilies = 256;  // about: each has a list at every place
 
-uint64_t mixed(uint64_t hash, uint64_t word) {
-    hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
-    return hash ^ hash >> 29;
-}
-
 bool isFold(Op op) { return op == Op::minimum || op == Op::maximum; }
-
-/// A member walked from its root: what it does, with places in place of ids, and what it does it with.
-struct Walk {
-    std::vector<uint64_t> key;                      // equal for members that are alike
-    std::vector<IrId> steps;                        // by place
-    std::vector<std::pair<IrId, int>> constantsOf;  // step and operand of each constant met
-    std::vector<double> constants;
-};
 
 class Finder {
   public:
-    Finder(const Ir& ir_, IrId root_)
-        : ir(ir_), root(root_), users(ir.size()), shapes(ir.size()), closed(ir.size()) {
+    Finder(Ir& ir_, IrId root) : ir(ir_), users(ir.size()), closed(ir.size()) {
         std::vector<bool> needed(ir.size());
         needed[root] = true;
         for (IrId id = root + 1; id-- > 0;)
@@ -42,8 +32,7 @@ class Finder {
                 needed[ir[id].operands[i]] = true;
                 ++users[ir[id].operands[i]];
             }
-        for (IrId id = 0; id <= root; ++id)
-            if (needed[id]) shapes[id] = shapeOf(id);
+        likeness = likenesses(ir, needed);
         for (IrId id = 0; id <= root; ++id)
             if (needed[id] && (isFold(ir[id].op) || isLink(id))) folds.push_back(id);
     }
@@ -57,25 +46,13 @@ class Finder {
             }
             std::vector<IrId> operands;
             flatten(*fold, ir[*fold].op, operands);
-            if (operands.size() >= kLeastMembers) group(*fold, operands);
+            if (operands.size() > 1) group(*fold, operands);
         }
+        sortListed();
         return std::move(found);
     }
 
   private:
-    /// Equal for the same operations on any numbers.
-    uint64_t shapeOf(IrId id) const {
-        const IrNode& node = ir[id];
-        uint64_t hash = mixed(0, uint64_t(node.op));
-        if (ownsNumber(node.op) && node.op != Op::constant) hash = mixed(hash, uint64_t(node.number));
-        uint64_t of[kMaxArity] = {};
-        const int arity = opInfo(node.op).arity;
-        for (int i = 0; i < arity; ++i) of[i] = shapes[node.operands[i]];
-        if (opInfo(node.op).commutative && of[1] < of[0]) std::swap(of[0], of[1]);
-        for (int i = 0; i < arity; ++i) hash = mixed(hash, of[i]);
-        return hash;
-    }
-
     /// The operands of a minimum of minima, in order. One that something else uses too stays an operand.
     void flatten(IrId fold, Op op, std::vector<IrId>& operands) {
         std::vector<IrId> open{fold};
@@ -93,7 +70,9 @@ class Finder {
     }
 
     /// A smooth minimum of two values that vary, with one width everywhere.
-    bool isLink(IrId id) const { return ir[id].op == Op::smoothMinimum && ir.isConstant(ir[id].operands[2]); }
+    bool isLink(IrId id) const {
+        return ir[id].op == Op::smoothMinimum && ir[ir[id].operands[2]].positions == 0;
+    }
 
     /// The families in a chain of smooth minima that ends with this one.
     void chain(IrId last) {
@@ -113,89 +92,35 @@ class Finder {
         std::ranges::reverse(links);
         std::ranges::reverse(members);
         for (std::size_t first = 0, end; first < links.size(); first = end) {
-            std::vector<std::pair<IrId, Walk>> run;
-            for (end = first; end < links.size() && shapes[members[end]] == shapes[members[first]]; ++end) {
-                std::optional<Walk> way = walk(members[end]);
-                if (!way || (!run.empty() && way->key != run[0].second.key)) break;
-                run.emplace_back(members[end], std::move(*way));
-            }
-            end = std::max(end, first + 1);
-            if (run.size() < kLeastMembers) continue;
-            std::optional<Family> family = familyOf(run, std::span(links).subspan(first, run.size()));
-            if (!family) continue;
-            for (const auto& [id, way] : run) close(id);
+            for (end = first + 1; end < links.size() && alike(members[first], members[end]);) ++end;
+            std::vector<IrId> widths;
+            for (std::size_t i = first; i < end; ++i) widths.push_back(ir[links[i]].operands[2]);
             const IrId before = first == 0 ? start : links[first - 1];
-            found.groups.emplace(links[end - 1],
-                                 FamilyGroup{Op::smoothMinimum, {uint32_t(found.all.size())}, {before}});
-            found.all.push_back(std::move(*family));
+            if (const std::optional<uint32_t> family =
+                    familyOf({members.begin() + first, members.begin() + end}, widths))
+                found.groups.emplace(links[end - 1], FamilyGroup{Op::smoothMinimum, {*family}, {before}});
         }
     }
 
-    /// Nothing for a member of too many operations.
-    std::optional<Walk> walk(IrId member) const {
-        Walk result;
-        std::map<IrId, uint64_t> places;
-        struct Visit {
-            IrId id;
-            bool done;
-        };
-        std::vector<Visit> open{{member, false}};
-        while (!open.empty()) {
-            const auto [id, operandsDone] = open.back();
-            open.pop_back();
-            if (places.contains(id)) continue;
-            const IrNode& node = ir[id];
-            const int arity = opInfo(node.op).arity;
-            int order[kMaxArity] = {0, 1, 2, 3};
-            if (opInfo(node.op).commutative && shapes[node.operands[1]] < shapes[node.operands[0]])
-                std::swap(order[0], order[1]);
-            if (!operandsDone && arity > 0) {
-                open.push_back({id, true});
-                for (int i = arity; i-- > 0;)
-                    if (!ir.isConstant(node.operands[order[i]]))
-                        open.push_back({node.operands[order[i]], false});
-                continue;
-            }
-            if (result.steps.size() == kMostSteps) return std::nullopt;
-            result.key.push_back(uint64_t(node.op));
-            if (ownsNumber(node.op) && node.op != Op::constant) result.key.push_back(uint64_t(node.number));
-            for (int i = 0; i < arity; ++i) {
-                const IrId operand = node.operands[order[i]];
-                if (ir.isConstant(operand)) {
-                    result.key.push_back(~uint64_t(0));
-                    result.constantsOf.emplace_back(id, order[i]);
-                    result.constants.push_back(ir.number(operand));
-                } else {
-                    result.key.push_back(places[operand]);
-                }
-            }
-            places.emplace(id, result.steps.size());
-            result.steps.push_back(id);
-        }
-        return result;
-    }
+    bool alike(IrId a, IrId b) const { return likeness[a].strict == likeness[b].strict; }
 
+    /// Families of operands that are alike if coordinates are exchanged; of those without a form, of the
+    /// operands that are more alike. In the order of their first members, so that equal graphs give equal
+    /// code.
     void group(IrId fold, const std::vector<IrId>& operands) {
-        std::map<uint64_t, std::size_t> alike;
-        for (IrId id : operands) ++alike[shapes[id]];
-        std::map<std::vector<uint64_t>, std::vector<std::pair<IrId, Walk>>> walks;
-        for (IrId id : operands) {
-            if (alike[shapes[id]] < kLeastMembers) continue;
-            if (std::optional<Walk> way = walk(id)) walks[way->key].emplace_back(id, std::move(*way));
-        }
-        std::vector<bool> member(ir.size());
         FamilyGroup result{ir[fold].op, {}, {}};
-        // In the order of their first members, so that equal graphs give equal code.
-        std::vector<const std::vector<std::pair<IrId, Walk>>*> inOrder;
-        for (const auto& [key, of] : walks) inOrder.push_back(&of);
-        std::ranges::sort(inOrder, {}, [](const auto* of) { return of->front().first; });
-        for (const auto* of : inOrder) {
-            if (of->size() < kLeastMembers) continue;
-            std::optional<Family> family = familyOf(*of);
-            if (!family) continue;
-            for (const auto& [id, way] : *of) member[id] = true, close(id);
-            result.families.push_back(uint32_t(found.all.size()));
-            found.all.push_back(std::move(*family));
+        std::vector<bool> member(ir.size());
+        const auto taken = [&](const std::vector<IrId>& some) {
+            const std::optional<uint32_t> family = familyOf(some, {});
+            if (!family) return false;
+            result.families.push_back(*family);
+            for (const IrId id : some) member[id] = true;
+            return true;
+        };
+        for (const std::vector<IrId>& some : parted(operands, &Likeness::loose)) {
+            if (taken(some)) continue;
+            const auto parts = parted(some, &Likeness::strict);
+            if (parts.size() > 1) std::ranges::for_each(parts, taken);
         }
         if (result.families.empty()) return;
         for (IrId id : operands)
@@ -203,80 +128,86 @@ class Finder {
         found.groups.emplace(fold, std::move(result));
     }
 
-    /// `links` are the smooth minima of a chain, a member each.
-    std::optional<Family> familyOf(const std::vector<std::pair<IrId, Walk>>& of,
-                                   std::span<const IrId> links = {}) const {
-        const Walk& first = of.front().second;
-        Family family;
-        family.members = uint32_t(of.size());
-        std::vector<bool> own(ir.size());
-        for (std::size_t i = 0; i < first.steps.size(); ++i) {
-            const IrId id = first.steps[i];
-            const bool shared =
-                std::ranges::all_of(of, [&](const auto& m) { return m.second.steps[i] == id; });
-            if (shared || opInfo(ir[id].op).arity == 0) continue;
-            own[id] = true;
-            family.steps.push_back(id);
+    /// Values of equal likeness together, in order.
+    std::vector<std::vector<IrId>> parted(const std::vector<IrId>& values, uint64_t Likeness::*by) const {
+        std::map<uint64_t, std::size_t> places;
+        std::vector<std::vector<IrId>> parts;
+        for (const IrId id : values) {
+            const auto [place, isNew] = places.try_emplace(likeness[id].*by, parts.size());
+            if (isNew) parts.emplace_back();
+            parts[place->second].push_back(id);
         }
-        const std::size_t operations = family.steps.size() + (links.empty() ? 0 : kLinkSteps);
-        if (family.steps.size() < kLeastSteps || operations * of.size() < kLeastOperations)
-            return std::nullopt;
-        std::vector<std::vector<float>> columns;
-        const auto addColumn = [&](std::pair<IrId, int> operand, std::vector<float> column) {
-            if (std::ranges::all_of(column, [&](float x) { return x == column[0]; })) return;
-            auto same = std::ranges::find(columns, column);
-            family.columns.emplace(operand, uint32_t(same - columns.begin()));
-            if (same == columns.end()) columns.push_back(std::move(column));
-        };
-        for (std::size_t i = 0; i < first.constants.size(); ++i) {
-            if (!own[first.constantsOf[i].first]) continue;
-            std::vector<float> column;
-            for (const auto& [id, way] : of) column.push_back(float(way.constants[i]));
-            addColumn(first.constantsOf[i], std::move(column));
-        }
-        if (!links.empty()) {
-            family.link = links[0];
-            std::vector<float> widths;
-            for (IrId link : links) widths.push_back(float(ir.number(ir[link].operands[2])));
-            addColumn({family.link, 2}, std::move(widths));
-        }
-        while (columns.size() % kTexel > 0) columns.emplace_back(of.size());
-        family.width = uint32_t(columns.size());
-        for (uint32_t row = 0; row < family.members; ++row)
-            for (const std::vector<float>& column : columns) family.table.push_back(column[row]);
-        for (IrId id : family.steps)
-            for (int i = 0; i < opInfo(ir[id].op).arity; ++i) {
-                const IrId operand = ir[id].operands[i];
-                if (own[operand] || ir.isConstant(operand)) continue;
-                if (std::ranges::find(family.inputs, operand) == family.inputs.end())
-                    family.inputs.push_back(operand);
-            }
-        return family;
+        return parts;
     }
 
-    /// Loops are not nested: what members need has no families of its own.
-    void close(IrId member) {
+    /// Adds a family of these, which are then closed; nothing if there is none that pays. `widths` are those
+    /// of a chain's smooth minima.
+    std::optional<uint32_t> familyOf(const std::vector<IrId>& members, const std::vector<IrId>& widths) {
+        if (members.size() < 2) return std::nullopt;
+        CommonFormFinder finder(ir, likeness, kMostSteps);
+        if (!finder.find(members) || (!widths.empty() && !finder.find(widths))) return std::nullopt;
+        const std::size_t steps = finder.size(), ofMember = steps + (widths.empty() ? 0 : kLinkSteps);
+        const bool pays = members.size() >= kListedMembers ? ofMember * members.size() >= kLeastOperations
+                                                           : steps * (members.size() - 1) >= kLeastSaved;
+        if (steps < kLeastSteps || !pays) return std::nullopt;
+        Family family;
+        family.firstColumn = columns;
+        CommonForm form = finder.addTo(ir, columns);
+        columns += uint32_t(form.columns.size());
+        family.steps = std::move(form.steps);
+        family.inputs = std::move(form.inputs);
+        family.value = form.values[0];
+        if (!widths.empty()) family.blend = form.values[1];
+        family.members = uint32_t(members.size());
+        while (form.columns.size() % kTexel > 0) form.columns.emplace_back(members.size());
+        family.width = uint32_t(form.columns.size());
+        for (std::size_t row = 0; row < members.size(); ++row)
+            for (const std::vector<float>& column : form.columns) family.table.push_back(column[row]);
+        for (const IrId member : members) close(member, family.inputs);
+        found.all.push_back(std::move(family));
+        return uint32_t(found.all.size() - 1);
+    }
+
+    /// Puts those families first whose members can be left out by lists.
+    void sortListed() {
+        std::vector<uint32_t> order(found.all.size()), place(order.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto isListed = [&](uint32_t f) { return found.all[f].members >= kListedMembers; };
+        const auto rest = std::ranges::stable_partition(order, isListed);
+        found.listed = uint32_t(rest.begin() - order.begin());
+        std::vector<Family> all;
+        for (const uint32_t f : order) {
+            place[f] = uint32_t(all.size());
+            all.push_back(std::move(found.all[f]));
+        }
+        found.all = std::move(all);
+        for (auto& [id, group] : found.groups)
+            for (uint32_t& f : group.families) f = place[f];
+    }
+
+    /// Loops are not nested: what a member is made from, its inputs aside, has no families of its own.
+    void close(IrId member, const std::vector<IrId>& inputs) {
         std::vector<IrId> open{member};
         while (!open.empty()) {
             const IrId id = open.back();
             open.pop_back();
-            if (closed[id]) continue;
+            if (closed[id] || std::ranges::find(inputs, id) != inputs.end()) continue;
             closed[id] = true;
             for (int i = 0; i < opInfo(ir[id].op).arity; ++i) open.push_back(ir[id].operands[i]);
         }
     }
 
-    const Ir& ir;
-    const IrId root;
+    Ir& ir;
     std::vector<uint32_t> users;
-    std::vector<uint64_t> shapes;
+    std::vector<Likeness> likeness;
     std::vector<IrId> folds;
     std::vector<bool> closed;  // minima and links that are part of a larger one, and what members need
+    uint32_t columns = 0;      // of all families
     Families found;
 };
 
 }  // namespace
 
-Families findFamilies(const Ir& ir, IrId root) { return Finder(ir, root).run(); }
+Families findFamilies(Ir& ir, IrId root) { return Finder(ir, root).run(); }
 
 }  // namespace fw

@@ -9,10 +9,10 @@
 // minimum, one whose least value over a box exceeds the greatest value that the minimum can have there.
 //
 // What is alike is found in the IR, not in the graph, so it does not matter by which nodes the members were
-// made. A chain or tree of minima is one group, whatever its order. Two members are alike if, walked from
-// their roots, the operations agree one for one. Operations that are the same id in every member (a position
-// that all are turned by) are not repeated: they are computed once, ahead of the loop. Numbers that agree in
-// all members fold into the code.
+// made. A chain or tree of minima is one group, whatever its order. Members that are alike have a common form
+// (common_form.h), new operations of the Ir that only the loop has. What is the same in every member (a
+// position that all are turned by), and the few values among which they choose (the two cells about a
+// position), is computed once, ahead of the loop. Numbers that agree in all members fold into the code.
 //
 // Smooth minima are taken one after the other, and a different order is a different surface: of those a run
 // of members that follow one another in a chain is a family. Over a box a member can be left out if the chain
@@ -33,11 +33,11 @@ namespace fw {
 inline constexpr uint32_t kTexel = 4;  ///< numbers that a device loads at once
 
 struct Family {
-    std::vector<IrId> steps;  ///< of the first member, which stands for all, in order; the last is its value
-    /// Which operands of the steps differ between members: (step, operand) to the column of the table.
-    std::map<std::pair<IrId, int>, uint32_t> columns;
+    std::vector<IrId> steps;   ///< what stands for every member, in order; no other value needs them
     std::vector<IrId> inputs;  ///< what the steps use beside each other: values outside the family
-    IrId link = 0;  ///< of a chain, the first smooth minimum: its width of the blend may be a column too
+    IrId value = 0;            ///< of a member
+    IrId blend = 0;            ///< of a chain, the width of a member's smooth minimum
+    uint32_t firstColumn = 0;  ///< that number the columns' leaves (Op::column) count from
     uint32_t members = 0, width = 0;
     std::vector<float>
         table;  ///< `members` rows of `width` numbers, a multiple of kTexel; what is too much is 0
@@ -54,14 +54,16 @@ struct FamilyGroup {
 };
 
 struct Families {
-    std::vector<Family> all;
+    std::vector<Family> all;  ///< those first whose members can be left out by lists
+    uint32_t listed = 0;      ///< how many these are
     std::map<IrId, FamilyGroup>
         groups;  ///< by the id of the minimum or maximum as a whole, or a chain's last
 
     bool empty() const { return all.empty(); }
 };
 
-/// The families in what `root` needs. Those too small for a loop to pay are left as they are.
-Families findFamilies(const Ir& ir, IrId root);
+/// The families in what `root` needs; their steps join the Ir. Those too small for a loop to pay are left as
+/// they are.
+Families findFamilies(Ir& ir, IrId root);
 
 }  // namespace fw

@@ -270,21 +270,27 @@ IrId Ir::make(Op op, double own, std::span<const IrId> operands) {
     const OpInfo& info = opInfo(op);
     assert(static_cast<int>(operands.size()) == info.arity);
 
-    IrNode node{op, 0, false, {}, own};
     bool allConstant = true;
     double values[kMaxArity] = {};
     for (std::size_t i = 0; i < operands.size(); ++i) {
-        const IrNode& operand = nodes[operands[i]];
-        node.operands[i] = operands[i];
-        node.positions |= operand.positions;
-        node.varies |= operand.varies;
-        allConstant &= operand.op == Op::constant;
-        values[i] = operand.number;
+        allConstant &= isConstant(operands[i]);
+        values[i] = number(operands[i]);
     }
-    if (allConstant) return constant(info.value(values, layer(node)));
+    if (allConstant) return constant(info.value(values, layer({op, 0, false, {}, own})));
     if (const IrId simpler = simplify(op, operands); simpler != kNone) return simpler;
-    if (info.commutative && node.operands[0] > node.operands[1])
-        std::swap(node.operands[0], node.operands[1]);
+    std::array<IrId, kMaxArity> ordered{};
+    std::ranges::copy(operands, ordered.begin());
+    if (info.commutative && ordered[0] > ordered[1]) std::swap(ordered[0], ordered[1]);
+    return addAsIs(op, own, std::span(ordered).first(operands.size()));
+}
+
+IrId Ir::addAsIs(Op op, double own, std::span<const IrId> operands) {
+    IrNode node{op, 0, op == Op::column, {}, own};
+    std::ranges::copy(operands, node.operands.begin());
+    for (const IrId operand : operands) {
+        node.positions |= nodes[operand].positions;
+        node.varies |= nodes[operand].varies;
+    }
     return intern(node);
 }
 

@@ -36,14 +36,17 @@ struct IrNode {
     uint8_t positions = 0;                   ///< PositionMask
     bool varies = false;                     ///< depends on the position or on a live parameter
     std::array<IrId, kMaxArity> operands{};  ///< the first opInfo(op).arity are used
-    double number = 0.0;  ///< of a constant; the slot of a parameter; the layer of a sample (Ir::layer)
+    /// Of a constant; the slot of a parameter; the place of a column; the layer of a sample (Ir::layer).
+    double number = 0.0;
 };
 
 /// Whether an operation samples what its node's own number names.
 constexpr bool samplesLayer(Op op) { return op == Op::image || op == Op::volume || op == Op::outline; }
 
 /// Whether a node's own number is part of what it is.
-constexpr bool ownsNumber(Op op) { return op == Op::constant || op == Op::parameter || samplesLayer(op); }
+constexpr bool ownsNumber(Op op) {
+    return op == Op::constant || op == Op::parameter || op == Op::column || samplesLayer(op);
+}
 
 class Ir {
   public:
@@ -83,6 +86,9 @@ class Ir {
     IrId add(Op op, IrId a) { return add(op, std::array{a}); }
     IrId add(Op op, IrId a, IrId b) { return add(op, std::array{a, b}); }
     IrId add(Op op, IrId a, IrId b, IrId c) { return add(op, std::array{a, b, c}); }
+
+    /// The id of the operation with its own number, nothing folded: on operands that are not yet known.
+    IrId addAsIs(Op op, double number, std::span<const IrId> operands);
 
     const IrNode& operator[](IrId id) const { return nodes[id]; }
     std::size_t size() const { return nodes.size(); }

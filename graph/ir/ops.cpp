@@ -140,6 +140,7 @@ Interval hashInterval(I x) {
 constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
     row(Op::constant, "constant", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "", "", ""),
     row(Op::parameter, "parameter", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "", "", ""),
+    row(Op::column, "column", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "", "", ""),
     row(Op::positionX, "x", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "p.x",
         "vec2(lo.x, hi.x)", "1.0"),
     row(Op::positionY, "y", Arity<0>(), false, false, leaf, leafInterval, zeroSlope, "p.y",

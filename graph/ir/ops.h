@@ -32,6 +32,7 @@ enum class Op : uint8_t {
     // leaves
     constant,
     parameter,
+    column,
     positionX,
     positionY,
     positionZ,

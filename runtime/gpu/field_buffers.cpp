@@ -11,12 +11,12 @@ bool hasFamilies(std::string_view field) { return field.find("#define FIELD_FAMI
 
 uint32_t longestList(const Families& families) {
     uint32_t most = 0;
-    for (const Family& family : families.all) most = std::max(most, family.members);
+    for (uint32_t f = 0; f < families.listed; ++f) most = std::max(most, families.all[f].members);
     return most;
 }
 
 uint64_t headBytes(const Families& families, uint64_t places) {
-    return places * families.all.size() * sizeof(gpu::uvec2);
+    return places * families.listed * sizeof(gpu::uvec2);
 }
 
 void reserveLists(const Device& device, FieldLists& lists, const Families& families, uint64_t places,
@@ -26,7 +26,7 @@ void reserveLists(const Device& device, FieldLists& lists, const Families& famil
     std::vector<gpu::uvec2> heads;
     std::vector<float> tables;
     for (const Family& family : families.all) {
-        heads.emplace_back(0, family.members);
+        if (heads.size() < families.listed) heads.emplace_back(0, family.members);
         tables.insert(tables.end(), family.table.begin(), family.table.end());
     }
     const uint64_t range = device.properties.limits.maxStorageBufferRange;

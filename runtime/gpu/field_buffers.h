@@ -17,7 +17,7 @@ struct FieldLists {
     Buffer tables, heads, lists;  ///< as in shaders/field.glsl
 };
 
-/// Whether a field's text has families.
+/// Whether a field's text has families with lists.
 bool hasFamilies(std::string_view field);
 
 /// Entries of the longest list there can be: so many, from the start of `lists`, belong to place 0.
@@ -36,7 +36,7 @@ struct FieldBuffers {
     const Buffer* parameters = nullptr;  ///< live ones, where it has some
     const Buffer* images = nullptr;      ///< that it samples, where it does
     const Buffer* volumes = nullptr;     ///< likewise
-    const FieldLists* lists = nullptr;   ///< for kernels with FIELD_PRUNED, where it has families
+    const FieldLists* lists = nullptr;   ///< for kernels with FIELD_PRUNED, where families of it have lists
 };
 
 /// Adds them to what a kernel is given.

@@ -119,9 +119,9 @@ void reserveBrickLists(const Device& device, MesherBuffers& buffers, glm::uvec3 
                        const Families& families) {
     constexpr uint64_t kEntriesOfABrick = 48;  // a guess
     const uint64_t blocks = uint64_t(blockCount.x) * blockCount.y * blockCount.z;
-    uint64_t entries = kEntriesOfABrick * buffers.brickCapacity * families.all.size();
-    for (const Family& family : families.all)
-        entries += blocks * (3 * family.members + 64 * kEntriesOfABrick);
+    uint64_t entries = kEntriesOfABrick * buffers.brickCapacity * families.listed;
+    for (uint32_t f = 0; f < families.listed; ++f)
+        entries += blocks * (3 * families.all[f].members + 64 * kEntriesOfABrick);
     reserveLists(device, buffers.field, families, placesOf(blockCount, buffers.brickCapacity), entries);
 }
 
@@ -194,7 +194,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     std::vector<Descriptor> common = {{0, b.counts}};
     addField(common, config.field);
     const auto listed = [&](std::vector<Descriptor> list) {
-        if (config.families && !config.families->empty()) addField(list, {.lists = &b.field});
+        if (config.families && config.families->listed > 0) addField(list, {.lists = &b.field});
         return list;
     };
     auto with = [&](const std::vector<Descriptor>& more) {
@@ -429,7 +429,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     if (push.blocksListed) build(device, pipelines, {blocks});
     const bool wantColors = hasColors(config);
     if (wantColors && !config.host) build(device, pipelines, {colors});
-    const bool families = config.families && !config.families->empty() && !config.host;
+    const bool families = config.families && config.families->listed > 0 && !config.host;
     // On the longest grids the heads cannot be bound: every brick then evaluates all members.
     if (families && config.pruned &&
         headBytes(*config.families, placesOf(blockCount, most.bricks)) <=

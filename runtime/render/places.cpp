@@ -22,8 +22,8 @@ void listPlaces(Commands& commands, Places& places, const Families& families, co
     const Device& device = commands.device;
     uint64_t boxes = 1;
     for (uint32_t side = RENDER_LEAST_PLACES; side <= RENDER_PLACES; side *= 2) boxes += cubed(side);
-    const uint64_t entries = kEntriesOfABox * boxes * families.all.size() +
-                             kEntriesAhead * longestList(families) * families.all.size();
+    const uint64_t entries =
+        kEntriesOfABox * boxes * families.listed + kEntriesAhead * longestList(families) * families.listed;
     reserveLists(device, places.lists, families, boxes, entries);
     reserve(device, places.listed, sizeof(uint32_t));
     fill(commands, places.listed, 0);

@@ -4,17 +4,34 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <random>
 #include <set>
 
 #include "graph/compile/compile.h"
+#include "graph/compile/effort.h"
+#include "graph/document/json.h"
 #include "graph/emit/glsl.h"
 #include "tests/support/graph/expression_graph.h"
+#include "tests/support/graph/random_graph.h"
 
 namespace fw {
 namespace {
 
 Program programOf(const std::string& code) {
     Result<Program> program = compile(test::expressionGraph(code));
+    if (!program) throw std::runtime_error(format(program.error()));
+    return std::move(*program);
+}
+
+/// Of nodes in JSON, of which `end` is put out.
+Program programOfNodes(const std::string& nodes, CompileOptions options = {}) {
+    const Result<Graph> graph =
+        parseGraph(R"({"fieldwright": 1, "nodes": [)" + nodes +
+                       R"(, {"id": "out", "type": "output", "inputs": {"surface": {"from": "end"}}}]})",
+                   "test.field.json", nullptr);
+    if (!graph) throw std::runtime_error(format(graph.error()));
+    Result<Program> program = compile(*graph, options);
     if (!program) throw std::runtime_error(format(program.error()));
     return std::move(*program);
 }
@@ -27,22 +44,22 @@ std::string unionOf(int count, const std::string& shape, const std::string& befo
            shape + ");\n}\nreturn d;";
 }
 
-/// The family's member in that row by its steps and numbers, at a point.
-double memberAt(const Ir& ir, const Family& family, uint32_t row, const std::vector<double>& values) {
+/// A value of the family in that row by its steps and numbers, at a point.
+double inRow(const Ir& ir, const Family& family, uint32_t row, const std::vector<double>& values, IrId of) {
     std::vector<double> own = values;
+    own.resize(ir.size());
+    for (IrId id = IrId(values.size()); id < ir.size(); ++id) {
+        if (ir[id].op == Op::constant) own[id] = ir.number(id);
+        if (ir[id].op == Op::column && ir.number(id) >= family.firstColumn &&
+            ir.number(id) < family.firstColumn + family.width)
+            own[id] = family.table[row * family.width + std::size_t(ir.number(id)) - family.firstColumn];
+    }
     for (IrId step : family.steps) {
         double operands[kMaxArity] = {};
-        for (int i = 0; i < opInfo(ir[step].op).arity; ++i) {
-            const IrId operand = ir[step].operands[i];
-            const auto column = family.columns.find({step, i});
-            operands[i] = column != family.columns.end()
-                              ? double(family.table[row * family.width + column->second])
-                          : ir.isConstant(operand) ? ir.number(operand)
-                                                   : own[operand];
-        }
+        for (int i = 0; i < opInfo(ir[step].op).arity; ++i) operands[i] = own[ir[step].operands[i]];
         own[step] = opInfo(ir[step].op).value(operands, ir.layer(ir[step]));
     }
-    return own[family.steps.back()];
+    return own[of];
 }
 
 /// Folds all groups from tables and compares with the IR's own values.
@@ -51,7 +68,7 @@ void expectTablesGiveTheGroups(const Program& program) {
     const std::vector<double> parameters = program.parameters();
     for (const Point& point : points) {
         std::vector<double> values(point.begin(), point.end());
-        for (IrId id = 3; id < program.ir.size(); ++id) {
+        for (IrId id = 3; id <= program.distance(); ++id) {
             const IrNode& node = program.ir[id];
             double operands[kMaxArity] = {};
             for (int i = 0; i < opInfo(node.op).arity; ++i) operands[i] = values[node.operands[i]];
@@ -65,12 +82,9 @@ void expectTablesGiveTheGroups(const Program& program) {
                 const Family& family = program.families.all[group.families.at(0)];
                 double chain = values[group.others.at(0)];
                 for (uint32_t row = 0; row < family.members; ++row) {
-                    const auto column = family.columns.find({family.link, 2});
-                    const double operands[kMaxArity] = {
-                        chain, memberAt(program.ir, family, row, values),
-                        column != family.columns.end()
-                            ? double(family.table[row * family.width + column->second])
-                            : program.ir.number(program.ir[family.link].operands[2])};
+                    const double operands[kMaxArity] = {chain,
+                                                        inRow(program.ir, family, row, values, family.value),
+                                                        inRow(program.ir, family, row, values, family.blend)};
                     chain = opInfo(group.op).value(operands, {});
                 }
                 EXPECT_NEAR(chain, values[root], 1e-6 * (1 + std::abs(values[root])));
@@ -81,9 +95,11 @@ void expectTablesGiveTheGroups(const Program& program) {
             const auto offer = [&](double value) {
                 best = less ? std::min(best, value) : std::max(best, value);
             };
-            for (uint32_t f : group.families)
-                for (uint32_t row = 0; row < program.families.all[f].members; ++row)
-                    offer(memberAt(program.ir, program.families.all[f], row, values));
+            for (uint32_t f : group.families) {
+                const Family& family = program.families.all[f];
+                for (uint32_t row = 0; row < family.members; ++row)
+                    offer(inRow(program.ir, family, row, values, family.value));
+            }
             for (IrId other : group.others) offer(values[other]);
             EXPECT_NEAR(best, values[root], 1e-6 * (1 + std::abs(values[root])));
         }
@@ -204,6 +220,135 @@ TEST(Families, LoopsAreNotNested) {
             for (IrId step : program.families.all[f].steps)
                 EXPECT_FALSE(program.families.groups.contains(step));
     expectTablesGiveTheGroups(program);
+}
+
+// ---- Common forms
+
+const std::string kTurnedBoxes =
+    R"({"id": "body", "type": "expression", "code": "d = 1000.0; vec3 q = p; for (int i = 0; i < 5; i++) {
+    q = vec3(0.9 * q.x + 0.4 * q.z, q.y + 0.1 * sin(q.x + i), 0.9 * q.z - 0.4 * q.x);
+    d = smooth_min(d, box(q - vec3(0.2, 0.1 * i, 0.3), vec3(0.5, 0.3, 0.2), 0.05).distance, 0.2); }
+    return d;"})";
+
+Program repeated(const std::string& inputs) {
+    std::string body = kTurnedBoxes;
+    std::ranges::replace(body, '\n', ' ');
+    return programOfNodes(body +
+                          R"(, {"id": "end", "type": "repeat", "inputs": {"surface": {"from": "body"},)" +
+                          inputs + "}}");
+}
+
+TEST(Families, NeighboursOfARepeatAreRows) {
+    for (const char* count : {"[0, 0, 0]", "[3, 2, 5]", "[0, 3, 0]"}) {
+        SCOPED_TRACE(count);
+        const Program program = repeated(R"("period": [2, 2, 2], "count": )" + std::string(count));
+        ASSERT_EQ(program.families.all.size(), 1u);
+        EXPECT_EQ(program.families.all[0].members, 8u);
+        EXPECT_EQ(program.families.listed, 0u);
+        EXPECT_LT(codeWeight(program.ir, program.distance(), program.families),
+                  0.4 * codeWeight(program.ir, program.distance(), {}));
+        EXPECT_LT(effortByNode(program)[0].code, 0.4 * effortByNode(program)[0].sample);
+        expectTablesGiveTheGroups(program);
+    }
+}
+
+TEST(Families, WhatIsAheadOfTheLoopMayBeLong) {
+    const std::string warp = "for (int i = 0; i < 300; i++) p = p + 0.001 * sin(p.yzx * 3.0 + i);\n";
+    const Program program = programOf(warp + unionOf(30, "box(p - c, vec3(0.1), 0.02).distance"));
+    ASSERT_EQ(program.families.all.size(), 1u);
+    EXPECT_LT(program.families.all[0].steps.size(), 40u);
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, ABlendMayHaveALiveWidth) {
+    std::string code = blendOf(40, "length(p - c) - 0.1", "d = p.y;\n", "k");
+    std::ranges::replace(code, '\n', ' ');
+    const Program program = programOfNodes(
+        R"({"id": "end", "type": "expression", "inputs": {"k": 0.2}, "code": ")" + code + R"("})",
+        {.live = {"end.k"}});
+    ASSERT_EQ(program.live.size(), 1u);
+    ASSERT_EQ(program.families.all.size(), 1u);
+    EXPECT_EQ(program.families.all[0].members, 40u);
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, NumbersThatFoldInSomeMakeNoDifference) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> fraction(0.1, 2);
+    const auto number = [&](std::initializer_list<const char*> special) {
+        const std::size_t kind = random() % (special.size() + 1);
+        return kind < special.size() ? std::string(special.begin()[kind]) : std::to_string(fraction(random));
+    };
+    for (int i = 0; i < 40; ++i) {
+        std::string code = "d = 1000.0;\n";
+        for (int member = 0; member < 24; ++member) {
+            const auto place = [&](const char* axis) {
+                return std::string(axis) + " * " + number({"1.0", "(-1.0)", "2.0"}) + " - " +
+                       number({"0.0", "(-0.5)"});
+            };
+            code += "d = min(d, length(vec3(" + place("p.x") + ", " + place("p.y") + ", " + place("p.z") +
+                    ")) * " + number({"1.0"}) + " + sin(" + place("p.x") + ") * " + number({"0.5"}) + ");\n";
+        }
+        const Program program = programOf(code + "return d;");
+        ASSERT_EQ(program.families.all.size(), 1u);
+        EXPECT_EQ(program.families.all[0].members, 24u);
+        expectTablesGiveTheGroups(program);
+    }
+}
+
+TEST(Families, WhatFoldedAwayIsRestored) {
+    // At the origin no number is taken off, at unit size none multiplies, and signs turn sums around.
+    const std::string members = R"(
+d = 1000.0;
+for (int i = 0; i < 30; i++) {
+    vec3 c = vec3(mod(i, 3) - 1, mod(floor(i / 3), 3) - 1, floor(i / 9) - 1);
+    float s = mod(i, 4) == 0 ? 1.0 : mod(i, 4) == 1 ? -1.0 : 0.3 * i;
+    vec3 q = (mod(i, 5) == 0 ? c - p : p - c) * s;
+    d = min(d, length(vec2(length(q.xz) - 0.6, q.y)) * (i == 7 ? 1.0 : 0.9) - (i == 3 ? 0.0 : 0.1));
+}
+return d;)";
+    const Program program = programOf(members);
+    ASSERT_EQ(program.families.all.size(), 1u);
+    EXPECT_EQ(program.families.all[0].members, 30u);
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, CoordinatesAreChosenAmong) {
+    // The same shape along each axis: three orders of the coordinates.
+    const Program program = programOf(R"(
+d = 1000.0;
+for (int i = 0; i < 30; i++) {
+    vec3 q = mod(i, 3) == 0 ? p.xyz : mod(i, 3) == 1 ? p.yzx : p.zxy;
+    d = min(d, atan2(q.x - 0.1 * i, sqrt(abs(q.y))) + sin(q.z) * 0.1 + length(vec2(q.x + i, q.z)));
+}
+return d;)");
+    ASSERT_EQ(program.families.all.size(), 1u);
+    EXPECT_EQ(program.families.all[0].members, 30u);
+    expectTablesGiveTheGroups(program);
+}
+
+TEST(Families, SamplesAndRandomGraphsHaveTheValuesOfTheirTables) {
+    int with = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples")) {
+        if (!entry.path().string().ends_with(".field.json")) continue;
+        SCOPED_TRACE(entry.path().filename().string());
+        const Result<Graph> graph = readGraph(entry.path(), nullptr);
+        ASSERT_TRUE(graph);
+        CompileOptions options;
+        options.bake = boxInPlace;
+        const Result<Program> program = compile(*graph, options);
+        ASSERT_TRUE(program);
+        with += !program->families.empty();
+        expectTablesGiveTheGroups(*program);
+    }
+    for (uint32_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const std::optional<Program> program = test::randomProgram(seed, 40);
+        if (!program) continue;
+        with += !program->families.empty();
+        expectTablesGiveTheGroups(*program);
+    }
+    RecordProperty("with", with);
 }
 
 }  // namespace
