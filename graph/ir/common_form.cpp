@@ -134,8 +134,12 @@ std::optional<IrId> CommonFormFinder::sum(const Row& row) {
     std::optional<IrId> value = form(bases);
     if (value && differs(scales, 1))
         value = step({Op::multiply, 0, {*value, numbers(scales, origin)}, origin});
-    if (value && differs(shifts, 0)) value = step({Op::add, 0, {*value, numbers(shifts, origin)}, origin});
-    return value;
+    if (!value || !differs(shifts, 0)) return value;
+    // As in the first one.
+    const bool less = ir[row[0]].op == Op::subtract && ir.isConstant(ir[row[0]].operands[1]);
+    if (less)
+        for (double& shift : shifts) shift = -shift;
+    return step({less ? Op::subtract : Op::add, 0, {*value, numbers(shifts, origin)}, origin});
 }
 
 /// The first one's operation, its operands in the order they have there: where a device fuses a product with
