@@ -14,7 +14,7 @@ namespace {
 // From so many members on they are listed; a loop over them pays from so many operations of all of them on.
 constexpr std::size_t kListedMembers = 17, kLeastOperations = 240;
 // A loop over fewer makes a sample slower, and pays where it keeps so many operations from a compiler.
-constexpr std::size_t kLeastSaved = 700;
+constexpr std::size_t kLeastSaved = 1200;
 constexpr std::size_t kLeastSteps = 4;      // of a member: less is not worth a load
 constexpr std::size_t kMostSteps = 1000;    // bounds the search as well
 constexpr std::size_t kLinkSteps = 8;       // what a smooth minimum counts as

@@ -225,7 +225,7 @@ TEST(Families, LoopsAreNotNested) {
 // ---- Common forms
 
 const std::string kTurnedBoxes =
-    R"({"id": "body", "type": "expression", "code": "d = 1000.0; vec3 q = p; for (int i = 0; i < 5; i++) {
+    R"({"id": "body", "type": "expression", "code": "d = 1000.0; vec3 q = p; for (int i = 0; i < 9; i++) {
     q = vec3(0.9 * q.x + 0.4 * q.z, q.y + 0.1 * sin(q.x + i), 0.9 * q.z - 0.4 * q.x);
     d = smooth_min(d, box(q - vec3(0.2, 0.1 * i, 0.3), vec3(0.5, 0.3, 0.2), 0.05).distance, 0.2); }
     return d;"})";
