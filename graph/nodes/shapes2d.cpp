@@ -77,7 +77,7 @@ for (int i = 1; i < n; i++) {
     hi = max(hi, points[i]);
 }
 vec2 bounds = max(lo - p.xy, p.xy - hi);
-if (n > 12) return max(outline(p.xy, points), bounds.x, bounds.y);
+if (n > 16) return max(outline(p.xy, points), bounds.x, bounds.y);
 float near = 1e18;
 float line = 1e9;
 bool onEdge = false;
