@@ -233,8 +233,8 @@ Picker::Picker() = default;
 Picker::~Picker() = default;
 
 const Picker::Probed& Picker::probedOf(const Seen& seen) {
-    if (probed && asked.graph == seen.graph && asked.pinned == seen.pinned && asked.seconds == seen.seconds &&
-        asked.particles == seen.particles)
+    if (probed && asked.graph == seen.graph && asked.revision == seen.revision &&
+        asked.pinned == seen.pinned && asked.seconds == seen.seconds && asked.particles == seen.particles)
         return *probed;
     double seconds = seen.seconds;
     probed = std::make_unique<Probed>(Probes(shownAt(*seen.graph, seen.pinned, seconds)));

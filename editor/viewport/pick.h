@@ -11,6 +11,7 @@
 // Lifetime: a Picker serves one thread at a time, and any document.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ namespace fw::editor {
 /// What the picture shows.
 struct Seen {
     std::shared_ptr<const Graph> graph;
+    uint64_t revision = 0;    ///< of the document: another one where a file that it names has changed
     std::string pinned = {};  ///< the node shown; empty: the output
     double seconds = 0.0;     ///< since the timeline's start
     Box region = {};          ///< what lies outside is not drawn

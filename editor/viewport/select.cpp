@@ -74,6 +74,7 @@ void pickUnderMouse(Editor& editor, bool besides) {
     const double x = double((mouse.x - middle.x) / (0.5f * viewport.place.width())),
                  y = double((middle.y - mouse.y) / (0.5f * viewport.place.height()));
     Seen seen{.graph = editor.graph,
+              .revision = editor.document.revision(),
               .pinned = viewport.pinned,
               .seconds = viewport.seconds,
               .region = viewport.shown.region,

@@ -3,8 +3,9 @@
 // First each of the six directions is searched for the nearest half-space that is provably empty; this is
 // tight for shapes along the axes. Then an octree drops every cell that is provably outside, which tightens
 // the box around rotated and blended shapes, and finds one where half-spaces prove nothing (a twist mixes
-// coordinates, so over an endless box its interval is everything). Cells that a jump runs through, as those
-// between the copies of a repetition, are looked at side by side (jump_cases.h).
+// coordinates, so over an endless box its interval is everything). Of its cells only those are looked at that
+// the box hangs on, each with a tape of its own (tape.h). Cells that a jump runs through, as those between
+// the copies of a repetition, are looked at side by side (jump_cases.h).
 #pragma once
 
 #include <span>

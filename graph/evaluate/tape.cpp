@@ -248,18 +248,17 @@ void TapeMachine<T>::enter(const Tape& tape, const Box& box) {
 }
 
 template <class T>
-[[gnu::always_inline]] inline std::array<Interval, kMaxArity> TapeMachine<T>::takeInterval(
-    const Tape& tape, const TapeStep& step) {
+[[gnu::always_inline]] inline void TapeMachine<T>::takeInterval(const Tape& tape, const TapeStep& step,
+                                                                const OpInfo* table, Interval* operands) {
     constexpr bool isSingle = std::is_same_v<T, float>;
     const auto number = [&](uint32_t place) {
         return isSingle ? double(tape.numbers->floats[place]) : tape.numbers->doubles[place];
     };
-    std::array<Interval, kMaxArity> operands;
     if (step.op == Op::constant) {
         intervals[step.result] = {number(step.operands[0]), number(step.operands[0])};
-        return operands;
+        return;
     }
-    const OpInfo& info = opTable()[std::size_t(step.op)];
+    const OpInfo& info = table[std::size_t(step.op)];
     // End by end, as they were written: read as a whole, they would have to wait for the memory.
     for (std::size_t k = 0; k < std::size_t(info.arity); ++k) {
         const uint32_t place = step.operands[k];
@@ -270,9 +269,8 @@ template <class T>
     const SampledLayer layer = layerOf(tape, step);
     intervals[step.result] =
         isSingle && info.rounding != Rounding::none
-            ? singlePrecisionInterval(info, std::span(operands).first(std::size_t(info.arity)), layer)
-            : info.interval(operands.data(), layer);
-    return operands;
+            ? singlePrecisionInterval(info, std::span(operands, std::size_t(info.arity)), layer)
+            : info.interval(operands, layer);
 }
 
 template <class T>
@@ -280,17 +278,18 @@ Interval TapeMachine<T>::interval(const Tape& tape, const Box& box) {
     enter(tape, box);
     if (taken.size() < tape.steps.size()) taken.resize(tape.steps.size());
     decisions = 0, jumped = false, stepsRun += tape.steps.size();
+    const OpInfo* const table = opTable().data();
     for (std::size_t i = 0; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
-        const std::array<Interval, kMaxArity> operands = takeInterval(tape, step);
+        Interval operands[kMaxArity];
+        takeInterval(tape, step, table, operands);
         taken[i] = 0;
         if (decides(step.op)) {
-            taken[i] =
-                uint8_t(decided(step.op, operands.data()) | decidedSign(step.op, operands.data()) << 4);
+            taken[i] = uint8_t(decided(step.op, operands) | decidedSign(step.op, operands) << 4);
             decisions += taken[i] != 0;
         }
-        if (mayJump(step.op) && !jumped)
-            jumped = jumpCases(step.op, operands.data(), intervals[step.result]).count > 0;
+        if (std::is_same_v<T, double> && mayJump(step.op) && !jumped)
+            jumped = jumpCases(step.op, operands, intervals[step.result]).count > 0;
     }
     return intervals[tape.roots[0]];
 }
@@ -305,12 +304,14 @@ bool TapeMachine<T>::positiveInEachCase(const Tape& tape, const Box& box) requir
 template <class T>
 bool TapeMachine<T>::positiveFrom(const Tape& tape, std::size_t first,
                                   int splits) requires std::is_same_v<T, double> {
+    const OpInfo* const table = opTable().data();
     for (std::size_t i = first; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];
-        const std::array<Interval, kMaxArity> operands = takeInterval(tape, step);
+        Interval operands[kMaxArity];
+        takeInterval(tape, step, table, operands);
         ++stepsRun;
         if (splits == 0 || !mayJump(step.op)) continue;
-        const JumpCases cases = jumpCases(step.op, operands.data(), intervals[step.result]);
+        const JumpCases cases = jumpCases(step.op, operands, intervals[step.result]);
         if (cases.count == 0) continue;
         const std::vector<Interval> before(intervals.begin(), intervals.begin() + tape.registers);
         for (int c = 0; c < cases.count; ++c) {

@@ -135,7 +135,7 @@ class TapeMachine {
     /// Makes room for intervals, and puts the box into its registers.
     void enter(const Tape& tape, const Box& box);
     /// Puts a step's interval into its register, and gives those of its operands.
-    std::array<Interval, kMaxArity> takeInterval(const Tape& tape, const TapeStep& step);
+    void takeInterval(const Tape& tape, const TapeStep& step, const OpInfo* table, Interval* operands);
     bool positiveFrom(const Tape& tape, std::size_t first, int splits) requires std::is_same_v<T, double>;
     Operands operandsOf(const Tape& tape, const TapeStep& step) const;
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <random>
 
+#include "editor/viewport/pick.h"
 #include "graph/document/json.h"
 #include "graph/evaluate/evaluate.h"
 #include "graph/evaluate/region.h"
@@ -43,9 +44,15 @@ struct Simple {
     std::size_t bytes() const { return rows.size() * sizeof(rows[0]); }
 };
 
+struct NamedField {
+    std::string name;
+    Graph graph;
+    Program program;
+};
+
 /// The samples with most operations, and a chain of two hundred nodes.
-std::vector<std::pair<std::string, Program>> fieldsOf(Bench& bench) {
-    std::vector<std::pair<std::string, Program>> fields;
+std::vector<NamedField> fieldsOf(Bench& bench) {
+    std::vector<NamedField> fields;
     const std::filesystem::path samples =
         std::filesystem::path(FIELDWRIGHT_BENCH_GRAPHS) / "../../../samples";
     for (const auto& entry : std::filesystem::directory_iterator(samples)) {
@@ -57,14 +64,27 @@ std::vector<std::pair<std::string, Program>> fieldsOf(Bench& bench) {
             continue;
         }
         const std::string name = entry.path().filename();
-        fields.emplace_back(name.substr(0, name.find('.')), std::move(*program));
+        fields.push_back({name.substr(0, name.find('.')), *graph, std::move(*program)});
     }
-    std::ranges::sort(fields, std::greater(), [](const auto& field) { return field.second.ir.size(); });
-    fields.resize(std::min(fields.size(), kLargest));
-    Result<Program> chain = compile(chainOfBoxes(200, 0.001));
-    if (!chain) throw SystemError(format(chain.error()));
-    fields.emplace_back("200 nodes", std::move(*chain));
+    std::ranges::sort(fields, std::greater(), [](const auto& field) { return field.program.ir.size(); });
+    fields.erase(fields.begin() + std::ptrdiff_t(std::min(fields.size(), kLargest)), fields.end());
+    const Graph chain = chainOfBoxes(200, 0.001);
+    Result<Program> program = compile(chain);
+    if (!program) throw SystemError(format(program.error()));
+    fields.push_back({"200 nodes", chain, std::move(*program)});
     return fields;
+}
+
+/// What the field is seen as from far enough to see all of it.
+editor::Seen seenOf(const Graph& graph, const Box& box) {
+    editor::Seen seen{.graph = std::make_shared<const Graph>(graph), .region = box};
+    const double away = longestSide(box);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double middle = 0.5 * (box.lo[axis] + box.hi[axis]);
+        seen.camera.target[axis] = middle;
+        seen.camera.position[axis] = middle + away * (axis == 1 ? 0.7 : 1.0);
+    }
+    return seen;
 }
 
 }  // namespace
@@ -72,8 +92,8 @@ std::vector<std::pair<std::string, Program>> fieldsOf(Bench& bench) {
 void tapesTable(Bench& bench) {
     Table table{.title = "Fields on the host, one thread: " + count(kPoints) + " points (ms)",
                 .header = {"field", "operations", "registers", "bytes an operation: simple", "tape", "simple",
-                           "double", "single", "gradients", "region"}};
-    for (const auto& [name, program] : fieldsOf(bench)) {
+                           "double", "single", "gradients", "region", "pick", "next"}};
+    for (const auto& [name, graph, program] : fieldsOf(bench)) {
         const std::vector<double> parameters = program.parameters();
         const Tape tape = makeTape(program.ir, program.distance(), parameters);
         const Region region = findRegion(program.ir, program.distance(), parameters);
@@ -101,6 +121,10 @@ void tapesTable(Bench& bench) {
         const Figure floats = timed([&] { single.evaluate(tape, points, values); });
         const Figure slopes = timed([&] { evaluateGradient(machine, tape, points, gradients); });
         const Figure regions = timed([&] { findRegion(program.ir, program.distance(), parameters); });
+        const editor::Seen seen = seenOf(graph, box);
+        editor::Picker picker;
+        const Figure first = timed([&] { editor::Picker().pick(seen, 0.0, 0.0); });
+        const Figure next = timed([&] { picker.pick(seen, 0.0, 0.0); });
         // What a thread of the mesher holds: the whole tape on intervals, a brick's on points.
         descending.interval(tape, box);
         Tape own = descending.shortened(tape);
@@ -117,12 +141,14 @@ void tapesTable(Bench& bench) {
             {name, count(tape.steps.size()), count(tape.registers),
              number(double(simple.bytes()) / operations),
              number(double(descending.bytes() + tape.steps.size() * sizeof(TapeStep)) / operations),
-             text(before), text(doubles), text(floats), text(slopes), text(regions)});
+             text(before), text(doubles), text(floats), text(slopes), text(regions), text(first),
+             text(next)});
     }
     table.notes = {
         "Operations are those that the field needs at each point. Simple: the op table's values, a row of 96 "
         "numbers for "
         "each operation. The tape's bytes are those of a thread of the mesher, with the tape itself.",
+        "Pick: the node in the middle of the picture; next: the same asked again.",
         "Values in double are the simple interpreter's, bit for bit (checked)."};
     print(table, bench.options.markdown);
 }
