@@ -115,13 +115,7 @@ class AffineWriter {
         const auto arity = std::size_t(opInfo(node.op).arity);
         for (std::size_t i = 0; i < arity; ++i) operands[i] = now[operands[i]];
         if (operands == node.operands) return id;
-        const auto number = static_cast<uint32_t>(node.number);
-        if (node.op == Op::image)
-            return ir.sample(number / kImageLayers, int(number % kImageLayers), operands[0], operands[1]);
-        if (node.op == Op::volume)
-            return ir.sample(number / kVolumeLayers, VolumeChannel(number % kVolumeLayers),
-                             {operands[0], operands[1], operands[2]});
-        return ir.add(node.op, std::span<const IrId>(operands.data(), arity));
+        return ir.again(id, std::span<const IrId>(operands.data(), arity));
     }
 
     Ir& ir;

@@ -243,6 +243,14 @@ std::size_t CommonFormFinder::size() const {
     return count;
 }
 
+std::size_t CommonFormFinder::weight() const {
+    const std::vector<bool> needed = used();
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (needed[i]) sum += std::size_t(opInfo(steps[i].op).weight);
+    return sum;
+}
+
 CommonForm CommonFormFinder::addTo(Ir& to, uint32_t firstColumn) const {
     CommonForm result;
     const IrId before = IrId(ir.size());

@@ -47,6 +47,8 @@ class CommonFormFinder {
     bool find(const std::vector<IrId>& values);
     /// How many operations what was found has.
     std::size_t size() const;
+    /// What their code weighs (OpInfo::weight).
+    std::size_t weight() const;
     /// What was found, as operations of the Ir that was searched; `firstColumn` numbers the columns' leaves.
     CommonForm addTo(Ir& to, uint32_t firstColumn) const;
 

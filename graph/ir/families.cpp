@@ -13,8 +13,8 @@ namespace {
 
 // From so many members on they are listed; a loop over them pays from so many operations of all of them on.
 constexpr std::size_t kListedMembers = 17, kLeastOperations = 240;
-// A loop over fewer makes a sample slower, and pays where it keeps so many operations from a compiler.
-constexpr std::size_t kLeastSaved = 1200;
+// A loop over fewer makes a sample slower, and pays where it keeps code of so much weight from a compiler.
+constexpr std::size_t kLeastSaved = 900;
 constexpr std::size_t kLeastSteps = 4;      // of a member: less is not worth a load
 constexpr std::size_t kMostSteps = 1000;    // bounds the search as well
 constexpr std::size_t kLinkSteps = 8;       // what a smooth minimum counts as
@@ -147,8 +147,9 @@ class Finder {
         CommonFormFinder finder(ir, likeness, kMostSteps);
         if (!finder.find(members) || (!widths.empty() && !finder.find(widths))) return std::nullopt;
         const std::size_t steps = finder.size(), ofMember = steps + (widths.empty() ? 0 : kLinkSteps);
-        const bool pays = members.size() >= kListedMembers ? ofMember * members.size() >= kLeastOperations
-                                                           : steps * (members.size() - 1) >= kLeastSaved;
+        const bool pays = members.size() >= kListedMembers
+                              ? ofMember * members.size() >= kLeastOperations
+                              : finder.weight() * (members.size() - 1) >= kLeastSaved;
         if (steps < kLeastSteps || !pays) return std::nullopt;
         Family family;
         family.firstColumn = columns;

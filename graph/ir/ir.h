@@ -90,6 +90,11 @@ class Ir {
     /// The id of the operation with its own number, nothing folded: on operands that are not yet known.
     IrId addAsIs(Op op, double number, std::span<const IrId> operands);
 
+    /// The operation of `id` on other operands, of the same layer where it samples one.
+    IrId again(IrId id, std::span<const IrId> operands) {
+        return make(nodes[id].op, nodes[id].number, operands);
+    }
+
     const IrNode& operator[](IrId id) const { return nodes[id]; }
     std::size_t size() const { return nodes.size(); }
     bool isConstant(IrId id) const { return nodes[id].op == Op::constant; }

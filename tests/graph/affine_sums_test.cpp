@@ -91,6 +91,35 @@ TEST(AffineSums, WhatIsSharedStaysShared) {
     expectNoWider(field);
 }
 
+TEST(AffineSums, WhatIsSampledStaysThat) {
+    Written field;
+    Ir& ir = field.before;
+    const auto turned = [&](double by) {
+        std::array<IrId, 2> q{ir.position(0), ir.position(1)};
+        for (int i = 0; i < 3; ++i) {
+            const auto times = [&](IrId a, double factor) {
+                return ir.add(Op::multiply, a, ir.constant(factor));
+            };
+            q = {ir.add(Op::add, times(q[0], std::cos(by)), times(q[1], std::sin(by))),
+                 ir.add(Op::subtract, times(q[1], std::cos(by)), times(q[0], std::sin(by)))};
+        }
+        return q;
+    };
+    const auto a = turned(0.3), b = turned(0.4), c = turned(0.5);
+    const uint32_t square =
+        ir.addOutline(outlineThrough(std::array{-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0}));
+    const uint32_t other = ir.addOutline(outlineThrough(std::array{0.0, 0.0, 0.5, 0.0, 0.5, 0.7}));
+    const uint32_t image = ir.addImage(plainImage());
+    field.old = ir.add(Op::add, ir.add(Op::add, ir.sample(square, a[0], a[1]), ir.sample(other, b[0], b[1])),
+                       ir.sample(image, kGreyLayer, c[0], c[1]));
+    Ir work = ir;
+    field.now = field.old;
+    writeOutAffine(work, std::span(&field.now, 1));
+    field.after = work.compact(std::span(&field.now, 1));
+    EXPECT_GT(field.saved(), 6u);
+    expectNoWider(field);
+}
+
 TEST(AffineSums, WhatIsLiveOrNotAffineStays) {
     for (const char* code :
          {"return abs(p.x * cos(time) - p.y * sin(time));", "return sin(p.x) + p.y * p.z - 1;",
