@@ -16,8 +16,8 @@ namespace {
 
 using State = FieldEdit::State;
 
-constexpr float kStill = 3.0f;  // pixels that a click may move
-constexpr float kRounding = 3.0f;
+constexpr float kStillInField = 3.0f;  // pixels that a click may move
+constexpr float kFieldRounding = 3.0f;
 
 bool isInteger(const Row& row) { return row.type == Type::integer; }
 
@@ -56,7 +56,7 @@ void drawFrame(const Area& place, bool active, bool hovered) {
     const ImU32 fill = ImGui::GetColorU32(active    ? ImGuiCol_FrameBgActive
                                           : hovered ? ImGuiCol_FrameBgHovered
                                                     : ImGuiCol_FrameBg);
-    list->AddRectFilled(place.lo, place.hi, fill, kRounding);
+    list->AddRectFilled(place.lo, place.hi, fill, kFieldRounding);
 }
 
 void drawText(const Area& place, ImFont* font, float size, const std::string& text, bool toTheRight,
@@ -105,7 +105,7 @@ void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, con
     const ImGuiIO& io = ImGui::GetIO();
     const float speed = io.KeyShift ? 0.1f : io.KeyAlt ? 10.0f : 1.0f;
     edit.travelled += io.MouseDelta.x * speed;
-    if (edit.state == State::pressed && std::abs(ImGui::GetMouseDragDelta(0, 0.0f).x) > kStill) {
+    if (edit.state == State::pressed && std::abs(ImGui::GetMouseDragDelta(0, 0.0f).x) > kStillInField) {
         edit.state = State::dragging;  // with what it has travelled: a quick hand is there in one frame
         document.begin(setName(box, row));
     }
@@ -307,7 +307,7 @@ std::string describe(const Row& row) {
 
 void showMoved(double number, const Area& place, ImFont* font, float size, bool hovered) {
     drawFrame(place, false, hovered);
-    ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kRounding);
+    ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
     drawText(place, font, size, numberText(std::round(number * 1e4) / 1e4), true,
              ImGui::GetColorU32(ImGuiCol_Text));
     if (hovered && ImGui::IsMouseHoveringRect(place.lo, place.hi))

@@ -173,7 +173,7 @@ std::shared_ptr<const Snapshot> snapshotOf(const Graph& graph, const Snapshot& f
     return made;
 }
 
-std::vector<Node> nodesOf(const Blocks& blocks) {
+std::vector<Node> unpacked(const Blocks& blocks) {
     std::vector<Node> nodes;
     nodes.reserve(blocks.size() * kBlockSize);
     for (const auto& block : blocks)
@@ -187,10 +187,10 @@ std::vector<Node> nodesOf(const Blocks& blocks) {
 Graph graphOf(const Snapshot& snapshot, std::string path) {
     Graph graph;
     graph.version = snapshot.rest->version;
-    graph.nodes = nodesOf(snapshot.nodes);
+    graph.nodes = unpacked(snapshot.nodes);
     for (const GroupPart& part : snapshot.groups) {
         graph.groups.push_back(*part.declared);
-        graph.groups.back().nodes = nodesOf(part.nodes);
+        graph.groups.back().nodes = unpacked(part.nodes);
     }
     graph.parameters = snapshot.rest->parameters;
     graph.scene = snapshot.scene->json, graph.scenePlaces = snapshot.scene->places;

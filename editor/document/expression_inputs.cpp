@@ -11,11 +11,6 @@ namespace {
 
 bool inName(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-bool isName(std::string_view text) {
-    return !text.empty() && !std::isdigit(static_cast<unsigned char>(text[0])) &&
-           std::ranges::all_of(text, inName);
-}
-
 std::string nameProblem(const Node& node, std::string_view name) {
     if (!isName(name)) return inQuotes(name) + " is no name: use letters, digits and '_', a letter first";
     return node.input(name) ? "the expression has an input " + inQuotes(name) + " already" : "";

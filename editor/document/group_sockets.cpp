@@ -34,12 +34,6 @@ std::string firstOf(const Group& group, GroupSide side) {
     });
 }
 
-bool isName(std::string_view text) {
-    return !text.empty() && !std::isdigit(static_cast<unsigned char>(text[0])) &&
-           std::ranges::all_of(
-               text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
-}
-
 std::optional<Error> nameProblem(const Group& group, GroupSide side, std::string_view name) {
     if (!isName(name))
         return Error{.message = inQuotes(name) + " is no name: use letters, digits and '_', a letter first",

@@ -8,7 +8,7 @@ namespace fw::editor {
 
 namespace {
 
-std::string lower(std::string_view text) {
+std::string spoken(std::string_view text) {
     std::string low(text);
     for (char& c : low) c = c == '_' ? ' ' : char(std::tolower(static_cast<unsigned char>(c)));
     return low;
@@ -31,22 +31,22 @@ constexpr int kNoMatch = 100;
 
 /// Less is better.
 int rank(const NodeType& type, const std::string& words) {
-    const std::string label = lower(type.label), id = lower(type.id);
+    const std::string label = spoken(type.label), id = spoken(type.id);
     if (label == words || id == words) return 0;
     if (label.starts_with(words) || id.starts_with(words)) return 1;
     if (wordBegins(label, words) || wordBegins(id, words)) return 2;
     for (const std::string& alias : type.aliases)
-        if (lower(alias).starts_with(words)) return 3;
+        if (spoken(alias).starts_with(words)) return 3;
     if (label.find(words) != std::string::npos || id.find(words) != std::string::npos) return 4;
-    if (lower(categoryName(type.category)).starts_with(words)) return 5;
-    if (wordBegins(lower(type.doc), words)) return 6;
+    if (spoken(categoryName(type.category)).starts_with(words)) return 5;
+    if (wordBegins(spoken(type.doc), words)) return 6;
     return lettersInOrder(label, words) ? 7 : kNoMatch;
 }
 
 }  // namespace
 
 std::vector<const NodeType*> findTypes(std::string_view words, std::span<const NodeType* const> among) {
-    std::string wanted = lower(words);
+    std::string wanted = spoken(words);
     wanted.erase(0, wanted.find_first_not_of(' '));
     wanted.erase(wanted.find_last_not_of(' ') + 1);
     std::vector<std::pair<int, const NodeType*>> ranked;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "editor/shell/theme.h"
+#include "graph/base/words.h"
 
 namespace fw::editor {
 
@@ -25,11 +26,6 @@ bool isFolder(const std::string& path) {
 bool exists(const std::string& path) {
     std::error_code error;
     return fs::exists(path, error);
-}
-
-std::string lower(std::string text) {
-    for (char& each : text) each = char(std::tolower(static_cast<unsigned char>(each)));
-    return text;
 }
 
 /// Absolute and without "..".
@@ -94,12 +90,12 @@ std::vector<FolderEntry> listFolder(const std::string& folder, const std::string
         const std::string name = each->path().filename().string();
         std::error_code none;
         const bool isDirectory = each->is_directory(none);
-        if (name.starts_with('.') || (!isDirectory && !lower(name).ends_with(ending))) continue;
+        if (name.starts_with('.') || (!isDirectory && !lowered(name).ends_with(ending))) continue;
         entries.push_back({name, isDirectory});
     }
     std::ranges::sort(entries, [](const FolderEntry& a, const FolderEntry& b) {
         if (a.folder != b.folder) return a.folder;
-        return std::pair(lower(a.name), a.name) < std::pair(lower(b.name), b.name);
+        return std::pair(lowered(a.name), a.name) < std::pair(lowered(b.name), b.name);
     });
     return entries;
 }
@@ -146,7 +142,7 @@ std::optional<std::string> choose(FileBrowser& browser) {
         browser.problem = "there is no such file here";
         return std::nullopt;
     }
-    if (!lower(path).ends_with(browser.ending)) path += browser.ending;
+    if (!lowered(path).ends_with(browser.ending)) path += browser.ending;
     if (!isFolder(fs::path(path).parent_path().string())) {
         browser.problem = "there is no such folder";
     } else if (exists(path) && !std::exchange(browser.asking, true)) {

@@ -6,6 +6,7 @@
 #include "editor/document/file_nodes.h"
 #include "editor/editor.h"
 #include "editor/files/assets.h"
+#include "graph/base/words.h"
 #include "graph/document/json.h"
 #include "graph/document/json_tokens.h"
 
@@ -17,12 +18,7 @@ namespace fs = std::filesystem;
 
 std::string nameOf(const fs::path& file) { return file.filename().string(); }
 
-std::string lower(std::string text) {
-    for (char& each : text) each = char(std::tolower(static_cast<unsigned char>(each)));
-    return text;
-}
-
-bool isGraph(const std::string& file) { return lower(file).ends_with(kGraphEnding); }
+bool isGraph(const std::string& file) { return lowered(file).ends_with(kGraphEnding); }
 
 /// The path of the file from the document's folder on, the file brought there if need be. What was done goes
 /// to `told`.

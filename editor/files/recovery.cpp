@@ -33,7 +33,7 @@ std::time_t changedAt(const std::string& path) {
     return stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
 }
 
-std::string absolute(const std::string& path) {
+std::string absoluteOrSame(const std::string& path) {
     std::error_code error;
     const std::filesystem::path full = std::filesystem::absolute(path, error);
     return path.empty() || error ? path : full.lexically_normal().string();
@@ -42,7 +42,7 @@ std::string absolute(const std::string& path) {
 Done writeCopy(Graph graph, const std::string& file) {
     // Not saveGraph: what it refuses is worth keeping all the more, and nobody waits for the disk.
     if (!graph.extra->is_object()) graph.extra = Json::object();
-    (*graph.extra)[kKey] = Json{{"of", absolute(graph.path)}};
+    (*graph.extra)[kKey] = Json{{"of", absoluteOrSame(graph.path)}};
     Result<OutputFile> out = OutputFile::open(file, nullptr);
     if (!out) return out.error();
     out->write(writeGraph(graph));
@@ -51,7 +51,7 @@ Done writeCopy(Graph graph, const std::string& file) {
 
 /// Whether no process holds the lock beside the copy.
 bool isLeft(const std::string& copy) {
-    const int lock = open(lockOf(copy).c_str(), O_RDWR | O_CLOEXEC);
+    const int lock = ::open(lockOf(copy).c_str(), O_RDWR | O_CLOEXEC);
     if (lock < 0) return errno == ENOENT;
     const bool left = flock(lock, LOCK_EX | LOCK_NB) == 0;
     close(lock);
@@ -79,7 +79,7 @@ Recovery::Recovery(std::string folder) {
     for (int i = 0; i < 1000 && lock < 0; ++i) {
         file = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(i) + std::string(kGraphEnding);
         if (access(file.c_str(), F_OK) == 0) continue;
-        lock = open(lockOf(file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+        lock = ::open(lockOf(file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
         if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0) close(std::exchange(lock, -1));
     }
     if (lock < 0) file.clear();

@@ -4,16 +4,11 @@
 #include <sstream>
 
 #include "editor/editor.h"
+#include "graph/base/words.h"
 
 namespace fw::editor {
 
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string all(text);
-    std::ranges::transform(all, all.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return all;
-}
 
 bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
 
@@ -29,10 +24,10 @@ void turn(int& chosen, int by, std::span<const Choice> choices, const std::vecto
 }  // namespace
 
 std::vector<std::size_t> findChoices(std::string_view search, std::span<const Choice> choices) {
-    const std::string wanted = lower(search);
+    const std::string wanted = lowered(search);
     std::vector<std::size_t> begins, has;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const std::string label = lower(choices[i].label);
+        const std::string label = lowered(choices[i].label);
         std::istringstream words(wanted);
         bool all = true;
         for (std::string word; words >> word;) all = all && label.find(word) != std::string::npos;

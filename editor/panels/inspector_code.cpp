@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kLeastLines = 6, kMostLines = 24;
 
-void showFindings(const Editor& editor, const std::string& path) {
+void showFindingsInCode(const Editor& editor, const std::string& path) {
     for (const Error& finding : editor.viewport.shown.findings) {
         if (finding.node != path || finding.codeLine == 0) continue;
         const bool error = finding.severity == Error::Severity::error;
@@ -49,7 +49,7 @@ void showExpression(Editor& editor, const NodeBox& box) {
     editCode(editor, "##code", box.node->code, height, [scope, id](Editor& in, const std::string& code) {
         in.document.apply("Change Code", setCode(in.document.graph(), scope, id, code));
     });
-    showFindings(editor, pathOf(editor, id));
+    showFindingsInCode(editor, pathOf(editor, id));
 
     PanelState& state = editor.panelState;
     const float em = ImGui::GetFontSize();

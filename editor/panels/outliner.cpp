@@ -7,6 +7,7 @@
 
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "graph/base/words.h"
 
 namespace fw::editor {
 
@@ -19,12 +20,6 @@ struct Line {
     std::size_t count = 0;       ///< of the scope's nodes that are found
 };
 
-std::string lower(std::string_view text) {
-    std::string low(text);
-    for (char& c : low) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return low;
-}
-
 std::string titleOf(const Node& node, const NodeType* type) {
     if (!node.label.empty()) return node.label;
     if (!node.group.empty()) return readable(node.group);
@@ -32,13 +27,13 @@ std::string titleOf(const Node& node, const NodeType* type) {
 }
 
 bool matches(const Node& node, const std::string& wanted) {
-    if (wanted.empty() || lower(node.id).find(wanted) != std::string::npos) return true;
-    return lower(titleOf(node, findNodeType(node.type))).find(wanted) != std::string::npos ||
-           lower(node.type).find(wanted) != std::string::npos;
+    if (wanted.empty() || lowered(node.id).find(wanted) != std::string::npos) return true;
+    return lowered(titleOf(node, findNodeType(node.type))).find(wanted) != std::string::npos ||
+           lowered(node.type).find(wanted) != std::string::npos;
 }
 
 std::vector<Line> linesOf(const Graph& graph, const PanelState& state) {
-    const std::string wanted = lower(state.search);
+    const std::string wanted = lowered(state.search);
     std::vector<Line> lines;
     const auto add = [&](std::string_view scope, const std::vector<Node>& nodes) {
         const std::size_t head = lines.size();
@@ -103,7 +98,7 @@ void showNode(const Editor& editor, const Line& line, const std::set<std::string
                         : node.muted         ? themeColor(ThemeColor::quiet)
                                              : themeColor(ThemeColor::text);
     list->AddText(text, color, title.c_str());
-    if (lower(title) != node.id)
+    if (lowered(title) != node.id)
         list->AddText({text.x + ImGui::CalcTextSize(title.c_str()).x + em, text.y},
                       themeColor(ThemeColor::quiet), node.id.c_str());
 }

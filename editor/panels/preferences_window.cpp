@@ -8,7 +8,7 @@ namespace fw::editor {
 
 namespace {
 
-constexpr const char* kTitle = "Preferences";
+constexpr const char* kPreferencesTitle = "Preferences";
 constexpr float kScales[] = {0.0f, 0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f, 3.0f, 4.0f};
 
 void keep(Editor& editor) {
@@ -155,7 +155,7 @@ void showPreferences(Editor& editor) {
     const bool opens = std::exchange(window.opened, false);
     if (opens) {
         window = {};
-        ImGui::OpenPopup(kTitle);
+        ImGui::OpenPopup(kPreferencesTitle);
     }
     const ImVec2 whole = ImGui::GetMainViewport()->Size;
     const float unit = editor.shell.scale();
@@ -165,7 +165,7 @@ void showPreferences(Editor& editor) {
     bool stays = true;
     // While a key is waited for, none moves about in the window.
     const bool waited = window.command != nullptr;
-    if (!ImGui::BeginPopupModal(kTitle, &stays,
+    if (!ImGui::BeginPopupModal(kPreferencesTitle, &stays,
                                 ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoMove |
                                     (waited ? ImGuiWindowFlags_NoNavInputs : ImGuiWindowFlags_None)))

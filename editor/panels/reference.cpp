@@ -17,7 +17,7 @@ namespace fw::editor {
 
 namespace {
 
-constexpr const char* kTitle = "Node reference";
+constexpr const char* kReferenceTitle = "Node reference";
 
 /// Without the backticks that names have in the page.
 std::string plain(std::string text) {
@@ -146,7 +146,7 @@ void showReference(Editor& editor) {
     ImGui::SetNextWindowSize(size, ImGuiCond_Appearing);
     ImGui::SetNextWindowPos({0.5f * whole.x, 0.5f * whole.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
     if (std::exchange(reference.opened, false)) ImGui::SetNextWindowFocus();
-    if (ImGui::Begin(kTitle, &reference.open,
+    if (ImGui::Begin(kReferenceTitle, &reference.open,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::BeginChild("##list", {0.24f * ImGui::GetContentRegionAvail().x, 0}, true,
                           ImGuiWindowFlags_NavFlattened);

@@ -5,7 +5,7 @@ namespace fw::editor {
 
 namespace {
 
-constexpr const char* kTitle = "Shortcuts";
+constexpr const char* kShortcutsTitle = "Shortcuts";
 
 // As canvas/canvas.h has it.
 constexpr std::pair<const char*, const char*> kMouse[] = {
@@ -60,7 +60,7 @@ void showMenu(const Editor& editor, std::string_view menu, const char* title) {
 }  // namespace
 
 void showShortcuts(Editor& editor) {
-    if (std::exchange(editor.windows.shortcuts, false)) ImGui::OpenPopup(kTitle);
+    if (std::exchange(editor.windows.shortcuts, false)) ImGui::OpenPopup(kShortcutsTitle);
     const float unit = editor.shell.scale();
     const ImVec2 whole = ImGui::GetMainViewport()->Size;
     ImGui::SetNextWindowSize(
@@ -68,7 +68,7 @@ void showShortcuts(Editor& editor) {
     ImGui::SetNextWindowPos({0.5f * whole.x, 0.5f * whole.y}, ImGuiCond_Always, {0.5f, 0.5f});
     bool stays = true;
     if (!ImGui::BeginPopupModal(
-            kTitle, &stays,
+            kShortcutsTitle, &stays,
             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
         return;
     const float third = ImGui::GetContentRegionAvail().x / 3.0f;

@@ -127,7 +127,7 @@ void draw(Commands& commands, DrawLists& lists, const ImDrawData& data, VkImageV
                 const std::array<Descriptor, 1> texture = {
                     Descriptor(0, static_cast<const Texture*>(bound)->image.view,
                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, lists.sampler.handle)};
-                bind(commands, lists.pipeline, &push, sizeof push, texture);
+                fw::bind(commands, lists.pipeline, &push, sizeof push, texture);
             }
             vkCmdSetScissor(commands.handle, 0, 1, &scissor);
             vkCmdDrawIndexed(commands.handle, command.ElemCount, 1, firstIndex + command.IdxOffset,

@@ -19,13 +19,13 @@ namespace {
 constexpr std::size_t kKeptOutlines = 4;
 constexpr double kSlack = 1e-3;  // of a cell: places that rounding puts into a neighbour are served too
 
-struct Place {
+struct Corner {
     double x, y;
 };
 
 /// Edge i joins corner i with the next.
 struct Edge {
-    Place a, b;
+    Corner a, b;
     Edge(const std::vector<double>& corners, uint32_t i)
         : a{corners[2 * i], corners[2 * i + 1]},
           b{corners[2 * i + 2 < corners.size() ? 2 * i + 2 : 0],
@@ -33,25 +33,25 @@ struct Edge {
 
     double length2() const { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
     /// On which side a place is, times the edge's length.
-    double side(Place p) const { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+    double side(Corner p) const { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
     /// Whether that is the left one. A place is taken to lie a little above where it is, as in every
     /// comparison of its height with a corner's.
-    bool isLeft(Place p) const {
+    bool isLeft(Corner p) const {
         const double s = side(p);
         return s > 0 || (s == 0 && b.x > a.x);
     }
     /// How far along the edge the nearest place is, 0 to 1, before it is cut off there.
-    double foot(Place p) const {
+    double foot(Corner p) const {
         return ((p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y)) / std::max(length2(), 1e-30);
     }
-    double distance(Place p) const {
+    double distance(Corner p) const {
         const double t = std::clamp(foot(p), 0.0, 1.0);
         const double dx = p.x - a.x - t * (b.x - a.x), dy = p.y - a.y - t * (b.y - a.y);
         return std::sqrt(dx * dx + dy * dy);
     }
 };
 
-double squared(Place a, Place b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
+double squared(Corner a, Corner b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
 
 uint32_t wordOf(double x) { return std::bit_cast<uint32_t>(float(x)); }
 double numberOf(uint32_t word) { return std::bit_cast<float>(word); }
@@ -96,11 +96,11 @@ class Maker {
   private:
     /// So many cells from one on, in a square; metres.
     struct Square {
-        Place low;
+        Corner low;
         double width;
-        Place centre() const { return {low.x + 0.5 * width, low.y + 0.5 * width}; }
+        Corner centre() const { return {low.x + 0.5 * width, low.y + 0.5 * width}; }
         double reach() const { return (0.5 + kSlack) * width * std::sqrt(2.0); }  // from the centre
-        Place corner(int i) const {
+        Corner corner(int i) const {
             const double grown = (1 + 2 * kSlack) * width;
             return {low.x - kSlack * width + (i & 1) * grown, low.y - kSlack * width + (i >> 1) * grown};
         }
@@ -116,14 +116,14 @@ class Maker {
         std::vector<double> distances;
         for (const uint32_t i : edges) distances.push_back(all[i].distance(square.centre()));
         const double most = *std::ranges::min_element(distances) + 2 * square.reach();
-        std::array<Place, 4> close;  // to each corner of the square, of the edges' first ends
+        std::array<Corner, 4> close;  // to each corner of the square, of the edges' first ends
         for (int k = 0; k < 4; ++k)
             close[std::size_t(k)] = all[*std::ranges::min_element(edges, {}, [&](uint32_t i) {
                                         return squared(all[i].a, square.corner(k));
                                     })].a;
         std::vector<uint32_t> near;
         for (std::size_t k = 0; k < edges.size(); ++k)
-            if (distances[k] <= most && std::ranges::none_of(close, [&](Place other) {
+            if (distances[k] <= most && std::ranges::none_of(close, [&](Corner other) {
                     return isCloser(other, all[edges[k]], square);
                 }))
                 near.push_back(edges[k]);
@@ -133,9 +133,9 @@ class Maker {
     /// Whether `place` is closer to all of a square than any place of the edge. That a place is closer than
     /// an end holds in a half-plane; between the ends squared distances sag by up to a quarter of the
     /// length's.
-    static bool isCloser(Place place, const Edge& edge, const Square& square) {
+    static bool isCloser(Corner place, const Edge& edge, const Square& square) {
         for (int k = 0; k < 4; ++k) {
-            const Place p = square.corner(k);
+            const Corner p = square.corner(k);
             const double least = squared(p, place) * (1 + 1e-9) + 0.25 * edge.length2();
             if (squared(p, edge.a) <= least || squared(p, edge.b) <= least) return false;
         }
@@ -169,7 +169,7 @@ class Maker {
         near.erase(std::ranges::unique(near).begin(), near.end());
         const auto meets = [&](uint32_t i) { return all[i].distance(own.centre()) <= own.reach(); };
         const auto met = std::size_t(std::ranges::stable_partition(near, meets).begin() - near.begin());
-        const Place place = placeIn(own, std::span(near).first(met));
+        const Corner place = placeIn(own, std::span(near).first(met));
         const bool isInside = level == 0 && inside(rows[std::size_t(y)], place);
         outline.texels[firstOf(outline, level) + std::size_t(y * sideOf(outline, level) + x)] = {
             uint32_t(firstOf(outline, kOutlineLevels) + outline.lists.size()),
@@ -179,12 +179,12 @@ class Maker {
     }
 
     /// Somewhere in a cell, in single precision, and not close to these edges.
-    Place placeIn(const Square& cell, std::span<const uint32_t> edges) const {
-        Place best{};
+    Corner placeIn(const Square& cell, std::span<const uint32_t> edges) const {
+        Corner best{};
         double farthest = -1;
         for (const double v : {0.47, 0.79, 0.23})
             for (const double u : {0.53, 0.81, 0.19}) {
-                const Place tried{float(cell.low.x + u * cell.width), float(cell.low.y + v * cell.width)};
+                const Corner tried{float(cell.low.x + u * cell.width), float(cell.low.y + v * cell.width)};
                 double nearest = 1e300;
                 for (const uint32_t i : edges) nearest = std::min(nearest, all[i].distance(tried));
                 if (nearest > farthest) farthest = nearest, best = tried;
@@ -193,7 +193,7 @@ class Maker {
     }
 
     /// Whether a ray from p along x crosses an odd number of edges, all of which are in `row`.
-    bool inside(const std::vector<uint32_t>& row, Place p) const {
+    bool inside(const std::vector<uint32_t>& row, Corner p) const {
         bool odd = false;
         for (const uint32_t i : row) {
             const Edge& edge = all[i];
@@ -265,7 +265,7 @@ OutlineSample sampleOutline(const Outline& outline, double x, double y) {
     const OutlineTexel& cell = outline.texels[cellAt(outline, x, y)];
     const uint32_t* const list = &outline.lists[cell[0] - firstOf(outline, kOutlineLevels)];
     const uint32_t count = cell[1] & 0xFFFF, met = cell[1] >> 16 & 0x7FFF;
-    const Place p{x, y}, known{numberOf(cell[2]), numberOf(cell[3])}, turn{known.x, y};
+    const Corner p{x, y}, known{numberOf(cell[2]), numberOf(cell[3])}, turn{known.x, y};
     bool inside = cell[1] >> 31;
     double nearest = 1e300;
     uint32_t best = list[0];
@@ -286,7 +286,7 @@ OutlineSample sampleOutline(const Outline& outline, double x, double y) {
         const double side = edge.side(p), out = (side >= 0 ? sign : -sign) / size;
         return {out * side, -out * (edge.b.y - edge.a.y), out * (edge.b.x - edge.a.x)};
     }
-    const Place end = t <= 0 ? edge.a : edge.b;
+    const Corner end = t <= 0 ? edge.a : edge.b;
     const double distance = std::hypot(x - end.x, y - end.y), out = distance > 0 ? sign / distance : 0;
     return {sign * distance, out * (x - end.x), out * (y - end.y)};
 }

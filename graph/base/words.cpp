@@ -1,6 +1,7 @@
 #include "graph/base/words.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <numeric>
 
@@ -52,6 +53,12 @@ std::string nearestName(std::string_view name, std::span<const std::string> name
     Nearest nearest{name};
     for (const std::string& candidate : names) nearest.offer(candidate);
     return std::string(nearest.best);
+}
+
+std::string lowered(std::string_view text) {
+    std::string low(text);
+    for (char& c : low) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return low;
 }
 
 std::string shortNumber(double value) {

@@ -11,6 +11,9 @@ namespace fw {
 /// The entry of `names` nearest to `name` by edit distance; empty if none is near.
 std::string nearestName(std::string_view name, std::span<const std::string> names);
 
+/// With small letters for the capitals of ASCII.
+std::string lowered(std::string_view text);
+
 /// A number for reading, six digits.
 std::string shortNumber(double value);
 

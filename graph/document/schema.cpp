@@ -82,7 +82,7 @@ Json valueSchema(const InputSpec& spec) {
 }
 
 /// Without a point if it is whole.
-Json shortest(double x) {
+Json shortNumber(double x) {
     if (x == std::floor(x) && std::abs(x) < 1e15) return static_cast<int64_t>(x);
     return x;
 }
@@ -93,13 +93,13 @@ Json defaultValue(const InputSpec& spec) {
     if (spec.value.kind == InputDefault::Kind::text) return spec.value.text;
     if (spec.value.kind != InputDefault::Kind::numbers || numbers.empty()) return nullptr;
     if (spec.type == Type::boolean) return numbers[0] != 0;
-    if (spec.type == Type::integer || spec.type == Type::scalar) return shortest(numbers[0]);
+    if (spec.type == Type::integer || spec.type == Type::scalar) return shortNumber(numbers[0]);
     Json values = Json::array();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (spec.type != Type::points)
-            values.push_back(shortest(numbers[i]));
+            values.push_back(shortNumber(numbers[i]));
         else if (i + 1 < numbers.size() && i % 2 == 0)
-            values.push_back(Json::array({shortest(numbers[i]), shortest(numbers[i + 1])}));
+            values.push_back(Json::array({shortNumber(numbers[i]), shortNumber(numbers[i + 1])}));
     }
     return values;
 }
@@ -185,14 +185,14 @@ Json groupSchema() {
 Json sceneNumber(std::string text, std::optional<double> initial, double least = 0.0,
                  double most = kMostSceneNumber) {
     Json schema = {{"type", "number"}};
-    if (initial) schema["default"] = shortest(*initial);
-    schema["minimum"] = shortest(least);
-    schema["maximum"] = shortest(most);
+    if (initial) schema["default"] = shortNumber(*initial);
+    schema["minimum"] = shortNumber(least);
+    schema["maximum"] = shortNumber(most);
     return described(std::move(text), std::move(schema));
 }
 Json sceneTriple(std::string text, const Triple& initial, double least) {
     Json schema = array(sceneNumber("", {}, least), 3);
-    for (double x : initial) schema["default"].push_back(shortest(x));
+    for (double x : initial) schema["default"].push_back(shortNumber(x));
     return described(std::move(text), std::move(schema));
 }
 Json scenePoint(std::string text, const Triple& initial) {

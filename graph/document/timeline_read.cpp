@@ -21,9 +21,9 @@ std::string_view kindOf(const Json& json) {
 }
 
 /// Every function returns false after it has stored the one error.
-class Reader {
+class TimelineReader {
   public:
-    Reader(const Graph& graph_, std::vector<Error>* findings) : graph(graph_), warnings(findings) {}
+    TimelineReader(const Graph& graph_, std::vector<Error>* findings) : graph(graph_), warnings(findings) {}
 
     bool read() {
         bool hasLength = false;
@@ -216,7 +216,7 @@ const std::vector<std::string>& loopNames() {
 
 Result<Timeline> readTimeline(const Graph& graph, std::vector<Error>* warnings) {
     if (graph.timeline->is_null()) return Timeline{.endless = true};
-    Reader reader(graph, warnings);
+    TimelineReader reader(graph, warnings);
     if (!reader.read()) return std::move(reader.error);
     return std::move(reader.timeline);
 }

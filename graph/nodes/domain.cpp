@@ -7,8 +7,6 @@
 namespace fw {
 namespace {
 
-const std::vector<OutputSpec> kSurface = {{"surface", Type::surface}};
-
 InputSpec subject(const char* doc) { return surfaceInput("surface", doc); }
 
 /// Keeps the Lipschitz constant and nothing else.

@@ -6,6 +6,9 @@
 
 namespace fw {
 
+/// What shapes and whatever changes them put out.
+inline const std::vector<OutputSpec> kSurface = {{"surface", Type::surface}};
+
 inline InputDefault numbers(std::vector<double> values) {
     return {InputDefault::Kind::numbers, std::move(values), {}};
 }

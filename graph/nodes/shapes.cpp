@@ -13,8 +13,6 @@
 namespace fw {
 namespace {
 
-const std::vector<OutputSpec> kSurface = {{"surface", Type::surface}};
-
 /// A tube around a closed centre line whose curvature radius is `major_radius`: thicker than that, it
 /// overlaps itself.
 Exactness tubeExactness(const ExactnessArguments& node) {

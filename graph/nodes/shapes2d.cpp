@@ -5,8 +5,6 @@
 namespace fw {
 namespace {
 
-const std::vector<OutputSpec> kSurface = {{"surface", Type::surface}};
-
 /// Extruding keeps the class of a flat shape. The slice of a solid is a bound: what is nearest may lie off
 /// the plane. Rounding shrinks the profile first, which is exact on smooth rims only.
 Exactness extrudedExactness(const ExactnessArguments& node) {

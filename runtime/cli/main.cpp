@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <new>
@@ -20,7 +21,6 @@
 #include "runtime/export/export.h"
 #include "runtime/system/output_file.h"
 #include "runtime/window/viewer.h"
-#include "tests/bench/bench.h"
 
 namespace fw::cli {
 
@@ -151,7 +151,21 @@ void listenForInterrupt() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
+/// The benchmarks are a program of their own, beside this one. Returns only if it cannot be started.
+int becomeBench(char** arguments) {
+    const std::string program =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fieldwright-bench";
+    arguments[0] = const_cast<char*>(program.c_str());
+    execv(program.c_str(), arguments);
+    std::fprintf(stderr,
+                 "fieldwright: cannot start %s: %s\nIt is built by: cmake --build --preset release --target "
+                 "fieldwright-bench\n",
+                 program.c_str(), std::strerror(errno));
+    return kSystemFailure;
+}
+
 int run(int count, char** arguments) {
+    if (count > 1 && std::string_view(arguments[1]) == "bench") return becomeBench(arguments + 1);
     CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields", "fieldwright"};
     app.set_version_flag("--version", "fieldwright " FIELDWRIGHT_VERSION);
     app.require_subcommand(1);
@@ -347,21 +361,7 @@ int run(int count, char** arguments) {
             "--markdown", [&] { nodesFormat = NodesFormat::markdown; }, "The reference page")
         ->excludes(json);
 
-    std::vector<std::string> benchNames;
-    bench::BenchOptions benchOptions;
-    CLI::App* benchCommand =
-        app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md");
-    std::string tables;
-    for (const std::string& name : bench::benchNames()) tables += " " + name;
-    benchCommand->add_option("TABLE", benchNames, "all (default), or some of:" + tables);
-    benchCommand->add_flag("--markdown", benchOptions.markdown, "Print the tables as the page has them");
-    benchCommand->add_option("--size", benchOptions.sizes, "Cells along an edge (default: each table's own)")
-        ->check(whole(8, 2048));
-    benchCommand->add_option("--repeats", benchOptions.repeats, "Runs that count")
-        ->check(whole(1, 1000))
-        ->default_val(benchOptions.repeats);
-    benchCommand->add_option("--device", benchOptions.device,
-                             "Index or part of the name of the device (see fieldwright info)");
+    app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md (fieldwright-bench)");
 
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
 
@@ -392,7 +392,6 @@ int run(int count, char** arguments) {
     if (evalCommand->parsed()) return runEval(evalOptions);
     if (compileCommand->parsed()) return runCompile(compileOptions);
     if (nodesCommand->parsed()) return runNodes(nodesFormat);
-    if (benchCommand->parsed()) return bench::runBench(benchNames, benchOptions);
     if (infoCommand->parsed()) return runInfo();
     return kBadUsage;
 }

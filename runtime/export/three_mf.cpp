@@ -45,13 +45,13 @@ struct Archive {
     }
 };
 
-MODELMESHCOLOR_SRGB encode(glm::vec3 color) {
+MODELMESHCOLOR_SRGB srgbOf(glm::vec3 color) {
     return {encodeSrgb(color.x), encodeSrgb(color.y), encodeSrgb(color.z), 255};
 }
 
 void setColors(Calls& calls, const Object& model, const Object& object, const Mesh& mesh,
                std::vector<MODELMESH_TRIANGLECOLOR_SRGB>& colors, const std::string& name) {
-    const MODELMESHCOLOR_SRGB base = encode(mesh.baseColor);
+    const MODELMESHCOLOR_SRGB base = srgbOf(mesh.baseColor);
     const Object whole = calls.make(lib3mf_object_createdefaultpropertyhandler, object);
     if (!colors.empty()) {
         // The specification asks for a colour of the whole object beside those of the triangles.
@@ -94,7 +94,7 @@ std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::strin
         if (mesh.colors.empty()) continue;
         colors.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
-            colors.back().m_Colors[k] = encode(mesh.colors[mesh.indices[i + k]]);
+            colors.back().m_Colors[k] = srgbOf(mesh.colors[mesh.indices[i + k]]);
     }
     Fingerprint content;
     content.add(std::span<const MODELMESHVERTEX>(vertices));

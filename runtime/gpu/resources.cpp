@@ -8,7 +8,7 @@
 namespace fw {
 namespace {
 
-constexpr VkDeviceSize kTexel = 16;  // bytes
+constexpr VkDeviceSize kTexelSize = 16;  // bytes
 
 std::string mebibytes(VkDeviceSize size) { return std::to_string((size + (1 << 20) - 1) >> 20) + " MiB"; }
 
@@ -70,7 +70,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     Buffer buffer;
     buffer.device = device.handle;
     buffer.record = device.record;
-    buffer.size = std::max((size + kTexel - 1) / kTexel * kTexel, kTexel);
+    buffer.size = std::max((size + kTexelSize - 1) / kTexelSize * kTexelSize, kTexelSize);
     if (buffer.size > device.largestAllocation)
         throw SystemError("device '" + device.name() + "' cannot hold a buffer of " + mebibytes(size) +
                           ", its limit is " + mebibytes(device.largestAllocation) +
@@ -109,7 +109,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory))
         check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
               "mapping a buffer");
-    const VkDeviceSize texels = buffer.size / kTexel;
+    const VkDeviceSize texels = buffer.size / kTexelSize;
     if (texels <= device.properties.limits.maxTexelBufferElements) {
         auto view = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
         view.buffer = buffer.handle;

@@ -30,8 +30,6 @@ constexpr float kFogEnd = 12.0f;      // in the solid's radii
 constexpr float kGravity = 9.81f;     // metres per second squared: what fell as far as the radius is fast
 constexpr float kPointPixels = 2.0f;  // half pixels that a point is wide from its middle
 
-glm::vec3 vector(const Triple& from) { return {float(from[0]), float(from[1]), float(from[2])}; }
-
 /// Evenly in the unit square, the first in its middle (Roberts' R2 sequence).
 glm::vec2 evenly(int number) {
     const double x = 0.5 + 0.7548776662466927 * number, y = 0.5 + 0.5698402909980532 * number;
@@ -417,7 +415,7 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
         {1, scene.mesh.vertices, 0, VkDeviceSize(scene.vertices) * sizeof(gpu::MeshVertex)},
         {2, scene.mesh.triangles, 0, 12ull * scene.triangles},
         storage(10, renderer.pixels)};
-    bind(commands, renderer.wireframe, &clip, sizeof clip, bound);
+    fw::bind(commands, renderer.wireframe, &clip, sizeof clip, bound);
     vkCmdDraw(commands.handle, 3 * scene.triangles, 1, 0, 0);
     vkCmdEndRendering(commands.handle);
     barrier(commands);

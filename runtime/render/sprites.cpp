@@ -48,7 +48,7 @@ void drawSprites(Commands& commands, Sprites& sprites, DepthTarget& target,
         const VkDeviceSize bytes = 16ull * cloud.slots;
         const Descriptor bound[] = {{0, *cloud.places, 0, bytes},
                                     {1, cloud.velocities ? *cloud.velocities : *cloud.places, 0, bytes}};
-        bind(commands, options.shadow ? sprites.drawShadow : sprites.draw, &push, sizeof push, bound);
+        fw::bind(commands, options.shadow ? sprites.drawShadow : sprites.draw, &push, sizeof push, bound);
         vkCmdDraw(commands.handle, 3 * cloud.slots, 1, 0, 0);
     }
     vkCmdEndRendering(commands.handle);

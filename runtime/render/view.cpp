@@ -12,8 +12,6 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-glm::vec3 vector(const Triple& from) { return {float(from[0]), float(from[1]), float(from[2])}; }
-
 }  // namespace
 
 SeenBounds boundsOf(std::span<const gpu::MeshVertex> points) {

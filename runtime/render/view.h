@@ -14,6 +14,8 @@
 
 namespace fw {
 
+inline glm::vec3 vector(const Triple& from) { return {float(from[0]), float(from[1]), float(from[2])}; }
+
 /// A sphere about what is seen, metres, and its lowest point.
 struct SeenBounds {
     glm::vec3 centre{0.0f};

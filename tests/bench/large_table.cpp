@@ -10,7 +10,7 @@
 #include "graph/document/json.h"
 #include "graph/emit/glsl.h"
 #include "runtime/mesher/mesher.h"
-#include "tests/bench/self.h"
+#include "tests/bench/command.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {
@@ -116,7 +116,7 @@ void largeTable(Bench& bench) {
             arguments.insert(arguments.begin() + 1, {path, "--resolution", "64"});
             const std::string cache = folder.path + "/" + arguments[0];
             std::filesystem::create_directory(cache);
-            const Outcome outcome = runSelf(arguments, cache);
+            const Outcome outcome = runCommand(arguments, cache);
             if (outcome.status != 0) bench.fail(large.name + ": status " + std::to_string(outcome.status));
             return outcome;
         };

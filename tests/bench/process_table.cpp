@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/bench/self.h"
+#include "tests/bench/command.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {
@@ -32,19 +32,19 @@ void processTable(Bench& bench) {
     int coldRuns = 0;
     const auto run = [&](const std::string& cache) {
         std::filesystem::create_directory(cache);
-        const Outcome outcome = runSelf(command, cache);
+        const Outcome outcome = runCommand(command, cache);
         if (outcome.status != 0) bench.fail("export ended with status " + std::to_string(outcome.status));
         return outcome.milliseconds;
     };
     const Figure warmRuns = measure(bench.options.repeats, [&] { return run(warm); });
     const Figure emptyRuns = measure(bench.options.repeats,
                                      [&] { return run(folder.path + "/cold" + std::to_string(coldRuns++)); });
-    const uint64_t peak = runSelf(command, warm).peakBytes;
-    const uint64_t own = runSelf(driver, warm).peakBytes;
+    const uint64_t peak = runCommand(command, warm).peakBytes;
+    const uint64_t own = runCommand(driver, warm).peakBytes;
 
     // The report costs time of its own (it reads the file back), so it comes from a run that is not timed.
     command.insert(command.end(), {"--report", report});
-    runSelf(command, warm);
+    runCommand(command, warm);
     const nlohmann::ordered_json written =
         nlohmann::ordered_json::parse(std::ifstream(report), nullptr, false);
     if (!written.is_object()) return bench.fail("export wrote no report");

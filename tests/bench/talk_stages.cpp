@@ -102,7 +102,7 @@ void recordDepthPass(Commands& commands, const TalkStages& s, Draw&& draw) {
 
 void drawPoints(Commands& commands, const TalkStages& s, TalkWay way, const Pipeline& pipeline,
                 std::span<const Descriptor> bound) {
-    bind(commands, pipeline, &s.grid, sizeof s.grid, bound);
+    fw::bind(commands, pipeline, &s.grid, sizeof s.grid, bound);
     if (way == TalkWay::everyCell)
         vkCmdDraw(commands.handle, 1u << (3 * s.grid.levels), 1, 0, 0);
     else
@@ -208,7 +208,7 @@ void recordMeshPass(Commands& commands, const TalkStages& s, const Pipeline& pas
     recordDepthPass(commands, s, [&] {
         const Descriptor bound[] = {Descriptor(0, s.sampleBuffer), Descriptor(1, s.caseBuffer),
                                     Descriptor(6, meshVertices)};
-        bind(commands, pass, &s.grid, sizeof s.grid, bound);
+        fw::bind(commands, pass, &s.grid, sizeof s.grid, bound);
         vkCmdBindIndexBuffer(commands.handle, meshIndices.handle, 0, VK_INDEX_TYPE_UINT32);
         vkCmdDrawIndexedIndirect(commands.handle, arguments.handle, offset, 1, 0);
     });

@@ -151,7 +151,7 @@ TEST_F(CommandOutput, RunIsFoundThroughALink) {
         test::writeText(home + program, "#!/bin/sh\necho called \"$@\"\n");
         fs::permissions(home + program, fs::perms::owner_all);
     }
-    test::writeText(home + "/build/release/up_to_date", "");
+    test::writeText(home + "/build/release/fieldwright.up_to_date", "");
     fs::create_symlink("home/run", folder.path("link"));
     const test::ProgramResult result = test::runProgram("sh '" + folder.path("link") + "' info 'a b'");
     EXPECT_EQ(result.status, 0) << result.output;

@@ -1,4 +1,4 @@
-// This program as a process of its own, as a user starts it.
+// The fieldwright command as a process of its own, as a user starts it: the one beside this program.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ struct Outcome {
     uint64_t peakBytes = 0;   ///< greatest resident set, or this process's at the spawn if that was more
 };
 
-/// Runs this program with arguments; caches lie in `cache`, what it prints is dropped. Watching its memory
+/// Runs it with arguments; caches lie in `cache`, what it prints is dropped. Watching its memory
 /// costs it some time.
-Outcome runSelf(std::vector<std::string> arguments, const std::string& cache);
+Outcome runCommand(std::vector<std::string> arguments, const std::string& cache);
 
 /// A folder of its own under the system's for temporary files, removed with its content at the end.
 struct TemporaryFolder {

@@ -1,4 +1,4 @@
-#include "tests/bench/self.h"
+#include "tests/bench/command.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -16,8 +16,9 @@ extern char** environ;
 
 namespace fw::bench {
 
-Outcome runSelf(std::vector<std::string> arguments, const std::string& cache) {
-    arguments.insert(arguments.begin(), "/proc/self/exe");
+Outcome runCommand(std::vector<std::string> arguments, const std::string& cache) {
+    arguments.insert(arguments.begin(),
+                     std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fieldwright");
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
