@@ -24,7 +24,7 @@
 // each patch of surface in a cell, where the planes of its edges meet (shaders/mesher/contour.comp), and each
 // active edge gives two triangles between the four patches about it: creases and corners are sharp. A patch
 // is a polygon of the same table, so this surface is closed, oriented and manifold too, once the rare faces
-// have been seen to at which two patches meet twice (mesher_pinches.h). Triangles may cut each other where
+// have been seen to at which two patches meet twice (pinches.h). Triangles may cut each other where
 // the field bends at the scale of a cell.
 //
 // A region can be meshed in tiles of whole blocks, each by a run of its own. Bricks and samples are numbered
@@ -44,6 +44,8 @@
 #include "runtime/gpu/field_buffers.h"
 #include "runtime/mesh/mesh.h"
 #include "shaders/shared.h"
+// after shared.h
+#include "shaders/mesher/mesher.h"
 
 namespace fw {
 
@@ -75,7 +77,7 @@ inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are n
 /// The kernels for one field. Most do not depend on it and are shared between fields; those that only long
 /// grids or large meshes need are built at their first use.
 struct MesherPipelines {
-    std::vector<std::shared_ptr<Pipeline>> all;  ///< in the order of mesher.cpp's Kernel; some may be empty
+    std::vector<std::shared_ptr<Pipeline>> all;  ///< in the order of kernels.h; some may be empty
     std::string field;
 };
 
@@ -124,10 +126,5 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 
 /// Copies the last mesh to the host, vertex for vertex.
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);
-
-/// A unit vector in a word, as lib/octahedral.glsl packs it.
-uint32_t packOctahedral(glm::dvec3 vector);
-/// The unit vector that lib/octahedral.glsl packed.
-glm::vec3 unpackOctahedral(uint32_t word);
 
 }  // namespace fw

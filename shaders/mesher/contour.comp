@@ -13,15 +13,15 @@
 #include "lib/octahedral.glsl"
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
-layout(binding = 3, rgba32ui) readonly uniform uimageBuffer points;  // MeshVertex of each active edge
-layout(binding = 4, scalar) readonly buffer Sums { uvec4 sums[]; };  // edges.glsl
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 8, rgba32ui) readonly uniform uimageBuffer edges;
+layout(binding = MESHER_AT_POINTS, rgba32ui) readonly uniform uimageBuffer points;  // MeshVertex of each active edge
+layout(binding = MESHER_AT_SUMS, scalar) readonly buffer Sums { uvec4 sums[]; };  // edges.glsl
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_EDGES, rgba32ui) readonly uniform uimageBuffer edges;
 // Bit of the strip (5), strip (24); polygon (10: packedCellPatches()), whether it is the cell's only one (1).
-layout(binding = 9, scalar) readonly buffer PatchList { uvec2 patchList[]; };
-layout(binding = 11, scalar) uniform Table { uvec3 table[1024]; };
-layout(binding = 12, scalar) writeonly buffer Corners { uint corners[]; };  // quads.comp
-layout(binding = 13, scalar) writeonly buffer Vertices { uvec4 vertices[]; };
+layout(binding = MESHER_AT_PATCH_LIST, scalar) readonly buffer PatchList { uvec2 patchList[]; };
+layout(binding = MESHER_AT_TABLE, scalar) uniform Table { uvec3 table[1024]; };
+layout(binding = MESHER_AT_CORNERS, scalar) writeonly buffer Corners { uint corners[]; };  // quads.comp
+layout(binding = MESHER_AT_MESH, scalar) writeonly buffer Vertices { uvec4 vertices[]; };
 
 const float kSoftness = 0.002;  // of the planes' whole weight
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "runtime/measure/mesh_report.h"
+#include "runtime/mesh/octahedral.h"
 #include "runtime/mesher/marching_cubes_table.h"
 #include "tests/support/gpu.h"
 
