@@ -13,8 +13,8 @@ constexpr const char* kNames[kernelCount] = {
     "mesher/cull.comp",       "mesher/prune.comp",      "mesher/top_bricks.comp", "mesher/compact.comp",
     "mesher/link.comp",       "mesher/sample.comp",     "mesher/classify.comp",   "mesher/classify.comp",
     "mesher/top_groups.comp", "mesher/top_groups.comp", "mesher/top_groups.comp", "mesher/triangles.comp",
-    "mesher/patches.comp",    "mesher/vertices.comp",   "mesher/contour.comp",    "mesher/quads.comp",
-    "mesher/colors.comp"};
+    "mesher/patches.comp",    "mesher/vertices.comp",   "mesher/contour.comp",    "mesher/contour.comp",
+    "mesher/quads.comp",      "mesher/colors.comp"};
 
 }  // namespace
 
@@ -30,6 +30,7 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
         if (kernel == prune64) options.constants = {64};
         if (kernel == prune32) options.constants = {32};
         if (kernel == prune16) options.constants = {16};
+        if (kernel == contourListed) options.defines = {"MESHER_LISTED"};
         if (kernel == classifyDual) options.constants = {true};
         if (kernel == topGroupsChunked) options.constants = {true};
         if (kernel == topGroupsDual) options.constants = {false, true};
@@ -58,10 +59,11 @@ MesherPipelines createMesherPipelines(const Device& device, std::string field, b
     for (Kernel kernel : {prune64, prune32, prune16, blocks, cull, prune8, sample, vertices, colors})
         pipelines.all[kernel] = nullptr;
     build(device, pipelines,
-          {cull, sample, vertices, topBricks, compact, link, classify, topGroups, triangles,
-           wantColors ? colors : vertices, pruned ? prune64 : cull, pruned ? prune32 : cull,
-           pruned ? prune16 : cull, pruned ? prune8 : cull},
+          {cull, sample, vertices, topBricks, compact, wantColors ? colors : vertices,
+           pruned ? prune64 : cull, pruned ? prune32 : cull, pruned ? prune16 : cull, pruned ? prune8 : cull},
           times, when);
+    if (!connectsOnHost(device, {}))
+        build(device, pipelines, {link, classify, topGroups, triangles}, times, when);
     return pipelines;
 }
 

@@ -27,10 +27,16 @@ enum Kernel {
     patches,
     vertices,
     contour,
+    contourListed,
     quads,
     colors,
     kernelCount
 };
+
+/// Whether connect() takes the place of the kernels from `link` to `triangles`.
+inline bool connectsOnHost(const Device& device, const MesherConfig& config) {
+    return config.connectOnHost && device.software && device.unifiedMemory;
+}
 
 /// Builds those of `kernels` that are not built yet.
 void build(const Device& device, MesherPipelines& pipelines, std::initializer_list<Kernel> kernels,

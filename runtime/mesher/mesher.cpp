@@ -94,8 +94,17 @@ MesherPush prepare(const Device& device, MesherPipelines& pipelines, const Meshe
     push.margin = config.sparse ? 0 : std::numeric_limits<float>::infinity();
     push.begin = extent.first * 8u;
     push.end = extent.end * 8u;
-    if (config.host) build(device, pipelines, {topBricks, compact, link, classify, topGroups, triangles});
-    if (dual) build(device, pipelines, {classifyDual, topGroupsDual, patches, contour, quads});
+    if (config.host) build(device, pipelines, {topBricks, compact});
+    if (dual) build(device, pipelines, {quads});
+    if (connectsOnHost(device, config)) {
+        if (dual) build(device, pipelines, {contourListed});
+    } else {
+        build(device, pipelines, {link});
+        if (dual)
+            build(device, pipelines, {classifyDual, topGroupsDual, patches, contour});
+        else
+            build(device, pipelines, {classify, topGroups, triangles});
+    }
     push.blocksListed =
         std::max({extent.cells.x, extent.cells.y, extent.cells.z}) >= kCellsForBlocks && !config.host;
     if (push.blocksListed) build(device, pipelines, {blocks});

@@ -67,7 +67,9 @@ struct MesherConfig {
     bool pruned = true;    ///< a brick evaluates only the members that can matter in it; likewise
     MesherTile tile = {};  ///< of the region, the whole by default; only marching cubes takes another
     MeshMethod method = MeshMethod::marchingCubes;
-    bool colors = false;         ///< also the base colour at each vertex
+    bool colors = false;  ///< also the base colour at each vertex
+    /// Software devices make triangles of signs on the host (connect.h); the same bytes, sooner.
+    bool connectOnHost = true;
     MesherHost* host = nullptr;  ///< evaluates the field instead of kernels, which then need not be built
     bool timed = false;          ///< fill MesherResult::stages (see commands.h for what that costs)
 };
@@ -99,8 +101,8 @@ struct MesherBuffers {
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
     Buffer points;     ///< of dual contouring: gpu::MeshVertex on each active edge
     FieldLists field;  ///< of its families
-    Buffer table, patchTable, patchList, corners, pinched, blockList, blockAlive, blockSums, rows, brickList,
-        links, planes, sums, edges, vertexList, stripList;
+    Buffer table, patchTable, patchList, uses, corners, pinched, blockList, blockAlive, blockSums, rows,
+        brickList, links, planes, sums, edges, vertexList, stripList;
     uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;
 };
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "runtime/mesher/connect.h"
 #include "runtime/mesher/host.h"
 #include "runtime/mesher/kernels.h"
 #include "runtime/mesher/sizes.h"
+#include "runtime/system/clock.h"
 
 namespace fw::mesher {
 
@@ -33,6 +35,7 @@ struct Recording {
     const Device& device = commands.device;
     bool dual = config.method == MeshMethod::dualContouring;
     bool pruned = push.listStart != 0;
+    bool byHost = connectsOnHost(device, config);
     std::vector<uint32_t> brickList = {};  // with a host for the field
 
     void indirect(Kernel kernel, uint32_t arguments, const std::vector<Descriptor>& more) {
@@ -99,8 +102,10 @@ void recordCompact(Recording& r) {
                 {MESHER_AT_ROWS, b.rows},
                 {MESHER_AT_SUMS, b.blockSums},
                 {MESHER_AT_BRICK_LIST, b.brickList}});
-    r.indirect(link, MESHER_LINKS,
-               {{MESHER_AT_ROWS, b.rows}, {MESHER_AT_BRICK_LIST, b.brickList}, {MESHER_AT_LINKS, b.links}});
+    if (!r.byHost)
+        r.indirect(
+            link, MESHER_LINKS,
+            {{MESHER_AT_ROWS, b.rows}, {MESHER_AT_BRICK_LIST, b.brickList}, {MESHER_AT_LINKS, b.links}});
     if (r.pruned) {
         beginStage(r.commands, "prune");
         r.indirect(prune8, MESHER_LINKS, r.listed({{MESHER_AT_BRICK_LIST, b.brickList}}));
@@ -154,6 +159,15 @@ void recordTriangles(Recording& r) {
                             uint64_t(MESHER_TRIANGLE_CHUNK) * 12)});
 }
 
+/// Classifies and writes triangles, or patches, on the host.
+void recordConnect(Recording& r) {
+    beginStage(r.commands, "connect");
+    if (!r.commands.timed) flush(r.commands);
+    const auto start = Clock::now();
+    connect(r.b, r.push, r.dual);
+    if (r.commands.timed) r.commands.stages.back().milliseconds += millisecondsSince(start);
+}
+
 void recordPatches(Recording& r) {
     const MesherBuffers& b = r.b;
     beginStage(r.commands, "patches");
@@ -195,7 +209,7 @@ void recordContour(Recording& r) {
     beginStage(r.commands, "contour");
     const uint32_t vertexChunks = chunksOf(r.push.vertexCapacity, MESHER_VERTEX_CHUNK);
     for (r.push.chunk = 0; r.push.chunk < vertexChunks; ++r.push.chunk)
-        r.indirect(contour, MESHER_VERTICES + r.push.chunk,
+        r.indirect(r.byHost ? contourListed : contour, MESHER_VERTICES + r.push.chunk,
                    {{MESHER_AT_POINTS, b.points},
                     {MESHER_AT_SUMS, b.sums},
                     {MESHER_AT_BRICK_LIST, b.brickList},
@@ -203,7 +217,7 @@ void recordContour(Recording& r) {
                     {MESHER_AT_EDGES, b.edges},
                     {MESHER_AT_PATCH_LIST, b.patchList},
                     {MESHER_AT_TABLE, b.patchTable},
-                    {MESHER_AT_CORNERS, b.corners},
+                    {MESHER_AT_CORNERS, r.byHost ? b.uses : b.corners},
                     r.verticesOf(b.vertices)});
     beginStage(r.commands, "quads");
     const uint32_t quadChunks = chunksOf(edgeCapacity(b, r.dual), MESHER_QUAD_CHUNK);
@@ -247,11 +261,15 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
     recordCull(r);
     recordCompact(r);
     recordSample(r);
-    recordClassify(r);
-    if (r.dual)
-        recordPatches(r);
-    else
-        recordTriangles(r);
+    if (r.byHost) {
+        recordConnect(r);
+    } else {
+        recordClassify(r);
+        if (r.dual)
+            recordPatches(r);
+        else
+            recordTriangles(r);
+    }
     if (!recordPoints(r)) return;
     if (r.dual) recordContour(r);
     if (hasColors(config)) recordColors(r);

@@ -47,7 +47,8 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
         reserve(device, buffers.points, edges * sizeof(gpu::MeshVertex));
         reserve(device, buffers.corners, edges * 16);
         reserve(device, buffers.pinched, edges * 4);
-        reserve(device, buffers.patchList, uint64_t(buffers.vertexCapacity) * 8);
+        reserve(device, buffers.patchList, uint64_t(buffers.vertexCapacity) * 16);
+        if (device.software) reserve(device, buffers.uses, edges * 16);
     }
     reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
     if (wantColors) reserve(device, buffers.colors, uint64_t(buffers.vertexCapacity) * 12);

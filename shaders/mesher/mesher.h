@@ -34,7 +34,7 @@ namespace fw::gpu {
 #define MESHER_AT_TABLE 18   // marching_cubes_table.h
 #define MESHER_AT_STRIP_LIST 19
 #define MESHER_AT_PATCH_LIST 20
-#define MESHER_AT_CORNERS 21
+#define MESHER_AT_CORNERS 21  // of quads; or, where these are written, the edges of patches
 #define MESHER_AT_PINCHED 22
 #define MESHER_AT_VERTICES 23  // all of them, to be read
 #define MESHER_AT_COLORS 24
