@@ -141,6 +141,7 @@ Work leastWork(const std::string& stage, const MesherResult& mesh, double gridBr
     if (stage == "cull") return {rows, gridBricks * 2 * field.all};
     if (stage == "compact") return {rows + bricks * 36, 0};
     if (stage == "sample") return {planes, bricks * field.brick};
+    if (stage == "connect") return {planes + 12 * triangles + 4 * vertices, 0};
     if (stage == "classify") return {planes + lookup, 0};
     if (stage == "triangles") return {planes + lookup + 12 * triangles + 4 * vertices, 0};
     // Two evaluations find the root and one component of the gradient, two the others, each with a
