@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <unordered_map>
 
+#include "runtime/mesh/octahedral.h"
 #include "runtime/mesher/mesher.h"
 #include "runtime/system/output_file.h"
 

@@ -7,7 +7,7 @@
 #include <glm/vector_relational.hpp>
 #include <thread>
 
-#include "runtime/mesher/mesher.h"
+#include "runtime/mesh/octahedral.h"
 
 namespace fw {
 

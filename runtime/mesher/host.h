@@ -15,6 +15,8 @@
 
 #include "graph/evaluate/tape.h"
 #include "shaders/shared.h"
+// after shared.h
+#include "shaders/mesher/mesher.h"
 
 namespace fw {
 

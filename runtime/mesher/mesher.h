@@ -24,7 +24,7 @@
 // each patch of surface in a cell, where the planes of its edges meet (shaders/mesher/contour.comp), and each
 // active edge gives two triangles between the four patches about it: creases and corners are sharp. A patch
 // is a polygon of the same table, so this surface is closed, oriented and manifold too, once the rare faces
-// have been seen to at which two patches meet twice (mesher_pinches.h). Triangles may cut each other where
+// have been seen to at which two patches meet twice (pinches.h). Triangles may cut each other where
 // the field bends at the scale of a cell.
 //
 // A region can be meshed in tiles of whole blocks, each by a run of its own. Bricks and samples are numbered
@@ -44,6 +44,8 @@
 #include "runtime/gpu/field_buffers.h"
 #include "runtime/mesh/mesh.h"
 #include "shaders/shared.h"
+// after shared.h
+#include "shaders/mesher/mesher.h"
 
 namespace fw {
 
@@ -65,7 +67,9 @@ struct MesherConfig {
     bool pruned = true;    ///< a brick evaluates only the members that can matter in it; likewise
     MesherTile tile = {};  ///< of the region, the whole by default; only marching cubes takes another
     MeshMethod method = MeshMethod::marchingCubes;
-    bool colors = false;         ///< also the base colour at each vertex
+    bool colors = false;  ///< also the base colour at each vertex
+    /// Software devices make triangles of signs on the host (connect.h); the same bytes, sooner.
+    bool connectOnHost = true;
     MesherHost* host = nullptr;  ///< evaluates the field instead of kernels, which then need not be built
     bool timed = false;          ///< fill MesherResult::stages (see commands.h for what that costs)
 };
@@ -75,7 +79,7 @@ inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are n
 /// The kernels for one field. Most do not depend on it and are shared between fields; those that only long
 /// grids or large meshes need are built at their first use.
 struct MesherPipelines {
-    std::vector<std::shared_ptr<Pipeline>> all;  ///< in the order of mesher.cpp's Kernel; some may be empty
+    std::vector<std::shared_ptr<Pipeline>> all;  ///< in the order of kernels.h; some may be empty
     std::string field;
 };
 
@@ -97,8 +101,8 @@ struct MesherBuffers {
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
     Buffer points;     ///< of dual contouring: gpu::MeshVertex on each active edge
     FieldLists field;  ///< of its families
-    Buffer table, patchTable, patchList, corners, pinched, blockList, blockAlive, blockSums, rows, brickList,
-        links, planes, sums, edges, vertexList, stripList;
+    Buffer table, patchTable, patchList, uses, corners, pinched, blockList, blockAlive, blockSums, rows,
+        brickList, links, planes, sums, edges, vertexList, stripList;
     uint32_t brickCapacity = 0, vertexCapacity = 0, triangleCapacity = 0;
 };
 
@@ -124,10 +128,5 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 
 /// Copies the last mesh to the host, vertex for vertex.
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result);
-
-/// A unit vector in a word, as lib/octahedral.glsl packs it.
-uint32_t packOctahedral(glm::dvec3 vector);
-/// The unit vector that lib/octahedral.glsl packed.
-glm::vec3 unpackOctahedral(uint32_t word);
 
 }  // namespace fw

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "runtime/mesh/creases.h"
+#include "runtime/mesh/octahedral.h"
 #include "runtime/system/clock.h"
 
 namespace fw {

@@ -7,6 +7,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "graph/base/parallel.h"
+#include "runtime/mesh/octahedral.h"
 #include "runtime/mesher/mesher.h"
 
 namespace fw {

@@ -2,7 +2,7 @@
 //
 // The talk's histopyramid sums counts level by level and walks down again for each output. Here the base level is the
 // work group (its counts never leave registers), the level above it one sum a group, and the top is summed by one
-// group alone (mesher/top.glsl). Reading down is two additions, and the places are the same on every run.
+// group alone (lib/top.glsl). Reading down is two additions, and the places are the same on every run.
 //
 // Needs: HISTOPYRAMID_LANES, the size of the work group, and HISTOPYRAMID_TYPE, what is counted: uint to uvec4.
 

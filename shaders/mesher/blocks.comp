@@ -9,8 +9,8 @@
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
-layout(binding = 1, scalar) writeonly buffer BlockList { uint blockList[]; };
-layout(binding = 2, scalar) buffer BlockAlive { uint blockAlive[]; };
+layout(binding = MESHER_AT_BLOCK_LIST, scalar) writeonly buffer BlockList { uint blockList[]; };
+layout(binding = MESHER_AT_BLOCK_ALIVE, scalar) buffer BlockAlive { uint blockAlive[]; };
 
 void main() {
     fieldBegin();

@@ -15,8 +15,8 @@
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
 layout(constant_id = 0) const bool kDual = false;
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 12, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, its first triangle or patch << 7, beyond the tile << 31
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_STRIP_LIST, scalar) writeonly buffer StripList { uint stripList[]; };  // strip of the group, its first triangle or patch << 7, beyond the tile << 31
 
 const uint kRow = 0x01010101u;  // y = 0 of every column
 

@@ -4,8 +4,8 @@
 #include "field.glsl"
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
-layout(binding = 13, scalar) readonly buffer Vertices { uvec4 vertices[]; };
-layout(binding = 12, scalar) writeonly buffer Colors { vec3 colors[]; };
+layout(binding = MESHER_AT_MESH, scalar) readonly buffer Vertices { uvec4 vertices[]; };
+layout(binding = MESHER_AT_COLORS, scalar) writeonly buffer Colors { vec3 colors[]; };
 
 void main() {
     fieldBegin();

@@ -3,9 +3,9 @@
 #include "mesher/rows.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 1, scalar) readonly buffer BlockList { uint blockList[]; };
-layout(binding = 4, scalar) readonly buffer BlockCounts { uvec4 blockCounts[]; };
-layout(binding = 5, scalar) writeonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_BLOCK_LIST, scalar) readonly buffer BlockList { uint blockList[]; };
+layout(binding = MESHER_AT_SUMS, scalar) readonly buffer BlockCounts { uvec4 blockCounts[]; };
+layout(binding = MESHER_AT_BRICK_LIST, scalar) writeonly buffer BrickList { uint brickList[]; };
 
 void main() {
     uint group = linearGroup();

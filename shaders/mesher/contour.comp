@@ -13,17 +13,21 @@
 #include "lib/octahedral.glsl"
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
-layout(binding = 3, rgba32ui) readonly uniform uimageBuffer points;  // MeshVertex of each active edge
-layout(binding = 4, scalar) readonly buffer Sums { uvec4 sums[]; };  // edges.glsl
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 8, rgba32ui) readonly uniform uimageBuffer edges;
-// Bit of the strip (5), strip (24); polygon (10: packedCellPatches()), whether it is the cell's only one (1).
-layout(binding = 9, scalar) readonly buffer PatchList { uvec2 patchList[]; };
-layout(binding = 11, scalar) uniform Table { uvec3 table[1024]; };
-layout(binding = 12, scalar) writeonly buffer Corners { uint corners[]; };  // quads.comp
-layout(binding = 13, scalar) writeonly buffer Vertices { uvec4 vertices[]; };
+layout(binding = MESHER_AT_POINTS, rgba32ui) readonly uniform uimageBuffer points;  // MeshVertex of each active edge
+layout(binding = MESHER_AT_MESH, scalar) writeonly buffer Vertices { uvec4 vertices[]; };
 
-const float kSoftness = 0.002;  // of the planes' whole weight
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
+#ifdef MESHER_LISTED  // connect.h has written the corners, and the edges of each patch
+// Cell (9), slot; the first of its uses; how many; whether it is the cell's only one.
+layout(binding = MESHER_AT_PATCH_LIST, rgba32ui) readonly uniform uimageBuffer patchList;
+layout(binding = MESHER_AT_CORNERS, scalar) readonly buffer Uses { uint uses[]; };
+#else
+layout(binding = MESHER_AT_SUMS, scalar) readonly buffer Sums { uvec4 sums[]; };  // edges.glsl
+layout(binding = MESHER_AT_EDGES, rgba32ui) readonly uniform uimageBuffer edges;
+// Bit of the strip (5), strip (24); polygon (10: packedCellPatches()), whether it is the cell's only one (1).
+layout(binding = MESHER_AT_PATCH_LIST, scalar) readonly buffer PatchList { uvec2 patchList[]; };
+layout(binding = MESHER_AT_TABLE, scalar) uniform Table { uvec3 table[1024]; };
+layout(binding = MESHER_AT_CORNERS, scalar) writeonly buffer Corners { uint corners[]; };  // quads.comp
 
 /// The active edge that a code of the table tells, of the cell at bit `bit` of the strip.
 uint edgeOf(uint code, uint slot, uint z, uint side, uint bit) {
@@ -36,6 +40,9 @@ uint edgeOf(uint code, uint slot, uint z, uint side, uint bit) {
     uint line = axis == 0 ? strip.x : axis == 1 ? strip.y : strip.z;
     return sums[to / MESHER_GROUP_BRICKS].x + strip.w + before + bitCount(line & ((1u << own) - 1));
 }
+#endif
+
+const float kSoftness = 0.002;  // of the planes' whole weight
 
 /// A symmetric matrix: its diagonal, and yz, zx, xy.
 struct Symmetric {
@@ -73,11 +80,21 @@ void main() {
     uint chunkStart = push.chunk * MESHER_VERTEX_CHUNK;
     uint index = linearGroup() * MESHER_GROUP_VERTICES + gl_LocalInvocationIndex;
     bool valid = chunkStart + index < counts.vertices && index < MESHER_VERTEX_CHUNK;
+#ifdef MESHER_LISTED
+    uvec4 entry = imageLoad(patchList, int(chunkStart + (valid ? index : 0)));
+    uint use = entry.y, lastUse = entry.y + entry.z - 1;
+    bool alone = entry.w != 0;
+    uint cellAt = entry.x & 511;
+    uvec3 inBrick = uvec3(cellAt >> 3 & 7, cellAt & 7, cellAt >> 6);
+    uint slot = entry.x >> 9;
+#else
     uvec2 entry = patchList[chunkStart + (valid ? index : 0)];
-    uint bit = entry.x & 31, side = entry.x >> 5 & 1, z = entry.x >> 6 & 7, slot = entry.x >> 9;
     bool alone = (entry.y & 1024) != 0;
     uvec3 codes = table[entry.y & 1023];
-    uvec3 cell = unpackBrick(brickList[slot]) * 8 + uvec3(side * 4 + (bit >> 3), bit & 7, z);
+    uint bit = entry.x & 31, side = entry.x >> 5 & 1, z = entry.x >> 6 & 7, slot = entry.x >> 9;
+    uvec3 inBrick = uvec3(side * 4 + (bit >> 3), bit & 7, z);
+#endif
+    uvec3 cell = unpackBrick(brickList[slot]) * 8 + inBrick;
     vec3 middle = 0.5 * (samplePosition(cell) + samplePosition(cell + 1));
 
     // In cells from the cell's middle.
@@ -86,8 +103,15 @@ void main() {
     float count = 0.0;
     bool open = true;
     do {  // as long as any lane; one that is done adds nothing: Mesa 22.3 lets vectors grow in lanes that left a loop
+#ifdef MESHER_LISTED
+        uint edge = uses[use];
+        bool last = use == lastUse;
+        use += last ? 0 : 1;
+#else
         uint code = codes.x & 255;
         uint edge = edgeOf(code, slot, z, side, bit);
+        bool last = (code & 128) != 0;
+#endif
         uvec4 point = imageLoad(points, int(edge));
         vec3 p = (uintBitsToFloat(point.xyz) - middle) / push.cellSize;
         vec3 outwards = unpackOctahedral(point.w);
@@ -99,11 +123,13 @@ void main() {
         normals += open ? outwards : vec3(0);
         normal = open ? outwards : normal;
         count += open ? 1.0 : 0.0;
+#ifndef MESHER_LISTED
         uint axis = code >> 3 & 3, x = code >> 5 & 1, y = code & 1, up = code >> 2 & 1;
         uint corner = (axis == 0 ? y : x) | (axis == 2 ? y : up) << 1;
         if (valid && open) corners[edge * 4 + corner] = chunkStart + index | (code & 2) << 29 | (code & 64) << 25;
-        open = open && (code & 128) == 0;
         codes = uvec3(codes.x >> 8 | codes.y << 24, codes.y >> 8 | codes.z << 24, codes.z >> 8);
+#endif
+        open = open && !last;
     } while (subgroupAny(open));
     mean /= count;
     Symmetric soft = Symmetric(planes.d + kSoftness * count, planes.o);

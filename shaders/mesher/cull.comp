@@ -11,8 +11,8 @@
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
-layout(binding = 1, scalar) readonly buffer BlockList { uint blockList[]; };
-layout(binding = 4, scalar) writeonly buffer BlockCounts { uvec4 blockCounts[]; };
+layout(binding = MESHER_AT_BLOCK_LIST, scalar) readonly buffer BlockList { uint blockList[]; };
+layout(binding = MESHER_AT_SUMS, scalar) writeonly buffer BlockCounts { uvec4 blockCounts[]; };
 
 void main() {
     fieldBegin();

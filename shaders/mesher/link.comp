@@ -4,7 +4,7 @@
 #include "mesher/links.glsl"
 
 layout(local_size_x = MESHER_GROUP_LINKS) in;
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
 
 void main() {
     uint slot = linearGroup() * MESHER_GROUP_LINKS + gl_LocalInvocationIndex;

@@ -1,6 +1,6 @@
 // The list of active edges, each at its place. An entry holds, from the lowest bit: bit of the strip (5), axis (2), strip
 // (24: side, z, slot), whether the edge's start is inside (1).
-layout(binding = 10, scalar) writeonly buffer VertexList { uint vertexList[]; };
+layout(binding = MESHER_AT_VERTEX_LIST, scalar) writeonly buffer VertexList { uint vertexList[]; };
 
 /// Lists those of a strip: `strip` is its entry of the edge -> vertex lookup, with the place of its first edge among all.
 void listEdges(uint own, uvec4 strip, uint insideAtStart, bool valid) {

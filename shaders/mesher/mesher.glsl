@@ -1,9 +1,10 @@
 // What all mesher kernels share: the push constants, the counts, and how grid points are numbered.
 #include "shared.h"
+#include "mesher/mesher.h"
 #include "lib/groups.glsl"
 
 layout(push_constant, scalar) uniform Push { MesherPush push; };
-layout(binding = 0, scalar) buffer Counts { MesherCounts counts; };
+layout(binding = MESHER_AT_COUNTS, scalar) buffer Counts { MesherCounts counts; };
 
 /// Work groups of a dispatch over many items are spread evenly over two axes: a group too many runs, if to no effect.
 const uint kMostGroups = 65535;  // along one axis

@@ -7,9 +7,9 @@
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLanes = 32;
-layout(binding = 9, scalar) writeonly buffer PatchList { uvec2 patchList[]; };  // contour.comp says what it holds
-layout(binding = 11, scalar) uniform Table { uvec3 table[1024]; };              // packedCellPatches()
-layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
+layout(binding = MESHER_AT_PATCH_LIST, scalar) writeonly buffer PatchList { uvec2 patchList[]; };  // contour.comp says what it holds
+layout(binding = MESHER_AT_TABLE, scalar) uniform Table { uvec3 table[1024]; };              // packedCellPatches()
+layout(binding = MESHER_AT_STRIP_LIST, scalar) readonly buffer StripList { uint stripList[]; };
 
 void main() {
     uint group = counts.groupStart[0] + linearGroup();

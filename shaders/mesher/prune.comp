@@ -11,7 +11,7 @@ bool fieldMayHold(vec2 f);
 
 layout(constant_id = 0) const uint kSize = 8;  // cells along a side: 64, 32, 16, or 8 for bricks
 layout(local_size_x = MESHER_GROUP_LINKS) in;
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
 
 uvec3 first;  // sample of the box
 

@@ -5,19 +5,19 @@
 // count as far.
 //
 // A face of a cell over which one patch runs twice on either side joins the same two vertices by two edges of the mesh:
-// four triangles would share one. Quads at such a face are listed (`pinched`); the host parts them (mesher.cpp).
+// four triangles would share one. Quads at such a face are listed (`pinched`); the host parts them (pinches.cpp).
 #include "mesher/mesher.glsl"
 #include "lib/octahedral.glsl"
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
-layout(binding = 3, rgba32ui) readonly uniform uimageBuffer points;    // MeshVertex of each active edge
-layout(binding = 7, rgba32ui) readonly uniform uimageBuffer vertices;  // MeshVertex
-layout(binding = 10, scalar) readonly buffer VertexList { uint vertexList[]; };  // list_edges.glsl
+layout(binding = MESHER_AT_POINTS, rgba32ui) readonly uniform uimageBuffer points;    // MeshVertex of each active edge
+layout(binding = MESHER_AT_VERTICES, rgba32ui) readonly uniform uimageBuffer vertices;  // MeshVertex
+layout(binding = MESHER_AT_VERTEX_LIST, scalar) readonly buffer VertexList { uint vertexList[]; };  // list_edges.glsl
 // Four for each active edge: the vertex of the cell that lies against the first of the other two axes, then against the
 // second, then against both. Bits 30 and 31: the patch runs twice over its face across the first, the second axis.
-layout(binding = 12, scalar) readonly buffer Corners { uvec4 corners[]; };
-layout(binding = 13, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
-layout(binding = 9, scalar) writeonly buffer Pinched { uint pinched[]; };
+layout(binding = MESHER_AT_CORNERS, scalar) readonly buffer Corners { uvec4 corners[]; };
+layout(binding = MESHER_AT_MESH, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
+layout(binding = MESHER_AT_PINCHED, scalar) writeonly buffer Pinched { uint pinched[]; };
 
 const float kThin = 1e-4;  // height of a triangle over its longest side, below which it counts as without area
 

@@ -1,6 +1,6 @@
 // Rows: which bricks survived, and the slot of each. A row is eight bricks along x: their bits, and the slot of the
 // first survivor among them; a brick's slot is that plus the number of survivors before it.
-layout(binding = 3, scalar) buffer Rows { uvec2 rows[]; };
+layout(binding = MESHER_AT_ROWS, scalar) buffer Rows { uvec2 rows[]; };
 
 /// `brick` is counted from the tile's first.
 uint rowIndex(uvec3 brick) {

@@ -11,8 +11,8 @@
 #include "field.glsl"
 
 layout(local_size_x = 9 * MESHER_GROUP_BRICKS) in;
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 7, scalar) writeonly buffer Planes { uvec3 planes[]; };
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_PLANES, scalar) writeonly buffer Planes { uvec3 planes[]; };
 
 #ifdef FIELD_ALONG
 // Bits 0, 9 and 18 of each word: one of each row.

@@ -3,7 +3,7 @@
 // A strip is four columns of eight cells: bit (x & 3) * 8 + y. A plane has two of them, x < 4 and x >= 4. All below is
 // bit-parallel over the cells of a strip.
 
-layout(binding = 7, scalar) readonly buffer Planes { uvec3 planes[]; };  // sample.comp tells what the words hold
+layout(binding = MESHER_AT_PLANES, scalar) readonly buffer Planes { uvec3 planes[]; };  // sample.comp tells what the words hold
 
 /// Signs of the samples of a plane at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) of each cell of a strip.
 struct StripSigns {

@@ -1,6 +1,7 @@
 // Sums the survivors of all blocks and sets up the kernels over bricks, or stops them if there is not enough room.
 #include "mesher/mesher.glsl"
-#include "mesher/top.glsl"
+#define TOP_SUMS MESHER_AT_SUMS
+#include "lib/top.glsl"
 
 void main() {
     uint blocks = push.blocksListed != 0 ? counts.blocks : blockCount();

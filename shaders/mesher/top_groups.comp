@@ -1,7 +1,8 @@
 // Sums the active edges, and triangles or patches, of all groups of bricks, checks them against the room there is, and sets up the kernels
 // that write them.
 #include "mesher/mesher.glsl"
-#include "mesher/top.glsl"
+#define TOP_SUMS MESHER_AT_SUMS
+#include "lib/top.glsl"
 
 layout(constant_id = 0) const bool kChunked = false;  // the buffers have room for more than one chunk of triangles
 layout(constant_id = 1) const bool kDual = false;     // a vertex for each patch, two triangles for each active edge

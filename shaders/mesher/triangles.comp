@@ -8,15 +8,15 @@
 #include "mesher/links.glsl"
 #include "mesher/list_edges.glsl"
 // edges.glsl says what these hold. As texels they come in one load each, without a branch a lane on software devices.
-layout(binding = 8, rgba32ui) readonly uniform uimageBuffer edges;
-layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
+layout(binding = MESHER_AT_EDGES, rgba32ui) readonly uniform uimageBuffer edges;
+layout(binding = MESHER_AT_SUMS, scalar) buffer Sums { uvec4 sums[]; };
 
 // A group has some eighty strips; small work groups leave few lanes without one.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLanes = 32;
-layout(binding = 11, scalar) uniform Table { uvec3 table[256]; };                 // marching_cubes_table.h
-layout(binding = 12, scalar) readonly buffer StripList { uint stripList[]; };
-layout(binding = 13, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
+layout(binding = MESHER_AT_TABLE, scalar) uniform Table { uvec3 table[256]; };                 // marching_cubes_table.h
+layout(binding = MESHER_AT_STRIP_LIST, scalar) readonly buffer StripList { uint stripList[]; };
+layout(binding = MESHER_AT_MESH, scalar) writeonly buffer Triangles { uvec3 triangles[]; };
 
 // Active edges and first vertex, by axis * 8 + where the strip is: x | y << 1 | z << 2, one further along these axes.
 uvec2 lookup[24];

@@ -13,9 +13,9 @@
 #include "lib/octahedral.glsl"
 
 layout(local_size_x = MESHER_GROUP_VERTICES) in;
-layout(binding = 5, scalar) readonly buffer BrickList { uint brickList[]; };
-layout(binding = 10, scalar) readonly buffer VertexList { uint vertexList[]; };
-layout(binding = 13, scalar) writeonly buffer Vertices { uvec4 vertices[]; };  // MeshVertex in one store
+layout(binding = MESHER_AT_BRICK_LIST, scalar) readonly buffer BrickList { uint brickList[]; };
+layout(binding = MESHER_AT_VERTEX_LIST, scalar) readonly buffer VertexList { uint vertexList[]; };
+layout(binding = MESHER_AT_MESH, scalar) writeonly buffer Vertices { uvec4 vertices[]; };  // MeshVertex in one store
 
 const uint kMostSteps = 10;       // halving alone then reaches a thousandth of the edge
 const float kTolerance = 0.02;   // of the edge; the Newton step at the end squares what is left

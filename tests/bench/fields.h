@@ -38,17 +38,21 @@ constexpr float regionHalf(Field field) {
 /// Path of the graph file that says the same field.
 std::string benchGraph(Field field);
 
+/// By value, so that loops over them become vectors, which those of references do not.
+inline float larger(float a, float b) { return a < b ? b : a; }
+inline float smaller(float a, float b) { return b < a ? b : a; }
+
 /// Remainder of the division that rounds down: GLSL's mod, in [0, period).
 inline float wrap(float x, float period) { return x - period * std::floor(x / period); }
 
 /// Distance to a box in the maximum norm.
 inline float boxMax(float x, float y, float z, float hx, float hy, float hz) {
-    return std::max(std::abs(x) - hx, std::max(std::abs(y) - hy, std::abs(z) - hz));
+    return larger(std::abs(x) - hx, larger(std::abs(y) - hy, std::abs(z) - hz));
 }
 
 /// The second greatest of three: the cross of three square tubes along the axes.
 inline float crossed(float x, float y, float z) {
-    return std::min(std::max(x, y), std::min(std::max(y, z), std::max(x, z)));
+    return smaller(larger(x, y), smaller(larger(y, z), larger(x, z)));
 }
 
 struct Tower {
@@ -56,10 +60,10 @@ struct Tower {
         float tubes =
             crossed(std::abs(wrap(x, 0.5f) - 0.25f) - 0.15f, std::abs(wrap(y, 0.5f) - 0.25f) - 0.15f,
                     std::abs(wrap(z, 0.5f) - 0.25f) - 0.15f);
-        float d = std::max(boxMax(x, y, z, 1, 2, 1), -tubes);
+        float d = larger(boxMax(x, y, z, 1, 2, 1), -tubes);
         float floors =
             boxMax(wrap(x, 1) - 0.5f, wrap(y + 0.25f, 1) - 0.5f, wrap(z, 1) - 0.5f, 0.45f, 0.2f, 0.45f);
-        return std::max(d, -floors);
+        return larger(d, -floors);
     }
 };
 
@@ -72,7 +76,7 @@ struct Menger {
     }
     static float at(float x, float y, float z) {
         float d = boxMax(x, y, z, 1, 1, 1);
-        for (float period : {2.0f, 2.0f / 3, 2.0f / 9}) d = std::max(d, -hole(x, y, z, period));
+        for (float period : {2.0f, 2.0f / 3, 2.0f / 9}) d = larger(d, -hole(x, y, z, period));
         return d;
     }
 };
@@ -82,16 +86,16 @@ struct Gyroid {
         const float k = 12;
         float g = std::sin(k * x) * std::cos(k * y) + std::sin(k * y) * std::cos(k * z) +
                   std::sin(k * z) * std::cos(k * x);
-        return std::max(std::abs(g) / k - 0.03f, std::sqrt(x * x + y * y + z * z) - 1);
+        return larger(std::abs(g) / k - 0.03f, std::sqrt(x * x + y * y + z * z) - 1);
     }
 };
 
 struct Csg {
     static float at(float x, float y, float z) {
         float xx = x * x, yy = y * y, zz = z * z;
-        float d = std::max(std::sqrt(xx + yy + zz) - 1, boxMax(x, y, z, 0.75f, 0.75f, 0.75f));
+        float d = larger(std::sqrt(xx + yy + zz) - 1, boxMax(x, y, z, 0.75f, 0.75f, 0.75f));
         // The nearest of three cylinders: roots are monotonic, so one root of the least sum serves all.
-        return std::max(d, 0.5f - std::sqrt(std::min(xx + yy, std::min(yy + zz, zz + xx))));
+        return larger(d, 0.5f - std::sqrt(smaller(xx + yy, smaller(yy + zz, zz + xx))));
     }
 };
 

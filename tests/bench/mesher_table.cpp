@@ -1,4 +1,5 @@
-// Our mesher beside the plain C++ baseline, and how far each of its stages is from what the device can do.
+// Our mesher beside the plain C++ baseline and a tuned program, and how far each of its stages is from what
+// the device can do.
 #include <fstream>
 #include <map>
 
@@ -8,6 +9,7 @@
 #include "tests/bench/baseline.h"
 #include "tests/bench/peaks.h"
 #include "tests/bench/tables.h"
+#include "tests/bench/tuned.h"
 #include "tests/bench/verify.h"
 
 namespace fw::bench {
@@ -15,6 +17,11 @@ namespace {
 
 /// How many times faster than the baseline the tower must be.
 constexpr std::pair<int, double> kWanted[] = {{128, 1.6}, {256, 8}, {512, 12}};
+/// How many times as long as the tuned program a field may take, at these cells.
+constexpr int kTunedCells = 256;
+constexpr double mostOfTuned(Field field) {
+    return field == Field::tower || field == Field::csg ? 1.25 : 1.5;
+}
 /// Greatest growth of our time on the tower from 256 to 1024 cells.
 constexpr double kMostGrowth = 20;
 
@@ -26,6 +33,26 @@ double availableMemory() {
     for (std::string line; std::getline(file, line);)
         if (line.starts_with("MemAvailable:")) return 1024 * std::strtod(line.c_str() + 13, nullptr);
     return 0;
+}
+
+/// Adds the row of a field beside the tuned program, whose mesh must be as sound and as large as ours.
+void addTuned(Bench& bench, Table& table, Field field, int cells, const MesherResult& mesh,
+              const Figure& ours) {
+    Tuned tuned(cells);
+    const Figure theirs = measure(bench.options.repeats, [&] { return tuned.run(field); });
+    const std::string name = "tuned, " + std::string(fieldName(field)) + " at " + std::to_string(cells);
+    if (const std::string fault = faultOf(tuned.indices(), tuned.positions().size()); !fault.empty())
+        bench.fail(name + ": " + fault);
+    const double triangles = double(tuned.indices().size() / 3), expected = double(mesh.triangles);
+    if (std::abs(triangles - expected) > (field == Field::gyroid ? 1e-4 : 0) * expected)
+        bench.fail(name + ": " + count(uint64_t(triangles)) + " triangles, ours " + count(mesh.triangles));
+    const double part = ours.median() / theirs.median();
+    table.rows.push_back(
+        {std::string(fieldName(field)), std::to_string(cells), text(theirs), text(ours), number(part)});
+    if (cells == kTunedCells)
+        table.notes.push_back(std::string(fieldName(field)) + " at " + std::to_string(cells) + ": at most " +
+                              number(mostOfTuned(field)) + " times the tuned program wanted, " +
+                              (part <= mostOfTuned(field) ? "met" : "missed") + " (" + number(part) + ").");
 }
 
 struct Ours {
@@ -114,6 +141,7 @@ Work leastWork(const std::string& stage, const MesherResult& mesh, double gridBr
     if (stage == "cull") return {rows, gridBricks * 2 * field.all};
     if (stage == "compact") return {rows + bricks * 36, 0};
     if (stage == "sample") return {planes, bricks * field.brick};
+    if (stage == "connect") return {planes + 12 * triangles + 4 * vertices, 0};
     if (stage == "classify") return {planes + lookup, 0};
     if (stage == "triangles") return {planes + lookup + 12 * triangles + 4 * vertices, 0};
     // Two evaluations find the root and one component of the gradient, two the others, each with a
@@ -181,6 +209,8 @@ void addMeshStages(Bench& bench, Table& table, Field field, const Program& progr
 void mesherTable(Bench& bench) {
     Table speed{.title = "Field to mesh, beside the plain C++ baseline (ms)",
                 .header = {"field", "cells", "vertices", "triangles", "baseline", "ours", "times faster"}};
+    Table limit{.title = "Beside the tuned C++ program (ms)",
+                .header = {"field", "cells", "tuned", "ours", "times that"}};
     Table stages{.title = "Where the mesher's time goes (ms, each stage submitted and awaited by itself)",
                  .header = {"field", "cells"}};
     Table peak{.title = "The mesher's stages and the device's peaks (tower)",
@@ -236,6 +266,7 @@ void mesherTable(Bench& bench) {
                                   count(ours->result.vertices), count(ours->result.triangles),
                                   theirs ? text(*theirs) : "–", text(ours->total),
                                   theirs ? number(ratio) : "–"});
+            addTuned(bench, limit, field, cells, ours->result, ours->total);
             addStages(stages, field, cells, *ours);
             if (cells == kStageCells)
                 addMeshStages(bench, meshStages, field, *program, pipelines, ours->total);
@@ -294,7 +325,12 @@ void mesherTable(Bench& bench) {
                   "(each as one, at the "
                   "multiply-add rate), and no integer or bit operations, of which the stages classify and "
                   "triangles consist."};
+    limit.notes.push_back(
+        "Tuned: planes streamed through the cache, signs as bits, -O3 -march=native -ffast-math, two "
+        "threads, no "
+        "normals (tests/bench/tuned.h).");
     print(speed, bench.options.markdown);
+    print(limit, bench.options.markdown);
     print(stages, bench.options.markdown);
     print(dual, bench.options.markdown);
     print(dualStages, bench.options.markdown);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "runtime/measure/mesh_report.h"
+#include "runtime/mesh/octahedral.h"
 #include "runtime/mesher/marching_cubes_table.h"
 #include "tests/support/gpu.h"
 
@@ -73,12 +74,27 @@ struct Meshed {
     MesherResult result;
 };
 
-Meshed polygonise(const std::string& field, const MesherConfig& config) {
+/// By default also with the kernels of other devices where the host takes their place: the same to the bit.
+Meshed polygonise(const std::string& field, const MesherConfig& config, bool alsoByKernels = true) {
     MesherPipelines pipelines = createMesherPipelines(test::device(), field, config.colors);
-    MesherBuffers buffers;
-    Result<MesherResult> result = runMesher(test::device(), pipelines, buffers, config);
-    if (!result) throw SystemError(format(result.error()));
-    return {downloadMesh(test::device(), buffers, *result), *result};
+    const auto run = [&](const MesherConfig& with) -> Meshed {
+        MesherBuffers buffers;
+        Result<MesherResult> result = runMesher(test::device(), pipelines, buffers, with);
+        if (!result) throw SystemError(format(result.error()));
+        return {downloadMesh(test::device(), buffers, *result), *result};
+    };
+    const Meshed meshed = run(config);
+    if (!alsoByKernels) return meshed;
+    MesherConfig other = config;
+    other.connectOnHost = !config.connectOnHost;
+    const Meshed byKernels = run(other);
+    EXPECT_EQ(byKernels.mesh.positions, meshed.mesh.positions);
+    EXPECT_EQ(byKernels.mesh.normals, meshed.mesh.normals);
+    EXPECT_EQ(byKernels.mesh.indices, meshed.mesh.indices);
+    EXPECT_EQ(byKernels.mesh.colors, meshed.mesh.colors);
+    EXPECT_EQ(byKernels.result.capped, meshed.result.capped);
+    EXPECT_EQ(byKernels.result.runs, meshed.result.runs);
+    return meshed;
 }
 
 MesherConfig cube(float low, float high, int cells, MeshMethod method = MeshMethod::marchingCubes) {
@@ -399,28 +415,34 @@ TEST_P(EachMethod, MoreThanOneChunkOfTriangles) {
     std::string field = lipschitzField("abs(mod(p.x, 0.03125) - 0.015625) - 0.006");
     MesherPipelines pipelines = createMesherPipelines(test::device(), field);
     MesherBuffers buffers;
-    Result<MesherResult> result =
-        runMesher(test::device(), pipelines, buffers,
-                  cube(-1, 1, GetParam() == MeshMethod::dualContouring ? 220 : 300, GetParam()));
-    ASSERT_TRUE(result) << format(result.error());
-    EXPECT_GT(result->triangles, uint32_t(MESHER_TRIANGLE_CHUNK));
-    std::vector<uint32_t> indices =
-        download<uint32_t>(test::device(), buffers.triangles, std::size_t(result->triangles) * 3);
-    auto hash = [](uint64_t from, uint64_t to) {
-        uint64_t h = (from << 32 | to) * 0x9e3779b97f4a7c15ull;
-        h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull;
-        return h ^ h >> 32;
-    };
-    uint64_t sum = 0;
-    uint32_t largest = 0;
-    for (std::size_t t = 0; t < indices.size(); t += 3)
-        for (int j = 0; j < 3; ++j) {
-            uint32_t from = indices[t + j], to = indices[t + (j + 1) % 3];
-            sum += hash(from, to) - hash(to, from);
-            largest = std::max(largest, from);
-        }
-    EXPECT_EQ(sum, 0u);
-    EXPECT_EQ(largest + 1, result->vertices);
+    MesherConfig config = cube(-1, 1, GetParam() == MeshMethod::dualContouring ? 220 : 300, GetParam());
+    uint64_t sums[2];
+    for (bool onHost : {false, true}) {
+        config.connectOnHost = onHost;
+        Result<MesherResult> result = runMesher(test::device(), pipelines, buffers, config);
+        ASSERT_TRUE(result) << format(result.error());
+        EXPECT_GT(result->triangles, uint32_t(MESHER_TRIANGLE_CHUNK));
+        std::vector<uint32_t> indices =
+            download<uint32_t>(test::device(), buffers.triangles, std::size_t(result->triangles) * 3);
+        auto hash = [](uint64_t from, uint64_t to) {
+            uint64_t h = (from << 32 | to) * 0x9e3779b97f4a7c15ull;
+            h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull;
+            return h ^ h >> 32;
+        };
+        uint64_t sum = 0, order = 0;
+        uint32_t largest = 0;
+        for (std::size_t t = 0; t < indices.size(); t += 3)
+            for (int j = 0; j < 3; ++j) {
+                uint32_t from = indices[t + j], to = indices[t + (j + 1) % 3];
+                sum += hash(from, to) - hash(to, from);
+                order = order * 0x9e3779b97f4a7c15ull + from;
+                largest = std::max(largest, from);
+            }
+        EXPECT_EQ(sum, 0u);
+        EXPECT_EQ(largest + 1, result->vertices);
+        sums[onHost] = order;
+    }
+    EXPECT_EQ(sums[0], sums[1]) << "the host and the kernels disagree";
 }
 
 TEST_P(EachMethod, AnIntervalThatMissesSurfaceDoesNotTearAHole) {
@@ -441,6 +463,17 @@ TEST_P(EachMethod, NotANumberIsOutside) {
     Report report = expectClosed(meshed.mesh);
     EXPECT_NEAR(report.volume, 1.436755 / 2, 0.1);
     for (glm::vec3 n : meshed.mesh.normals) EXPECT_NEAR(glm::length(n), 1.0f, 1e-3f);
+}
+
+TEST(Mesher, TilesAreTheSameByHostAndKernels) {
+    MesherConfig config = cube(-2.5f, 2.5f, 150);
+    uint32_t triangles = 0;
+    for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 3; ++y) {
+            config.tile = {.begin = {x, y, 1}, .end = {x < 2 ? x + 1 : 0, y < 2 ? y + 1 : 0, 2}};
+            triangles += polygonise({}, config).result.triangles;
+        }
+    EXPECT_GT(triangles, 0u);
 }
 
 TEST(Mesher, ImpossibleRegionsAreErrors) {
@@ -466,8 +499,10 @@ TEST(Mesher, StagesAreNamed) {
         names.push_back(stage.name);
         EXPECT_GT(stage.milliseconds, 0.0);
     }
-    EXPECT_EQ(names,
-              (std::vector<std::string>{"cull", "compact", "sample", "classify", "triangles", "vertices"}));
+    const std::vector<std::string> byHost = {"cull", "compact", "sample", "connect", "vertices"},
+                                   byKernels = {"cull",     "compact",   "sample",
+                                                "classify", "triangles", "vertices"};
+    EXPECT_EQ(names, test::device().software ? byHost : byKernels);
 }
 
 TEST(Octahedral, RoundTripOnTheDevice) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "graph/compile/compile.h"
@@ -13,6 +14,7 @@
 #include "tests/bench/baseline.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/table.h"
+#include "tests/bench/tuned.h"
 #include "tests/bench/verify.h"
 #include "tests/support/gpu.h"
 
@@ -35,6 +37,30 @@ TEST(Baseline, MeshesAreClosedAndTheSameOnEveryRun) {
                                baseline.positions().end()));
         EXPECT_TRUE(
             std::equal(indices.begin(), indices.end(), baseline.indices().begin(), baseline.indices().end()));
+    }
+}
+
+TEST(Tuned, HasTheBaselinesMeshWithItsVerticesInAnotherOrder) {
+    for (int cells : {33, kCells}) {  // of an odd number one thread has a layer more
+        Baseline baseline(cells);
+        Tuned tuned(cells);
+        for (Field field : kFields) {
+            baseline.run(field);
+            tuned.run(field);
+            EXPECT_EQ(faultOf(tuned.indices(), tuned.positions().size()), "") << fieldName(field);
+            EXPECT_EQ(tuned.positions().size(), baseline.positions().size()) << fieldName(field);
+            EXPECT_EQ(tuned.indices().size(), baseline.indices().size()) << fieldName(field);
+            const auto area = [](std::span<const glm::vec3> p, std::span<const uint32_t> t) {
+                double sum = 0;
+                for (std::size_t i = 0; i < t.size(); i += 3)
+                    sum += glm::length(
+                        glm::cross(glm::dvec3(p[t[i + 1]] - p[t[i]]), glm::dvec3(p[t[i + 2]] - p[t[i]])));
+                return sum / 2;
+            };
+            const double expected = area(baseline.positions(), baseline.indices());
+            EXPECT_NEAR(area(tuned.positions(), tuned.indices()), expected, 1e-5 * expected)
+                << fieldName(field);
+        }
     }
 }
 

@@ -1,11 +1,11 @@
 // The top of the histopyramid: one work group sums the counts of all groups below, in place. Each lane walks a
-// contiguous part twice, once for its sum and once to write the sums before each entry.
+// contiguous part twice, once for its sum and once to write the sums before each entry. Needs TOP_SUMS, their binding.
 #define HISTOPYRAMID_LANES 256
 #define HISTOPYRAMID_TYPE uvec2
 #include "lib/histopyramid.glsl"
 
 layout(local_size_x = HISTOPYRAMID_LANES) in;
-layout(binding = 4, scalar) buffer Sums { uvec4 sums[]; };
+layout(binding = TOP_SUMS, scalar) buffer Sums { uvec4 sums[]; };
 
 /// Replaces x and y of sums[0..count) by the sums before each; returns the sum of all.
 uvec2 sumUp(uint count) {
