@@ -364,6 +364,8 @@ int run(int count, char** arguments) {
                              "Index or part of the name of the device (see fieldwright info)");
 
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
+    bool devicesOnly = false;
+    infoCommand->add_flag("--devices", devicesOnly, "What each device can do, what it lacks, and what follows");
 
     std::vector<std::string> words = readableNumbers(count, arguments);
     std::vector<std::string> names;
@@ -393,7 +395,7 @@ int run(int count, char** arguments) {
     if (compileCommand->parsed()) return runCompile(compileOptions);
     if (nodesCommand->parsed()) return runNodes(nodesFormat);
     if (benchCommand->parsed()) return bench::runBench(benchNames, benchOptions);
-    if (infoCommand->parsed()) return runInfo();
+    if (infoCommand->parsed()) return runInfo(devicesOnly);
     return kBadUsage;
 }
 

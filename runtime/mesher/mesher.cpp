@@ -88,8 +88,8 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.rows, all * 64 * 8);
     uint64_t bricks = buffers.brickCapacity;
     // Groups of bricks, and as many more as spreading them over two axes may add.
-    uint64_t groups = uint64_t(spread(chunksOf(bricks, MESHER_GROUP_BRICKS)).x) *
-                      spread(chunksOf(bricks, MESHER_GROUP_BRICKS)).y;
+    uint64_t groups = uint64_t(spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS)).x) *
+                      spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS)).y;
     reserve(device, buffers.brickList, bricks * 4);
     reserve(device, buffers.links, bricks * 32);
     reserve(device, buffers.planes, bricks * 9 * 12);
@@ -130,8 +130,8 @@ struct Limits {
     uint32_t bricks, vertices, triangles;
 };
 Limits limitsOf(const Device& device, bool dual) {
-    uint64_t range = device.properties.limits.maxStorageBufferRange;
-    uint64_t texels = device.properties.limits.maxTexelBufferElements;  // the lookup is read as texels
+    uint64_t range = device.limits.storageRange;
+    uint64_t texels = device.limits.texels();  // the lookup is read as texels
     // Bound as a whole: the list of edges; of dual contouring that of patches, and each edge's four corners.
     uint64_t listed = dual ? std::min(range / 8, texels) : range / 4;
     uint64_t quads = dual ? std::min(range / 16, texels) : UINT32_MAX;
@@ -174,8 +174,7 @@ Error tooLarge(const char* what, uint64_t has, uint64_t most) {
 Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer, uint32_t index,
                    uint64_t stride) {
     uint64_t offset = std::min<uint64_t>(index * stride, buffer.size - 4) / stride * stride;
-    return {binding, buffer, offset,
-            std::min<uint64_t>(buffer.size - offset, device.properties.limits.maxStorageBufferRange)};
+    return {binding, buffer, offset, std::min<uint64_t>(buffer.size - offset, device.limits.storageRange)};
 }
 
 /// The mesh may be larger than one dispatch of the last two kernels can write.
@@ -208,7 +207,7 @@ void record(Commands& commands, const MesherPipelines& pipelines, const MesherBu
         barrier(commands);
     };
     auto direct = [&](Kernel kernel, uint32_t groups, const std::vector<Descriptor>& more) {
-        dispatch(commands, *pipelines.all[kernel], spread(groups), push, with(more));
+        dispatch(commands, *pipelines.all[kernel], spread(device, groups), push, with(more));
         barrier(commands);
     };
     const bool dual = config.method == MeshMethod::dualContouring;
@@ -354,7 +353,7 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
         if (kernel == topGroupsChunked) options.constants = {true};
         if (kernel == topGroupsDual) options.constants = {false, true};
         if (kernel == triangles || kernel == patches)
-            options.constants = {std::clamp(device.subgroupSize, 16u, 64u)};
+            options.constants = {std::clamp(device.limits.subgroupSize, 16u, 64u)};
         shaders.push_back(std::move(options));
         missing.push_back(kernel);
     }
@@ -432,8 +431,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
     const bool families = config.families && config.families->listed > 0 && !config.host;
     // On the longest grids the heads cannot be bound: every brick then evaluates all members.
     if (families && config.pruned &&
-        headBytes(*config.families, placesOf(blockCount, most.bricks)) <=
-            device.properties.limits.maxStorageBufferRange) {
+        headBytes(*config.families, placesOf(blockCount, most.bricks)) <= device.limits.storageRange) {
         build(device, pipelines, {prune64, prune32, prune16, prune8});
         push.listStart = longestList(*config.families);
     }
