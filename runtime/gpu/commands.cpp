@@ -48,6 +48,7 @@ void writeTimestamp(Commands& commands) {
 /// Where the driver cannot take descriptors with the commands: sets from pools that belong to one recording
 /// until it is done, and then to the next.
 constexpr uint32_t kSetsOfAPool = 256;
+std::mutex freePoolsUse;  // of any device; a record's own mutex is held by whoever uses the sibling
 
 VkDescriptorPool createPool(const Device& device) {
     // So many of each kind as the largest kernels have on average; what runs out means one more pool.
@@ -69,7 +70,7 @@ VkDescriptorPool createPool(const Device& device) {
 
 void addPool(Commands& commands) {
     DeviceRecord& record = *commands.device.record;
-    std::lock_guard lock(record.mutex);
+    std::lock_guard lock(freePoolsUse);
     if (record.freePools.empty()) {
         commands.pools.push_back(createPool(commands.device));
     } else {
@@ -80,9 +81,10 @@ void addPool(Commands& commands) {
 
 /// What was recorded is done: its pools are free.
 void releasePools(Commands& commands) {
+    if (commands.pools.empty()) return;
     DeviceRecord& record = *commands.device.record;
     for (VkDescriptorPool pool : commands.pools) vkResetDescriptorPool(commands.device.handle, pool, 0);
-    std::lock_guard lock(record.mutex);
+    std::lock_guard lock(freePoolsUse);
     record.freePools.insert(record.freePools.end(), commands.pools.begin(), commands.pools.end());
     commands.pools.clear();
 }
