@@ -23,8 +23,6 @@ namespace {
 
 static_assert(float(BAKE_BAND) == kBand && float(BAKE_LEAST) == kLeastDistance);
 
-constexpr uint32_t kGroupsAlong = 32768;  // x, of a dispatch
-
 struct Kernels {
     Pipeline scatter, list, sign, sweep, pack, packColors;
 };
@@ -38,11 +36,6 @@ Kernels createKernels(const Device& device) {
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
     return {std::move(made[0]),  std::move(made[1]), std::move(made[2]),
             createSweep(device), std::move(made[3]), std::move(made[4])};
-}
-
-glm::uvec3 groupsOf(std::size_t items) {
-    const auto groups = uint32_t((items + BAKE_GROUP - 1) / BAKE_GROUP);
-    return {std::min(groups, kGroupsAlong), (groups + kGroupsAlong - 1) / kGroupsAlong, 1};
 }
 
 /// The rows that each triangle is measured in.
@@ -168,15 +161,16 @@ class Bake {
         fill(commands, nearest, ~0u);
         fill(commands, counts, 0);
         barrier(commands);
-        dispatch(commands, kernels.scatter, groupsOf(list.size()), all, bound);
+        dispatch(commands, kernels.scatter, spread(device, groupsFor(list.size(), BAKE_GROUP)), all, bound);
         barrier(commands);
         beginStage(commands, "list");
-        dispatch(commands, kernels.list, groupsOf(mesh.grid.samples()), all, bound);
+        dispatch(commands, kernels.list, spread(device, groupsFor(mesh.grid.samples(), BAKE_GROUP)), all,
+                 bound);
         barrier(commands);
         flush(commands);
         const uint32_t listed = counts.as<gpu::BakeCounts>()[0].listed;
         beginStage(commands, "sign");
-        dispatch(commands, kernels.sign, groupsOf(listed), all, bound);
+        dispatch(commands, kernels.sign, spread(device, groupsFor(listed, BAKE_GROUP)), all, bound);
         submit(commands);
         finishStages(commands);
     }
@@ -224,8 +218,8 @@ class Bake {
         beginStage(commands, "pack");
         fill(commands, counts, 0);
         barrier(commands);
-        dispatch(commands, colored ? kernels.packColors : kernels.pack, groupsOf(mesh.grid.samples()), all,
-                 bound);
+        dispatch(commands, colored ? kernels.packColors : kernels.pack,
+                 spread(device, groupsFor(mesh.grid.samples(), BAKE_GROUP)), all, bound);
         submit(commands);
         finishStages(commands);
         progress(0.9);
@@ -253,11 +247,10 @@ class Bake {
 };
 
 bool fits(const Device& device, const MeshInGrid& mesh) {
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    return device.int64Atomics && 8 * mesh.grid.samples() <= limits.maxStorageBufferRange &&
-           mesh.grid.samples() <= limits.maxTexelBufferElements &&
-           mesh.solid.indices.size() <= limits.maxTexelBufferElements &&
-           sizeof(FeatureNormals) * mesh.solid.source.size() <= limits.maxStorageBufferRange;
+    const DeviceLimits& limits = device.limits;
+    return device.has.int64Atomics && 8 * mesh.grid.samples() <= limits.storageRange &&
+           mesh.grid.samples() <= limits.texels() && mesh.solid.indices.size() <= limits.texels() &&
+           sizeof(FeatureNormals) * mesh.solid.source.size() <= limits.storageRange;
 }
 
 // ---- What was made before

@@ -19,7 +19,7 @@ void recordSweeps(Commands& commands, const Pipeline& sweep, const Buffer& state
         for (push.step = 1; push.step >= -1; push.step -= 2)
             for (int i = 1; i < size[push.axis]; ++i) {
                 push.slice = push.step > 0 ? i : size[push.axis] - 1 - i;
-                dispatch(commands, sweep, spread(groupsFor(slice, BAKE_GROUP)), push, bound);
+                dispatch(commands, sweep, spread(commands.device, groupsFor(slice, BAKE_GROUP)), push, bound);
                 barrier(commands);
             }
     }

@@ -108,6 +108,7 @@ int runCompile(const CompileCommandOptions& options);
 
 enum class NodesFormat { list, json, markdown };
 int runNodes(NodesFormat format);
-int runInfo();
+/// `devicesOnly`: what each device can do, in place of all else.
+int runInfo(bool devicesOnly);
 
 }  // namespace fw::cli

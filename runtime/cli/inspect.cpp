@@ -148,15 +148,52 @@ int runNodes(NodesFormat nodesFormat) {
     return kDone;
 }
 
-int runInfo() {
-    std::printf("fieldwright %s, file format %d\n", FIELDWRIGHT_VERSION, kFormatVersion);
+namespace {
+
+void printDevice(std::size_t index, const DeviceInfo& device) {
+    std::printf("device %zu: %s (%s, %s, %.1f GiB)%s\n", index, device.name.c_str(), device.kind.c_str(),
+                device.driver.c_str(), static_cast<double>(device.memory) / (1u << 30),
+                device.usable ? "" : ": lacks features that Fieldwright needs");
+}
+
+/// What a device can do, what it lacks, and what follows.
+void printAbilities(const DeviceInfo& device) {
+    const auto list = [](const char* title, const std::string& text) {
+        if (!text.empty()) std::printf("  %-6s %s\n", title, text.c_str());
+    };
+    std::string has, lacks;
+    for (const Capability& capability : capabilities()) {
+        const bool there = device.has.*capability.has;
+        std::string& text = there ? has : lacks;
+        text += (text.empty() ? "" : there ? ", " : "; ") + std::string(capability.name);
+        if (!there)
+            text += ": " +
+                    std::string(capability.without ? capability.without : "Fieldwright cannot run without");
+    }
+    list("has", has);
+    list("lacks", lacks);
+    if (!device.has.vulkan13) return;
+    const DeviceLimits& limits = device.limits;
+    std::printf(
+        "  limits subgroups of %u, work groups of %u, %u KiB shared, %llu MiB of a buffer at once (%llu as "
+        "texels), %llu MiB in one piece\n",
+        limits.subgroupSize, limits.invocations, limits.sharedMemory >> 10,
+        static_cast<unsigned long long>(limits.storageRange >> 20),
+        static_cast<unsigned long long>(limits.texelElements * DeviceLimits::kTexelBytes >> 20),
+        static_cast<unsigned long long>(limits.allocation >> 20));
+}
+
+}  // namespace
+
+int runInfo(bool devicesOnly) {
+    if (!devicesOnly) std::printf("fieldwright %s, file format %d\n", FIELDWRIGHT_VERSION, kFormatVersion);
     const std::vector<DeviceInfo> devices = listDevices();
     if (devices.empty()) std::printf("no Vulkan device: install mesa-vulkan-drivers for a software one\n");
-    for (std::size_t i = 0; i < devices.size(); ++i)
-        std::printf("device %zu: %s (%s, %s, %.1f GiB)%s\n", i, devices[i].name.c_str(),
-                    devices[i].kind.c_str(), devices[i].driver.c_str(),
-                    static_cast<double>(devices[i].memory) / (1u << 30),
-                    devices[i].usable ? "" : ": lacks features that Fieldwright needs");
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        printDevice(i, devices[i]);
+        if (devicesOnly) printAbilities(devices[i]);
+    }
+    if (devicesOnly) return kDone;
     std::printf("shader cache: %s\n",
                 cacheFolder().empty() ? "none (set XDG_CACHE_HOME or HOME)" : cacheFolder().c_str());
     std::printf("limits: file %zu MiB, %zu nodes, %zu operations, nesting %d\n", kMaxFileBytes >> 20,

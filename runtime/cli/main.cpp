@@ -364,6 +364,8 @@ int run(int count, char** arguments) {
     app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md (fieldwright-bench)");
 
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
+    bool devicesOnly = false;
+    infoCommand->add_flag("--devices", devicesOnly, "What each device can do, what it lacks, and what follows");
 
     std::vector<std::string> words = readableNumbers(count, arguments);
     std::vector<std::string> names;
@@ -392,7 +394,7 @@ int run(int count, char** arguments) {
     if (evalCommand->parsed()) return runEval(evalOptions);
     if (compileCommand->parsed()) return runCompile(compileOptions);
     if (nodesCommand->parsed()) return runNodes(nodesFormat);
-    if (infoCommand->parsed()) return runInfo();
+    if (infoCommand->parsed()) return runInfo(devicesOnly);
     return kBadUsage;
 }
 

@@ -45,6 +45,82 @@ void writeTimestamp(Commands& commands) {
                          uint32_t(commands.stages.size()));
 }
 
+/// Where the driver cannot take descriptors with the commands: sets from pools that belong to one recording
+/// until it is done, and then to the next.
+constexpr uint32_t kSetsOfAPool = 256;
+std::mutex freePoolsUse;  // of any device; a record's own mutex is held by whoever uses the sibling
+
+VkDescriptorPool createPool(const Device& device) {
+    // So many of each kind as the largest kernels have on average; what runs out means one more pool.
+    constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsOfAPool},
+                                               {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kSetsOfAPool},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, 4 * kSetsOfAPool},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kSetsOfAPool},
+                                               {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kSetsOfAPool},
+                                               {VK_DESCRIPTOR_TYPE_SAMPLER, kSetsOfAPool},
+                                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kSetsOfAPool}};
+    auto info = zeroed<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    info.maxSets = kSetsOfAPool;
+    info.poolSizeCount = uint32_t(std::size(kSizes));
+    info.pPoolSizes = kSizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device.handle, &info, nullptr, &pool), "creating a descriptor pool");
+    return pool;
+}
+
+void addPool(Commands& commands) {
+    DeviceRecord& record = *commands.device.record;
+    std::lock_guard lock(freePoolsUse);
+    if (record.freePools.empty()) {
+        commands.pools.push_back(createPool(commands.device));
+    } else {
+        commands.pools.push_back(record.freePools.back());
+        record.freePools.pop_back();
+    }
+}
+
+/// What was recorded is done: its pools are free.
+void releasePools(Commands& commands) {
+    if (commands.pools.empty()) return;
+    DeviceRecord& record = *commands.device.record;
+    for (VkDescriptorPool pool : commands.pools) vkResetDescriptorPool(commands.device.handle, pool, 0);
+    std::lock_guard lock(freePoolsUse);
+    record.freePools.insert(record.freePools.end(), commands.pools.begin(), commands.pools.end());
+    commands.pools.clear();
+}
+
+VkDescriptorSet newSet(Commands& commands, const Pipeline& pipeline) {
+    if (commands.pools.empty()) addPool(commands);
+    auto info = zeroed<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &pipeline.setLayout;
+    const auto allocateFrom = [&](VkDescriptorPool pool, VkDescriptorSet& set) {
+        info.descriptorPool = pool;
+        return vkAllocateDescriptorSets(commands.device.handle, &info, &set);
+    };
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    VkResult result = allocateFrom(commands.pools.back(), set);
+    if (result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL) {
+        addPool(commands);
+        result = allocateFrom(commands.pools.back(), set);
+    }
+    check(result, "allocating a descriptor set");
+    return set;
+}
+
+/// The one place where descriptors reach the device.
+void give(Commands& commands, const Pipeline& pipeline, VkPipelineBindPoint point,
+          std::span<VkWriteDescriptorSet> writes) {
+    const Device& device = commands.device;
+    const auto count = uint32_t(writes.size());
+    if (device.pushDescriptors)
+        return device.pushDescriptors(commands.handle, point, pipeline.layout, 0, count, writes.data());
+    const VkDescriptorSet set = newSet(commands, pipeline);
+    for (VkWriteDescriptorSet& write : writes) write.dstSet = set;
+    vkUpdateDescriptorSets(device.handle, count, writes.data(), 0, nullptr);
+    vkCmdBindDescriptorSets(commands.handle, point, pipeline.layout, 0, 1, &set, 0, nullptr);
+}
+
 }  // namespace
 
 Commands::Commands(const Device& owner, bool wantTimes) : device(owner), timed(wantTimes) {
@@ -61,6 +137,7 @@ Commands::Commands(const Device& owner, bool wantTimes) : device(owner), timed(w
 Commands::~Commands() {
     if (queries) vkDestroyQueryPool(device.handle, queries, nullptr);
     vkFreeCommandBuffers(device.handle, device.commandPool, 1, &handle);
+    releasePools(*this);
 }
 
 void beginStage(Commands& commands, const char* name) {
@@ -80,6 +157,7 @@ void flush(Commands& commands) {
     double elapsed = run(commands);
     if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
     vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
+    releasePools(commands);
     allocate(commands);
 }
 
@@ -138,9 +216,12 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
         auto given = std::find_if(descriptors.begin(), descriptors.end(),
                                   [&](const Descriptor& d) { return d.binding == declared.binding; });
         assert(given != descriptors.end() && "a binding of the shader is not given");
-        assert((declared.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
-                given->buffer.range <= commands.device.properties.limits.maxStorageBufferRange) &&
-               "a storage buffer is larger than the device can bind: give a range");
+        if (declared.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
+            given->buffer.range > commands.device.limits.storageRange)
+            throw SystemError("device '" + commands.device.name() + "' shows a kernel " +
+                              std::to_string(commands.device.limits.storageRange >> 10) +
+                              " KiB of a buffer, and " + std::to_string(given->buffer.range >> 10) +
+                              " are needed; a lower resolution needs less");
         VkWriteDescriptorSet& write = writes[count++];
         write = zeroed<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstBinding = declared.binding;
@@ -150,12 +231,17 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
         write.pImageInfo = &given->image;
         write.pTexelBufferView = &given->texels;
     }
-    if (count)
-        commands.device.pushDescriptors(commands.handle, point, pipeline.layout, 0, count, writes.data());
+    if (count) give(commands, pipeline, point, {writes.data(), count});
 }
 
 void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
               std::size_t pushSize, std::span<const Descriptor> descriptors) {
+    const uint32_t most = commands.device.limits.groups;
+    if (groups.x > most || groups.y > most || groups.z > most)
+        throw SystemError("device '" + commands.device.name() + "' runs " + std::to_string(most) +
+                          " work groups in a row, and " +
+                          std::to_string(std::max({groups.x, groups.y, groups.z})) +
+                          " are needed; a lower resolution needs less");
     bind(commands, pipeline, push, pushSize, descriptors);
     vkCmdDispatch(commands.handle, groups.x, groups.y, groups.z);
 }

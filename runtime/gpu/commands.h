@@ -34,6 +34,7 @@ struct Commands {
     VkQueryPool queries = VK_NULL_HANDLE;  ///< GPU only
     bool stageOpen = false;
     const std::atomic<bool>* cancel = nullptr;  ///< if given, long work looks at it between its parts
+    std::vector<VkDescriptorPool> pools;  ///< of its sets, the last with room; none where sets are pushed
 };
 
 /// A resource for one binding of a shader.
@@ -43,7 +44,7 @@ struct Descriptor {
     VkDescriptorImageInfo image = {};
     VkBufferView texels = VK_NULL_HANDLE;
 
-    /// The whole buffer, or `size` bytes from `offset`. At most maxStorageBufferRange bytes can be bound.
+    /// The whole buffer, or `size` bytes from `offset`. At most the limit `storageRange` can be bound.
     Descriptor(uint32_t bindingNumber, const Buffer& b, VkDeviceSize offset = 0,
                VkDeviceSize size = VK_WHOLE_SIZE)
         : binding(bindingNumber),
@@ -116,9 +117,9 @@ constexpr uint32_t groupsFor(uint64_t items, uint32_t perGroup) {
     return uint32_t((items + perGroup - 1) / perGroup);
 }
 
-/// So many groups over two axes, of which each holds 65,535 at most; some more run, to no effect.
-inline glm::uvec3 spread(uint64_t groups) {
-    const uint32_t y = groupsFor(groups > 0 ? groups : 1, 65535);
+/// So many groups over two axes, each no longer than the device allows; some more run, to no effect.
+inline glm::uvec3 spread(const Device& device, uint64_t groups) {
+    const uint32_t y = groupsFor(groups > 0 ? groups : 1, device.limits.groups);
     return {groupsFor(groups, y), y, 1};
 }
 

@@ -31,11 +31,11 @@ void sumCounts(Commands& commands, const KeyCounting& counting, Buffer& sums, co
     reserve(commands.device, sums, 16ull * groups);
     reserve(commands.device, starts, 4ull * keys);
     const Descriptor bound[] = {{0, counts}, {4, sums}, {5, starts}};
-    dispatch(commands, counting.sum, spread(groups), push, bound);
+    dispatch(commands, counting.sum, spread(commands.device, groups), push, bound);
     barrier(commands);
     dispatch(commands, counting.top, {1, 1, 1}, push, bound);
     barrier(commands);
-    dispatch(commands, counting.place, spread(groups), push, bound);
+    dispatch(commands, counting.place, spread(commands.device, groups), push, bound);
     barrier(commands);
 }
 
@@ -47,7 +47,7 @@ void countKeys(Commands& commands, const KeyCounting& counting, CountingSortBuff
     fill(commands, buffers.counts, 0);
     barrier(commands);
     const Descriptor bound[] = {keysOfItems, {1, buffers.counts}, {2, buffers.ranks}};
-    dispatch(commands, counting.count, spread(groupsFor(items, SORT_GROUP)), push, bound);
+    dispatch(commands, counting.count, spread(commands.device, groupsFor(items, SORT_GROUP)), push, bound);
     barrier(commands);
     sumCounts(commands, counting, buffers.sums, buffers.counts, buffers.starts, keys);
 }
@@ -60,11 +60,11 @@ void sortByKey(Commands& commands, const CountingSort& sort, CountingSortBuffers
     reserve(commands.device, order, 4ull * items);
     const Descriptor scattered[] = {
         {0, keysOfItems}, {1, buffers.starts}, {2, buffers.ranks}, {3, buffers.unsettled}};
-    dispatch(commands, sort.scatter, spread(groupsFor(items, SORT_GROUP)), push, scattered);
+    dispatch(commands, sort.scatter, spread(commands.device, groupsFor(items, SORT_GROUP)), push, scattered);
     barrier(commands);
     const Descriptor settled[] = {
         {0, keysOfItems}, {1, buffers.starts}, {2, buffers.counts}, {3, buffers.unsettled}, {4, order}};
-    dispatch(commands, sort.settle, spread(groupsFor(items, SORT_GROUP)), push, settled);
+    dispatch(commands, sort.settle, spread(commands.device, groupsFor(items, SORT_GROUP)), push, settled);
     barrier(commands);
 }
 

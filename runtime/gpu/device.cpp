@@ -69,56 +69,12 @@ VkInstance createInstance(std::vector<const char*> extensions, DeviceRecord* rec
     return instance;
 }
 
-/// Everything that is asked of a physical device, in one chain of structs that stays in place.
-struct Features {
-    VkPhysicalDeviceFeatures2 core =
-        zeroed<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
-    VkPhysicalDeviceVulkan12Features v12 =
-        zeroed<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-    VkPhysicalDeviceVulkan13Features v13 =
-        zeroed<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-    Features() {
-        core.pNext = &v12;
-        v12.pNext = &v13;
-    }
-    Features(const Features&) = delete;
-};
-
 struct Candidate {
     VkPhysicalDevice physical;
     VkPhysicalDeviceProperties properties;
     DeviceInfo info;
     int rank;
 };
-
-bool hasExtension(VkPhysicalDevice physical, const char* name) {
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> all(count);
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, all.data());
-    return std::any_of(all.begin(), all.end(), [&](const VkExtensionProperties& extension) {
-        return !std::strcmp(extension.extensionName, name);
-    });
-}
-
-std::optional<uint32_t> universalQueueFamily(VkPhysicalDevice physical) {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    for (uint32_t i = 0; i < count; ++i)
-        if ((families[i].queueFlags & kNeeded) == kNeeded) return i;
-    return std::nullopt;
-}
-
-bool usable(VkPhysicalDevice physical, uint32_t apiVersion) {
-    if (apiVersion < VK_API_VERSION_1_3) return false;
-    Features features;
-    vkGetPhysicalDeviceFeatures2(physical, &features.core);
-    return features.v12.scalarBlockLayout && features.v13.synchronization2 && features.v13.dynamicRendering &&
-           universalQueueFamily(physical) && hasExtension(physical, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
-}
 
 std::vector<Candidate> candidates(VkInstance instance) {
     uint32_t count = 0;
@@ -152,11 +108,12 @@ std::vector<Candidate> candidates(VkInstance instance) {
         for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
             if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
                 largest = std::max<uint64_t>(largest, memory.memoryHeaps[i].size);
+        const DeviceCapabilities has = capabilitiesOf(physical);
         all.push_back({physical, properties.properties,
                        DeviceInfo{properties.properties.deviceName, kind.name,
                                   std::string(driver.driverName) + " " + driver.driverInfo,
-                                  properties.properties.apiVersion, largest,
-                                  usable(physical, properties.properties.apiVersion)},
+                                  properties.properties.apiVersion, largest, missing(has).empty(), has,
+                                  limitsOf(physical)},
                        kind.rank});
     }
     std::stable_sort(all.begin(), all.end(),
@@ -167,6 +124,12 @@ std::vector<Candidate> candidates(VkInstance instance) {
 std::string lowered(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
     return text;
 }
 
@@ -186,9 +149,8 @@ Result<const Candidate*> choose(const std::vector<Candidate>& all, const std::st
     if (!pick.empty() && !found)
         return Error{.message = "no device matches '" + pick + "'; there are: " + list};
     if (found && !found->info.usable)
-        return Error{.message =
-                         "device '" + found->info.name +
-                         "' lacks Vulkan 1.3, scalar block layout or push descriptors; there are: " + list};
+        return Error{.message = "device '" + found->info.name + "' lacks " +
+                                joined(missing(found->info.has)) + "; there are: " + list};
     if (!found)
         throw SystemError(
             all.empty() ? "no Vulkan device found: install mesa-vulkan-drivers, which has one in software"
@@ -241,31 +203,31 @@ void spreadThreads(const std::set<pid_t>& before) {
 }
 
 void createLogicalDevice(Device& device, const DeviceOptions& options) {
-    Features has, wanted;
-    vkGetPhysicalDeviceFeatures2(device.physical, &has.core);
-    wanted.core.features.geometryShader = has.core.features.geometryShader;
-    wanted.core.features.fragmentStoresAndAtomics = has.core.features.fragmentStoresAndAtomics;
-    wanted.core.features.vertexPipelineStoresAndAtomics = has.core.features.vertexPipelineStoresAndAtomics;
-    wanted.core.features.shaderInt64 = has.core.features.shaderInt64;
-    wanted.core.features.fillModeNonSolid = has.core.features.fillModeNonSolid;
+    Features offered, wanted;
+    vkGetPhysicalDeviceFeatures2(device.physical, &offered.core);
+    const VkPhysicalDeviceFeatures& core = offered.core.features;
+    wanted.core.features.geometryShader = device.has.geometryShader;
+    wanted.core.features.fragmentStoresAndAtomics = core.fragmentStoresAndAtomics;
+    wanted.core.features.vertexPipelineStoresAndAtomics = core.vertexPipelineStoresAndAtomics;
+    wanted.core.features.shaderInt64 = core.shaderInt64;
+    wanted.core.features.fillModeNonSolid = core.fillModeNonSolid;
+    wanted.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
     wanted.v12.scalarBlockLayout = VK_TRUE;
-    wanted.v12.bufferDeviceAddress = has.v12.bufferDeviceAddress;
-    wanted.v12.shaderOutputLayer = has.v12.shaderOutputLayer;
-    wanted.v12.shaderBufferInt64Atomics = has.v12.shaderBufferInt64Atomics;
-    wanted.v12.hostQueryReset = has.v12.hostQueryReset;
+    wanted.v12.bufferDeviceAddress = device.has.deviceAddresses;
+    wanted.v12.shaderOutputLayer = offered.v12.shaderOutputLayer;
+    wanted.v12.shaderBufferInt64Atomics = device.has.int64Atomics;
+    wanted.v12.hostQueryReset = offered.v12.hostQueryReset;
     wanted.v13.synchronization2 = VK_TRUE;
     wanted.v13.dynamicRendering = VK_TRUE;
-    wanted.v13.maintenance4 = has.v13.maintenance4;
-    device.geometryShader = has.core.features.geometryShader;
-    device.int64Atomics = has.core.features.shaderInt64 && has.v12.shaderBufferInt64Atomics;
-    device.deviceAddresses = has.v12.bufferDeviceAddress;
+    wanted.v13.maintenance4 = VK_TRUE;
 
     float priority = 1.0f;
     auto queue = zeroed<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = device.queueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    std::vector<const char*> extensions;
+    if (device.has.pushDescriptors) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     if (options.presentation) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     auto info = zeroed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
     info.pNext = &wanted.core;
@@ -277,8 +239,9 @@ void createLogicalDevice(Device& device, const DeviceOptions& options) {
     check(vkCreateDevice(device.physical, &info, nullptr, &device.handle), "opening the Vulkan device");
     if (device.software) spreadThreads(threads);
     vkGetDeviceQueue(device.handle, device.queueFamily, 0, &device.queue);
-    device.pushDescriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
-        vkGetDeviceProcAddr(device.handle, "vkCmdPushDescriptorSetKHR"));
+    if (device.has.pushDescriptors)
+        device.pushDescriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
+            vkGetDeviceProcAddr(device.handle, "vkCmdPushDescriptorSetKHR"));
 }
 
 void createPools(Device& device) {
@@ -349,6 +312,7 @@ Device::~Device() {
             savePipelineCache(*this);
             vkDestroyPipelineCache(handle, pipelineCache, nullptr);
         }
+        for (VkDescriptorPool pool : record->freePools) vkDestroyDescriptorPool(handle, pool, nullptr);
         vkDestroyFence(handle, fence, nullptr);
         vkDestroyCommandPool(handle, commandPool, nullptr);
         vkDestroyDevice(handle, nullptr);
@@ -398,13 +362,8 @@ Result<Device> createDevice(const DeviceOptions& options) {
     device.properties = (*choice)->properties;
     device.queueFamily = *universalQueueFamily(device.physical);
     vkGetPhysicalDeviceMemoryProperties(device.physical, &device.memory);
-    auto v11 =
-        zeroed<VkPhysicalDeviceVulkan11Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES);
-    auto properties = zeroed<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
-    properties.pNext = &v11;
-    vkGetPhysicalDeviceProperties2(device.physical, &properties);
-    device.largestAllocation = v11.maxMemoryAllocationSize;
-    device.subgroupSize = v11.subgroupSize;
+    device.limits = (*choice)->info.limits;
+    device.has = (*choice)->info.has;
     device.software = device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     device.unifiedMemory = everythingMappable(device.memory);
     device.timestamps = !device.software && device.properties.limits.timestampComputeAndGraphics;

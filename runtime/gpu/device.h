@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "runtime/gpu/capabilities.h"
 
 namespace fw {
 
@@ -37,15 +38,18 @@ struct DeviceInfo {
     uint32_t apiVersion = 0;  ///< as VK_MAKE_API_VERSION packs it
     uint64_t memory = 0;      ///< bytes of the largest device-local heap
     bool usable = false;      ///< has all that Fieldwright needs
+    DeviceCapabilities has;
+    DeviceLimits limits;
 };
 
 struct Device;
 
 /// What the validation layer said, the bytes of device memory that are and were in use, the number of
-/// pipelines that were built, and the sibling.
+/// pipelines that were built, the descriptor pools that no recording uses, and the sibling.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
+    std::vector<VkDescriptorPool> freePools;
     std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0;
     std::unique_ptr<Device> sibling;
 };
@@ -63,17 +67,14 @@ struct DeviceState {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     uint64_t pipelineCacheKey =
         0;  ///< of the content that was loaded; what did not change is not written again
-    PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
+    PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;  ///< without it, sets come from pools
 
     VkPhysicalDeviceProperties properties = {};
     VkPhysicalDeviceMemoryProperties memory = {};
-    uint64_t largestAllocation = 0;
-    uint32_t subgroupSize = 0;
-    bool software = false;       ///< a CPU device: its timestamps lie, and copies to it are wasted
-    bool unifiedMemory = false;  ///< device-local memory is host-visible: every buffer is mapped
-    bool geometryShader = false;
-    bool int64Atomics = false;  ///< on words of storage buffers
-    bool deviceAddresses = false;
+    DeviceLimits limits;
+    DeviceCapabilities has;
+    bool software = false;                 ///< a CPU device: its timestamps lie, and copies to it are wasted
+    bool unifiedMemory = false;            ///< device-local memory is host-visible: every buffer is mapped
     bool timestamps = false;               ///< usable ones
     std::shared_ptr<DeviceRecord> record;  ///< address stays put when the device moves
 };

@@ -29,7 +29,7 @@ void reserveLists(const Device& device, FieldLists& lists, const Families& famil
         if (heads.size() < families.listed) heads.emplace_back(0, family.members);
         tables.insert(tables.end(), family.table.begin(), family.table.end());
     }
-    const uint64_t range = device.properties.limits.maxStorageBufferRange;
+    const uint64_t range = device.limits.storageRange;
     reserve(device, lists.lists, std::min((all.size() + entries) * sizeof all[0], range));
     reserve(device, lists.heads, std::min(headBytes(families, places), range));
     reserve(device, lists.tables, tables.size() * sizeof tables[0]);

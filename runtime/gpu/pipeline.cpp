@@ -47,7 +47,7 @@ void createLayout(const Device& device, Pipeline& pipeline) {
     for (const ShaderBinding& binding : pipeline.shader.bindings)
         bindings.push_back({binding.binding, binding.type, 1, pipeline.shader.stages, nullptr});
     auto set = zeroed<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-    set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+    if (device.pushDescriptors) set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = uint32_t(bindings.size());
     set.pBindings = bindings.data();
     check(vkCreateDescriptorSetLayout(device.handle, &set, nullptr, &pipeline.setLayout),
@@ -62,10 +62,29 @@ void createLayout(const Device& device, Pipeline& pipeline) {
           "creating a pipeline layout");
 }
 
-Spirv compileOrThrow(const ShaderOptions& options) {
-    Result<Spirv> spirv = compileShader(options);
+Spirv compileOrThrow(const Device& device, const ShaderOptions& options) {
+    Result<Spirv> spirv = compileShader(fitted(options, device.limits));
     if (!spirv) throw SystemError(format(spirv.error()));
     return std::move(*spirv);
+}
+
+/// What a kernel needs more of than the device has would have no meaning there.
+void checkFits(const Device& device, const ShaderOptions& options, const ShaderInterface& shader) {
+    const auto refuse = [&](const char* what, uint64_t needed, uint64_t most) {
+        if (needed > most)
+            throw SystemError("shader '" + options.name + "' needs " + std::to_string(needed) + " " + what +
+                              ", and device '" + device.name() + "' has " + std::to_string(most) +
+                              ": choose another with --device");
+    };
+    uint64_t invocations = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto constant = std::size_t(shader.localSizeConstant[axis]);
+        invocations *=
+            constant < options.constants.size() ? options.constants[constant] : shader.localSize[axis];
+    }
+    refuse("invocations in a work group", invocations, device.limits.invocations);
+    refuse("bytes of shared memory", shader.sharedMemory, device.limits.sharedMemory);
+    refuse("bytes of push constants", shader.pushConstantSize, device.limits.pushConstants);
 }
 
 VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlags stage, VkShaderModule module,
@@ -82,6 +101,7 @@ Pipeline build(const Device& device, const ShaderOptions& options, const Spirv& 
     Pipeline pipeline;
     pipeline.device = device.handle;
     pipeline.shader = reflect(spirv);
+    checkFits(device, options, pipeline.shader);
     createLayout(device, pipeline);
     Module module(device, spirv);
     Specialization constants(options.constants);
@@ -230,7 +250,7 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
         for (std::size_t i; (i = next++) < shaders.size();) {
             try {
                 Clock::time_point start = Clock::now();
-                Spirv spirv = compileOrThrow(shaders[i]);
+                Spirv spirv = compileOrThrow(device, shaders[i]);
                 double compiled = millisecondsSince(start);
                 pipelines[i] = build(device, shaders[i], spirv);
                 std::lock_guard lock(mutex);
@@ -257,7 +277,7 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
 }
 
 Pipeline createComputePipeline(const Device& device, const ShaderOptions& shader) {
-    return build(device, shader, compileOrThrow(shader));
+    return build(device, shader, compileOrThrow(device, shader));
 }
 
 Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& options) {
@@ -267,8 +287,9 @@ Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& opt
     std::vector<std::unique_ptr<Specialization>> constants;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     for (const ShaderOptions& shader : options.shaders) {
-        Spirv spirv = compileOrThrow(shader);
+        Spirv spirv = compileOrThrow(device, shader);
         ShaderInterface part = reflect(spirv);
+        checkFits(device, shader, part);
         pipeline.shader.stages |= part.stages;
         pipeline.shader.pushConstantSize = std::max(pipeline.shader.pushConstantSize, part.pushConstantSize);
         for (const ShaderBinding& binding : part.bindings) {

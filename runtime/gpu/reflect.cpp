@@ -15,12 +15,21 @@ struct Id {
         {};  // of the defining instruction, without its result id and (for values) type
     uint32_t type = 0;
     spv::StorageClass storage = spv::StorageClassMax;
-    int binding = -1;
+    int binding = -1, specialization = -1;
     uint32_t arrayStride = 0, constant = 0;
     bool bufferBlock = false;
     std::vector<uint32_t> memberOffsets = {};
 };
 using Ids = std::unordered_map<uint32_t, Id>;
+
+uint32_t sizeOf(Ids& ids, uint32_t type);
+
+/// Bytes from element to element of an array: what is declared, or, of shared memory, by the usual alignment.
+uint32_t strideOf(Ids& ids, const Id& array) {
+    if (array.arrayStride) return array.arrayStride;
+    const uint32_t size = sizeOf(ids, array.operands[0]);
+    return size == 12 ? 16 : size;
+}
 
 /// Bytes of a type in a block with explicit layout (no padding at the end).
 uint32_t sizeOf(Ids& ids, uint32_t type) {
@@ -32,7 +41,7 @@ uint32_t sizeOf(Ids& ids, uint32_t type) {
         case spv::OpTypePointer: return 8;  // a buffer address
         case spv::OpTypeVector: return sizeOf(ids, id.operands[0]) * id.operands[1];
         case spv::OpTypeMatrix: return sizeOf(ids, id.operands[0]) * id.operands[1];
-        case spv::OpTypeArray: return ids[id.operands[1]].constant * id.arrayStride;
+        case spv::OpTypeArray: return ids[id.operands[1]].constant * strideOf(ids, id);
         case spv::OpTypeStruct: {
             uint32_t size = 0;
             for (std::size_t i = 0; i < id.operands.size(); ++i) {
@@ -110,6 +119,7 @@ ShaderInterface reflect(std::span<const uint32_t> spirv) {
                 break;
             case spv::OpDecorate:
                 if (w[2] == spv::DecorationBinding) ids[w[1]].binding = int(w[3]);
+                if (w[2] == spv::DecorationSpecId) ids[w[1]].specialization = int(w[3]);
                 if (w[2] == spv::DecorationArrayStride) ids[w[1]].arrayStride = w[3];
                 if (w[2] == spv::DecorationBufferBlock) ids[w[1]].bufferBlock = true;
                 break;
@@ -135,7 +145,8 @@ ShaderInterface reflect(std::span<const uint32_t> spirv) {
                 ids[w[1]].op = op;
                 ids[w[1]].operands = operandsFrom(2);
                 break;
-            case spv::OpConstant: ids[w[2]].constant = w[3]; break;
+            case spv::OpConstant:
+            case spv::OpSpecConstant: ids[w[2]].constant = w[3]; break;
             case spv::OpVariable:
                 ids[w[2]].op = op;
                 ids[w[2]].type = w[1];
@@ -148,11 +159,16 @@ ShaderInterface reflect(std::span<const uint32_t> spirv) {
         if (id.op != spv::OpVariable) continue;
         if (id.storage == spv::StorageClassPushConstant)
             result.pushConstantSize = sizeOf(ids, ids[id.type].operands[1]);
+        if (id.storage == spv::StorageClassWorkgroup)
+            result.sharedMemory += sizeOf(ids, ids[id.type].operands[1]);
         if (id.binding >= 0)
             result.bindings.push_back(
                 {uint32_t(id.binding), descriptorType(ids, id), storageFormat(ids, id)});
     }
-    for (std::size_t i = 0; i < localSizeIds.size(); ++i) result.localSize[i] = ids[localSizeIds[i]].constant;
+    for (std::size_t i = 0; i < localSizeIds.size(); ++i) {
+        result.localSize[i] = ids[localSizeIds[i]].constant;
+        result.localSizeConstant[i] = ids[localSizeIds[i]].specialization;
+    }
     auto byBinding = [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; };
     std::sort(result.bindings.begin(), result.bindings.end(), byBinding);
     // Two views of one buffer may share a binding.

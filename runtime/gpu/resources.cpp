@@ -26,7 +26,7 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
                         bool addressable, const char* purpose) {
     uint32_t heap = device.memory.memoryTypes[type].heapIndex;
     uint64_t used = device.record->allocated + needs.size;
-    if (needs.size > device.largestAllocation || used > device.memory.memoryHeaps[heap].size)
+    if (needs.size > device.limits.allocation || used > device.memory.memoryHeaps[heap].size)
         throw SystemError("device '" + device.name() + "' is out of memory: " + purpose + " of " +
                           mebibytes(needs.size) + " does not fit beside " +
                           mebibytes(device.record->allocated) + " in use; a lower resolution needs less");
@@ -71,9 +71,9 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     buffer.device = device.handle;
     buffer.record = device.record;
     buffer.size = std::max((size + kTexelSize - 1) / kTexelSize * kTexelSize, kTexelSize);
-    if (buffer.size > device.largestAllocation)
+    if (buffer.size > device.limits.allocation)
         throw SystemError("device '" + device.name() + "' cannot hold a buffer of " + mebibytes(size) +
-                          ", its limit is " + mebibytes(device.largestAllocation) +
+                          ", its limit is " + mebibytes(device.limits.allocation) +
                           "; a lower resolution needs less");
     auto info = zeroed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = buffer.size;
@@ -81,7 +81,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                  VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
-    if (device.deviceAddresses) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    if (device.has.deviceAddresses) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     check(vkCreateBuffer(device.handle, &info, nullptr, &buffer.handle), "creating a buffer");
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle, buffer.handle, &needs);
@@ -102,7 +102,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     }
     if (!type)
         throw SystemError("device '" + device.name() + "' has no memory of the kind that a buffer needs");
-    buffer.memory = allocate(device, needs, *type, device.deviceAddresses, "a buffer");
+    buffer.memory = allocate(device, needs, *type, device.has.deviceAddresses, "a buffer");
     buffer.allocated = needs.size;
     check(vkBindBufferMemory(device.handle, buffer.handle, buffer.memory, 0), "binding a buffer's memory");
     VkMemoryPropertyFlags got = device.memory.memoryTypes[*type].propertyFlags;
@@ -110,7 +110,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
         check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
               "mapping a buffer");
     const VkDeviceSize texels = buffer.size / kTexelSize;
-    if (texels <= device.properties.limits.maxTexelBufferElements) {
+    if (!device.limits.texelsInStorage() && texels <= device.limits.texelElements) {
         auto view = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
         view.buffer = buffer.handle;
         view.format = VK_FORMAT_R32G32B32A32_UINT;
@@ -118,7 +118,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
         check(vkCreateBufferView(device.handle, &view, nullptr, &buffer.texels),
               "creating a view of a buffer");
     }
-    if (device.deviceAddresses) {
+    if (device.has.deviceAddresses) {
         auto address = zeroed<VkBufferDeviceAddressInfo>(VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO);
         address.buffer = buffer.handle;
         buffer.address = vkGetBufferDeviceAddress(device.handle, &address);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/gpu/texels.h"
 #include "runtime/system/cache_file.h"
 
 namespace fw {
@@ -114,6 +115,13 @@ Result<Spirv> compileText(const std::string& name, const std::string& text, EShL
 
 }  // namespace
 
+ShaderOptions fitted(ShaderOptions options, const DeviceLimits& limits) {
+    options.texelsInStorage = limits.texelsInStorage();
+    if (const DeviceLimits least = leastLimits(); limits.groups < least.groups)
+        options.defines.push_back("MOST_GROUPS " + std::to_string(limits.groups));
+    return options;
+}
+
 std::string_view shaderSource(std::string_view name) {
     const char* source = findSource(name);
     assert(source);
@@ -127,7 +135,7 @@ Result<std::string> completeSource(const ShaderOptions& options) {
     if (!found) return Error{.message = "no shader is named '" + options.name + "'", .file = options.name};
     std::set<std::string, std::less<>> seen;
     if (Done expanded = expand(options.name, found, options, seen, out); !expanded) return expanded.error();
-    return out;
+    return options.texelsInStorage ? withTexelsInStorage(std::move(out)) : out;
 }
 
 Result<Spirv> compileShader(const ShaderOptions& options) {

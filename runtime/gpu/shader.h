@@ -36,7 +36,11 @@ struct ShaderOptions {
     std::vector<std::string> defines = {};  ///< "NAME" or "NAME VALUE", put before the text
     std::vector<uint32_t> constants = {};   ///< values of specialization constants 0, 1, ...
     std::string text = {};                  ///< if not empty, used in place of the file's content
+    bool texelsInStorage = false;           ///< what is declared as texel buffers becomes storage buffers
 };
+
+/// The same shader for a device with these limits, as the functions that make pipelines compile it.
+ShaderOptions fitted(ShaderOptions options, const DeviceLimits& limits);
 
 using Spirv = std::vector<uint32_t>;
 
@@ -57,9 +61,11 @@ struct ShaderBinding {
 /// A shader's interface, or that of all stages of a pipeline together.
 struct ShaderInterface {
     VkShaderStageFlags stages = 0;
-    std::vector<ShaderBinding> bindings = {};       ///< of set 0, ascending
-    uint32_t pushConstantSize = 0;                  ///< bytes
-    std::array<uint32_t, 3> localSize = {1, 1, 1};  ///< compute only; before specialization
+    std::vector<ShaderBinding> bindings = {};             ///< of set 0, ascending
+    uint32_t pushConstantSize = 0;                        ///< bytes
+    uint32_t sharedMemory = 0;                            ///< bytes; compute only
+    std::array<uint32_t, 3> localSize = {1, 1, 1};        ///< compute only; before specialization,
+    std::array<int, 3> localSizeConstant = {-1, -1, -1};  ///< by these constants, where not -1
 };
 
 ShaderInterface reflect(std::span<const uint32_t> spirv);

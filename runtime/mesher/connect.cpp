@@ -330,7 +330,7 @@ void Connection::sumUp() {
         for (uint32_t chunk = 0; chunk < MESHER_CHUNKS; ++chunk) {
             const uint64_t left = items - std::min(items, chunk * each);
             const glm::uvec3 groups =
-                spread(groupsFor(fits ? std::min(left, each) : 0, MESHER_GROUP_VERTICES));
+                spread(device, groupsFor(fits ? std::min(left, each) : 0, MESHER_GROUP_VERTICES));
             counts.groups[at + chunk] = {groups.x, groups.y, 1};
         }
     };

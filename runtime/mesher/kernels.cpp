@@ -35,7 +35,7 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
         if (kernel == topGroupsChunked) options.constants = {true};
         if (kernel == topGroupsDual) options.constants = {false, true};
         if (kernel == triangles || kernel == patches)
-            options.constants = {std::clamp(device.subgroupSize, 16u, 64u)};
+            options.constants = {std::clamp(device.limits.subgroupSize, 16u, 64u)};
         shaders.push_back(std::move(options));
         missing.push_back(kernel);
     }

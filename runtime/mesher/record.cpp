@@ -22,7 +22,7 @@ Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer,
                    uint64_t stride) {
     uint64_t offset = std::min<uint64_t>(index * stride, buffer.size - 4) / stride * stride;
     return {binding, buffer, offset,
-            std::min<uint64_t>(buffer.size - offset, device.properties.limits.maxStorageBufferRange)};
+            std::min<uint64_t>(buffer.size - offset, device.limits.storageRange)};
 }
 
 /// A run while it is recorded.
@@ -44,7 +44,7 @@ struct Recording {
         barrier(commands);
     }
     void direct(Kernel kernel, uint32_t groups, const std::vector<Descriptor>& more) {
-        dispatch(commands, *pipelines.all[kernel], spread(groups), push, with(more));
+        dispatch(commands, *pipelines.all[kernel], spread(device, groups), push, with(more));
         barrier(commands);
     }
     std::vector<Descriptor> with(const std::vector<Descriptor>& more) const {

@@ -33,8 +33,8 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.rows, all * 64 * 8);
     uint64_t bricks = buffers.brickCapacity;
     // Groups of bricks, and as many more as spreading them over two axes may add.
-    uint64_t groups = uint64_t(spread(chunksOf(bricks, MESHER_GROUP_BRICKS)).x) *
-                      spread(chunksOf(bricks, MESHER_GROUP_BRICKS)).y;
+    uint64_t groups = uint64_t(spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS)).x) *
+                      spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS)).y;
     reserve(device, buffers.brickList, bricks * 4);
     reserve(device, buffers.links, bricks * 32);
     reserve(device, buffers.planes, bricks * 9 * 12);
@@ -70,8 +70,8 @@ void reserveBrickLists(const Device& device, MesherBuffers& buffers, glm::uvec3 
 }
 
 Limits limitsOf(const Device& device, bool dual) {
-    uint64_t range = device.properties.limits.maxStorageBufferRange;
-    uint64_t texels = device.properties.limits.maxTexelBufferElements;  // the lookup is read as texels
+    uint64_t range = device.limits.storageRange;
+    uint64_t texels = device.limits.texels();  // the lookup is read as texels
     // Bound as a whole: the list of edges; of dual contouring that of patches, and each edge's four corners.
     uint64_t listed = dual ? std::min(range / 8, texels) : range / 4;
     uint64_t quads = dual ? std::min(range / 16, texels) : UINT32_MAX;

@@ -60,13 +60,13 @@ Done fits(const DensityConfig& config, const Device& device) {
                                 " cells, and " + std::to_string(most) + " is the most of the method " +
                                 kDensityMethodNames[std::size_t(config.method)] +
                                 ": lower the resolution or the radius, or take the method exact"};
-    const uint64_t range = device.properties.limits.maxStorageBufferRange;
+    const uint64_t range = device.limits.storageRange;
     const double samples = double(samplesOf(config.grid));
     const glm::dvec3 sides = bucketsOf(config);
     const double buckets = sides.x * sides.y * sides.z;
     const double needed = std::max(samples * (config.method == DensityMethod::proxies ? 16 : 4),
                                    config.method == DensityMethod::exact ? 4 * (buckets + 1) : 0.0);
-    if (needed > double(range) || samples > double(device.properties.limits.maxTexelBufferElements))
+    if (needed > double(range) || samples > double(device.limits.texels()))
         return Error{
             .message =
                 "the particles' grid is larger than this device can use: lower the resolution, or raise the "
@@ -145,7 +145,7 @@ struct Run {
     uint32_t samples;  ///< rows padded
 
     void dispatchOver(uint32_t items, const Pipeline& kernel, std::span<const Descriptor> bound) const {
-        dispatch(commands, kernel, spread(groupsFor(items, DENSITY_GROUP)), push, bound);
+        dispatch(commands, kernel, spread(commands.device, groupsFor(items, DENSITY_GROUP)), push, bound);
         barrier(commands);
     }
 };

@@ -74,13 +74,13 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
     const glm::vec3 size = config.hi - config.lo;
     if (!positive(config.spacing) || !positive(step) || !positive(glm::min(size.x, glm::min(size.y, size.z))))
         return Error{.message = "a fluid's spacing, its tank's sides and its step must be greater than 0"};
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    const uint64_t most = limits.maxTexelBufferElements / (FLUID_MOST_NEIGHBOURS / 4);
+    const DeviceLimits& limits = device.limits;
+    const uint64_t most = limits.texels() / (FLUID_MOST_NEIGHBOURS / 4);
     if (count > most)
         return Error{.message = "this device can list the neighbours of " + std::to_string(most) +
                                 " particles at most: raise the fluid's spacing"};
     const glm::dvec3 cells(cellsOf(config));
-    if (4.0 * cells.x * cells.y * cells.z > double(limits.maxStorageBufferRange))
+    if (4.0 * cells.x * cells.y * cells.z > double(limits.storageRange))
         return Error{.message =
                          "the fluid's tank has more cells than this device can use: make it smaller, or "
                          "raise the spacing"};
@@ -141,7 +141,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
     reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
-        dispatch(commands, kernel, spread(groups), push, bound);
+        dispatch(commands, kernel, spread(device, groups), push, bound);
         barrier(commands);
     };
     beginStage(commands, "predict");
@@ -158,11 +158,12 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     beginStage(commands, "neighbours");
     // Written as words, of which not all may be bound at once; read as texels, which may.
     const uint64_t listBytes = 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP;  // of a group
-    const auto most = uint32_t(device.properties.limits.maxStorageBufferRange / listBytes);
+    const auto most = uint32_t(device.limits.storageRange / listBytes);
     for (uint32_t group = 0; group < groups; group += most) {
         const uint32_t some = std::min(most, groups - group);
         push.from = group * FLUID_GROUP;
-        dispatch(commands, config.farOnce ? kernels.nearNeighbours : kernels.neighbours, spread(some), push,
+        dispatch(commands, config.farOnce ? kernels.nearNeighbours : kernels.neighbours, spread(device, some),
+                 push,
                  std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.cells.starts},
                             Descriptor{2, b.lists, group * listBytes, some * listBytes},
                             Descriptor{3, b.counts}, Descriptor{4, b.far}});

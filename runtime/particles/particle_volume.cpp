@@ -33,7 +33,7 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
                           const ParticleVolumeConfig& config, const Buffer& particles, uint32_t count,
                           const Buffer& volumes, uint32_t first) {
     const Device& device = commands.device;
-    const uint32_t most = device.properties.limits.maxStorageBufferRange;
+    const uint64_t most = device.limits.storageRange;
     if (volumes.size > most)
         return Error{.message = "the samples of all fields on grids are " +
                                 std::to_string(volumes.size >> 20) + " MiB, and this device can use " +
@@ -62,7 +62,7 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
     reserve(device, b.least, 4ull * blocks);
     for (Buffer& each : b.reach) reserve(device, each, 4ull * coarse);
     const auto run = [&](const Pipeline& kernel, uint32_t items, std::span<const Descriptor> bound) {
-        dispatch(commands, kernel, spread(groupsFor(items, VOLUME_GROUP)), push, bound);
+        dispatch(commands, kernel, spread(device, groupsFor(items, VOLUME_GROUP)), push, bound);
         barrier(commands);
     };
     beginStage(commands, "distance");

@@ -335,7 +335,7 @@ void Simulation::emit(Commands& commands, const StageNumbers& emitter, double be
         push.age = float(kSimulationStep * (1.0 - (double(first) + 1.0 - before) / (after - before)));
     }
     const Descriptor bound[] = {{0, state.places}, {1, state.velocities}};
-    dispatch(commands, births, spread(groupsFor(push.count, MOTION_GROUP)), push, bound);
+    dispatch(commands, births, spread(commands.device, groupsFor(push.count, MOTION_GROUP)), push, bound);
     barrier(commands);
 }
 
@@ -353,7 +353,8 @@ void Simulation::move(Commands& commands, const std::vector<double>& values) {
         std::vector<Descriptor> bound{
             {0, state.places}, {1, state.velocities}, {2, state.places}, {3, state.velocities}};
         if (obstacle) addField(bound, obstacle->buffers());
-        dispatch(commands, kernel, spread(groupsFor(state.slots, MOTION_GROUP)), push, bound);
+        dispatch(commands, kernel, spread(commands.device, groupsFor(state.slots, MOTION_GROUP)), push,
+                 bound);
         barrier(commands);
         push.moves = 0;
     };

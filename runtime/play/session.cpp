@@ -24,6 +24,13 @@ constexpr double kLeastCell = 1e-16, kFarthestCorner = 1e15;
 
 Error problem(std::string message) { return {.message = std::move(message)}; }
 
+void checkFits(const Device& device, const char* what, uint64_t bytes, uint64_t most) {
+    if (bytes > most)
+        throw SystemError("the " + std::string(what) + " are " + std::to_string((bytes >> 20) + 1) +
+                          " MiB, and device '" + device.name() + "' can read " + std::to_string(most >> 20) +
+                          ": lower their resolution");
+}
+
 Error tooLargeToLookInto(const Program& program) {
     return problem("this view traces the field, whose code would keep the driver busy for about " +
                    std::to_string(std::lround(secondsToCompile(program))) +
@@ -104,14 +111,18 @@ void Session::take(Program program) {
     const bool sameImages = images && program.ir.images() == current.ir.images();
     const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes() &&
                              program.ir.outlines() == current.ir.outlines();
+    std::vector<uint32_t> words, texels;
+    if (!sameImages) words = imageWords(program.ir.images());
+    if (!sameVolumes) texels = fieldTexels(program.ir);
+    checkFits(*gpu, "pixels of all images", words.size() * sizeof(uint32_t), gpu->limits.storageRange);
+    checkFits(*gpu, "samples of all fields on grids", texels.size() * sizeof(uint32_t),
+              DeviceLimits::kTexelBytes * gpu->limits.texels());
     current = std::move(program);
     if (!sameImages) {
-        const std::vector<uint32_t> words = imageWords(current.ir.images());
         reserve(*gpu, images, words.size() * sizeof(uint32_t));
         upload(*gpu, images, words);
     }
     if (!sameVolumes) {
-        const std::vector<uint32_t> texels = fieldTexels(current.ir);
         reserve(*gpu, volumes, texels.size() * sizeof(uint32_t));
         upload(*gpu, volumes, texels);
     }
@@ -357,7 +368,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
         options.framed = points;
     }
     gpu::DraftMaterial look = material();
-    look.colored = result.colors && 12ull * result.vertices <= gpu->properties.limits.maxStorageBufferRange;
+    look.colored = result.colors && 12ull * result.vertices <= gpu->limits.storageRange;
     std::vector<ParticleCloud> clouds;
     if (particles && showsParticles(options.show)) clouds = particles->clouds(current);
     const RenderScene scene{.mesh = buffers,

@@ -3,6 +3,11 @@
 #include <array>
 
 namespace fw {
+namespace {
+
+constexpr uint64_t kClusterBytes = 12 * CLUSTER_TRIANGLES;  // of its indices
+
+}  // namespace
 
 Clusters createClusters(const Device& device) {
     const std::array shaders = {ShaderOptions{.name = "render/clusters.comp"},
@@ -24,11 +29,16 @@ void boundClusters(Commands& commands, Clusters& clusters, const MesherBuffers& 
     clusters.triangles = triangles;
     if (triangles == 0) return;
     const uint32_t count = groupsFor(triangles, CLUSTER_TRIANGLES);
+    const DeviceLimits& limits = commands.device.limits;
+    clusters.whole = kClusterBytes * count > limits.storageRange ||
+                     mesh.vertices.size > DeviceLimits::kTexelBytes * limits.texels();
+    if (clusters.whole) return;
     reserve(commands.device, clusters.clusters, count * sizeof(gpu::Cluster));
     reserve(commands.device, clusters.seen, 4ull * count);
-    reserve(commands.device, clusters.indices, 12ull * CLUSTER_TRIANGLES * count);
-    const Descriptor bound[] = {{0, mesh.vertices}, {1, mesh.triangles}, {2, clusters.clusters}};
-    dispatch(commands, clusters.bound, {groupsFor(count, 64), 1, 1}, triangles, bound);
+    reserve(commands.device, clusters.indices, kClusterBytes * count);
+    const Descriptor bound[] = {
+        {0, mesh.vertices}, {1, mesh.triangles, 0, 12ull * triangles}, {2, clusters.clusters}};
+    dispatch(commands, clusters.bound, spread(commands.device, groupsFor(count, 64)), triangles, bound);
     barrier(commands);
 }
 
@@ -43,16 +53,28 @@ void cullClusters(Commands& commands, Clusters& clusters, const MesherBuffers& m
     push.eye = eye;
     push.clusters = groupsFor(clusters.triangles, CLUSTER_TRIANGLES);
     push.backs = backs ? 0 : 1;
-    const gpu::ClusterCounts none{{0, 1, 1}, {0, 1, 0, 0, 0}};
+    if (clusters.whole) {
+        const gpu::ClusterCounts all{0, {0, 1, 1}, {3 * clusters.triangles, 1, 0, 0, 0}};
+        vkCmdUpdateBuffer(commands.handle, clusters.counts.handle, 0, sizeof all, &all);
+        return barrier(commands);
+    }
+    const gpu::ClusterCounts none{0, {0, 1, 1}, {0, 1, 0, 0, 0}};
     vkCmdUpdateBuffer(commands.handle, clusters.counts.handle, 0, sizeof none, &none);
     barrier(commands);
     const Descriptor culled[] = {{0, clusters.clusters}, {1, clusters.seen}, {2, clusters.counts}};
-    dispatch(commands, clusters.cull, {groupsFor(push.clusters, 64), 1, 1}, push, culled);
+    dispatch(commands, clusters.cull, spread(commands.device, groupsFor(push.clusters, 64)), push, culled);
     barrier(commands);
-    const Descriptor gathered[] = {{0, mesh.triangles}, {1, clusters.seen}, {2, clusters.indices}};
+    const Descriptor gathered[] = {{0, mesh.triangles, 0, 12ull * clusters.triangles},
+                                   {1, clusters.seen},
+                                   {2, clusters.indices},
+                                   {3, clusters.counts}};
     dispatchIndirect(commands, clusters.gather, clusters.counts, offsetof(gpu::ClusterCounts, seen),
                      clusters.triangles, gathered);
     barrier(commands);
+}
+
+const Buffer& indicesOf(const Clusters& clusters, const MesherBuffers& mesh) {
+    return clusters.whole ? mesh.triangles : clusters.indices;
 }
 
 }  // namespace fw

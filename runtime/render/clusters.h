@@ -22,6 +22,7 @@ struct Clusters {
     Pipeline bound, cull, gather;
     Buffer clusters, seen, counts, indices;
     uint32_t triangles = 0;
+    bool whole = false;               ///< the mesh is larger than kernels can see at once: all of it is drawn
     std::optional<uint64_t> content;  ///< number of the mesh that the boxes are of
 };
 
@@ -32,9 +33,12 @@ void boundClusters(Commands& commands, Clusters& clusters, const MesherBuffers& 
                    uint64_t content);
 
 /// Lists what is seen through `clip`, which looks from `eye` (w 1: a place; w 0: along a direction), into
-/// `indices`, with the draw's arguments in `counts`. `backs`: also what faces away. There is at least one
-/// triangle.
+/// the draw of indicesOf(), with its arguments in `counts`. `backs`: also what faces away. There is at least
+/// one triangle.
 void cullClusters(Commands& commands, Clusters& clusters, const MesherBuffers& mesh, const glm::mat4& clip,
                   const glm::vec4& eye, bool backs);
+
+/// The indices of what is drawn.
+const Buffer& indicesOf(const Clusters& clusters, const MesherBuffers& mesh);
 
 }  // namespace fw

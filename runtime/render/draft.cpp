@@ -50,7 +50,7 @@ void fillFromDraft(Commands& commands, const Draft& draft, GBuffer& gbuffer, con
                                 storage(2, gbuffer.now()),
                                 {3, gbuffer.tileLists},
                                 storage(4, draft.looks)};
-    dispatchIndirect(commands, draft.surface, gbuffer.arguments, argumentsOf(RENDER_NEAR), material, bound);
+    dispatchAllTiles(commands, draft.surface, gbuffer, RENDER_NEAR, &material, sizeof material, bound);
     barrier(commands);
 }
 

@@ -12,6 +12,28 @@ constexpr uint32_t kTraceGroup = 8;  // pixels along each side of a work group o
 // the most that a device may ask for.
 constexpr uint32_t kSlice = 64;
 
+/// Tiles that one dispatch is of at most.
+uint32_t mostTiles(const Device& device) {
+    assert(device.limits.groups >= kSlice);
+    return device.limits.groups / kSlice * kSlice;
+}
+
+/// Where in GBuffer::arguments the dispatch over a slice of a list is; the lists' lengths come before.
+uint32_t slicesOf(const Device& device, VkExtent3D extent) {
+    return groupsFor(tilesOf(extent), mostTiles(device));
+}
+VkDeviceSize argumentsOf(uint32_t list, uint32_t slices, uint32_t slice) {
+    return 4 * RENDER_LISTS + (list * slices + slice) * sizeof(gpu::DispatchArguments);
+}
+
+/// What is bound, with the lists of tiles from the given one on.
+std::vector<Descriptor> fromTile(std::span<const Descriptor> bound, const GBuffer& gbuffer, uint32_t first) {
+    std::vector<Descriptor> sliced(bound.begin(), bound.end());
+    for (Descriptor& descriptor : sliced)
+        if (descriptor.binding == 3) descriptor = Descriptor(3, gbuffer.tileLists, 4ull * first);
+    return sliced;
+}
+
 }  // namespace
 
 uint32_t tilesOf(VkExtent3D extent) {
@@ -91,7 +113,7 @@ void drawClusters(Commands& commands, const Pipeline& pipeline, const glm::mat4&
     fw::bind(commands, pipeline, &clip, sizeof clip, bound);
     const VkDeviceSize start = 0;
     vkCmdBindVertexBuffers(commands.handle, 0, 1, &mesh.vertices.handle, &start);
-    vkCmdBindIndexBuffer(commands.handle, clusters.indices.handle, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands.handle, indicesOf(clusters, mesh).handle, 0, VK_INDEX_TYPE_UINT32);
     vkCmdDrawIndexedIndirect(commands.handle, clusters.counts.handle, offsetof(gpu::ClusterCounts, draw), 1,
                              0);
 }
@@ -150,7 +172,6 @@ void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget
 GBuffer createGBuffer(const Device& device) {
     GBuffer gbuffer;
     gbuffer.tiles = createComputePipeline(device, {.name = "render/tiles.comp"});
-    gbuffer.arguments = createBuffer(device, RENDER_LISTS * sizeof(gpu::DispatchArguments));
     return gbuffer;
 }
 
@@ -164,14 +185,17 @@ bool resizeGBuffer(Commands& commands, GBuffer& gbuffer, VkExtent3D extent) {
     if (!resizeImage(commands, gbuffer.surfaces[0], extent, VK_FORMAT_R32G32B32A32_UINT)) return false;
     resizeImage(commands, gbuffer.surfaces[1], extent, VK_FORMAT_R32G32B32A32_UINT);
     reserve(commands.device, gbuffer.tileLists, 4ull * RENDER_LISTS * tilesOf(extent));
+    reserve(commands.device, gbuffer.arguments,
+            argumentsOf(RENDER_LISTS, slicesOf(commands.device, extent), 0));
     return true;
 }
 
 void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame) {
     const VkExtent3D extent = depth.extent;
-    fill(commands, gbuffer.arguments, 1);
-    for (uint32_t list = 0; list < RENDER_LISTS; ++list)
-        fill(commands, gbuffer.arguments, 0, argumentsOf(list), 4);
+    std::vector<uint32_t> none(RENDER_LISTS);  // lengths of 0, and dispatches of no groups
+    for (uint32_t i = 0; i < RENDER_LISTS * slicesOf(commands.device, extent); ++i)
+        none.insert(none.end(), {0, 1, 1});
+    vkCmdUpdateBuffer(commands.handle, gbuffer.arguments.handle, 0, none.size() * 4, none.data());
     barrier(commands);
     const std::array<Descriptor, 4> bound = {Descriptor(0, frame), storage(1, depth),
                                              Descriptor(3, gbuffer.tileLists),
@@ -194,20 +218,23 @@ void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const
     barrier(commands);
 }
 
+void dispatchAllTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
+                      const void* push, std::size_t pushSize, std::span<const Descriptor> bound) {
+    const uint32_t slices = slicesOf(commands.device, gbuffer.now().extent);
+    for (uint32_t slice = 0; slice < slices; ++slice)
+        dispatchIndirect(commands, pipeline, gbuffer.arguments, argumentsOf(list, slices, slice), push,
+                         pushSize, fromTile(bound, gbuffer, slice * mostTiles(commands.device)));
+}
+
 void dispatchTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
                    const void* push, std::size_t pushSize, std::span<const Descriptor> bound) {
     if (!commands.cancel || !commands.device.software)
-        return dispatchIndirect(commands, pipeline, gbuffer.arguments, argumentsOf(list), push, pushSize,
-                                bound);
+        return dispatchAllTiles(commands, pipeline, gbuffer, list, push, pushSize, bound);
     if (cancelled(commands)) return;
-    const uint32_t tiles =
-        download<gpu::DispatchArguments>(commands.device, gbuffer.arguments, RENDER_LISTS)[list].x;
-    std::vector<Descriptor> sliced(bound.begin(), bound.end());
-    const auto lists = std::find_if(sliced.begin(), sliced.end(),
-                                    [](const Descriptor& descriptor) { return descriptor.binding == 3; });
+    const uint32_t tiles = download<uint32_t>(commands.device, gbuffer.arguments, RENDER_LISTS)[list];
     for (uint32_t first = 0; first < tiles; first += kSlice) {
-        *lists = Descriptor(3, gbuffer.tileLists, 4ull * first);
-        dispatch(commands, pipeline, {std::min(kSlice, tiles - first), 1, 1}, push, pushSize, sliced);
+        dispatch(commands, pipeline, {std::min(kSlice, tiles - first), 1, 1}, push, pushSize,
+                 fromTile(bound, gbuffer, first));
         if (cancelled(commands)) return;
     }
 }

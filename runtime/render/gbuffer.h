@@ -64,7 +64,7 @@ struct GBuffer {
     Image surfaces[2];  ///< RGBA32_UINT (shaders/render/gbuffer.glsl): of this frame and of the one before
     uint32_t current = 0;
     Buffer tileLists,
-        arguments;  ///< RENDER_LISTS lists of tiles; the indirect dispatch of one group a tile of each
+        arguments;  ///< RENDER_LISTS lists of tiles; their lengths, and the dispatches of a group a tile
 
     const Image& now() const { return surfaces[current]; }
     const Image& before() const { return surfaces[1 - current]; }
@@ -84,16 +84,17 @@ void fillGBuffer(Commands& commands, GBuffer& gbuffer, const Image& depth, const
 /// Lists the tiles alone, for a now() that was filled otherwise.
 void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame);
 
-/// One group for each tile of a list, whose kernel reads it at binding 3. A recording that can be cancelled
-/// is run in slices on a software device, and the rest is left out once it is.
+/// One group for each tile of a list, whose kernel reads it at binding 3.
+void dispatchAllTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
+                      const void* push, std::size_t pushSize, std::span<const Descriptor> bound);
+
+/// The same, but a recording that can be cancelled is run in slices on a software device, and the rest is
+/// left out once it is.
 void dispatchTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
                    const void* push, std::size_t pushSize, std::span<const Descriptor> bound);
 
 /// Tiles that cover a picture.
 uint32_t tilesOf(VkExtent3D extent);
-
-/// Where in GBuffer::arguments the dispatch over a list is.
-constexpr VkDeviceSize argumentsOf(uint32_t list) { return list * sizeof(gpu::DispatchArguments); }
 
 /// The image for a binding, in VK_IMAGE_LAYOUT_GENERAL.
 Descriptor storage(uint32_t binding, const Image& image);

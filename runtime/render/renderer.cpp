@@ -341,7 +341,7 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         {3, gbuffer.tileLists},     storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
         storage(9, renderer.means), storage(10, renderer.pixels)};
     const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
-        dispatchIndirect(commands, pipeline, gbuffer.arguments, argumentsOf(list), nullptr, 0, bound);
+        dispatchAllTiles(commands, pipeline, gbuffer, list, nullptr, 0, bound);
     };
     if (lamps) {
         beginStage(commands, "lamps");
@@ -392,8 +392,8 @@ void traceReference(Commands& commands, Renderer& renderer, const RenderScene& s
                                      {3, gbuffer.tileLists},
                                      storage(7, renderer.ambient.now())};
     addField(bound, fieldOf(renderer, scene));
-    dispatchIndirect(commands, renderer.reference, gbuffer.arguments, argumentsOf(RENDER_NEAR),
-                     kRaysReference, bound);
+    dispatchAllTiles(commands, renderer.reference, gbuffer, RENDER_NEAR, &kRaysReference,
+                     sizeof kRaysReference, bound);
     barrier(commands);
 }
 
@@ -425,7 +425,7 @@ void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) 
     const uint32_t view = renderer.described.show;
     if (view == RENDER_WIREFRAME) {
         beginStage(commands, "view");
-        const uint64_t most = commands.device.properties.limits.maxStorageBufferRange;
+        const uint64_t most = commands.device.limits.storageRange;
         if (scene.triangles > 0 && 12ull * scene.triangles <= most && 16ull * scene.vertices <= most)
             drawWireframe(commands, renderer, scene);
     }

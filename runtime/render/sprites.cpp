@@ -62,8 +62,7 @@ void addSprites(Commands& commands, const Sprites& sprites, GBuffer& gbuffer, co
                                 storage(2, gbuffer.now()),
                                 {3, gbuffer.tileLists},
                                 storage(4, sprites.looks)};
-    dispatchIndirect(commands, sprites.surface, gbuffer.arguments, argumentsOf(RENDER_NEAR), nullptr, 0,
-                     bound);
+    dispatchAllTiles(commands, sprites.surface, gbuffer, RENDER_NEAR, nullptr, 0, bound);
     barrier(commands);
 }
 

@@ -26,8 +26,8 @@ struct Most {
     uint64_t triangles, vertices;
 };
 Most mostOf(const Device& device) {
-    const uint64_t range = device.properties.limits.maxStorageBufferRange;
-    const uint64_t texels = device.properties.limits.maxTexelBufferElements;
+    const uint64_t range = device.limits.storageRange;
+    const uint64_t texels = device.limits.texels();
     return {std::min(kMostTriangles, range / 12), std::min(range / sizeof(gpu::MeshVertex), texels)};
 }
 
@@ -61,7 +61,7 @@ struct Run {
         push.unit = 2.0f * powerAbove(std::max({reach.x, reach.y, reach.z}));
         return push;
     }
-    glm::uvec3 groups(uint64_t items) const { return spread(groupsFor(items, MESH_GROUP)); }
+    glm::uvec3 groups(uint64_t items) const { return spread(device, groupsFor(items, MESH_GROUP)); }
 };
 
 /// The counting sort of corners by vertex.

@@ -11,7 +11,8 @@ shared HISTOPYRAMID_TYPE histopyramidSums[HISTOPYRAMID_LANES / 4];  // no device
 /// Sum over the lanes before this one; `total` is that of all lanes. Every lane of the group must call it.
 HISTOPYRAMID_TYPE sumBefore(HISTOPYRAMID_TYPE value, out HISTOPYRAMID_TYPE total) {
     HISTOPYRAMID_TYPE before = subgroupExclusiveAdd(value);
-    if (gl_SubgroupInvocationID == gl_SubgroupSize - 1) histopyramidSums[gl_SubgroupID] = before + value;
+    HISTOPYRAMID_TYPE all = subgroupAdd(value);  // a subgroup may be larger than the group: no lane is the last by its number
+    if (subgroupElect()) histopyramidSums[gl_SubgroupID] = all;
     barrier();
     HISTOPYRAMID_TYPE sum = HISTOPYRAMID_TYPE(0), mine = HISTOPYRAMID_TYPE(0);
     uint i = 0;

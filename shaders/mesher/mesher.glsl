@@ -7,7 +7,7 @@ layout(push_constant, scalar) uniform Push { MesherPush push; };
 layout(binding = MESHER_AT_COUNTS, scalar) buffer Counts { MesherCounts counts; };
 
 /// Work groups of a dispatch over many items are spread evenly over two axes: a group too many runs, if to no effect.
-const uint kMostGroups = 65535;  // along one axis
+const uint kMostGroups = MOST_GROUPS;  // along one axis
 DispatchArguments groupsFor(uint items, uint perGroup) {
     uint groups = (items + perGroup - 1) / perGroup;
     uint y = max((groups + kMostGroups - 1) / kMostGroups, 1);

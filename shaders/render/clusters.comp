@@ -2,20 +2,23 @@
 // clusters are compact without being sorted.
 #include "shared.h"
 #include "render/render.h"
+#include "lib/groups.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0, scalar) readonly buffer Vertices { MeshVertex vertices[]; };
+layout(binding = 0, rgba32ui) readonly uniform uimageBuffer vertices;  // MeshVertex
 layout(binding = 1, scalar) readonly buffer Triangles { uvec3 triangles[]; };
 layout(binding = 2, scalar) writeonly buffer Clusters { Cluster clusters[]; };
 layout(push_constant, scalar) uniform Push { uint count; };  // of triangles
 
+vec3 positionOf(uint vertex) { return uintBitsToFloat(imageLoad(vertices, int(vertex)).xyz); }
+
 void main() {
-    uint cluster = gl_GlobalInvocationID.x, first = cluster * CLUSTER_TRIANGLES, last = count - 1;
+    uint cluster = linearGroup() * gl_WorkGroupSize.x + gl_LocalInvocationIndex, first = cluster * CLUSTER_TRIANGLES, last = count - 1;
     vec3 lo = vec3(1e30), hi = vec3(-1e30), normalLo = vec3(1e30), normalHi = vec3(-1e30);
     uint i = 0;
     do {
         uvec3 corners = triangles[min(first + i, last)];
-        vec3 a = vertices[corners.x].position, b = vertices[corners.y].position, c = vertices[corners.z].position;
+        vec3 a = positionOf(corners.x), b = positionOf(corners.y), c = positionOf(corners.z);
         vec3 n = cross(b - a, c - a);
         float size = length(n);
         lo = min(lo, min(a, min(b, c)));

@@ -2,6 +2,7 @@
 // same in each.
 #include "shared.h"
 #include "render/render.h"
+#include "lib/groups.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = 0, scalar) readonly buffer Clusters { Cluster clusters[]; };
@@ -10,7 +11,7 @@ layout(binding = 2, scalar) buffer Counts { ClusterCounts counts; };
 layout(push_constant, scalar) uniform Push { CullPush push; };
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = linearGroup() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     Cluster cluster = clusters[min(index, push.clusters - 1)];
     vec3 centre = 0.5 * (cluster.lo + cluster.hi), half_ = 0.5 * (cluster.hi - cluster.lo);
     bool keep = index < push.clusters;
@@ -27,7 +28,8 @@ void main() {
 
     uint mine = subgroupExclusiveAdd(keep ? 1 : 0), all = subgroupAdd(keep ? 1 : 0), base = 0;
     if (all > 0 && subgroupElect()) {
-        base = atomicAdd(counts.seen.x, all);
+        base = atomicAdd(counts.clusters, all);
+        atomicMax(counts.seen.x, min(base + all, MOST_GROUPS));
         atomicAdd(counts.draw[0], all * CLUSTER_TRIANGLES * 3);
     }
     base = subgroupBroadcastFirst(base);

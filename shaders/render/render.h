@@ -124,8 +124,10 @@ struct Cluster {
     vec3 lo, hi, normalLo, normalHi;
 };
 
-// The clusters that a pass draws: how many, as a dispatch of a group each, and the draw of their triangles.
+// The clusters that a pass draws: how many, a dispatch of as many groups as there may be, and the draw of
+// their triangles.
 struct ClusterCounts {
+    uint clusters;
     DispatchArguments seen;
     uint draw[5];  // arguments of vkCmdDrawIndexedIndirect
 };

@@ -3,6 +3,7 @@
 #include "shared.h"
 #include "render/render.h"
 #include "render/view.glsl"
+#include "lib/groups.glsl"
 
 #define LANES 32  // of a tile
 
@@ -10,7 +11,12 @@ layout(local_size_x = LANES) in;  // not less than the pixels on two sides of a 
 layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
 layout(binding = 1, r32f) readonly uniform image2D seen;  // depth as it was drawn or traced
 layout(binding = 3, scalar) writeonly buffer Tiles { uint tiles[]; };  // RENDER_LISTS lists, each with room for all tiles
-layout(binding = 4, scalar) buffer Arguments { DispatchArguments arguments[RENDER_LISTS]; };
+// The lists' lengths, and for each list the dispatches over it, in slices of so many tiles.
+#define MOST_TILES (MOST_GROUPS / 64 * 64)
+layout(binding = 4, scalar) buffer Arguments {
+    uint lengths[RENDER_LISTS];
+    DispatchArguments arguments[];
+};
 
 #include "render/solid.glsl"
 
@@ -19,7 +25,9 @@ layout(binding = 4, scalar) buffer Arguments { DispatchArguments arguments[RENDE
 shared uint found;  // 1: solid, 2: ground that ambient occlusion may reach, 4: ground with a place in the shadow map
 
 void add(uint list) {
-    tiles[list * frame.tiles + atomicAdd(arguments[list].x, 1)] = gl_WorkGroupID.x | gl_WorkGroupID.y << 16;
+    uint at = atomicAdd(lengths[list], 1), slices = (frame.tiles + MOST_TILES - 1) / MOST_TILES;
+    tiles[list * frame.tiles + at] = gl_WorkGroupID.x | gl_WorkGroupID.y << 16;
+    atomicAdd(arguments[list * slices + at / MOST_TILES].x, 1);
 }
 
 void main() {

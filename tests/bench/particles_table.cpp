@@ -77,7 +77,7 @@ void recordSlideExact(Commands& commands, DensityKernels& kernels, const Pipelin
     const auto buckets = uint32_t(push.buckets.x * push.buckets.y * push.buckets.z);
     const auto samples = uint32_t((grid.size.x + 3) / 4 * 4 * grid.size.y * grid.size.z);
     const auto run = [&](uint32_t items, const Pipeline& pipeline, std::span<const Descriptor> bound) {
-        dispatch(commands, pipeline, spread(groupsFor(items, DENSITY_GROUP)), push, bound);
+        dispatch(commands, pipeline, spread(commands.device, groupsFor(items, DENSITY_GROUP)), push, bound);
         barrier(commands);
     };
     reserve(commands.device, b.keys, 4ull * kParticles);

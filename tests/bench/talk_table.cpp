@@ -120,7 +120,7 @@ void talkTableAt(Bench& bench, int cells) {
 }  // namespace
 
 void talkTable(Bench& bench) {
-    if (!bench.device().geometryShader) {
+    if (!bench.device().has.geometryShader) {
         std::printf("The talk's stages are left out: the device has no geometry shaders.\n\n");
         return;
     }

@@ -208,7 +208,7 @@ TEST_F(Fluid, TheSameBytesEachTime) {
 TEST_F(Fluid, ListsNeedNotBeBoundAtOnce) {
     Result<Device> tight = createDevice({});
     ASSERT_TRUE(tight);
-    tight->properties.limits.maxStorageBufferRange = 1 << 17;  // of 512 particles' lists
+    tight->limits.storageRange = 1 << 17;  // of 512 particles' lists
     const FluidKernels kernels = createFluidKernels(*tight, {});
     const std::vector<glm::vec3> places = randomPlaces(1500, 0.6f, 7);
     const FluidConfig config{.spacing = 0.1f};

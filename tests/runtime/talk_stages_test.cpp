@@ -126,7 +126,7 @@ TEST(Baseline, HasTheMeshersTriangles) {
 }
 
 TEST(TalkStages, EveryWayDrawsTheBaselinesTriangles) {
-    if (!device().geometryShader) GTEST_SKIP() << "the device has no geometry shaders";
+    if (!device().has.geometryShader) GTEST_SKIP() << "the device has no geometry shaders";
     Baseline baseline(kCells);
     baseline.run(Field::tower);
     const GridEdges grid{.origin = glm::vec3(-2.5f), .spacing = 5.0f / kCells};
@@ -145,7 +145,7 @@ TEST(TalkStages, EveryWayDrawsTheBaselinesTriangles) {
 }
 
 TEST(TalkStages, EveryWayLeavesTheSameDepths) {
-    if (!device().geometryShader) GTEST_SKIP() << "the device has no geometry shaders";
+    if (!device().has.geometryShader) GTEST_SKIP() << "the device has no geometry shaders";
     const TalkStages stages = createTalkStages(device(), {.cells = kCells, .half = 2.5f, .imageSize = 256});
     std::vector<float> first;
     for (TalkWay way : kTalkWays) {
