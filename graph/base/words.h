@@ -14,6 +14,9 @@ std::string nearestName(std::string_view name, std::span<const std::string> name
 /// A number for reading, six digits.
 std::string shortNumber(double value);
 
+/// What to write instead of a number with a unit ("3.2mm", "90deg"), behind ": "; empty if it is none.
+std::string unitHint(std::string_view text);
+
 /// "a, b, c", cut after 40.
 std::string listed(const std::vector<std::string>& names);
 
