@@ -171,8 +171,8 @@ TEST_F(CommandOutput, NothingThatTheGraphReadsIsReplaced) {
     test::writeText(all, R"({"fieldwright": 1, "nodes": [
       {"id": "file", "type": "mesh_file", "inputs": {"path": "sub/m.gltf"}},
       {"id": "solid", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}}},
-      {"id": "paint", "type": "triplanar", "inputs": {"image": "i.png"}},
-      {"id": "coat", "type": "material", "inputs": {"surface": {"from": "solid"}, "color": {"from": "paint"}}},
+      {"id": "paint", "type": "triplanar", "inputs": {"image": "i.png", "surface": {"from": "solid"}}},
+      {"id": "coat", "type": "material", "inputs": {"surface": {"from": "solid"}, "base_color": {"from": "paint"}}},
       {"id": "cloud", "type": "particle_file", "inputs": {"path": "p.xyz"}},
       {"id": "code", "type": "expression", "code": "return length(p) - image_grey(\"c.png\", p.x, p.y);"},
       {"id": "both", "type": "union", "inputs": {"a": {"from": "coat"}, "b": {"from": "code"}}},
@@ -203,11 +203,12 @@ TEST_F(CommandOutput, NothingThatTheGraphReadsIsReplaced) {
 }
 
 TEST_F(CommandOutput, FramesDoNotReplaceWhatTheGraphReads) {
-    const std::string image = input.path("000001.png"), text = "no picture";
-    test::writeText(image, text);
+    const std::string image = input.path("000001.png");
+    ASSERT_EQ(runCommand({"render", graph, "-o", image, "--size", "32x32", "--samples", "1"}).status, 0);
+    const std::string text = test::readText(image);
     test::writeText(graph, R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": "sphere"},
-      {"id": "paint", "type": "triplanar", "inputs": {"image": "000001.png"}},
-      {"id": "coat", "type": "material", "inputs": {"surface": {"from": "ball"}, "color": {"from": "paint"}}},
+      {"id": "paint", "type": "triplanar", "inputs": {"image": "000001.png", "surface": {"from": "ball"}}},
+      {"id": "coat", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": {"from": "paint"}}},
       {"id": "out", "type": "output", "inputs": {"surface": {"from": "coat"}}}]})");
     for (const char* more : {"--overwrite", "--reference"})
         expectRefusal(
