@@ -6,9 +6,9 @@
 #include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace fw {
 
@@ -33,13 +33,25 @@ double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return std::abs(value) > 2e-15 * size ? value : 0.0;
 }
 
-/// On which side of the triangle's plane each of the corners is.
-glm::dvec3 sidesOf(const Triangle& corners, const Triangle& triangle) {
-    const auto side = [&](std::size_t i) {
-        return orientation(triangle[0], triangle[1], triangle[2], corners[i]);
-    };
-    return {side(0), side(1), side(2)};
-}
+/// A triangle's plane: its normal, as long as twice its area, and what went into that, for bounds of
+/// rounding.
+struct Plane {
+    explicit Plane(const Triangle& t) : corner(t[0]) {
+        const glm::dvec3 u = t[1] - t[0], v = t[2] - t[0];
+        const glm::dvec3 plus(u.y * v.z, u.z * v.x, u.x * v.y), minus(u.z * v.y, u.x * v.z, u.y * v.x);
+        normal = plus - minus;
+        size = glm::abs(plus) + glm::abs(minus);
+    }
+    /// Positive on the side from which the corners turn clockwise, as orientation(); zero if it is not known.
+    double side(const glm::dvec3& point) const {
+        const glm::dvec3 off = corner - point;
+        const double value = glm::dot(normal, off);
+        return std::abs(value) > 2e-15 * glm::dot(size, glm::abs(off)) ? value : 0.0;
+    }
+    glm::dvec3 sides(const Triangle& t) const { return {side(t[0]), side(t[1]), side(t[2])}; }
+
+    glm::dvec3 corner, normal, size;
+};
 
 /// Whether the open segment, whose ends are on both sides of the open triangle's plane, passes through it.
 bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
@@ -252,29 +264,36 @@ double TriangleTree::windingNumber(const glm::dvec3& point) const {
     return sum;
 }
 
-bool TriangleTree::cut(uint32_t a, uint32_t b) const {
-    const uint32_t *cornersA = &indices[3 * std::size_t(a)], *cornersB = &indices[3 * std::size_t(b)];
+struct TriangleTree::Facet {
+    Facet(const TriangleTree& tree, uint32_t triangle)
+        : index(&tree.indices[3 * std::size_t(triangle)]), corners(tree.corners(triangle)), plane(corners) {}
+    const uint32_t* index;
+    Triangle corners;
+    Plane plane;
+};
+
+bool TriangleTree::cut(const Facet& a, const Facet& b) {
     int shared = 0;
     std::size_t atA = 0, atB = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
-            if (cornersA[i] == cornersB[j]) ++shared, atA = i, atB = j;
+            if (a.index[i] == b.index[j]) ++shared, atA = i, atB = j;
     if (shared > 1) return false;
-    const Triangle first = corners(a), second = corners(b);
     // Of those with a corner in common only the side across from it.
-    const auto pierces = [shared](const Triangle& one, const glm::dvec3& sides, std::size_t common,
-                                  const Triangle& other) {
+    const auto pierces = [shared](const Facet& one, const glm::dvec3& sides, std::size_t common,
+                                  const Facet& other) {
         for (std::size_t k = shared == 1 ? 1 : 0; k < (shared == 1 ? 2 : 3); ++k) {
             const std::size_t p = (common + k) % 3, q = (p + 1) % 3;
-            if (sides[int(p)] * sides[int(q)] < 0.0 && passesThrough(one[p], one[q], other)) return true;
+            if (sides[int(p)] * sides[int(q)] < 0.0 &&
+                passesThrough(one.corners[p], one.corners[q], other.corners))
+                return true;
         }
         return false;
     };
-    const glm::dvec3 sidesA = sidesOf(first, second);
-    if (glm::all(glm::greaterThan(sidesA, glm::dvec3(0.0))) ||
-        glm::all(glm::lessThan(sidesA, glm::dvec3(0.0))))
+    const glm::dvec3 sides = b.plane.sides(a.corners);
+    if (std::min({sides.x, sides.y, sides.z}) > 0.0 || std::max({sides.x, sides.y, sides.z}) < 0.0)
         return false;
-    return pierces(first, sidesA, atA, second) || pierces(second, sidesOf(second, first), atB, first);
+    return pierces(a, sides, atA, b) || pierces(b, a.plane.sides(b.corners), atB, a);
 }
 
 uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) const {
@@ -285,14 +304,20 @@ uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) con
         const glm::vec3 &a = positions[corner[0]], &b = positions[corner[1]], &c = positions[corner[2]];
         return Box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
     };
+    // What only touches does not cut: so coplanar neighbours are apart wherever their plane is an axis's.
     const auto apart = [](const Box& a, const Box& b) {
-        return a.lo.x > b.hi.x || a.lo.y > b.hi.y || a.lo.z > b.hi.z || a.hi.x < b.lo.x || a.hi.y < b.lo.y ||
-               a.hi.z < b.lo.z;
+        return a.lo.x >= b.hi.x || a.lo.y >= b.hi.y || a.lo.z >= b.hi.z || a.hi.x <= b.lo.x ||
+               a.hi.y <= b.lo.y || a.hi.z <= b.lo.z;
     };
     for (std::size_t from = begin; from < end; from += kTogether) {
         const std::size_t to = std::min(from + kTogether, end);
         std::array<Box, kTogether> own;
-        for (std::size_t place = from; place < to; ++place) own[place - from] = boxOf(place);
+        std::vector<Facet> facets;
+        facets.reserve(kTogether);
+        for (std::size_t place = from; place < to; ++place) {
+            own[place - from] = boxOf(place);
+            facets.emplace_back(*this, order[place]);
+        }
         Box all = own[0];
         for (std::size_t k = 1; k < to - from; ++k)
             all = {glm::min(all.lo, own[k].lo), glm::max(all.hi, own[k].hi)};
@@ -310,8 +335,12 @@ uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) con
                  ++i) {
                 const Box other = boxOf(i);
                 if (apart(all, other)) continue;
-                for (std::size_t place = from; place < std::min(to, i); ++place)
-                    if (!apart(own[place - from], other)) found += cut(order[place], order[i]);
+                std::optional<Facet> facet;
+                for (std::size_t k = 0; k < std::min(to, i) - from; ++k) {
+                    if (apart(own[k], other)) continue;
+                    if (!facet) facet.emplace(*this, order[i]);
+                    found += cut(facets[k], *facet);
+                }
             }
         }
     }

@@ -81,7 +81,8 @@ class TriangleTree {
     void build(uint32_t index, uint32_t first, uint32_t count, std::span<const Box> boxes);
     void findDipoles();
     std::array<glm::dvec3, 3> corners(uint32_t triangle) const;
-    bool cut(uint32_t a, uint32_t b) const;
+    struct Facet;
+    static bool cut(const Facet& a, const Facet& b);
 
     std::span<const glm::vec3> positions;
     std::span<const uint32_t> indices;
