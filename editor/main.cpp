@@ -10,6 +10,7 @@
 #include "editor/files/arrangement.h"
 #include "editor/panels/tour.h"
 #include "editor/shell/loss.h"
+#include "runtime/gpu/driver_cache.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::editor {
@@ -112,6 +113,7 @@ int main(int count, char** arguments) {
 }  // namespace fw::editor
 
 int main(int count, char** arguments) {
+    fw::makeRoomForDriverCache();
     try {
         return fw::editor::main(count, arguments);
     } catch (const fw::SystemError& error) {

@@ -8,6 +8,7 @@
 
 #include "graph/check/check.h"
 #include "runtime/bake/mesh_field_baker.h"
+#include "runtime/export/outputs.h"
 #include "runtime/play/mesh_program.h"
 #include "runtime/system/clock.h"
 
@@ -71,6 +72,8 @@ Result<ExportState> ExportJob::Shared::make() {
         return known.error();
     if (const Done distinct = checkDistinct(wish.graph->path, exportedPaths(wish.path)); !distinct)
         return distinct.error();
+    if (const Done kept = checkReplacesNone(filesRead(*wish.graph), exportedPaths(wish.path)); !kept)
+        return kept.error();
     OpeningDevice opening(std::launch::async, wish.device);
     if (!start("check")) return stopped;
     findings = check(*wish.graph);

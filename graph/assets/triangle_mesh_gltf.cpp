@@ -21,7 +21,8 @@ namespace fw {
 
 namespace {
 
-constexpr int kDeepest = 64;  // JSON within JSON: the library's functions call themselves
+constexpr std::size_t kMostUngiven = 65536;  // elements that are zero for want of data
+constexpr int kDeepest = 64;                 // JSON within JSON: the library's functions call themselves
 constexpr FileKind kBufferFile = {.noun = "buffer", .mostBytes = kMeshFile.mostBytes};
 
 // Required extensions that change no triangle.
@@ -129,22 +130,55 @@ void checkAsset(const nlohmann::json& root) {
     }
 }
 
+/// Numbers that the library would take for 0 where they are something else.
+void checkNumbers(const nlohmann::json& root) {
+    const auto check = [](const nlohmann::json& object, const std::string& of,
+                          std::initializer_list<const char*> names) {
+        if (!object.is_object()) return;
+        for (const char* name : names)
+            if (object.contains(name) && !object[name].is_number_unsigned())
+                fail("has " + of + "\"" + name + "\": " +
+                     inOneLine(object[name].dump(-1, ' ', true, nlohmann::json::error_handler_t::replace),
+                               40) +
+                     ", which is no whole number from 0 on");
+    };
+    const auto each = [&](const char* array, const char* noun, std::initializer_list<const char*> names) {
+        if (!root.is_object() || !root.contains(array) || !root[array].is_array()) return;
+        for (std::size_t i = 0; i < root[array].size(); ++i) {
+            const nlohmann::json& object = root[array][i];
+            const std::string of = noun + (" " + std::to_string(i)) + " with ";
+            check(object, of, names);
+            if (!object.is_object() || !object.contains("sparse") || !object["sparse"].is_object()) continue;
+            check(object["sparse"], of, {"count"});
+            for (const char* part : {"indices", "values"})
+                if (object["sparse"].contains(part))
+                    check(object["sparse"][part], of, {"bufferView", "byteOffset", "componentType"});
+        }
+    };
+    check(root, "", {"scene"});
+    each("buffers", "buffer", {"byteLength"});
+    each("bufferViews", "buffer view", {"buffer", "byteOffset", "byteLength", "byteStride"});
+    each("accessors", "accessor", {"bufferView", "byteOffset", "count", "componentType"});
+    each("nodes", "node", {"mesh"});
+}
+
 tinygltf::Model parse(const MeshFile& file) {
     const std::string_view bytes = file.bytes;
     const bool binary = isBinary(bytes);
     std::string_view json = bytes;
     if (binary) {
-        if (bytes.size() < 20) fail("is cut off: copy it again");
-        if (wordAt(bytes, 4) != 2)
+        if (bytes.size() >= 8 && wordAt(bytes, 4) != 2)
             fail("is of version " + std::to_string(wordAt(bytes, 4)) +
                  " of the binary form, and only 2 is read");
-        if (wordAt(bytes, 8) > bytes.size()) fail("is cut off: copy it again");
+        if (bytes.size() < 20 || wordAt(bytes, 8) > bytes.size()) fail("is cut off: copy it again");
         json = bytes.substr(20, std::min<std::size_t>(wordAt(bytes, 12), bytes.size() - 20));
     }
     if (json.starts_with("\xEF\xBB\xBF")) json.remove_prefix(3);
     if (depthOf(json) > kDeepest) fail("is nested too deeply to be a glTF file");
 
-    checkAsset(nlohmann::json::parse(json, nullptr, false));
+    const nlohmann::json root = nlohmann::json::parse(json, nullptr, false);
+    checkAsset(root);
+    checkNumbers(root);
     tinygltf::TinyGLTF loader;
     Folder folder{file.file, {}};
     loader.SetFsCallbacks(
@@ -291,6 +325,10 @@ class Reader {
             fail("has accessor " + std::to_string(index) + " of a type that does not fit its use");
         if (count > kMostMeshVertices)
             fail("has accessor " + std::to_string(index) + " of more elements than can be read");
+        const auto given = std::size_t(std::max(accessor.sparse.isSparse ? accessor.sparse.count : 0, 0));
+        if (accessor.bufferView < 0 && count > given + kMostUngiven)
+            fail("has accessor " + std::to_string(index) + " of " + std::to_string(count) +
+                 " elements without data");
         const std::size_t element = component_ * components;
         std::vector<double> result(count * width);
         const auto fill = [&](std::span<const unsigned char> bytes, std::size_t stride, auto place,
@@ -302,8 +340,8 @@ class Reader {
                                   accessor.normalized && !asWhole);
         };
         if (accessor.bufferView >= 0 && count > 0) {
-            const std::size_t given = at(model.bufferViews, accessor.bufferView, "buffer view").byteStride;
-            const std::size_t stride = given > 0 ? given : element;
+            const std::size_t told = at(model.bufferViews, accessor.bufferView, "buffer view").byteStride;
+            const std::size_t stride = told > 0 ? told : element;
             if (stride < element || stride > 252u + element) fail("has a stride that cannot be");
             fill(
                 view(accessor.bufferView, accessor.byteOffset, stride * (count - 1) + element), stride,

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace fw {
 
 namespace {
 
 constexpr uint32_t kLeaf = 4;
+constexpr uint32_t kWorthAThread = 1 << 15;  // triangles below a node
+constexpr std::size_t kTogether = 8;         // triangles that look for others in one walk
 
 using Triangle = std::array<glm::dvec3, 3>;
 
@@ -29,10 +33,29 @@ double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return std::abs(value) > 2e-15 * size ? value : 0.0;
 }
 
-/// Whether the open segment passes through the open triangle.
+/// A triangle's plane: its normal, as long as twice its area, and what went into that, for bounds of
+/// rounding.
+struct Plane {
+    explicit Plane(const Triangle& t) : corner(t[0]) {
+        const glm::dvec3 u = t[1] - t[0], v = t[2] - t[0];
+        const glm::dvec3 plus(u.y * v.z, u.z * v.x, u.x * v.y), minus(u.z * v.y, u.x * v.z, u.y * v.x);
+        normal = plus - minus;
+        size = glm::abs(plus) + glm::abs(minus);
+    }
+    /// Positive on the side from which the corners turn clockwise, as orientation(); zero if it is not known.
+    double side(const glm::dvec3& point) const {
+        const glm::dvec3 off = corner - point;
+        const double value = glm::dot(normal, off);
+        return std::abs(value) > 2e-15 * glm::dot(size, glm::abs(off)) ? value : 0.0;
+    }
+    glm::dvec3 sides(const Triangle& t) const { return {side(t[0]), side(t[1]), side(t[2])}; }
+
+    glm::dvec3 corner, normal, size;
+};
+
+/// Whether the open segment, whose ends are on both sides of the open triangle's plane, passes through it.
 bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
     const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
-    if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0.0) return false;
     const double ab = orientation(p, q, a, b), bc = orientation(p, q, b, c), ca = orientation(p, q, c, a);
     return (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
 }
@@ -40,6 +63,22 @@ bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& tri
 double squaredDistance(const glm::dvec3& p, const glm::vec3& lo, const glm::vec3& hi) {
     const glm::dvec3 off = glm::max(glm::max(glm::dvec3(lo) - p, p - glm::dvec3(hi)), glm::dvec3(0.0));
     return glm::dot(off, off);
+}
+
+/// Of the tree over so many triangles.
+uint32_t nodesOf(uint32_t triangles) {
+    // All subtrees of one depth have one of two sizes, next to each other.
+    uint32_t size = triangles, smaller = 1, larger = 0, nodes = 0;  // trees of `size`, and of one more
+    while (size > kLeaf) {
+        nodes += smaller + larger;
+        const uint32_t all = 2 * (smaller + larger), half = size / 2;
+        // An even size gives two halves, an odd one a half and one more.
+        larger = size % 2 == 0 ? larger : smaller + 2 * larger;
+        smaller = all - larger;
+        size = half;
+    }
+    // Of those with one triangle more than a leaf holds, each has two leaves.
+    return nodes + smaller + larger + (size == kLeaf ? 2 * larger : 0);
 }
 
 /// Beyond so many radii a node is a dipole.
@@ -88,7 +127,8 @@ NearestPoint nearestOnTriangle(const glm::dvec3& p, const Triangle& triangle) {
     return least;
 }
 
-TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<const uint32_t> indices_)
+TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<const uint32_t> indices_,
+                           Purpose purpose)
     : positions(positions_), indices(indices_) {
     std::vector<Box> boxes(indices.size() / 3);
     for (std::size_t t = 0; t < boxes.size(); ++t) {
@@ -99,8 +139,12 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<cons
         order.push_back(uint32_t(t));
     }
     if (order.empty()) return;
-    nodes.reserve(order.size());
-    build(0, uint32_t(order.size()), boxes);
+    nodes.resize(nodesOf(uint32_t(order.size())));
+    build(0, 0, uint32_t(order.size()), boxes);
+    if (purpose == Purpose::winding) findDipoles();
+}
+
+void TriangleTree::findDipoles() {
     dipoles.resize(nodes.size());
     for (std::size_t i = nodes.size(); i-- > 0;) {  // children stand behind their parents
         const Node& node = nodes[i];
@@ -125,13 +169,12 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<cons
     }
 }
 
-uint32_t TriangleTree::build(uint32_t first, uint32_t count, std::vector<Box>& boxes) {
-    const auto index = uint32_t(nodes.size());
+void TriangleTree::build(uint32_t index, uint32_t first, uint32_t count, std::span<const Box> boxes) {
     Box box = boxes[order[first]];
     for (uint32_t i = first + 1; i < first + count; ++i)
         box = {glm::min(box.lo, boxes[order[i]].lo), glm::max(box.hi, boxes[order[i]].hi)};
-    nodes.push_back({box, first, count, 0});
-    if (count <= kLeaf) return index;
+    nodes[index] = {box, first, count, 0};
+    if (count <= kLeaf) return;
     const glm::vec3 size = box.hi - box.lo;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto middle = order.begin() + first + count / 2;
@@ -139,11 +182,16 @@ uint32_t TriangleTree::build(uint32_t first, uint32_t count, std::vector<Box>& b
                      [&](uint32_t a, uint32_t b) {
                          return boxes[a].lo[axis] + boxes[a].hi[axis] < boxes[b].lo[axis] + boxes[b].hi[axis];
                      });
+    const uint32_t left = count / 2, right = index + 1 + nodesOf(left);
     nodes[index].count = 0;
-    build(first, count / 2, boxes);
-    const uint32_t right = build(first + count / 2, count - count / 2, boxes);
     nodes[index].right = right;
-    return index;
+    std::future<void> beside;
+    if (count >= kWorthAThread)
+        beside = std::async(std::launch::async, [&] { build(index + 1, first, left, boxes); });
+    else
+        build(index + 1, first, left, boxes);
+    build(right, first + left, count - left, boxes);
+    if (beside.valid()) beside.get();
 }
 
 std::array<glm::dvec3, 3> TriangleTree::corners(uint32_t triangle) const {
@@ -216,46 +264,84 @@ double TriangleTree::windingNumber(const glm::dvec3& point) const {
     return sum;
 }
 
-bool TriangleTree::cut(uint32_t a, uint32_t b) const {
-    const uint32_t *cornersA = &indices[3 * std::size_t(a)], *cornersB = &indices[3 * std::size_t(b)];
-    const Triangle first = corners(a), second = corners(b);
+struct TriangleTree::Facet {
+    Facet(const TriangleTree& tree, uint32_t triangle)
+        : index(&tree.indices[3 * std::size_t(triangle)]), corners(tree.corners(triangle)), plane(corners) {}
+    const uint32_t* index;
+    Triangle corners;
+    Plane plane;
+};
+
+bool TriangleTree::cut(const Facet& a, const Facet& b) {
     int shared = 0;
     std::size_t atA = 0, atB = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
-            if (cornersA[i] == cornersB[j]) ++shared, atA = i, atB = j;
+            if (a.index[i] == b.index[j]) ++shared, atA = i, atB = j;
     if (shared > 1) return false;
-    if (shared == 1)  // the side across from the corner in common
-        return passesThrough(first[(atA + 1) % 3], first[(atA + 2) % 3], second) ||
-               passesThrough(second[(atB + 1) % 3], second[(atB + 2) % 3], first);
-    for (std::size_t i = 0; i < 3; ++i)
-        if (passesThrough(first[i], first[(i + 1) % 3], second) ||
-            passesThrough(second[i], second[(i + 1) % 3], first))
-            return true;
-    return false;
+    // Of those with a corner in common only the side across from it.
+    const auto pierces = [shared](const Facet& one, const glm::dvec3& sides, std::size_t common,
+                                  const Facet& other) {
+        for (std::size_t k = shared == 1 ? 1 : 0; k < (shared == 1 ? 2 : 3); ++k) {
+            const std::size_t p = (common + k) % 3, q = (p + 1) % 3;
+            if (sides[int(p)] * sides[int(q)] < 0.0 &&
+                passesThrough(one.corners[p], one.corners[q], other.corners))
+                return true;
+        }
+        return false;
+    };
+    const glm::dvec3 sides = b.plane.sides(a.corners);
+    if (std::min({sides.x, sides.y, sides.z}) > 0.0 || std::max({sides.x, sides.y, sides.z}) < 0.0)
+        return false;
+    return pierces(a, sides, atA, b) || pierces(b, a.plane.sides(b.corners), atB, a);
 }
 
 uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) const {
     uint64_t found = 0;
     std::vector<uint32_t> open;
-    for (std::size_t place = begin; place < end; ++place) {
-        const Triangle mine = corners(order[place]);
-        const glm::vec3 lo(glm::min(mine[0], glm::min(mine[1], mine[2]))),
-            hi(glm::max(mine[0], glm::max(mine[1], mine[2])));
+    const auto boxOf = [&](std::size_t place) {
+        const uint32_t* corner = &indices[3 * std::size_t(order[place])];
+        const glm::vec3 &a = positions[corner[0]], &b = positions[corner[1]], &c = positions[corner[2]];
+        return Box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+    };
+    // What only touches does not cut: so coplanar neighbours are apart wherever their plane is an axis's.
+    const auto apart = [](const Box& a, const Box& b) {
+        return a.lo.x >= b.hi.x || a.lo.y >= b.hi.y || a.lo.z >= b.hi.z || a.hi.x <= b.lo.x ||
+               a.hi.y <= b.lo.y || a.hi.z <= b.lo.z;
+    };
+    for (std::size_t from = begin; from < end; from += kTogether) {
+        const std::size_t to = std::min(from + kTogether, end);
+        std::array<Box, kTogether> own;
+        std::vector<Facet> facets;
+        facets.reserve(kTogether);
+        for (std::size_t place = from; place < to; ++place) {
+            own[place - from] = boxOf(place);
+            facets.emplace_back(*this, order[place]);
+        }
+        Box all = own[0];
+        for (std::size_t k = 1; k < to - from; ++k)
+            all = {glm::min(all.lo, own[k].lo), glm::max(all.hi, own[k].hi)};
         open.assign(1, 0);
         while (!open.empty()) {
-            const Node& node = nodes[open.back()];
             const uint32_t index = open.back();
+            const Node& node = nodes[index];
             open.pop_back();
-            if (lo.x > node.box.hi.x || lo.y > node.box.hi.y || lo.z > node.box.hi.z ||
-                hi.x < node.box.lo.x || hi.y < node.box.lo.y || hi.z < node.box.lo.z)
-                continue;
+            if (apart(all, node.box)) continue;
             if (node.count == 0) {
                 open.push_back(index + 1);
                 open.push_back(node.right);
             }
-            for (uint32_t i = std::max(node.first, uint32_t(place + 1)); i < node.first + node.count; ++i)
-                found += cut(order[place], order[i]);
+            for (std::size_t i = std::max(std::size_t(node.first), from + 1); i < node.first + node.count;
+                 ++i) {
+                const Box other = boxOf(i);
+                if (apart(all, other)) continue;
+                std::optional<Facet> facet;
+                for (std::size_t k = 0; k < std::min(to, i) - from; ++k) {
+                    if (apart(own[k], other)) continue;
+                    if (!facet) facet.emplace(*this, order[i]);
+                    found += cut(facets[k], *facet);
+                }
+            }
         }
     }
     return found;

@@ -1,7 +1,8 @@
 // Triangles in a tree of boxes: which triangles are near, which cut each other, and what they go around.
 //
 // A binary tree over the triangles' middles, halved along the longest side of their box until four are left;
-// the nodes stand in one array, a left child right behind its parent. Building sorts in place, O(n log n).
+// the nodes stand in one array, a left child right behind its parent. Building sorts in place, O(n log n),
+// the halves of large nodes side by side.
 //
 // The generalized winding number of a point (Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside
 // Segmentation using Generalized Winding Numbers", 2013) is the sum of the signed solid angles of all
@@ -40,9 +41,12 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 
 class TriangleTree {
   public:
+    /// Only a tree that was made for them tells winding numbers.
+    enum class Purpose { distances, winding };
     /// `indices` are three a triangle, all below positions.size(). Triangles with two equal corners are left
     /// out.
-    TriangleTree(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
+    TriangleTree(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
+                 Purpose purpose = Purpose::winding);
 
     bool empty() const { return order.empty(); }
     /// The distance from the point to the nearest triangle, in metres; infinite if there is none.
@@ -74,9 +78,11 @@ class TriangleTree {
         double radius = 0.0;
     };
 
-    uint32_t build(uint32_t first, uint32_t count, std::vector<Box>& boxes);
+    void build(uint32_t index, uint32_t first, uint32_t count, std::span<const Box> boxes);
+    void findDipoles();
     std::array<glm::dvec3, 3> corners(uint32_t triangle) const;
-    bool cut(uint32_t a, uint32_t b) const;
+    struct Facet;
+    static bool cut(const Facet& a, const Facet& b);
 
     std::span<const glm::vec3> positions;
     std::span<const uint32_t> indices;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdio>
 #include <numeric>
 
@@ -65,6 +66,22 @@ std::string shortNumber(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value);
     return text;
+}
+
+std::string unitHint(std::string_view text) {
+    double number = 0.0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    std::string_view unit = text.substr(std::size_t(end - text.data()));
+    while (unit.starts_with(' ')) unit.remove_prefix(1);
+    if (problem != std::errc()) return {};
+    for (const auto& [name, metres] :
+         {std::pair("mm", 1e-3), std::pair("cm", 1e-2), std::pair("m", 1.0), std::pair("km", 1e3),
+          std::pair("um", 1e-6), std::pair("in", 0.0254), std::pair("\"", 0.0254), std::pair("ft", 0.3048)})
+        if (unit == name)
+            return ": lengths are metres, without a unit: write " + shortNumber(number * metres);
+    if (unit == "deg" || unit == "°")
+        return ": angles are degrees, without a unit: write " + shortNumber(number);
+    return {};
 }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -17,6 +17,9 @@ std::string lowered(std::string_view text);
 /// A number for reading, six digits.
 std::string shortNumber(double value);
 
+/// What to write instead of a number with a unit ("3.2mm", "90deg"), behind ": "; empty if it is none.
+std::string unitHint(std::string_view text);
+
 /// "a, b, c", cut after 40.
 std::string listed(const std::vector<std::string>& names);
 

@@ -2,6 +2,7 @@
 #include "graph/base/words.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
@@ -426,7 +427,8 @@ PartialGraph parseWhatCanBeRead(std::string_view text, std::string path) {
 }
 
 Result<std::string> readGraphText(const std::string& path) {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    // A pipe that nobody writes to ends at once; from others what comes is waited for.
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0)
         return fileError(path, errno == ENOENT ? "there is no such file: check the path"
                                : errno == EACCES
@@ -440,8 +442,10 @@ Result<std::string> readGraphText(const std::string& path) {
         const std::size_t length = text.size();
         text.resize(length + (1u << 20));
         got = ::read(file, text.data() + length, 1u << 20);
+        pollfd ready{file, POLLIN, 0};
+        if (got < 0 && errno == EAGAIN) poll(&ready, 1, -1);
         text.resize(length + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    } while ((got > 0 && text.size() <= kMaxFileBytes) || (got < 0 && errno == EINTR));
+    } while ((got > 0 && text.size() <= kMaxFileBytes) || (got < 0 && (errno == EINTR || errno == EAGAIN)));
     const int problem = got < 0 ? errno : 0;
     close(file);
     if (problem == EISDIR) return fileError(path, "this is a folder: name a graph file in it");

@@ -74,9 +74,11 @@ Done setParameter(Graph& graph, const std::string& name, const std::string& text
         const auto [next, failure] = std::from_chars(at, end, number);
         if (failure != std::errc{} || !std::isfinite(number) ||
             (next < end && (*next != ',' || next + 1 == end)))
-            return errorAt(graph, nullptr,
-                           inQuotes(text) + " is no value for the parameter " + inQuotes(name) +
-                               ": write a number, or numbers with commas between them");
+            return errorAt(
+                graph, nullptr,
+                inQuotes(text) + " is no value for the parameter " + inQuotes(name) +
+                    (unitHint(text).empty() ? ": write a number, or numbers with commas between them"
+                                            : unitHint(text)));
         numbers.push_back(number);
         at = next < end ? next + 1 : next;
     }

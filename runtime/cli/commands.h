@@ -1,11 +1,11 @@
 // The commands of `fieldwright`: one struct of options and one function each. main.cpp reads the options.
 //
-// Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 interrupted by
-// Ctrl-C. Standard output carries results only; messages go to standard error.
+// Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 ended by
+// Ctrl-C and 143 by SIGTERM (runtime/system/interruption.h). Standard output carries results only; messages
+// go to standard error.
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -20,13 +20,10 @@
 
 namespace fw::cli {
 
-inline constexpr int kDone = 0, kBadInput = 1, kBadUsage = 2, kSystemFailure = 3, kInterrupted = 130;
+inline constexpr int kDone = 0, kBadInput = 1, kBadUsage = 2, kSystemFailure = 3;
 
-/// Set by Ctrl-C; long work reads it between steps.
-extern std::atomic<bool> interrupted;
-/// While true, Ctrl-C ends the process at once: drivers compile for as long as they like and hear nothing.
-/// For work that leaves nothing behind, before the first output is opened.
-extern std::atomic<bool> leavesNothing;
+/// What is said of the outputs when a signal ends a command that has made none.
+inline constexpr char kNothingWritten[] = "; nothing was written";
 
 /// What every command that reads a graph takes.
 struct GraphOptions {
@@ -50,6 +47,7 @@ struct MeshOptions {
     std::optional<int> resolution;
     std::vector<double> region;  ///< empty, or x0 y0 z0 x1 y1 z1
     std::optional<MeshMethod> method;
+    std::vector<std::string> outputs = {};  ///< files that the command will write
 };
 
 struct ExportOptions {
@@ -87,6 +85,8 @@ struct PlayOptions {
     std::optional<int> frames;  ///< after which it ends
 };
 int runPlay(const PlayOptions& options);
+
+int runParameters(const std::string& path);
 
 int runCheck(const std::vector<std::string>& paths);
 

@@ -1,7 +1,9 @@
 // The commands that look at a graph or at the program without meshing: check, compile, nodes, info.
+#include <cmath>
 #include <cstdio>
 #include <string>
 
+#include "graph/base/words.h"
 #include "graph/check/check.h"
 #include "graph/compile/effort.h"
 #include "graph/document/json.h"
@@ -12,6 +14,7 @@
 #include "graph/library/reference.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/commands.h"
+#include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/shader.h"
 #include "runtime/play/mesh_program.h"
 
@@ -54,6 +57,23 @@ std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOp
     }
     print(program.error());
     return std::nullopt;
+}
+
+int runParameters(const std::string& path) {
+    const std::optional<Graph> graph = openGraph({path, {}, 0.0});
+    if (!graph) return kBadInput;
+    for (const NamedParameter& parameter : namedParameters(*graph)) {
+        std::string value, range;
+        if (const Node* node = graph->node(parameter.node))
+            for (const double number : inputNumbers(*node, parameter.input))
+                value += (value.empty() ? "" : ",") + shortNumber(number);
+        if (std::isfinite(parameter.min) || std::isfinite(parameter.max))
+            range = ", " + (std::isfinite(parameter.min) ? shortNumber(parameter.min) : "any") + " to " +
+                    (std::isfinite(parameter.max) ? shortNumber(parameter.max) : "any");
+        std::printf("%s=%s%s (%s.%s)\n", parameter.name.c_str(), value.c_str(), range.c_str(),
+                    parameter.node.c_str(), parameter.input.c_str());
+    }
+    return kDone;
 }
 
 int runCheck(const std::vector<std::string>& paths) {
@@ -196,6 +216,7 @@ int runInfo(bool devicesOnly) {
     if (devicesOnly) return kDone;
     std::printf("shader cache: %s\n",
                 cacheFolder().empty() ? "none (set XDG_CACHE_HOME or HOME)" : cacheFolder().c_str());
+    if (!whyNoDriverCache().empty()) std::printf("driver's cache: none: %s\n", whyNoDriverCache().c_str());
     std::printf("limits: file %zu MiB, %zu nodes, %zu operations, nesting %d\n", kMaxFileBytes >> 20,
                 kMaxNodes, kMaxIrOperations, kMaxNesting);
     return kDone;

@@ -1,6 +1,4 @@
 // `fieldwright`: reads the command line and runs one command.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <CLI/CLI.hpp>
@@ -17,69 +15,16 @@
 #include "graph/document/timeline.h"
 #include "graph/library/node_type.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/option_words.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
-#include "runtime/system/output_file.h"
+#include "runtime/gpu/driver_cache.h"
+#include "runtime/system/interruption.h"
 #include "runtime/window/viewer.h"
 
 namespace fw::cli {
 
-std::atomic<bool> interrupted = false;
-std::atomic<bool> leavesNothing = false;
-
 namespace {
-
-/// Ends at once where that leaves nothing behind, or at the second time; until then it is a wish.
-void onInterrupt(int) {
-    const bool again = interrupted.exchange(true);
-    if (!again && !leavesNothing) return;
-    OutputFile::removeUnfinished();
-    const std::string_view said =
-        again ? "fieldwright: interrupted\n" : "fieldwright: interrupted; nothing was written\n";
-    if (isatty(STDERR_FILENO) && write(STDERR_FILENO, "\r\033[K", 4) < 0) _exit(kInterrupted);
-    if (write(STDERR_FILENO, said.data(), said.size()) < 0) _exit(kInterrupted);
-    _exit(kInterrupted);
-}
-
-/// Accepts a number that is neither infinite nor a NaN.
-CLI::Validator finite() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            double number = 0.0;
-            const bool fine = CLI::detail::lexical_cast(text, number) && std::isfinite(number);
-            return fine ? std::string() : inQuotes(text) + " is not a finite number";
-        },
-        "NUMBER");
-}
-
-/// Accepts a whole number of this range.
-CLI::Validator whole(int least, int greatest) {
-    const std::string range = std::to_string(least) + " to " + std::to_string(greatest);
-    return CLI::Validator(
-        [=](const std::string& text) {
-            int number = 0;
-            const bool fine =
-                CLI::detail::lexical_cast(text, number) && number >= least && number <= greatest;
-            return fine ? std::string() : inQuotes(text) + " is not a whole number from " + range;
-        },
-        range);
-}
-
-/// Accepts anything but nothing.
-CLI::Validator something() {
-    return CLI::Validator(
-        [](const std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
-}
-
-/// Accepts "name=value".
-CLI::Validator assignment() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            return text.find('=') != std::string::npos ? std::string()
-                                                       : inQuotes(text) + " sets nothing: write name=value";
-        },
-        "NAME=VALUE");
-}
 
 /// The arguments with "-.5" as "-0.5": the parser takes a minus before a point for an option's name.
 std::vector<std::string> readableNumbers(int count, char** arguments) {
@@ -88,13 +33,6 @@ std::vector<std::string> readableNumbers(int count, char** arguments) {
         if (word.size() > 2 && word[0] == '-' && word[1] == '.' && word[2] >= '0' && word[2] <= '9')
             word.insert(1, "0");
     return words;
-}
-
-/// What is wrong with the command line, and where more is said.
-std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
-    std::string command = "fieldwright";
-    for (const CLI::App* used : app->get_subcommands()) command += " " + used->get_name();
-    return command + ": " + error.what() + "\nTry: " + command + " --help\n";
 }
 
 void addGraph(CLI::App* command, GraphOptions& graph) {
@@ -124,8 +62,7 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
             "--method", [&mesh](const std::string& name) { mesh.method = meshMethod(name); },
             "How the surface becomes triangles: dual-contouring keeps edges and corners sharp (default: as "
             "the graph says, else marching-cubes)")
-        ->check(CLI::IsMember(
-            std::vector<std::string>(std::begin(kMeshMethodNames), std::end(kMeshMethodNames))));
+        ->check(oneOf({std::begin(kMeshMethodNames), std::end(kMeshMethodNames)}));
     command->add_option("--device", mesh.device,
                         "Index or part of the name of the device (see fieldwright info)");
 }
@@ -139,16 +76,8 @@ void addQuality(CLI::App* command, FieldBy& quality) {
             "full: light is traced through the field; draft: of the mesh alone, sooner; auto: full, but a "
             "draft "
             "where the driver would take long to compile the field")
-        ->check(CLI::IsMember(names))
+        ->check(oneOf({"auto", "full", "draft"}))
         ->default_str("auto");
-}
-
-/// Ctrl-C asks the running command to stop, as onInterrupt says.
-void listenForInterrupt() {
-    struct sigaction action {};
-    action.sa_handler = onInterrupt;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
 }
 
 /// The benchmarks are a program of their own, beside this one. Returns only if it cannot be started.
@@ -172,7 +101,7 @@ int run(int count, char** arguments) {
     app.failure_message(usageMessage);
     app.footer(
         "Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 "
-        "interrupted.\n"
+        "interrupted (Ctrl-C), 143 ended (SIGTERM).\n"
         "Try:  fieldwright export samples/tower.field.json -o tower.glb");
 
     ExportOptions exportOptions;
@@ -266,7 +195,7 @@ int run(int count, char** arguments) {
             "tracing), slice (the field with lines of equal distance), exactness (red where the field "
             "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe; or particles "
             "as points or spheres, in place of their surface")
-        ->check(CLI::IsMember(renderViews()))
+        ->check(oneOf(renderViews()))
         ->default_str(renderOptions.view);
     addQuality(renderCommand, renderOptions.quality);
     renderCommand->add_flag(
@@ -338,7 +267,7 @@ int run(int count, char** arguments) {
     CLI::App* compileCommand = app.add_subcommand("compile", "Show what a graph compiles to");
     addGraph(compileCommand, compileOptions.graph);
     compileCommand->add_option("--emit", compileOptions.emit, "What to print: glsl, ir, or spirv (binary)")
-        ->check(CLI::IsMember({"glsl", "ir", "spirv"}))
+        ->check(oneOf({"glsl", "ir", "spirv"}))
         ->default_str("glsl");
     compileCommand
         ->add_flag(
@@ -351,6 +280,11 @@ int run(int count, char** arguments) {
                      "Keep this input a parameter instead of folding it: node.input")
         ->take_all()
         ->allow_extra_args(false);
+
+    std::string parametersPath;
+    CLI::App* parametersCommand =
+        app.add_subcommand("parameters", "List what --set can change of a graph: name, value, range, input");
+    parametersCommand->add_option("GRAPH", parametersPath, "The graph file")->required();
 
     NodesFormat nodesFormat = NodesFormat::list;
     CLI::App* nodesCommand = app.add_subcommand("nodes", "List the node library");
@@ -384,8 +318,10 @@ int run(int count, char** arguments) {
         app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
-    if (exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed() || playCommand->parsed())
-        listenForInterrupt();
+    const bool writes = exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed();
+    if (!checkCommand->parsed() && !nodesCommand->parsed() && !parametersCommand->parsed())
+        makeRoomForDriverCache();
+    endOnSignals({.said = writes ? kNothingWritten : ""});
     if (exportCommand->parsed()) return runExport(exportOptions);
     if (mergeCommand->parsed()) return runMerge(mergeOptions);
     if (renderCommand->parsed()) return runRender(renderOptions);
@@ -393,6 +329,7 @@ int run(int count, char** arguments) {
     if (checkCommand->parsed()) return runCheck(checkPaths);
     if (evalCommand->parsed()) return runEval(evalOptions);
     if (compileCommand->parsed()) return runCompile(compileOptions);
+    if (parametersCommand->parsed()) return runParameters(parametersPath);
     if (nodesCommand->parsed()) return runNodes(nodesFormat);
     if (infoCommand->parsed()) return runInfo(devicesOnly);
     return kBadUsage;

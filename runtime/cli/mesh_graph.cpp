@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "runtime/bake/mesh_field_baker.h"
+#include "runtime/export/outputs.h"
 
 namespace fw::cli {
 
@@ -39,11 +40,6 @@ int badInput(const MeshOptions& options, Error error) {
     return kBadInput;
 }
 
-int stopped() {
-    std::fprintf(stderr, "fieldwright: interrupted; nothing was written\n");
-    return kInterrupted;
-}
-
 namespace {
 
 /// The box of --region; false, and said why, if it has no extent.
@@ -62,6 +58,15 @@ bool readRegion(const MeshOptions& options, std::optional<Box>& region) {
     return true;
 }
 
+/// Reads the graph and sees that none of the outputs is among what it reads.
+std::optional<Graph> openKept(const MeshOptions& options, int& status) {
+    std::optional<Graph> graph = openGraph(options.graph);
+    if (!graph) return status = kBadInput, std::nullopt;
+    if (const Done kept = checkReplacesNone(filesRead(*graph), options.outputs); !kept)
+        return print(kept.error()), status = kBadUsage, std::nullopt;
+    return graph;
+}
+
 }  // namespace
 
 std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status) {
@@ -71,13 +76,11 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     };
     std::optional<Box> region;
     if (!readRegion(options, region)) return fail(kBadUsage);
-    const BeforeOutput nothing;
-
     // The device starts while the graph is read: on software Vulkan that takes longer than reading.
     OpeningDevice device(std::launch::async, {.pick = options.device});
     progress.start("read", 0);
-    const std::optional<Graph> graph = openGraph(options.graph);
-    if (!graph) return fail(kBadInput);
+    const std::optional<Graph> graph = openKept(options, status);
+    if (!graph) return std::nullopt;
     progress.start("compile", 5);
     CompileOptions compileOptions;
     compileOptions.bake =
@@ -88,9 +91,13 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
         [&](int done, int all) {
             if (done == 1) progress.start("simulate", 10);
             progress.show(10 + 5 * done / all);
-            return !interrupted;
+            return true;
         });
     if (!program) return fail(kBadInput);
+    std::vector<std::string> images;  // those that code names, too
+    for (const FieldImagePtr& image : program->ir.images()) images.push_back(image->file);
+    if (const Done kept = checkReplacesNone(images, options.outputs); !kept)
+        return print(kept.error()), fail(kBadUsage);
     progress.start("region", 10);
     const MeshRequest request{region, options.resolution.value_or(program->resolution),
                               options.method.value_or(program->method)};
@@ -100,17 +107,14 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     progress.start("device", 15);
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), fail(kBadUsage);
-    if (interrupted) return fail(stopped());
-
     return OpenedGraph{std::move(*opened), std::move(*program), request, *box};
 }
 
 Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed) {
-    const BeforeOutput nothing;
     const auto starts = [&](const char* stage) {
         const bool meshes = std::string_view(stage) == "mesh";
-        if (!interrupted) progress.start(stage, meshes ? 50 : 20, meshes ? nullptr : kCompiling);
-        return !interrupted.load();
+        progress.start(stage, meshes ? 50 : 20, meshes ? nullptr : kCompiling);
+        return true;
     };
     return meshProgram(std::move(opened.device), std::move(opened.program), opened.request, opened.region,
                        starts, timed);
@@ -121,13 +125,13 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
     std::optional<OpenedGraph> opened = openForMesh(options, progress, status);
     if (!opened) return std::nullopt;
     Result<MeshedProgram> meshed = meshOpened(std::move(*opened), progress, timed);
-    if (meshed && !interrupted) return std::move(*meshed);
-    status = interrupted ? stopped() : badInput(options, meshed.error());
+    if (meshed) return std::move(*meshed);
+    status = badInput(options, meshed.error());
     return std::nullopt;
 }
 
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& wishes,
-                                 int& status, const std::function<int(const Timeline&)>& accept) {
+                                 int& status, const std::function<int(const Graph&)>& accept) {
     const auto fail = [&status](int with) {
         status = with;
         return std::nullopt;
@@ -137,22 +141,19 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     playerOptions.resolution = options.resolution.value_or(0);
     playerOptions.method = options.method;
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
-    const BeforeOutput nothing;
     OpeningDevice opening(std::launch::async, playerOptions.deviceOptions);
     progress.start("read", 0);
-    std::optional<Graph> graph = openGraph(options.graph);
-    if (!graph) return fail(kBadInput);
+    std::optional<Graph> graph = openKept(options, status);
+    if (!graph) return std::nullopt;
     if (accept)
-        if (const int refused = accept(*readTimeline(*graph)); refused != kDone) return fail(refused);
+        if (const int refused = accept(*graph); refused != kDone) return fail(refused);
     progress.start("device", 10);
     Result<Device>& device = opening.get();
     if (!device) return print(device.error()), fail(kBadUsage);
-    if (interrupted) return fail(stopped());
     progress.start("pipelines", 20, kCompiling);
     Result<Player> player = Player::create(std::move(*graph), std::move(*device), playerOptions);
     if (!player) return fail(badInput(options, player.error()));
     for (const Error& note : player->notes()) print(note);
-    if (interrupted) return fail(stopped());
     player->seek(options.graph.time);
     return std::move(*player);
 }

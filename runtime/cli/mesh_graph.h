@@ -35,17 +35,6 @@ class Progress {
     Clock::time_point since;
 };
 
-/// While it lives, Ctrl-C ends the process at once.
-class BeforeOutput {
-  public:
-    BeforeOutput() : before(leavesNothing.exchange(true)) {}
-    BeforeOutput(const BeforeOutput&) = delete;
-    ~BeforeOutput() { leavesNothing = before; }
-
-  private:
-    bool before;
-};
-
 /// A graph's program, and what to mesh of it where.
 struct OpenedGraph {
     Device device;
@@ -58,7 +47,7 @@ struct OpenedGraph {
 /// is told as by meshGraph.
 std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status);
 
-/// Meshes what openForMesh gave; "cancelled" is among the errors if Ctrl-C was heard.
+/// Meshes what openForMesh gave.
 Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed);
 
 /// Shown while pipelines are made.
@@ -70,17 +59,14 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
                                        int& status);
 
 /// Reads the graph and makes a player of it, at the options' time; the same of progress and failure. `accept`
-/// looks at the timeline before anything takes long, and may give an exit status other than kDone.
+/// looks at the graph before anything takes long, and may give an exit status other than kDone.
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& player,
-                                 int& status, const std::function<int(const Timeline&)>& accept = {});
+                                 int& status, const std::function<int(const Graph&)>& accept = {});
 
 /// "1280x720" to {1280, 720}. If it is not that, or no picture can have that size, says so for the command.
 std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text);
 
 /// Prints the error with the graph's file; returns the exit status of bad input.
 int badInput(const MeshOptions& options, Error error);
-
-/// Says that Ctrl-C was heard; returns the exit status of that.
-int stopped();
 
 }  // namespace fw::cli

@@ -31,12 +31,9 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
     long made = 0;
     {
         SequenceProgress progress(range.count());
-        for (long frame = 0; frame < range.last && !interrupted; ++frame) {
+        for (long frame = 0; frame < range.last; ++frame) {
             player->seek(start + range.time(frame));
-            std::optional<BeforeOutput> nothing;
-            if (frame == 0) nothing.emplace();  // the driver compiles
             const Result<bool> shown = player->show(render, picture);
-            nothing.reset();
             if (!shown) return badInput(options.mesh, shown.error());
             progress.next(true);
             if (frame == 0) built = player->pipelinesBuilt();
@@ -44,8 +41,6 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
         seconds = progress.seconds();
         made = progress.made;
     }
-    if (interrupted)
-        return std::fprintf(stderr, "fieldwright: interrupted after %ld frames\n", made), kInterrupted;
     std::printf("%ld frames in %.2f s, %.2f a second; %llu pipelines built after the first frame\n", made,
                 seconds, static_cast<double>(made) / seconds,
                 static_cast<unsigned long long>(player->pipelinesBuilt() - built));

@@ -34,7 +34,7 @@ class Stage {
 
     void run() {
         Clock::time_point before = Clock::now(), looked = before, changed = before;
-        for (int shown = 0; !viewer.closed && !interrupted && shown < options.frames.value_or(shown + 1);) {
+        for (int shown = 0; !viewer.closed && shown < options.frames.value_or(shown + 1);) {
             window.poll(viewer.dirty || !refined ? 0.0 : 0.02);
             const double elapsed = secondsSince(before);
             before = Clock::now();
@@ -187,7 +187,7 @@ int playInWindow(const PlayOptions& options, std::pair<int, int> size) {
         Window window(player->device(), "Fieldwright", size.first, size.second, viewer);
         Stage(options, *player, window, viewer).run();
     }
-    return interrupted ? kInterrupted : kDone;
+    return kDone;
 }
 
 }  // namespace fw::cli

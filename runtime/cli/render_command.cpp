@@ -6,7 +6,7 @@
 #include "graph/compile/effort.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
-#include "runtime/export/export.h"
+#include "runtime/export/outputs.h"
 #include "runtime/render/renderer.h"
 
 namespace fw::cli {
@@ -37,7 +37,6 @@ RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, 
     RenderOptions render{.width = size.first, .height = size.second, .samples = options.samples};
     render.reference = options.reference;
     render.show = viewOf(options);
-    render.cancel = &interrupted;
     return render;
 }
 
@@ -74,12 +73,13 @@ int runRender(const RenderCommandOptions& options) {
     }
     if (const Done distinct = checkDistinct(options.mesh.graph.path, {options.output}); !distinct)
         return print(distinct.error()), kBadUsage;
+    MeshOptions kept = options.mesh;
+    kept.outputs = {options.output};
 
     Progress progress;
     int status = kDone;
-    std::optional<BeforeOutput> nothing(std::in_place);
     std::optional<Player> player =
-        openPlayer(options.mesh, progress, {.liveParameters = false, .fieldBy = renderedBy(options)}, status);
+        openPlayer(kept, progress, {.liveParameters = false, .fieldBy = renderedBy(options)}, status);
     if (!player) return status;
     progress.start("mesh", 50);
     RenderOptions render = renderOptions(options, *size);
@@ -88,14 +88,12 @@ int runRender(const RenderCommandOptions& options) {
     if (mesh->triangles == 0 && !(showsParticles(render.show) && player->particles() > 0))
         return badInput(options.mesh,
                         nothingToSee(!player->regionFound(), player->region(), player->resolution()));
-    if (interrupted) return stopped();
     progress.start("light", 60);
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     const Result<Picture> picture = player->frame(render);
-    if (!picture) return interrupted ? stopped() : badInput(options.mesh, picture.error());
-    nothing.reset();
-    const Done written = savePicture(*picture, options.output, &interrupted);
-    if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
+    if (!picture) return badInput(options.mesh, picture.error());
+    if (const Done written = savePicture(*picture, options.output); !written)
+        return print(written.error()), kSystemFailure;
     progress.finish();
     noteDraft(*player, options);
     if (mesh->capped)

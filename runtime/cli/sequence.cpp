@@ -10,6 +10,8 @@
 #include <fstream>
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/export/outputs.h"
+#include "runtime/system/interruption.h"
 
 namespace fw::cli {
 
@@ -21,6 +23,8 @@ namespace {
 std::optional<std::pair<int, int>> sizeOfPng(const fs::path& path) {
     std::array<unsigned char, 24> head{};
     std::array<unsigned char, 8> tail{};  // name and checksum of the last chunk
+    std::error_code failure;
+    if (!fs::is_regular_file(path, failure)) return std::nullopt;  // a pipe would never answer
     std::ifstream file(path, std::ios::binary);
     const auto read = [&](auto& bytes) -> bool {
         return bool(file.read(reinterpret_cast<char*>(bytes.data()), bytes.size()));
@@ -93,13 +97,20 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
 
     const auto pathOf = [&](long frame) { return fs::path(options.output) / frameName(frame); };
     std::optional<FrameRange> range;
-    const auto accept = [&](const Timeline& timeline) {
+    const auto accept = [&](const Graph& graph) {
+        const Timeline timeline = *readTimeline(graph);
         const Result<FrameRange> wanted =
             framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length),
                           options.framesPerSecond.value_or(timeline.framesPerSecond));
         if (!wanted) return badUsage(wanted.error().message);
         range = *wanted;
-        for (long frame = range->first; frame < range->last && !options.overwrite; ++frame) {
+        const std::vector<std::string> read = filesRead(graph);
+        for (long frame = range->first; frame < range->last; ++frame) {
+            if (const Done kept = checkReplacesNone(read, {pathOf(frame).string()}); !kept)
+                return print(kept.error()), kBadUsage;
+            if (fs::exists(pathOf(frame), failure) && !fs::is_regular_file(pathOf(frame), failure))
+                return badUsage(pathOf(frame).string() + " is no ordinary file: give another folder");
+            if (options.overwrite) continue;
             const auto there = sizeOfPng(pathOf(frame));
             if (there && *there != size)
                 return badUsage(pathOf(frame).string() + " is there already, with " +
@@ -120,6 +131,13 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
         std::fprintf(stderr, "%s: note: nothing moves in this graph: all frames are the same\n",
                      options.mesh.graph.path.c_str());
 
+    const bool fresh = !fs::exists(options.output, failure);
+    const auto goesOn = [&](long done) {
+        return WhenEnded{.said = "; " + std::to_string(done) + " of " + std::to_string(range->count()) +
+                                 " frames were made: the same command goes on",
+                         .folder = fresh ? options.output : ""};
+    };
+    whenEnded(goesOn(0));
     fs::create_directories(options.output, failure);
     if (!fs::is_directory(options.output)) {
         std::fprintf(stderr, "%s: error: cannot make the folder: %s\n", options.output.c_str(),
@@ -132,32 +150,22 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     {
         SequenceProgress progress(range->count());
         const RenderOptions render = renderOptions(options, size);
-        for (long frame = range->first; frame < range->last && !interrupted; ++frame) {
+        for (long frame = range->first; frame < range->last; ++frame) {
             const std::string path = pathOf(frame).string();
             const bool there = !options.overwrite && sizeOfPng(path) == size;
             if (!there) {
                 player->seek(range->time(frame));
-                std::optional<BeforeOutput> nothing;
-                if (progress.made == 0) nothing.emplace();  // the driver compiles
                 const Result<Picture> picture = player->frame(render);
-                nothing.reset();
-                if (!picture && interrupted) break;
                 if (!picture) return badInput(options.mesh, picture.error());
                 if (progress.made == 0) noteDraft(*player, options);
-                const Done written = savePicture(*picture, path, &interrupted);
-                if (!written && interrupted) break;
-                if (!written) return print(written.error()), kSystemFailure;
+                if (const Done written = savePicture(*picture, path); !written)
+                    return print(written.error()), kSystemFailure;
                 capped = capped || player->meshOnDevice(render.show)->capped;
             }
             progress.next(!there);
+            whenEnded(goesOn(progress.made));
         }
         made = progress.made;
-    }
-    if (interrupted) {
-        std::fprintf(stderr,
-                     "fieldwright: interrupted; %ld of %ld frames were made: the same command goes on\n",
-                     made, range->count());
-        return kInterrupted;
     }
     if (made < range->count())
         std::fprintf(stderr, "%s: note: %ld of %ld frames were there already (--overwrite makes them anew)\n",

@@ -1,12 +1,21 @@
 #include "runtime/cli/tiled_export.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "runtime/export/export.h"
+#include "runtime/export/outputs.h"
 #include "runtime/play/tiled_mesh.h"
+#include "runtime/system/interruption.h"
 
 namespace fw::cli {
 namespace {
@@ -42,11 +51,10 @@ Result<std::vector<TileRecord>> meshTiles(Session& session, const MeshRequest& r
     for (std::size_t i = first; i < last; ++i) {
         std::optional<TileRecord> done = doneTile(folder, plan, key, i);
         if (!done) {
-            if (interrupted) return Error{.message = "interrupted"};
             const std::string words =
                 "tile " + std::to_string(i - first + 1) + " of " + std::to_string(last - first);
             progress.start("tile", int(20 + 60 * (i - first) / (last - first)), words.c_str());
-            Result<TileRecord> meshed = meshTile(session, request, plan, key, i, folder, &interrupted);
+            Result<TileRecord> meshed = meshTile(session, request, plan, key, i, folder, nullptr);
             if (!meshed) return meshed.error();
             done = std::move(*meshed);
         }
@@ -55,16 +63,47 @@ Result<std::vector<TileRecord>> meshTiles(Session& session, const MeshRequest& r
     return tiles;
 }
 
+std::string whatIsKept(const std::string& folder) {
+    return "fieldwright: the tiles that are done are kept in " + inQuotes(folder) +
+           ": the same command goes on from there\n";
+}
+
 /// Says that tiles stay for the next time, if some do.
 void sayWhatIsKept(const std::string& folder) {
     std::error_code ignored;
     std::filesystem::remove(folder, ignored);  // only if it is empty
-    if (std::filesystem::exists(folder, ignored))
-        std::fprintf(
-            stderr,
-            "fieldwright: the tiles that are done are kept in %s: the same command goes on from there\n",
-            inQuotes(folder).c_str());
+    if (std::filesystem::exists(folder, ignored)) std::fputs(whatIsKept(folder).c_str(), stderr);
 }
+
+/// The folder of the tiles, held against other processes that would write the same mesh.
+class TileFolder {
+  public:
+    static Result<TileFolder> open(const std::string& path) {
+        std::error_code failure;
+        std::filesystem::create_directory(path, failure);
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor < 0)
+            return Error{
+                .message = std::string("cannot make a folder for the tiles: ") + std::strerror(errno),
+                .file = path};
+        if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            ::close(descriptor);
+            return Error{.message =
+                             "another command is writing this mesh's tiles: wait for it, or give "
+                             "another output",
+                         .file = path};
+        }
+        return TileFolder(descriptor);
+    }
+    TileFolder(TileFolder&& other) noexcept : descriptor(std::exchange(other.descriptor, -1)) {}
+    ~TileFolder() {
+        if (descriptor >= 0) ::close(descriptor);
+    }
+
+  private:
+    explicit TileFolder(int opened) : descriptor(opened) {}
+    int descriptor;
+};
 
 /// Has the pieces' loading shown as progress from 80 %: a format reads each about twice.
 void showLoading(MeshPieces& mesh, const Progress& progress) {
@@ -73,13 +112,6 @@ void showLoading(MeshPieces& mesh, const Progress& progress) {
         progress.show(80 + int(20 * std::min(loaded++, all - 1) / all));
         return load(piece, part);
     };
-}
-
-/// The exit status where writing the output failed.
-int writingFailed(const Error& error) {
-    if (!interrupted) return print(error), kSystemFailure;
-    std::fprintf(stderr, "fieldwright: interrupted; no mesh was written\n");
-    return kInterrupted;
 }
 
 }  // namespace
@@ -131,15 +163,10 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
 
     progress.start("pipelines", 15, kCompiling);
     Session session(std::move(opened.device));
-    {
-        const BeforeOutput nothing;
-        session.setProgram(std::move(opened.program));
-    }
-    std::error_code failure;
-    std::filesystem::create_directory(folder, failure);
-    if (failure || !std::filesystem::is_directory(folder, failure))
-        return print({.message = "cannot make a folder for the tiles: " + failure.message(), .file = folder}),
-               kSystemFailure;
+    session.setProgram(std::move(opened.program));
+    whenEnded({"; no mesh was written", folder, whatIsKept(folder)});
+    const Result<TileFolder> held = TileFolder::open(folder);
+    if (!held) return print(held.error()), kSystemFailure;
 
     const int longest = std::max({grid->cells.x, grid->cells.y, grid->cells.z});
     const TilePlan plan = planTiles(*grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
@@ -156,10 +183,8 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
                   tilesOfShare(plan.tiles.size(), share.share, share.shares), folder, progress);
     if (!tiles) {
         progress.finish();
-        int status = kInterrupted;
-        if (interrupted)
-            std::fprintf(stderr, "fieldwright: interrupted; no mesh was written\n");
-        else if (tiles.error().code == Error::Code::tooMuchSurface)
+        int status = kDone;
+        if (tiles.error().code == Error::Code::tooMuchSurface)
             status = badInput(options.mesh, {.message = tiles.error().message + "; or take more --tiles"});
         else
             status = (print(tiles.error()), tiles.error().file.empty() ? kBadInput : kSystemFailure);
@@ -173,10 +198,8 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
                                    [](const TileRecord& tile) { return tile.header.triangles == 0; });
     if (!options.share.empty()) {
         PartHeader part{.key = key, .share = share.share, .shares = share.shares};
-        if (const Done written = writePart(part, *tiles, options.output, &interrupted); !written) {
-            const int status = writingFailed(written.error());
-            return sayWhatIsKept(folder), status;
-        }
+        if (const Done written = writePart(part, *tiles, options.output, nullptr); !written)
+            return print(written.error()), sayWhatIsKept(folder), kSystemFailure;
     } else if (empty) {
         removeTiles(folder);
         return badInput(options.mesh, nothingToSee(given, opened.region, opened.request.resolution));
@@ -184,11 +207,8 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
         Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
         if (!mesh) return removeTiles(folder), badInput(options.mesh, mesh.error());
         showLoading(*mesh, progress);
-        const Result<ExportedFiles> written = exportPieces(*mesh, options.output, {.cancel = &interrupted});
-        if (!written) {
-            const int status = writingFailed(written.error());
-            return sayWhatIsKept(folder), status;
-        }
+        const Result<ExportedFiles> written = exportPieces(*mesh, options.output);
+        if (!written) return print(written.error()), sayWhatIsKept(folder), kSystemFailure;
     }
     progress.finish();
     removeTiles(folder);
@@ -200,6 +220,8 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
 
 int runMerge(const MergeOptions& options) {
     if (const Done known = checkPiecesPath(options.output); !known) return print(known.error()), kBadUsage;
+    if (const Done kept = checkReplacesNone(options.parts, exportedPaths(options.output)); !kept)
+        return print(kept.error()), kBadUsage;
     Progress progress;
     progress.start("read", 0);
     Result<std::vector<TileRecord>> tiles = readParts(options.parts);
@@ -212,8 +234,8 @@ int runMerge(const MergeOptions& options) {
                kBadInput;
     progress.start("write", 80);
     showLoading(*mesh, progress);
-    const Result<ExportedFiles> written = exportPieces(*mesh, options.output, {.cancel = &interrupted});
-    if (!written) return interrupted ? stopped() : (print(written.error()), kSystemFailure);
+    const Result<ExportedFiles> written = exportPieces(*mesh, options.output);
+    if (!written) return print(written.error()), kSystemFailure;
     progress.finish();
     return kDone;
 }

@@ -15,6 +15,7 @@
 #include "runtime/export/formats.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "runtime/mesh/corners.h"
+#include "runtime/system/interruption.h"
 
 namespace fw {
 namespace {
@@ -137,14 +138,17 @@ float voxelSize(const ExportOptions& options, const Bounds& bounds) {
     return options.cellSize > 0.0f ? options.cellSize : std::max({size.x, size.y, size.z}) / 128.0f;
 }
 
-Result<ExportedFiles> commitAll(const std::string& path, OutputFile& file, OutputFile* beside) {
-    ExportedFiles files{exportedPaths(path), file.size()};
-    if (beside) {
-        // The file asked for goes last: when it is there, all of the export is.
-        if (Done finished = file.finish(); !finished) return finished.error();
-        if (Done committed = beside->commit(); !committed) return committed.error();
-        files.bytes += beside->size();
-    }
+Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
+                                OutputFile* beside) {
+    ExportedFiles files{exportedPaths(path), file.size() + (beside ? beside->size() : 0)};
+    if (Done finished = file.finish(); !finished) return finished.error();
+    if (Done finished = beside ? beside->finish() : done(); !finished) return finished.error();
+    if (options.examine)
+        if (Done fine = options.examine({path, file.place(), beside ? beside->place() : ""}); !fine)
+            return fine.error();
+    // The file asked for goes last: when it is there, all of the export is.
+    const Uninterrupted now;
+    if (Done committed = beside ? beside->commit() : done(); !committed) return committed.error();
     if (Done committed = file.commit(); !committed) return committed.error();
     return files;
 }
@@ -156,28 +160,6 @@ std::span<const ExportFormat> exportFormats() { return kFormats; }
 const ExportFormat* exportFormat(const std::string& path) {
     const auto* format = std::ranges::find(kFormats, lowerExtension(path), &ExportFormat::ending);
     return format == std::end(kFormats) ? nullptr : format;
-}
-
-Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs) {
-    namespace fs = std::filesystem;
-    std::error_code failure;
-    const auto place = [&](const std::string& path) {
-        return fs::weakly_canonical(fs::absolute(path, failure), failure);
-    };
-    std::vector<std::string> seen{graph};
-    for (const std::string& output : outputs) {
-        for (const std::string& other : seen) {
-            const fs::path path = place(output);  // empty if it cannot be found out
-            // equivalent() knows names that the file system takes for one.
-            if ((!path.empty() && path == place(other)) || fs::equivalent(output, other, failure))
-                return Error{.message = &other == &seen.front()
-                                            ? "this would replace the graph: write to another file"
-                                            : "two outputs would go to this file: write to another file",
-                             .file = output};
-        }
-        seen.push_back(output);
-    }
-    return done();
 }
 
 Done checkExportPath(const std::string& path, const ExportOptions& options, bool measured) {
@@ -261,7 +243,7 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
             writeGltf(mesh, *bounds, name, marked, percentEncoded(besideName), *file, *beside);
         else
             writeObj(mesh, name, besideName, *file, *beside);
-        return commitAll(path, *file, &*beside);
+        return commitAll(path, options, *file, &*beside);
     }
     std::string failure;
     switch (format) {
@@ -278,7 +260,7 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         default: break;
     }
     if (!failure.empty()) return refuse("cannot write: " + failure);
-    return commitAll(path, *file, nullptr);
+    return commitAll(path, options, *file, nullptr);
 }
 
 Done checkPiecesPath(const std::string& path) {
@@ -339,7 +321,7 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         file->write(gltfJson(mesh.material, layout, bounds, name,
                              percentEncoded(std::filesystem::path(besidePath).filename().string())));
         if (const Done written = binaryPart(*beside); !written) return written.error();
-        return commitAll(path, *file, &*beside);
+        return commitAll(path, options, *file, &*beside);
     }
     Done written = done();
     if (format == Format::glb) {
@@ -358,10 +340,10 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
             written = each(MeshPieces::triangles, *file, [&](const Mesh& m) { writePlyFaces(m, *file); });
     }
     if (!written) return written.error();
-    return commitAll(path, *file, nullptr);
+    return commitAll(path, options, *file, nullptr);
 }
 
-std::string generatorName() { return std::string("Fieldwright ") + FIELDWRIGHT_VERSION; }
+std::string generatorName() { return "Fieldwright " FIELDWRIGHT_VERSION; }
 
 unsigned char encodeSrgb(float linear) {
     // thresholds[i] is the linear value halfway between the codes i and i + 1: nearest rounding without a

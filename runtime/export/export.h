@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "runtime/measure/read_back.h"
 #include "runtime/mesh/mesh.h"
 
 namespace fw {
@@ -33,6 +34,8 @@ struct ExportOptions {
         false;  ///< of glTF: say which vertices are one, so that it is a solid (EXT_mesh_manifold)
     const std::atomic<bool>* cancel =
         nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
+    /// Called with the files, whole, before they replace what has their names; an Error ends the export.
+    std::function<Done(const StoredMesh&)> examine = {};
 };
 
 /// What an export left on disk.
@@ -83,9 +86,6 @@ struct ExportFormat {
 std::span<const ExportFormat> exportFormats();
 /// That of the path's ending; nullptr if it is none of them.
 const ExportFormat* exportFormat(const std::string& path);
-
-/// Refuses outputs that would replace the graph or each other, whatever their names look like.
-Done checkDistinct(const std::string& graph, const std::vector<std::string>& outputs);
 
 /// Refuses, before any work is done, a path whose extension exportMesh does not know; the message lists those
 /// it does. Also options that the format does not have; `measured` says that a report is wanted of the file.

@@ -36,9 +36,9 @@ MakeLevelSet* levelSetMaker() {
 std::string writeVdb(const WeldedMesh& solid, float voxel, const std::string& name,
                      const std::atomic<bool>* cancel, OutputFile& file) {
     static MakeLevelSet* const make = levelSetMaker();
-    if (!make) return std::string(kModule) + " is not there, or OpenVDB is not installed";
+    if (!make) return inQuotes(kModule) + " is not there, or OpenVDB is not installed";
     std::string bytes;
-    const TriangleTree tree(solid.positions, solid.indices);
+    const TriangleTree tree(solid.positions, solid.indices, TriangleTree::Purpose::distances);
     const auto distance = [&](const glm::dvec3& point) { return tree.distance(point); };
     if (!make({solid.positions, solid.indices, distance, voxel, name, generatorName(), cancel}, bytes))
         return bytes;

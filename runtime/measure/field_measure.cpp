@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "graph/base/parallel.h"
 #include "graph/evaluate/evaluate.h"
@@ -11,6 +12,7 @@ namespace fw {
 namespace {
 
 constexpr int kNewtonSteps = 8;
+constexpr double kNear = 1e-6;         // of the way gone, that may be left
 constexpr int kLeastPieces = 4096;     // of the region's longest side: what is shorter is not halved further
 constexpr double kWorthKeeping = 0.8;  // of its steps that a shortened tape may have
 constexpr int kLines = 12'000;
@@ -142,6 +144,9 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
 
 MeasureOptions measureOf(const Program& program, const Box& region) {
     MeasureOptions measure;
+    if (!program.exactness.exact())
+        measure.errorNote = "estimates: the field is no distance since node " + inQuotes(program.spoiledBy) +
+                            "; meshToSurfaceMax is measured";
     const auto at = [tape = makeTape(program.ir, program.distance(), program.parameters())](
                         std::span<const Point> positions) {
         std::vector<ValueGradient> results(positions.size());
@@ -167,24 +172,34 @@ MeasureOptions measureOf(const Program& program, const Box& region) {
         std::vector<Point> positions = starts;
         std::vector<double> left(points.size());
         std::vector<bool> inside(points.size());
-        for (int step = 0; step <= kNewtonSteps; ++step) {
-            const std::vector<ValueGradient> results = at(positions);
-            for (std::size_t i = 0; step == 0 && i < points.size(); ++i) inside[i] = results[i].value < 0.0;
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                const auto& [value, g] = results[i];
+        const auto gone = [&](std::size_t i) {
+            return std::hypot(positions[i][0] - starts[i][0], positions[i][1] - starts[i][1],
+                              positions[i][2] - starts[i][2]);
+        };
+        std::vector<std::size_t> open(points.size());  // those that are not there yet
+        std::iota(open.begin(), open.end(), std::size_t{0});
+        for (int step = 0; step <= kNewtonSteps && !open.empty(); ++step) {
+            std::vector<Point> asked;
+            for (const std::size_t i : open) asked.push_back(positions[i]);
+            const std::vector<ValueGradient> results = at(asked);
+            std::vector<std::size_t> still;
+            for (std::size_t k = 0; k < open.size(); ++k) {
+                const std::size_t i = open[k];
+                const auto& [value, g] = results[k];
+                if (step == 0) inside[i] = value < 0.0;
                 const double squared = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
                 left[i] = squared > 1e-24 ? std::abs(value) / std::sqrt(squared) : INFINITY;
-                if (step == kNewtonSteps || !std::isfinite(left[i])) continue;
+                if (!std::isfinite(left[i]) || left[i] <= kNear * gone(i)) continue;
+                if (step == kNewtonSteps) continue;
                 for (std::size_t a = 0; a < 3; ++a) positions[i][a] -= value * g[a] / squared;
+                still.push_back(i);
             }
+            open = std::move(still);
         }
         for (std::size_t i = 0; i < points.size(); ++i) {
-            double gone = 0.0;
-            for (std::size_t a = 0; a < 3; ++a)
-                gone += (positions[i][a] - starts[i][a]) * (positions[i][a] - starts[i][a]);
-            gone = std::sqrt(gone);
-            if (left[i] > 1e-3 * gone + 1e-9) continue;
-            distances[i] = gone + left[i];
+            const double way = gone(i);
+            if (left[i] > 1e-3 * way + 1e-9) continue;
+            distances[i] = way + left[i];
             if (inside[i]) distances[i] = std::min(distances[i], std::abs(beyond(region, starts[i])));
         }
     };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -145,11 +146,20 @@ void measureTopology(const WeldedMesh& mesh, const Corners& corners, Report& rep
     Topology total;
     for (const Topology& part : parts) total.add(part);
     uint64_t faces = 0;
+    std::vector<double> volumes(mesh.indices.size() / 3);  // of each shell, at its root
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
         if (collapsed(&mesh.indices[t * 3])) continue;
         ++faces;
-        if (shells.root(static_cast<uint32_t>(t)) == t) ++report.shells;
+        const uint32_t root = shells.root(static_cast<uint32_t>(t));
+        if (root == t) ++report.shells;
+        // Tetrahedra to a place on the shell: to a far one they would cancel.
+        const glm::dvec3 from(mesh.positions[mesh.indices[std::size_t{root} * 3]]);
+        const auto corner = [&](std::size_t k) {
+            return glm::dvec3(mesh.positions[mesh.indices[t * 3 + k]]) - from;
+        };
+        volumes[root] += glm::dot(corner(0), glm::cross(corner(1), corner(2)));
     }
+    report.voids = uint64_t(std::ranges::count_if(volumes, [](double volume) { return volume < 0.0; }));
     report.vertices = total.vertices;
     report.boundaryEdges = total.boundary;
     report.nonManifoldEdges = total.nonManifold;
@@ -309,14 +319,21 @@ uint64_t selfIntersectionsOf(const TriangleTree& tree) {
     return std::accumulate(parts.begin(), parts.end(), uint64_t{0});
 }
 
+}  // namespace
+
 Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
     Report report;
     report.triangles = mesh.indices.size() / 3;
+    std::future<TriangleTree> growing;
+    if (options.selfIntersections || !options.surface.empty())
+        growing = std::async(std::launch::async, [&mesh] {
+            return TriangleTree(mesh.positions, mesh.indices, TriangleTree::Purpose::distances);
+        });
     const Corners corners = cornersOf(mesh.indices, mesh.positions.size());
     measureTopology(mesh, corners, report);
     measureSize(mesh, report);
-    if (options.selfIntersections || !options.surface.empty()) {
-        const TriangleTree tree(mesh.positions, mesh.indices);
+    if (growing.valid()) {
+        const TriangleTree tree = growing.get();
         if (options.selfIntersections) report.selfIntersections = selfIntersectionsOf(tree);
         if (!tree.empty()) measureFromSurface(tree, options.surface, report);
     }
@@ -341,15 +358,14 @@ Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
     measureError(mesh.indices.size() / 3, options.error, centroids, total);
     if (total.count > 0) {
         report.maxError = total.greatest;
+        report.errorNote = options.errorNote;
         report.meanError = total.sum / static_cast<double>(total.count);
     }
     return report;
 }
 
-}  // namespace
-
 Result<Report> reportOnFile(const std::string& path, const MeasureOptions& options) {
-    const Result<WeldedMesh> mesh = readWelded(path);
+    const Result<WeldedMesh> mesh = readWelded({path, path});
     if (!mesh) return mesh.error();
     return reportOnWelded(*mesh, options);
 }
@@ -367,6 +383,7 @@ std::string writeReport(const Report& report) {
     out["vertices"] = report.vertices;
     out["triangles"] = report.triangles;
     out["shells"] = report.shells;
+    out["voids"] = report.voids;
     out["boundaryEdges"] = report.boundaryEdges;
     out["nonManifoldEdges"] = report.nonManifoldEdges;
     out["nonManifoldVertices"] = report.nonManifoldVertices;
@@ -379,6 +396,7 @@ std::string writeReport(const Report& report) {
     out["boundsMax"] = report.boundsMax;
     out["maxError"] = known(report.maxError);
     out["meanError"] = known(report.meanError);
+    if (!report.errorNote.empty()) out["errorNote"] = report.errorNote;
     out["selfIntersections"] = report.selfIntersections ? nlohmann::ordered_json(*report.selfIntersections)
                                                         : nlohmann::ordered_json();
     out["smallestAngle"] = report.smallestAngle;

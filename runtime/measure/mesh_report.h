@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "runtime/measure/read_back.h"
 #include "runtime/mesh/mesh.h"
 
 namespace fw {
@@ -39,7 +40,8 @@ struct SurfacePoint {
 struct MeasureOptions {
     bool selfIntersections = false;
     FieldError error = {};
-    FieldError distance = {};  ///< the same, but metres to a point of the surface nearby
+    std::string errorNote = {};  ///< of the report
+    FieldError distance = {};    ///< the same, but metres to a point of the surface nearby
     std::vector<SurfacePoint> surface = {};
 };
 
@@ -53,6 +55,7 @@ struct Report {
     uint64_t vertices = 0;             ///< welded, used by a triangle that is not collapsed
     uint64_t triangles = 0;            ///< as the file lists them, collapsed ones included
     uint64_t shells = 0;               ///< parts connected across edges
+    uint64_t voids = 0;                ///< those of them that face inwards: hollows that nothing leads out of
     uint64_t boundaryEdges = 0;        ///< edges of one triangle
     uint64_t nonManifoldEdges = 0;     ///< edges of three or more
     uint64_t nonManifoldVertices = 0;  ///< vertices whose triangles form more than one fan
@@ -64,7 +67,8 @@ struct Report {
     double area = 0;                  ///< square metres
     std::array<double, 3> boundsMin{}, boundsMax{};
     std::optional<double> maxError,
-        meanError;  ///< over vertices and triangle centroids; none without a field
+        meanError;               ///< over vertices and triangle centroids; none without a field
+    std::string errorNote = {};  ///< why these two are no distances; empty if they are
     std::optional<uint64_t> selfIntersections;   ///< pairs of triangles that cut each other (triangle_tree.h)
     double smallestAngle = 0, largestAngle = 0;  ///< of the triangles that are not degenerate, degrees
     /// From points spread evenly over the mesh's area to the surface; from points of the surface, found
@@ -86,6 +90,9 @@ struct Report {
 
 /// Measures the mesh file at `path`. An Error says what in the file is not as it should be.
 Result<Report> reportOnFile(const std::string& path, const MeasureOptions& options = {});
+
+/// Measures what was read of a file.
+Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options = {});
 
 /// Measures triangles in memory as if they had been read from a file.
 Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,

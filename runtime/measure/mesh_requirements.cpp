@@ -41,7 +41,13 @@ Reason nondegenerate(const Report& report, double) {
 }
 
 Reason parts(const Report& report, double wanted) {
-    return double(report.shells) == wanted ? Reason() : "it has " + std::to_string(report.shells) + " parts";
+    const std::string hollow = report.voids > 0 ? ", " + std::to_string(report.voids) + " of them voids" : "";
+    return double(report.shells) == wanted ? Reason()
+                                           : "it has " + std::to_string(report.shells) + " parts" + hollow;
+}
+
+Reason voids(const Report& report, double wanted) {
+    return double(report.voids) == wanted ? Reason() : "it has " + std::to_string(report.voids) + " voids";
 }
 
 Reason triangles(const Report& report, double most) {
@@ -72,10 +78,15 @@ struct Rule {
     bool whole = false;  ///< only whole numbers make sense
 };
 
-constexpr Rule kRules[] = {{"closed", nullptr, closed},     {"manifold", nullptr, manifold},
-                           {"uncut", nullptr, uncut},       {"nondegenerate", nullptr, nondegenerate},
-                           {"parts", "COUNT", parts, true}, {"triangles", "COUNT", triangles, true},
-                           {"angle", "DEGREES", angle},     {"error", "METRES", error}};
+constexpr Rule kRules[] = {{"closed", nullptr, closed},
+                           {"manifold", nullptr, manifold},
+                           {"uncut", nullptr, uncut},
+                           {"nondegenerate", nullptr, nondegenerate},
+                           {"parts", "COUNT", parts, true},
+                           {"voids", "COUNT", voids, true},
+                           {"triangles", "COUNT", triangles, true},
+                           {"angle", "DEGREES", angle},
+                           {"error", "METRES", error}};
 
 std::optional<double> numberIn(std::string_view words) {
     double number = 0.0;

@@ -340,17 +340,19 @@ std::string MappedFile::open(const std::string& path) {
     return failure;
 }
 
-Result<WeldedMesh> readWelded(const std::string& path) {
-    const Fault fault = [&](std::string what) { return Error{.message = std::move(what), .file = path}; };
+Result<WeldedMesh> readWelded(const StoredMesh& mesh) {
+    const Fault fault = [&](std::string what) {
+        return Error{.message = std::move(what), .file = mesh.name};
+    };
     MappedFile file;
-    if (const std::string failure = file.open(path); !failure.empty())
+    if (const std::string failure = file.open(mesh.file); !failure.empty())
         return fault("cannot read: " + failure);
-    const std::string extension = lowerExtension(path);
+    const std::string extension = lowerExtension(mesh.name);
     if (extension == ".stl") return readStl(file.bytes(), fault);
     if (extension == ".obj") return readObj(file.bytes(), fault);
     if (extension == ".ply") return readPly(file.bytes(), fault);
     if (extension == ".glb") return readGlb(file.bytes(), fault);
-    if (extension == ".gltf") return readGltf(file.bytes(), path, fault);
+    if (extension == ".gltf") return readGltf(file.bytes(), mesh, fault);
     if (extension == ".3mf") return read3mf(file.bytes(), fault);
     if (extension == ".vdb") return fault("it holds distances and no triangles");
     return fault("unknown format '" + extension + "'");

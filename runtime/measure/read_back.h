@@ -40,7 +40,14 @@ class Welder {
 /// Merges equal positions; `indices` are below positions.size().
 WeldedMesh weld(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
 
-/// The triangles of the file at `path`; its extension names the format.
-Result<WeldedMesh> readWelded(const std::string& path);
+/// Where a mesh file's bytes are, if not under its name yet.
+struct StoredMesh {
+    std::string name;  ///< whose extension says the format
+    std::string file;
+    std::string beside = {};  ///< of glTF: the binary file; empty: as the file names it, beside `name`
+};
+
+/// The triangles of the file; its extension names the format.
+Result<WeldedMesh> readWelded(const StoredMesh& mesh);
 
 }  // namespace fw

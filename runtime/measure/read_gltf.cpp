@@ -201,7 +201,7 @@ Result<WeldedMesh> readGlb(const Bytes& bytes, const Fault& fault) {
     return readMeshes(*document, buffers, fault);
 }
 
-Result<WeldedMesh> readGltf(const Bytes& bytes, const std::string& path, const Fault& fault) {
+Result<WeldedMesh> readGltf(const Bytes& bytes, const StoredMesh& mesh, const Fault& fault) {
     const Result<json> document = parseDocument(bytes, fault);
     if (!document) return document.error();
     const json* buffer = entry(*document, "buffers", 0);
@@ -225,8 +225,9 @@ Result<WeldedMesh> readGltf(const Bytes& bytes, const std::string& path, const F
     if (name.empty() || name.find_first_of(std::string_view("/\\:\0", 4)) != std::string::npos)
         return fault("its buffer is not a file beside it");
     MappedFile binary;
-    if (const std::string failure = binary.open((std::filesystem::path(path).parent_path() / name).string());
-        !failure.empty())
+    const std::string place =
+        mesh.beside.empty() ? (std::filesystem::path(mesh.name).parent_path() / name).string() : mesh.beside;
+    if (const std::string failure = binary.open(place); !failure.empty())
         return fault("cannot read its buffer '" + name + "': " + failure);
     const auto length = whole(*buffer, "byteLength");
     if (!length || *length > binary.bytes().size()) return fault("its buffer is shorter than stated");

@@ -45,7 +45,7 @@ class MappedFile {
 
 Result<WeldedMesh> read3mf(const Bytes& bytes, const Fault& fault);
 Result<WeldedMesh> readGlb(const Bytes& bytes, const Fault& fault);
-/// `path` is that of the JSON: the binary file beside it is found from there and may not lie elsewhere.
-Result<WeldedMesh> readGltf(const Bytes& bytes, const std::string& path, const Fault& fault);
+/// The bytes are the JSON's; the binary file may not lie elsewhere than beside it.
+Result<WeldedMesh> readGltf(const Bytes& bytes, const StoredMesh& mesh, const Fault& fault);
 
 }  // namespace fw

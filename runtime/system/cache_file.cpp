@@ -1,13 +1,15 @@
 #include "runtime/system/cache_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <cstdio>
+#include <cerrno>
 #include <filesystem>
-#include <memory>
+#include <span>
 
 #include "graph/base/result.h"
+#include "runtime/system/output_file.h"
 #include "runtime/system/user_folder.h"
 
 namespace fw {
@@ -19,10 +21,32 @@ struct Header {
     uint64_t key = 0, checksum = 0;
 };
 
-struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+/// Closed at its end; without waiting for whoever writes to a pipe.
+struct Reading {
+    explicit Reading(const std::string& path)
+        : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+    Reading(const Reading&) = delete;
+    ~Reading() {
+        if (descriptor >= 0) ::close(descriptor);
+    }
+    /// Bytes of an ordinary file, 0 of all else.
+    uint64_t size() const {
+        struct stat status {};
+        const bool ordinary = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+        return ordinary ? uint64_t(status.st_size) : 0;
+    }
+    bool read(void* to, std::size_t bytes) const {
+        for (auto* at = static_cast<char*>(to); bytes > 0;) {
+            const ssize_t got = ::read(descriptor, at, bytes);
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) return false;
+            at += got;
+            bytes -= std::size_t(got);
+        }
+        return true;
+    }
+    const int descriptor;
 };
-using File = std::unique_ptr<std::FILE, Close>;
 
 }  // namespace
 
@@ -41,18 +65,15 @@ std::string cachePath(const std::string& kind, const std::string& name) {
 
 std::vector<uint32_t> readCacheFile(const std::string& path, uint64_t key) {
     if (path.empty()) return {};
-    File file(std::fopen(path.c_str(), "rb"));
+    const Reading file(path);
     Header header;
-    constexpr uint32_t kMostWords = 1u << 28;
-    if (!file || std::fread(&header, sizeof header, 1, file.get()) != 1 || header.magic != Header{}.magic ||
-        header.key != key || header.words > kMostWords)
-        return {};
     // The length is checked before it is believed: a damaged header must not cost a gigabyte.
-    std::error_code error;
-    if (std::filesystem::file_size(path, error) != sizeof header + uint64_t(header.words) * 4 || error)
+    const uint64_t size = file.size();
+    if (size < sizeof header || !file.read(&header, sizeof header) || header.magic != Header{}.magic ||
+        header.key != key || size != sizeof header + uint64_t(header.words) * 4)
         return {};
     std::vector<uint32_t> words(header.words);
-    if (std::fread(words.data(), 4, words.size(), file.get()) != words.size()) return {};
+    if (!file.read(words.data(), words.size() * 4)) return {};
     if (hashBytes(words.data(), words.size() * 4) != header.checksum) return {};
     return words;
 }
@@ -60,19 +81,15 @@ std::vector<uint32_t> readCacheFile(const std::string& path, uint64_t key) {
 void writeCacheFile(const std::string& path, uint64_t key, const std::vector<uint32_t>& words) {
     if (path.empty()) return;
     static std::atomic<int> counter = 0;
-    std::string temporary = path + "." + std::to_string(getpid()) + "." + std::to_string(counter++) + ".tmp";
     std::error_code error;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-    if (error) return;
-    File file(std::fopen(temporary.c_str(), "wb"));
+    Result<OutputFile> file = OutputFile::open(path, nullptr);
     if (!file) return;
-    Header header{
+    const Header header{
         .words = uint32_t(words.size()), .key = key, .checksum = hashBytes(words.data(), words.size() * 4)};
-    bool written = std::fwrite(&header, sizeof header, 1, file.get()) == 1 &&
-                   std::fwrite(words.data(), 4, words.size(), file.get()) == words.size();
-    written = std::fclose(file.release()) == 0 && written;
-    if (written) std::filesystem::rename(temporary, path, error);
-    if (!written || error) std::filesystem::remove(temporary, error);
+    file->write(&header, sizeof header);
+    file->write(std::span<const uint32_t>(words));
+    (void)file->commit();
 }
 
 }  // namespace fw

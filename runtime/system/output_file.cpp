@@ -1,6 +1,7 @@
 #include "runtime/system/output_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +13,8 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+
+#include "runtime/system/interruption.h"
 
 namespace fw {
 namespace {
@@ -44,6 +47,27 @@ void forget(int& slot) {
     slot = -1;
 }
 
+/// Whether the path leads to the open file, and not to another of that name.
+bool isAt(int descriptor, const std::string& path) {
+    struct stat open {
+    }, there{};
+    return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &there) == 0 &&
+           open.st_ino == there.st_ino && open.st_dev == there.st_dev;
+}
+
+/// Removes a temporary file that no process holds; whether the name may be free now.
+bool removeLeftOver(const std::string& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return errno == ENOENT;
+    struct stat status {};
+    const bool free = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+                      ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    // Whoever holds the lock of the file at a name is the only one to remove that name.
+    const bool removed = free && (!isAt(descriptor, path) || ::unlink(path.c_str()) == 0);
+    ::close(descriptor);
+    return removed;
+}
+
 }  // namespace
 
 void OutputFile::removeUnfinished() {
@@ -72,20 +96,10 @@ Result<OutputFile> OutputFile::open(const std::string& path, const std::atomic<b
         mode = existing.st_mode & 07777;
     }
 
-    // Exclusive creation: neither another export nor a left-over of a killed one is ever written into.
-    const std::filesystem::path full(file.target);
-    const std::string stem = full.filename().string().substr(0, kLongestName);
-    static std::atomic<unsigned> serial{0};
-    do {
-        const std::string name =
-            "." + stem + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".tmp";
-        file.temporary = (full.parent_path() / name).string();
-        file.descriptor = ::open(file.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (file.descriptor < 0 && errno == EEXIST);
-    if (file.descriptor < 0) {
+    if (!file.create()) {
         const int cause = errno;
         file.temporary.clear();
-        std::string folder = full.parent_path().string();
+        std::string folder = std::filesystem::path(file.target).parent_path().string();
         if (folder.empty()) folder = ".";
         return failed(path, "cannot create a file in folder '" + folder + "': " + reason(cause));
     }
@@ -96,6 +110,31 @@ Result<OutputFile> OutputFile::open(const std::string& path, const std::atomic<b
     return file;
 }
 
+/// Created by nobody else, and locked for as long as it is open: a temporary file without a lock is left over
+/// from a process that was killed, and goes. On file systems without locks each stays.
+bool OutputFile::create() {
+    const std::filesystem::path full(target);
+    const std::string stem = "." + full.filename().string().substr(0, kLongestName) + ".";
+    for (unsigned number = 0;;) {
+        temporary = (full.parent_path() / (stem + std::to_string(number) + ".tmp")).string();
+        descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+                ::close(std::exchange(descriptor, -1));  // just taken for left over
+                ++number;
+            } else if (isAt(descriptor, temporary)) {
+                return true;
+            } else {
+                ::close(std::exchange(descriptor, -1));
+            }
+        } else if (errno != EEXIST) {
+            return false;
+        } else if (!removeLeftOver(temporary)) {
+            ++number;
+        }
+    }
+}
+
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : shownPath(std::move(other.shownPath)),
       target(std::move(other.target)),
@@ -104,6 +143,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       failure(std::move(other.failure)),
       cancel(other.cancel),
       descriptor(std::exchange(other.descriptor, -1)),
+      finished(other.finished),
       appended(other.appended),
       buffer(std::move(other.buffer)),
       buffered(std::exchange(other.buffered, 0)) {}
@@ -151,11 +191,14 @@ void OutputFile::put(const char* data, std::size_t size) {
 }
 
 Done OutputFile::finish() {
-    if (descriptor >= 0) {
+    if (!finished) {
+        finished = true;
         flush();
         if (good() && cancel && cancel->load(std::memory_order_relaxed)) failure = kCancelled;
-        // Some file systems (network, quota) report a full disk only when the file is closed.
-        if (::close(std::exchange(descriptor, -1)) != 0 && good())
+        // Some file systems (network, quota) report a full disk only when the file is closed. The other
+        // descriptor keeps the lock.
+        const int copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+        if (copy >= 0 && ::close(copy) != 0 && good())
             failure = "cannot write: " + reason(errno) + "; nothing was written";
     }
     if (good()) return done();
@@ -164,14 +207,15 @@ Done OutputFile::finish() {
 }
 
 Done OutputFile::commit() {
-    if (Done finished = finish(); !finished) return finished;
+    if (Done whole = finish(); !whole) return whole;
+    const Uninterrupted now;
     if (::rename(temporary.c_str(), target.c_str()) != 0) {
         failure = "cannot replace the file: " + reason(errno);
         discard();
         return failed(shownPath, failure);
     }
     temporary.clear();
-    forget(slot);
+    discard();
     return done();
 }
 

@@ -4,9 +4,11 @@
 // first failure (full disk, cancelled) is kept; later writes do nothing and commit returns it.
 //
 // Durability: rename is atomic, so whoever opens the name sees the old file or the new one, whole, and a
-// killed process leaves the old one. There is no fsync: measured, it triples the time of writing, and a mesh
-// can be made again from its graph. After a power cut within the system's write-back time (about 30 s) the
-// name may hold the old file or, on file systems that do not order data before a rename, a short one.
+// killed process leaves the old one, and a temporary file that the next one to write the name removes: as
+// long as a process lives it holds a lock of it. There is no fsync: measured, it triples the time of writing,
+// and a mesh can be made again from its graph. After a power cut within the system's write-back time (about
+// 30 s) the name may hold the old file or, on file systems that do not order data before a rename, a short
+// one.
 #pragma once
 
 #include <atomic>
@@ -46,8 +48,10 @@ class OutputFile {
     /// Bytes appended so far.
     uint64_t size() const { return appended; }
 
-    /// Writes what is buffered and closes; the name still shows the old file. For exports of several files.
+    /// Writes what is buffered; the name still shows the old file. For exports of several files.
     Done finish();
+    /// Where the bytes are until commit().
+    const std::string& place() const { return temporary; }
     /// Finishes if that is not done, then renames to the final name.
     Done commit();
 
@@ -57,6 +61,7 @@ class OutputFile {
 
   private:
     OutputFile() = default;
+    bool create();
     void flush();
     void put(const char* data, std::size_t size);
     void discard();
@@ -68,6 +73,7 @@ class OutputFile {
     std::string failure;
     const std::atomic<bool>* cancel = nullptr;
     int descriptor = -1;
+    bool finished = false;
     uint64_t appended = 0;
     std::unique_ptr<char[]> buffer;
     std::size_t buffered = 0;

@@ -329,6 +329,14 @@ TEST(TriangleMeshFile, GltfRefused) {
           {with("\"mode\": 5}, ", "\"mode\": 8}, ")
                .replace(with("\"mode\": 5}, ", "\"mode\": 8}, ").find("\"scene\": 1"), 10, "\"scene\": 0"),
            "mode 8"},
+          {with("\"byteOffset\": 64", "\"byteOffset\": -48"), "buffer view 1 with \"byteOffset\": -48"},
+          {with("\"byteOffset\": 12", "\"byteOffset\": -12"), "accessor 1 with \"byteOffset\": -12"},
+          {with("\"count\": 12", "\"count\": 4.5"), "accessor 2 with \"count\": 4.5"},
+          {with("\"scene\": 1", "\"scene\": \"hello\""),
+           "has \"scene\": \"hello\", which is no whole number"},
+          {with("\"bufferView\": 0, \"componentType\": 5126, \"count\": 4",
+                "\"componentType\": 5126, \"count\": 30000000"),
+           "accessor 0 of 30000000 elements without data"},
           {with("\"nodes\": [0]}]", "\"nodes\": []}]"), "no triangles"}}) {
         const Result<TriangleMesh> mesh = parseGltf(text);
         ASSERT_FALSE(mesh) << why;
@@ -343,6 +351,9 @@ TEST(TriangleMeshFile, GltfRefused) {
     const float inf = INFINITY;
     std::memcpy(buffer.data(), &inf, 4);
     EXPECT_NE(parseGltf(gltfText(), buffer).error().message.find("not finite"), std::string::npos);
+    EXPECT_NE(
+        refusal("a.glb", std::string("glTF\1\0\0\0\x0c\0\0\0", 12)).find("version 1 of the binary form"),
+        std::string::npos);
     EXPECT_NE(refusal("a.gltf", std::string(200'000, '[')).find("nested too deeply"), std::string::npos);
 }
 

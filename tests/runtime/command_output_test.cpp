@@ -73,6 +73,23 @@ TEST_F(CommandOutput, AFullDiskKeepsTheOldFile) {
                   {"a.stl: error", "No space left", "\na.stl\nbefore\n"});
 }
 
+TEST_F(CommandOutput, AFullDiskOfTheCachesIsNoMatter) {
+    const std::string disk = folder.path("disk");
+    fs::create_directory(disk);
+    const std::string mount = "mount -t tmpfs -o size=1m none '" + disk + "' && ";
+    if (test::runProgram("unshare -rm sh -c \"" + mount + "true\"").status != 0)
+        GTEST_SKIP() << "mounting is not permitted here";
+    CommandOptions options;
+    options.environment = {"XDG_CACHE_HOME=" + disk};
+    options.wrapper = {"unshare", "-rm", "sh", "-c",
+                       mount + "mkdir '" + disk + "/mesa_shader_cache' && truncate -s 1310728 '" + disk +
+                           "/mesa_shader_cache/index' && { cat /dev/zero > '" + disk +
+                           "/full' 2> /dev/null; \"$0\" \"$@\"; }"};
+    if (std::getenv("MESA_SHADER_CACHE_DIR")) options.environment.push_back("MESA_SHADER_CACHE_DIR=" + disk);
+    const CommandResult result = runCommand(to(folder.path("a.stl"), "16"), options);
+    EXPECT_EQ(result.status, 0) << result.errors;
+}
+
 TEST_F(CommandOutput, CtrlCStopsCleanlyAtAnyTime) {
     test::writeText(folder.path("a.stl"), "before");
     int interrupted = 0;
@@ -141,6 +158,77 @@ TEST_F(CommandOutput, TheGraphAndOtherOutputsAreNotReplaced) {
     EXPECT_EQ(test::readText(folder.path("b.png")), text);
 }
 
+TEST_F(CommandOutput, NothingThatTheGraphReadsIsReplaced) {
+    fs::create_directory(input.path("sub"));
+    const std::string mesh = input.path("sub/m.gltf"), image = input.path("i.png"),
+                      cloud = input.path("p.xyz");
+    const auto words = [](const std::string& path) { return test::readText(path); };
+    ASSERT_EQ(runCommand(to(mesh, "16")).status, 0);
+    ASSERT_EQ(runCommand({"render", graph, "-o", image, "--size", "32x32", "--samples", "1"}).status, 0);
+    fs::copy_file(image, input.path("c.png"));
+    test::writeText(cloud, "0 0 0\n");
+    const std::string all = input.path("all.field.json");
+    test::writeText(all, R"({"fieldwright": 1, "nodes": [
+      {"id": "file", "type": "mesh_file", "inputs": {"path": "sub/m.gltf"}},
+      {"id": "solid", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}}},
+      {"id": "paint", "type": "triplanar", "inputs": {"image": "i.png", "surface": {"from": "solid"}}},
+      {"id": "coat", "type": "material", "inputs": {"surface": {"from": "solid"}, "base_color": {"from": "paint"}}},
+      {"id": "cloud", "type": "particle_file", "inputs": {"path": "p.xyz"}},
+      {"id": "code", "type": "expression", "code": "return length(p) - image_grey(\"c.png\", p.x, p.y);"},
+      {"id": "both", "type": "union", "inputs": {"a": {"from": "coat"}, "b": {"from": "code"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}}]})");
+    fs::create_symlink(image, folder.path("link.png"));
+    fs::create_hard_link(cloud, folder.path("twin.ply"));
+    const std::string buffer = input.path("sub/m.bin");
+    const std::vector<std::string> read = {mesh, buffer, image, cloud, input.path("c.png")};
+    std::vector<std::string> before;
+    for (const std::string& file : read) before.push_back(words(file));
+    const std::string other = folder.path("new.ply");
+    for (const auto& [arguments, name] :
+         {std::pair(std::vector<std::string>{"export", all, "-o", mesh}, "'m.gltf', which is read"),
+          {{"export", all, "-o", input.path("sub/../sub/m.gltf")}, "'m.gltf'"},
+          {{"export", all, "-o", other, "--report", buffer}, "'m.bin'"},
+          {{"export", all, "-o", other, "--report", cloud}, "'p.xyz'"},
+          {{"export", all, "-o", folder.path("twin.ply")}, "'p.xyz'"},
+          {{"export", all, "-o", other, "--tiles", "2", "--region", "0", "0", "0", "1", "1", "1", "--report",
+            image},
+           "--report"},
+          {{"render", all, "-o", image}, "'i.png'"},
+          {{"render", all, "-o", folder.path("link.png")}, "'i.png'"}}) {
+        SCOPED_TRACE(arguments[3]);
+        expectRefusal(runCommand(arguments), 2, {name});
+    }
+    for (std::size_t i = 0; i < read.size(); ++i) EXPECT_TRUE(words(read[i]) == before[i]) << read[i];
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"link.png", "twin.ply"}));
+}
+
+TEST_F(CommandOutput, FramesDoNotReplaceWhatTheGraphReads) {
+    const std::string image = input.path("000001.png");
+    ASSERT_EQ(runCommand({"render", graph, "-o", image, "--size", "32x32", "--samples", "1"}).status, 0);
+    const std::string text = test::readText(image);
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": "sphere"},
+      {"id": "paint", "type": "triplanar", "inputs": {"image": "000001.png", "surface": {"from": "ball"}}},
+      {"id": "coat", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": {"from": "paint"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "coat"}}}]})");
+    for (const char* more : {"--overwrite", "--reference"})
+        expectRefusal(
+            runCommand({"render", graph, "-o", input.folder.string(), "--to", "1", "--fps", "4", more}), 2,
+            {"000001.png", "which is read"});
+    EXPECT_EQ(test::readText(image), text);
+}
+
+TEST_F(CommandOutput, PipesAreNoGraphsAndNoFrames) {
+    ASSERT_EQ(mkfifo(folder.path("pipe.field.json").c_str(), 0600), 0);
+    expectRefusal(runCommand({"export", folder.path("pipe.field.json"), "-o", folder.path("a.stl")}), 1,
+                  {"pipe.field.json"});
+    const std::string frames = folder.path("frames");
+    fs::create_directory(frames);
+    ASSERT_EQ(mkfifo((frames + "/000000.png").c_str(), 0600), 0);
+    expectRefusal(
+        runCommand({"render", graph, "-o", frames, "--to", "0.1", "--fps", "10", "--size", "32x32"}), 2,
+        {"000000.png", "no ordinary file"});
+}
+
 TEST_F(CommandOutput, RunIsFoundThroughALink) {
     const std::string home = folder.path("home");
     for (const char* part : {"graph", "runtime", "shaders", "tests/bench", "build/release"})
@@ -200,6 +288,19 @@ TEST_F(CommandOutput, BrokenCachesAreMadeAnew) {
     EXPECT_EQ(mesh(), first) << "with flipped bits";
     for (const fs::path& file : files) test::writeText(file.string(), "");
     EXPECT_EQ(mesh(), first) << "emptied";
+    std::string valid;
+    for (const fs::path& file : files)
+        if (file.extension() == ".spv") valid = test::readText(file.string());
+    ASSERT_FALSE(valid.empty());
+    for (const fs::path& file : files) test::writeText(file.string(), valid);
+    EXPECT_EQ(mesh(), first) << "another's content";
+    for (const fs::path& file : files) {
+        fs::remove(file);
+        ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    }
+    EXPECT_EQ(mesh(), first) << "pipes";
+    for (const fs::path& file : files) fs::remove(file), fs::create_directory(file);
+    EXPECT_EQ(mesh(), first) << "folders";
 
     test::writeText(folder.path("no_folder"), "");
     options.environment = {"XDG_CACHE_HOME=" + folder.path("no_folder")};

@@ -62,9 +62,16 @@ TEST_F(Command, MissingArgumentsAndUnknownOptionsAreUsage) {
     expectRefusal(runCommand({"eval", graph}), 2, {"--at x y z"});
     expectRefusal(runCommand({"info", "extra"}), 2, {"not expected: extra"});
     expectRefusal(runCommand({"nodes", "--json", "--markdown"}), 2, {"--json excludes --markdown"});
-    expectRefusal(runCommand({"compile", graph, "--emit", "hlsl"}), 2, {"--emit", "hlsl", "glsl,ir,spirv"});
+    expectRefusal(runCommand({"compile", graph, "--emit", "hlsl"}), 2, {"--emit", "hlsl", "glsl, ir, spirv"});
     expectRefusal(runCommand({"bench", "nosuch"}), 2, {"'nosuch'"});
-    expectBadUsage({"--bogus"}, {"not expected: --bogus"});
+    expectBadUsage({"--bogus"}, {"there is no option '--bogus'\n"});
+    expectBadUsage({"--resoluton", "8"}, {"no option '--resoluton': did you mean '--resolution'?"});
+    expectBadUsage({"--units", "mm"},
+                   {"there is no option '--units': lengths are metres, in .3mf millimetres"});
+    expectBadUsage({"--region", "3.2mm", "0", "0", "1", "1", "1"},
+                   {"'3.2mm' is not a finite number", "0.0032"});
+    expectRefusal(runCommand({"render", graph, "-o", "a.png", "--view", "normal"}), 2,
+                  {"'normal' is none of picture, ao, normals", "did you mean 'normals'?"});
     expectBadUsage({"extra"}, {"not expected: extra"});
     expectBadUsage({"-o", mesh}, {"--output"});
     expectBadUsage({"--method", "dual"}, {"--method", "marching-cubes"});

@@ -211,6 +211,7 @@ TEST(MeshReport, JsonHasTheDocumentedKeysInOrder) {
     EXPECT_EQ(keys, (std::vector<std::string>{"vertices",
                                               "triangles",
                                               "shells",
+                                              "voids",
                                               "boundaryEdges",
                                               "nonManifoldEdges",
                                               "nonManifoldVertices",

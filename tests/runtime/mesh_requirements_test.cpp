@@ -45,6 +45,15 @@ TEST(MeshRequirements, EachIsMissedByWhatItIsAbout) {
     const Mesh touching = test::join(test::cube(), test::moved(test::cube(), glm::vec3(2)));
     EXPECT_EQ(missed("manifold", reportOf(touching)), "not manifold: it has 1 vertices where parts touch");
     EXPECT_EQ(missed("parts=1", reportOf(touching)), "not parts=1: it has 2 parts");
+    Mesh hollow = test::moved(test::cube(), glm::vec3(0));
+    for (glm::vec3& p : hollow.positions) p *= 0.5f;
+    for (std::size_t i = 0; i < hollow.indices.size(); i += 3)
+        std::swap(hollow.indices[i], hollow.indices[i + 1]);
+    const Mesh trapped = test::join(test::cube(), hollow);
+    EXPECT_EQ(reportOf(trapped).voids, 1u);
+    EXPECT_EQ(missed("parts=1,voids=0", reportOf(trapped)),
+              "not parts=1: it has 2 parts, 1 of them voids; not voids=0: it has 1 voids");
+    EXPECT_EQ(reportOf(touching).voids, 0u);
     const Mesh cut = test::join(test::cube(), test::moved(test::cube(), glm::vec3(0.9f, 0.8f, 0.7f)));
     EXPECT_NE(missed("uncut", reportOf(cut)).find("pairs of triangles that cut each other"),
               std::string::npos);

@@ -47,7 +47,7 @@ TEST(ThreeMf, HoldsTheSolidInMillimetres) {
     Mesh mesh = test::unshared(test::join(test::torus(60, 31, 1.0 / 3.0, 0.07), test::cube()));
     mustExport(mesh, folder.path("mesh.3mf"));
     const WeldedMesh wanted = weld(mesh.positions, mesh.indices);
-    const Result<WeldedMesh> read = readWelded(folder.path("mesh.3mf"));
+    const Result<WeldedMesh> read = readWelded({folder.path("mesh.3mf"), folder.path("mesh.3mf")});
     ASSERT_TRUE(read) << format(read.error());
     EXPECT_EQ(read->indices, wanted.indices);
     ASSERT_EQ(read->positions.size(), wanted.positions.size());
@@ -158,7 +158,7 @@ TEST(ThreeMf, WhatIsNoneIsRefused) {
     for (const std::string& text : {std::string(), std::string("PK"), whole.substr(0, whole.size() / 2),
                                     whole.substr(0, whole.size() - 1), noise, "PK\3\4" + noise}) {
         test::writeText(folder.path("bad.3mf"), text);
-        const Result<WeldedMesh> read = readWelded(folder.path("bad.3mf"));
+        const Result<WeldedMesh> read = readWelded({folder.path("bad.3mf"), folder.path("bad.3mf")});
         ASSERT_FALSE(read) << text.size();
         EXPECT_EQ(read.error().file, folder.path("bad.3mf"));
         EXPECT_NE(read.error().message.find("not a 3MF"), std::string::npos) << read.error().message;

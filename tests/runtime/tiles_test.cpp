@@ -1,6 +1,9 @@
 // Tiles joined are the mesh of the whole region, to the bit; and the commands that make, keep, share and join
 // them.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -423,6 +426,18 @@ TEST_F(TilesCommand, AreTakenWhereTheSurfaceIsTooMuchAtOnce) {
     EXPECT_EQ(to("a.ply").status, 0);
     EXPECT_GT(fs::file_size(mesh), 50'000'000u);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply", "dense.field.json"}));
+}
+
+TEST_F(TilesCommand, TwoThatWriteOneMeshDoNotMeet) {
+    fs::create_directory(folder.path("a.ply.tiles"));
+    const int other = ::open(folder.path("a.ply.tiles").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    test::expectRefusal(runCommand(to("a.ply")), 3,
+                        {"a.ply.tiles", "another command is writing this mesh's tiles"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
+    ::close(other);
+    expectDone(to("a.ply"));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
 }
 
 TEST_F(TilesCommand, AreKeptWhenInterrupted) {

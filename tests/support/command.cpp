@@ -2,12 +2,13 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
+#include <pty.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <thread>
 
@@ -31,6 +32,18 @@ double residentMegabytes() {
     if (!file || std::fscanf(file, "%ld %ld", &total, &resident) != 2) resident = 0;
     if (file) std::fclose(file);
     return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// All that is written to the terminal until nobody holds it; `seen` is called once `text` was read.
+std::string readTerminal(int terminal, const std::string& text, const std::function<void()>& seen) {
+    std::string all;
+    char piece[4096];
+    bool found = false;
+    for (ssize_t got; (got = read(terminal, piece, sizeof piece)) > 0 || (got < 0 && errno == EINTR);) {
+        all.append(piece, std::size_t(std::max<ssize_t>(got, 0)));
+        if (!found && all.find(text) != std::string::npos) found = true, seen();
+    }
+    return all;
 }
 
 double seconds(const timeval& time) {
@@ -58,19 +71,22 @@ CommandResult runCommand(const std::vector<std::string>& arguments, const Comman
     const std::vector<char*> argv = pointers(words), envp = pointers(environment);
 
     for (const std::string& stream : {output, errors}) writeText(stream, "");
+    int terminal = -1, screen = -1;
+    if (!options.interruptAt.empty() && openpty(&terminal, &screen, nullptr, nullptr, nullptr) != 0)
+        return {};
     const double own = residentMegabytes();
     const pid_t child = fork();
     if (child == 0) {
         const int in = open("/dev/null", O_RDONLY);
         const int out = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        const int err = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int err = screen >= 0 ? screen : open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         if (dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) _exit(125);
         if (options.maxFileBytes >= 0) {
             const rlimit limit{static_cast<rlim_t>(options.maxFileBytes),
                                static_cast<rlim_t>(options.maxFileBytes)};
             setrlimit(RLIMIT_FSIZE, &limit);
         }
-        signal(SIGINT, SIG_DFL);  // which a shell has its background ignore
+        ::signal(SIGINT, SIG_DFL);  // which a shell has its background ignore
         execvpe(argv[0], argv.data(), envp.data());
         _exit(126);
     }
@@ -78,7 +94,13 @@ CommandResult runCommand(const std::vector<std::string>& arguments, const Comman
     if (child < 0) return result;
     if (options.interruptAfterMs >= 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds(options.interruptAfterMs));
-        kill(child, SIGINT);
+        kill(child, options.signal);
+    }
+    if (options.meanwhile) options.meanwhile(), kill(child, options.signal);
+    if (terminal >= 0) {
+        close(screen);
+        writeText(errors, readTerminal(terminal, options.interruptAt, [&] { kill(child, options.signal); }));
+        close(terminal);
     }
     int status = 0;
     rusage usage{};

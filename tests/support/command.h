@@ -2,8 +2,10 @@
 // cost.
 #pragma once
 
+#include <signal.h>
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,8 +14,12 @@ namespace fw::test {
 struct CommandOptions {
     std::vector<std::string> wrapper = {};      ///< words before the program: {"unshare", "-rm", …}
     std::vector<std::string> environment = {};  ///< "NAME=value" entries over the test's own
-    int interruptAfterMs = -1;                  ///< sends SIGINT after this time, if not negative
-    long maxFileBytes = -1;                     ///< RLIMIT_FSIZE, if not negative
+    int interruptAfterMs = -1;                  ///< sends `signal` after this time, if not negative
+    int signal = SIGINT;
+    /// Standard error is a terminal, and `signal` is sent when this is first read there; nothing if empty.
+    std::string interruptAt = {};
+    std::function<void()> meanwhile = {};  ///< called while the command runs; `signal` is sent behind it
+    long maxFileBytes = -1;                ///< RLIMIT_FSIZE, if not negative
 };
 
 struct CommandResult {
