@@ -198,8 +198,9 @@ const std::array<Patches, 256>& patchesOf() {
 /// A run: what is counted for each brick, and what became of it.
 class Connection {
   public:
-    Connection(const MesherBuffers& buffers, const MesherPush& push_, bool dual_)
-        : b(buffers),
+    Connection(const Device& device_, const MesherBuffers& buffers, const MesherPush& push_, bool dual_)
+        : device(device_),
+          b(buffers),
           push(push_),
           dual(dual_),
           counts(b.counts.as<MesherCounts>()[0]),
@@ -231,6 +232,7 @@ class Connection {
     void writeTriangles(uint32_t slot, const uint32_t* vertexAt);
     void writePatches(uint32_t slot, const uint32_t* vertexAt);
 
+    const Device& device;
     const MesherBuffers& b;
     const MesherPush& push;
     const bool dual;
@@ -474,8 +476,8 @@ void Connection::run() {
 
 }  // namespace
 
-void connect(const MesherBuffers& buffers, const MesherPush& push, bool dual) {
-    Connection(buffers, push, dual).run();
+void connect(const Device& device, const MesherBuffers& buffers, const MesherPush& push, bool dual) {
+    Connection(device, buffers, push, dual).run();
 }
 
 }  // namespace fw::mesher

@@ -16,6 +16,6 @@ namespace fw::mesher {
 /// Writes the list of edges and the triangles, or of dual contouring the patches with their edges and the
 /// corners of quads, and the counts with the arguments of the kernels that follow; of too much surface the
 /// counts alone.
-void connect(const MesherBuffers& buffers, const gpu::MesherPush& push, bool dual);
+void connect(const Device& device, const MesherBuffers& buffers, const gpu::MesherPush& push, bool dual);
 
 }  // namespace fw::mesher

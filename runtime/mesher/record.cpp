@@ -164,7 +164,7 @@ void recordConnect(Recording& r) {
     beginStage(r.commands, "connect");
     if (!r.commands.timed) flush(r.commands);
     const auto start = Clock::now();
-    connect(r.b, r.push, r.dual);
+    connect(r.device, r.b, r.push, r.dual);
     if (r.commands.timed) r.commands.stages.back().milliseconds += millisecondsSince(start);
 }
 
