@@ -136,11 +136,16 @@ void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget
     rays.size = {extent.width, extent.height};
     const VkExtent3D cones = {groupsFor(extent.width, RENDER_CONE), groupsFor(extent.height, RENDER_CONE), 1};
     resizeImage(commands, target.starts, cones, VK_FORMAT_R32_SFLOAT);
+    reserve(commands.device, target.rays, sizeof rays);
+    barrier(commands);  // the last trace may still read them
+    vkCmdUpdateBuffer(commands.handle, target.rays.handle, 0, sizeof rays, &rays);
+    barrier(commands);
     const auto pass = [&](const Pipeline& pipeline, VkExtent3D size, const Image& written) {
-        std::vector<Descriptor> bound = {storage(0, written), storage(1, target.starts)};
+        std::vector<Descriptor> bound = {storage(0, written), storage(1, target.starts), {2, target.rays}};
         addField(bound, field);
         dispatch(commands, pipeline,
-                 {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, rays, bound);
+                 {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, nullptr, 0,
+                 bound);
         barrier(commands);
     };
     pass(pipelines.cones, cones, target.starts);
@@ -169,9 +174,10 @@ bool resizeGBuffer(Commands& commands, GBuffer& gbuffer, VkExtent3D extent) {
 
 void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const Buffer& frame) {
     const VkExtent3D extent = depth.extent;
-    fill(commands, gbuffer.arguments, 1);
-    for (uint32_t list = 0; list < RENDER_LISTS; ++list)
+    for (uint32_t list = 0; list < RENDER_LISTS; ++list) {
         fill(commands, gbuffer.arguments, 0, argumentsOf(list), 4);
+        fill(commands, gbuffer.arguments, 1, argumentsOf(list) + 4, 8);
+    }
     barrier(commands);
     const std::array<Descriptor, 4> bound = {Descriptor(0, frame), storage(1, depth),
                                              Descriptor(3, gbuffer.tileLists),
