@@ -107,7 +107,7 @@ void flush(Commands& commands);
 /// where it cannot be cancelled.
 bool cancelled(Commands& commands);
 
-/// Ends the recording, runs it and waits for it. Fills `commands.stages` if it is timed. Throws SystemError
+/// Ends the recording, runs it and waits for it; what it wrote is visible to the host. Fills `commands.stages` if it is timed. Throws SystemError
 /// if the device is lost.
 void submit(Commands& commands);
 
