@@ -136,16 +136,11 @@ void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget
     rays.size = {extent.width, extent.height};
     const VkExtent3D cones = {groupsFor(extent.width, RENDER_CONE), groupsFor(extent.height, RENDER_CONE), 1};
     resizeImage(commands, target.starts, cones, VK_FORMAT_R32_SFLOAT);
-    reserve(commands.device, target.rays, sizeof rays);
-    barrier(commands);  // the last trace may still read them
-    vkCmdUpdateBuffer(commands.handle, target.rays.handle, 0, sizeof rays, &rays);
-    barrier(commands);
     const auto pass = [&](const Pipeline& pipeline, VkExtent3D size, const Image& written) {
-        std::vector<Descriptor> bound = {storage(0, written), storage(1, target.starts), {2, target.rays}};
+        std::vector<Descriptor> bound = {storage(0, written), storage(1, target.starts)};
         addField(bound, field);
         dispatch(commands, pipeline,
-                 {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, nullptr, 0,
-                 bound);
+                 {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, rays, bound);
         barrier(commands);
     };
     pass(pipelines.cones, cones, target.starts);

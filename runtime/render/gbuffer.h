@@ -27,7 +27,7 @@ struct DepthTarget {
     Image depth;       ///< R32_SFLOAT
     Image attachment;  ///< D32_SFLOAT, if anything was drawn
     Image starts;  ///< R32_SFLOAT, if anything was traced: how far the rays of RENDER_CONE^2 pixels are free
-    Buffer copy, rays;  ///< rays: gpu::TracePush
+    Buffer copy;
 };
 
 struct DepthPipelines {

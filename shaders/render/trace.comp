@@ -7,9 +7,7 @@
 #include "render/places.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// In storage, since Mesa's software device translates a kernel anew for each value of a uniform that its loops and branches
-// depend on, and keeps them all.
-layout(binding = 2, scalar) readonly buffer Rays { TracePush push; };
+layout(push_constant, scalar) uniform Push { TracePush push; };
 #ifdef CONES
 layout(binding = 0, r32f) writeonly uniform image2D starts;
 #else
@@ -31,7 +29,7 @@ void main() {
     vec3 origin = push.origin + place.x * push.originX + place.y * push.originY;
     vec3 ray = push.direction + place.x * push.directionX + place.y * push.directionY;
     float scale = length(ray);
-    // Read once: no compiler moves such loads out of a loop.
+    // Read once: no compiler moves loads of push constants out of a loop.
     vec3 centre = 0.5 * (push.lo + push.hi), perHalf = 2.0 / (push.hi - push.lo);
     float stepScale = push.stepScale / scale, t = parallel ? 0.0 : push.near;
 #ifdef CONES
