@@ -14,9 +14,11 @@ void begin(Commands& commands) {
     check(vkBeginCommandBuffer(commands.handle, &info), "recording commands");
 }
 
-/// Ends, runs and awaits what is recorded; returns the wall clock time of that in ms.
+/// Ends, runs and awaits what is recorded, so that the host can read what it wrote; returns the wall clock
+/// time of that in ms.
 double run(Commands& commands) {
     const Device& device = commands.device;
+    barrier(commands);
     check(vkEndCommandBuffer(commands.handle), "recording commands");
     auto buffer = zeroed<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
     buffer.commandBuffer = commands.handle;

@@ -108,8 +108,8 @@ void flush(Commands& commands);
 /// where it cannot be cancelled.
 bool cancelled(Commands& commands);
 
-/// Ends the recording, runs it and waits for it. Fills `commands.stages` if it is timed. Throws SystemError
-/// if the device is lost.
+/// Ends the recording, runs it and waits for it; what it wrote is visible to the host. Fills
+/// `commands.stages` if it is timed. Throws SystemError if the device is lost.
 void submit(Commands& commands);
 
 /// Group count that covers `items` with `perGroup` each.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "runtime/gpu/precision.h"
 #include "runtime/system/cache_file.h"
 
 namespace fw {
@@ -15,12 +16,29 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
+/// What the layer said of any device of this process.
+struct {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+} messagesOfAll;
+
+/// FIELDWRIGHT_VALIDATION; empty where it asks for nothing.
+std::string askedFor() {
+    const char* variable = std::getenv("FIELDWRIGHT_VALIDATION");
+    return variable && std::strcmp(variable, "0") != 0 ? variable : "";
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto* record = static_cast<DeviceRecord*>(user);
-    std::lock_guard lock(record->mutex);
-    record->messages.emplace_back(data->pMessage);
+    {
+        std::lock_guard lock(record->mutex);
+        record->messages.emplace_back(data->pMessage);
+    }
+    std::lock_guard lock(messagesOfAll.mutex);
+    messagesOfAll.messages.emplace_back(data->pMessage);
+    if (!askedFor().empty()) std::fprintf(stderr, "validation layer: %s\n", data->pMessage);
     return VK_FALSE;
 }
 
@@ -52,6 +70,15 @@ VkInstance createInstance(std::vector<const char*> extensions, DeviceRecord* rec
     auto info = zeroed<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &application;
     VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(record);
+    // Beside the use of each call the layer looks at the order of reads and writes; "gpu" has it look at what
+    // shaders reach, too.
+    constexpr VkValidationFeatureEnableEXT kEnabled[] = {
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+        VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT,
+        VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT};
+    auto validated = zeroed<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
+    validated.enabledValidationFeatureCount = askedFor() == "gpu" ? 3 : 1;
+    validated.pEnabledValidationFeatures = kEnabled;
     if (record) {
         if (!hasLayer(kValidationLayer))
             throw SystemError(
@@ -60,7 +87,9 @@ VkInstance createInstance(std::vector<const char*> extensions, DeviceRecord* rec
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
         info.pNext = &messenger;
+        messenger.pNext = &validated;
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
@@ -74,6 +103,7 @@ struct Candidate {
     VkPhysicalDeviceProperties properties;
     DeviceInfo info;
     int rank;
+    VkDriverId driver;
 };
 
 std::vector<Candidate> candidates(VkInstance instance) {
@@ -114,7 +144,7 @@ std::vector<Candidate> candidates(VkInstance instance) {
                                   std::string(driver.driverName) + " " + driver.driverInfo,
                                   properties.properties.apiVersion, largest, missing(has).empty(), has,
                                   limitsOf(physical)},
-                       kind.rank});
+                       kind.rank, driver.driverID});
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Candidate& a, const Candidate& b) { return a.rank < b.rank; });
@@ -331,6 +361,11 @@ std::vector<std::string> Device::validationMessages() const {
     return record->messages;
 }
 
+std::vector<std::string> validationMessages() {
+    std::lock_guard lock(messagesOfAll.mutex);
+    return messagesOfAll.messages;
+}
+
 std::vector<DeviceInfo> listDevices() {
     Device holder;
     try {
@@ -342,8 +377,7 @@ std::vector<DeviceInfo> listDevices() {
 }
 
 Result<Device> createDevice(const DeviceOptions& options) {
-    const char* variable = std::getenv("FIELDWRIGHT_VALIDATION");
-    bool validation = options.validation || (variable && *variable && std::strcmp(variable, "0") != 0);
+    const bool validation = options.validation || !askedFor().empty();
     Device device;
     device.record = std::make_shared<DeviceRecord>();
     device.instance = createInstance(options.instanceExtensions, validation ? device.record.get() : nullptr);
@@ -369,6 +403,7 @@ Result<Device> createDevice(const DeviceOptions& options) {
     device.timestamps = !device.software && device.properties.limits.timestampComputeAndGraphics;
     createLogicalDevice(device, options);
     createPools(device);
+    if ((*choice)->driver != VK_DRIVER_ID_MESA_LLVMPIPE) device.precision = measurePrecision(device);
     return device;
 }
 

@@ -24,8 +24,10 @@ namespace fw {
 struct DeviceOptions {
     std::string pick =
         {};  ///< index in listDevices() or part of a name, without regard to case; empty: chosen
-    bool validation =
-        false;  ///< load the validation layer; FIELDWRIGHT_VALIDATION=1 in the environment asks too
+    /// Load the validation layer, which looks at synchronization too. FIELDWRIGHT_VALIDATION=1 in the
+    /// environment asks for the same and has its messages on standard error, FIELDWRIGHT_VALIDATION=gpu also
+    /// for what shaders reach.
+    bool validation = false;
     std::vector<const char*> instanceExtensions = {};  ///< what a window system needs
     bool presentation = false;                         ///< VK_KHR_swapchain
 };
@@ -54,6 +56,13 @@ struct DeviceRecord {
     std::unique_ptr<Device> sibling;
 };
 
+/// What its functions err by beyond what intervals allow for anyway: precision.h.
+struct Precision {
+    float sine = 0.0f;  ///< of sines and cosines, absolute
+    float curves =
+        0.0f;  ///< of powers, exponentials, logarithms and inverse sines to tangents: of 1 + their size
+};
+
 /// The plain part of a Device, so that moving it is one exchange.
 struct DeviceState {
     VkInstance instance = VK_NULL_HANDLE;
@@ -73,6 +82,7 @@ struct DeviceState {
     VkPhysicalDeviceMemoryProperties memory = {};
     DeviceLimits limits;
     DeviceCapabilities has;
+    Precision precision;
     bool software = false;                 ///< a CPU device: its timestamps lie, and copies to it are wasted
     bool unifiedMemory = false;            ///< device-local memory is host-visible: every buffer is mapped
     bool timestamps = false;               ///< usable ones
@@ -89,6 +99,9 @@ struct Device : DeviceState {
     /// Warnings and errors of the validation layer so far; empty without it.
     std::vector<std::string> validationMessages() const;
 };
+
+/// Warnings and errors of the validation layer so far, of all devices of this process.
+std::vector<std::string> validationMessages();
 
 /// Every Vulkan device, the preferred first (discrete, integrated, virtual, software). Empty where Vulkan has
 /// none.

@@ -1,5 +1,6 @@
 // Pipelines from compiled shaders (see shader.h).
 #include <algorithm>
+#include <bit>
 #include <deque>
 #include <exception>
 #include <map>
@@ -31,14 +32,21 @@ struct Module : ModuleState {
     }
 };
 
-/// Specialization constants 0, 1, ... of four bytes each; `info` points into it.
+/// Specialization constants 0, 1, ... of four bytes each, and those of the device
+/// (shaders/lib/interval.glsl); `info` points into it.
 struct Specialization {
-    explicit Specialization(const std::vector<uint32_t>& values) {
+    Specialization(const Device& device, const std::vector<uint32_t>& values) : data(values) {
         for (uint32_t i = 0; i < values.size(); ++i) entries.push_back({i, i * 4, 4});
-        info = {uint32_t(entries.size()), entries.data(), values.size() * 4, values.data()};
+        uint32_t id = 100;
+        for (const float error : {device.precision.sine, device.precision.curves}) {
+            entries.push_back({id++, uint32_t(data.size()) * 4, 4});
+            data.push_back(std::bit_cast<uint32_t>(error));
+        }
+        info = {uint32_t(entries.size()), entries.data(), data.size() * 4, data.data()};
     }
     Specialization(const Specialization&) = delete;
     std::vector<VkSpecializationMapEntry> entries;
+    std::vector<uint32_t> data;
     VkSpecializationInfo info;
 };
 
@@ -104,7 +112,7 @@ Pipeline build(const Device& device, const ShaderOptions& options, const Spirv& 
     checkFits(device, options, pipeline.shader);
     createLayout(device, pipeline);
     Module module(device, spirv);
-    Specialization constants(options.constants);
+    Specialization constants(device, options.constants);
     auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.handle, constants);
     info.layout = pipeline.layout;
@@ -298,7 +306,7 @@ Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& opt
             if (std::none_of(all.begin(), all.end(), same)) all.push_back(binding);
         }
         modules.emplace_back(device, spirv);
-        constants.push_back(std::make_unique<Specialization>(shader.constants));
+        constants.push_back(std::make_unique<Specialization>(device, shader.constants));
         stages.push_back(stageInfo(part.stages, modules.back().handle, *constants.back()));
     }
     createLayout(device, pipeline);

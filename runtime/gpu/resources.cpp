@@ -109,6 +109,8 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory))
         check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
               "mapping a buffer");
+    // Fresh memory of a software device is zero, and hides what is read before it is written.
+    if (buffer.mapped && device.messenger) std::memset(buffer.mapped, 0xCD, buffer.size);
     const VkDeviceSize texels = buffer.size / kTexelSize;
     if (!device.limits.texelsInStorage() && texels <= device.limits.texelElements) {
         auto view = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);

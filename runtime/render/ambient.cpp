@@ -54,8 +54,8 @@ void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
         for (const Image& history : ambient.history) clear(commands, history);
         barrier(commands);
     }
-    fill(commands, ambient.holeCount, 1);
     fill(commands, ambient.holeCount, 0, 0, 8);
+    fill(commands, ambient.holeCount, 1, 8);
     barrier(commands);
     const Image& before = ambient.now();
     ambient.current = 1 - ambient.current;

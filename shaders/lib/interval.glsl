@@ -1,13 +1,18 @@
 // Intervals in float, vec2(least, greatest): the GPU twin of graph/base/interval.h. "Everything" is ±1e30 so that no
-// infinity or NaN arises, and what transcendental functions may err by on a GPU is added as slack.
+// infinity or NaN arises, and what transcendental functions err by on this device is added as slack.
 //
 // Sums, products and roots are not rounded outwards one by one, which would triple the code and its compile time:
 // values round alike, and whoever culls by an interval adds a margin (see iMargin) and can tell a hole from none.
 
 #include "lib/smooth_minimum.glsl"
 
+// What the device errs by beyond a few units in the last place: runtime/gpu/precision.h.
+layout(constant_id = 100) const float kSineError = 0.0;
+layout(constant_id = 101) const float kCurveError = 0.0;
+
 vec2 iOut(vec2 a) { return a + abs(a) * vec2(-1.2e-7, 1.2e-7); }
-vec2 iSlack(vec2 a) { return a + (abs(a) * 1e-5 + 1e-5) * vec2(-1.0, 1.0); }
+// As the ends of an interval err, so do the values between them.
+vec2 iSlack(vec2 a) { return a + (abs(a) + 1.0) * (1e-5 + 2.0 * kCurveError) * vec2(-1.0, 1.0); }
 vec2 iCut(vec2 a) { return clamp(a, -1e30, 1e30); }
 // The result widened by the rounding that its operations may have gathered, relative to the coordinates `reach` too.
 vec2 iMargin(vec2 a, float reach) { return a + (abs(a) + reach) * vec2(-2e-6, 2e-6); }
@@ -52,9 +57,9 @@ vec2 iSin(vec2 a) {
     vec2 ends = sin(a);
     bool low = -quarter + ceil((a.x + quarter) / tau - 1e-5) * tau <= a.y + 1e-4;
     bool high = quarter + ceil((a.x - quarter) / tau - 1e-5) * tau <= a.y + 1e-4;
-    float slack = 1e-5 + max(abs(a.x), abs(a.y)) * 5e-7;
-    vec2 range = vec2(low ? -1.0 : min(ends.x, ends.y) - slack, high ? 1.0 : max(ends.x, ends.y) + slack);
-    return a.y - a.x >= tau || max(abs(a.x), abs(a.y)) > 1e5 ? vec2(-1.0, 1.0) : range;
+    float slack = 1e-5 + 2.0 * kSineError + max(abs(a.x), abs(a.y)) * 5e-7, most = 1.0 + kSineError;
+    vec2 range = vec2(low ? -most : min(ends.x, ends.y) - slack, high ? most : max(ends.x, ends.y) + slack);
+    return a.y - a.x >= tau || max(abs(a.x), abs(a.y)) > 1e5 ? vec2(-most, most) : range;
 }
 vec2 iArcTangent2(vec2 y, vec2 x) {
     if (x.x <= 0.0 && y.x <= 0.0 && y.y >= 0.0) return vec2(-3.141594, 3.141594);

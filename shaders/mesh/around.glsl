@@ -8,4 +8,6 @@ layout(binding = 1, scalar) readonly buffer Counts { uint counts[]; };
 layout(binding = 2, scalar) readonly buffer Starts { uint starts[]; };
 layout(binding = 3, scalar) readonly buffer Next { uint next[]; };
 
+/// Place in the lists of a vertex's corner i, or of its last; of some corner where it has none.
+uint cornerOf(uint first, uint count, uint i) { return count > 0 ? first + min(i, count - 1) : 0; }
 vec3 positionOf(uint vertex) { return uintBitsToFloat(imageLoad(vertices, int(vertex)).xyz); }

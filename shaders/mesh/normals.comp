@@ -10,7 +10,7 @@ void main() {
     vec3 own = positionOf(v);
     ExactSum sum = ExactSum(ivec3(0), ivec3(0));
     do {  // as long as any lane: one that is done adds nothing
-        uint at = first + min(i, count - 1);
+        uint at = cornerOf(first, count, i);
         vec3 twice = cross(positionOf(next[at]) - own, positionOf(previous[at]) - own);
         add(sum, twice / push.unit, i < count);
     } while (subgroupAny(++i < count));

@@ -10,7 +10,7 @@ void main() {
     vec3 at = uintBitsToFloat(own.xyz), most = vec3(0);
     ExactSum sum = ExactSum(ivec3(0), ivec3(0));
     do {  // as long as any lane: one that is done repeats its last, which adds nothing
-        vec3 neighbour = positionOf(next[first + min(i, count - 1)]);
+        vec3 neighbour = positionOf(next[cornerOf(first, count, i)]);
         most = max(most, abs(neighbour - at));
         add(sum, neighbour / push.unit, i < count);
     } while (subgroupAny(++i < count));

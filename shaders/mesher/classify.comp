@@ -122,6 +122,7 @@ void main() {
     }
     if (gl_LocalInvocationIndex == 0) {
         uint strips = (ofLarger >> 24) + (total.y >> 24);
+        if (strips == 0) stripList[group * MESHER_GROUP_STRIPS] = 0;  // read all the same, by lanes without a strip
         sums[group] = uvec4(total.x & 0xffff, total.x >> 16, 0, strips);
     }
     if (cap) counts.caps = 1;

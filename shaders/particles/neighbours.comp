@@ -41,7 +41,7 @@ void main() {
         end = squared > 0.0 ? end : i;
         do {
             for (int k = 0; k < 4; ++k, ++i) {
-                vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(i)).xyz);
+                vec3 off = p - uintBitsToFloat(imageLoad(guesses, int(min(i, push.particles - 1))).xyz);
                 float apart = dot(off, off);
                 bool other = i < end && i != index, near = other && apart < nearest && found < FLUID_MOST_NEIGHBOURS;
 #ifdef FAR_ONCE

@@ -47,5 +47,6 @@ void main() {
         float openness = (before * float(first) + float(opened[mine])) / float(end);
         if (valid && lane % AMBIENT_LANES == 0) imageStore(history, ivec2(pixel), uvec4(packHistory(openness, end)));
         at += gl_NumWorkGroups.x * AMBIENT_HOLES;
+        barrier();  // the next turn clears what is read here
     } while (at < total);
 }

@@ -11,6 +11,8 @@ layout(binding = 0, scalar) readonly buffer Colors { vec3 colors[]; };
 layout(location = 1) out vec3 color;
 #endif
 
+invariant gl_Position;  // wireframe.vert draws over depth.vert and draft.vert, and only what is as near
+
 void main() {
     normal = unpackOctahedral(packedNormal);
 #ifdef COLORS

@@ -23,7 +23,9 @@ namespace fw::gpu {
 
 #define AMBIENT_HOLES 128  // pixels without history that a work group of ambient_holes.comp does at a time,
 #define AMBIENT_LANES 2    // each by so many lanes
+#ifndef AMBIENT_MOST_GROUPS
 #define AMBIENT_MOST_GROUPS 32768u  // of them; they go on while there are holes
+#endif
 
 // What a picture shows: RenderFrame::show.
 #define RENDER_PICTURE 0

@@ -8,7 +8,9 @@
 #define LANES 32  // of a tile
 
 layout(local_size_x = LANES) in;  // not less than the pixels on two sides of a tile
-layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
+// In storage, since Mesa's software device translates a kernel anew for each value of a uniform that branches depend on, and
+// keeps them all.
+layout(binding = 0, scalar) readonly buffer Frame { RenderFrame frame; };
 layout(binding = 1, r32f) readonly uniform image2D seen;  // depth as it was drawn or traced
 layout(binding = 3, scalar) writeonly buffer Tiles { uint tiles[]; };  // RENDER_LISTS lists, each with room for all tiles
 // The lists' lengths, and for each list the dispatches over it, in slices of so many tiles.

@@ -220,6 +220,19 @@ TEST(Ambient, SharedAndOwnRaysGiveTheSame) {
     }
 }
 
+TEST(Ambient, GroupsThatTakeHolesInTurnsGiveTheSame) {
+    const std::string scene = "return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);", field = fieldOf(scene);
+    Floor once(scene, {.bias = 0.002f}), often(scene, {.bias = 0.002f});
+    const std::vector<std::string> few = {"AMBIENT_MOST_GROUPS 4u"};
+    often.ambient.trace =
+        createComputePipeline(often.device, {.name = "render/ambient.comp", .field = field, .defines = few});
+    often.ambient.addRays = createComputePipeline(
+        often.device, {.name = "render/ambient_holes.comp", .field = field, .defines = few});
+    once.draw(viewFrom(0));
+    often.draw(viewFrom(0));
+    EXPECT_EQ(once.openness(), often.openness());
+}
+
 TEST(Ambient, AfterAMoveTheFirstFrameIsNearTheConvergedOne) {
     const char* scene = "return min(p.y, length(p - vec3(0, 0.5, 0)) - 0.5);";
     Floor moving(scene, {.bias = 0.002f}), resting(scene, {.bias = 0.002f});

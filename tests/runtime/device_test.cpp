@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/support/gpu.h"
+#include "tests/support/vulkan_calls.h"
 
 namespace fw {
 namespace {
@@ -51,6 +52,19 @@ TEST(Device, ValidationMessagesAreCollected) {
     vkDestroyBuffer(device->handle, buffer, nullptr);
     ASSERT_FALSE(device->validationMessages().empty());
     EXPECT_NE(device->validationMessages()[0].find("VkBufferCreateInfo"), std::string::npos);
+    test::forgetValidationMessages();
+}
+
+TEST(Device, TwoWritesWithoutABarrierAreAHazardThatIsTold) {
+    Device& device = test::device();
+    Buffer buffer = createBuffer(device, 64);
+    Commands commands(device);
+    fill(commands, buffer, 1);
+    fill(commands, buffer, 0);
+    submit(commands);
+    ASSERT_FALSE(device.validationMessages().empty());
+    EXPECT_NE(device.validationMessages().back().find("SYNC-HAZARD-WRITE-AFTER-WRITE"), std::string::npos);
+    test::forgetValidationMessages();
 }
 
 TEST(Resources, BytesSurviveTheRoundTripAndMemoryIsCounted) {
@@ -83,6 +97,24 @@ TEST(Resources, AnImpossibleBufferIsASystemErrorThatSaysSo) {
     } catch (const SystemError& error) {
         EXPECT_NE(std::string(error.what()).find("lower resolution"), std::string::npos);
     }
+}
+
+TEST(Commands, TheHostSeesWhatWasWritten) {
+    Device& device = test::device();
+    Buffer buffer = createBuffer(device, 64);
+    Commands commands(device);
+    fill(commands, buffer, 7);
+    flush(commands);
+    EXPECT_TRUE(test::endedForTheHost());
+    fill(commands, buffer, 8);
+    submit(commands);
+    EXPECT_TRUE(test::endedForTheHost());
+}
+
+TEST(Resources, FreshBuffersHoldNoZerosWhereThatIsLookedAt) {
+    const Buffer buffer = createBuffer(test::device(), 64);
+    if (!buffer.mapped) GTEST_SKIP() << "not mapped";
+    EXPECT_EQ(buffer.as<uint32_t>()[3], 0xCDCDCDCDu);
 }
 
 constexpr const char* kSquares = R"(

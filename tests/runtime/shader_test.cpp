@@ -50,6 +50,22 @@ void main() {
     EXPECT_TRUE(spirv) << format(spirv.error());
 }
 
+TEST(Shader, WhatIsDrawnOverTheFacesIsAsNearAsTheyAre) {
+    // Two shaders need not round alike, unless both say that their places do not vary.
+    constexpr uint32_t kDecorate = 71, kMemberDecorate = 72, kInvariant = 18;
+    for (const char* name : {"render/depth.vert", "render/draft.vert", "render/wireframe.vert"}) {
+        const Result<Spirv> spirv = compileShader({.name = name});
+        ASSERT_TRUE(spirv) << format(spirv.error());
+        bool invariant = false;
+        for (std::size_t at = 5; at < spirv->size(); at += (*spirv)[at] >> 16) {
+            const uint32_t operation = (*spirv)[at] & 0xffff;
+            invariant |= (operation == kDecorate && (*spirv)[at + 2] == kInvariant) ||
+                         (operation == kMemberDecorate && (*spirv)[at + 3] == kInvariant);
+        }
+        EXPECT_TRUE(invariant) << name;
+    }
+}
+
 TEST(Shader, ErrorsNameFileAndLineOfTheInclude) {
     test::TemporaryCache cache;
     ShaderOptions options = withText("#include \"field.glsl\"\nvoid main() {}\n");

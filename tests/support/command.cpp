@@ -112,6 +112,7 @@ CommandResult runCommand(const std::vector<std::string>& arguments, const Comman
     result.peakMegabytes = peak > own * 1.05 ? peak : std::min(peak, 300.0);
     result.output = readText(output);
     result.errors = readText(errors);
+    EXPECT_EQ(result.errors.find("validation layer:"), std::string::npos) << result.errors.substr(0, 2000);
     return result;
 }
 

@@ -10,39 +10,39 @@ namespace {
 
 Device* shared = nullptr;
 
-/// Fails the test during which the validation layer spoke.
+/// Fails the test during which the validation layer spoke of any device.
 class ValidationListener : public testing::EmptyTestEventListener {
-    void OnTestStart(const testing::TestInfo&) override {
-        seen = shared ? shared->validationMessages().size() : 0;
+  public:
+    void look(const char* when) {
+        std::vector<std::string> all = validationMessages();
+        for (; seen < all.size(); ++seen) ADD_FAILURE() << "validation layer" << when << ": " << all[seen];
     }
-    void OnTestEnd(const testing::TestInfo&) override {
-        if (!shared) return;
-        std::vector<std::string> all = shared->validationMessages();
-        for (; seen < all.size(); ++seen) ADD_FAILURE() << "validation layer: " << all[seen];
-    }
+    void forget() { seen = validationMessages().size(); }
+
+  private:
+    void OnTestEnd(const testing::TestInfo&) override { look(""); }
     std::size_t seen = 0;
 };
+
+ValidationListener* listener = nullptr;
 
 /// Destroys the device before the program's statics go, since the validation layer has some of its own.
 class DeviceEnvironment : public testing::Environment {
     void TearDown() override {
-        if (!shared) return;
-        std::shared_ptr<DeviceRecord> record = shared->record;
-        std::size_t before = record->messages.size();
-        delete shared;
-        shared = nullptr;
-        for (; before < record->messages.size(); ++before)
-            ADD_FAILURE() << "validation layer, at the device's end: " << record->messages[before];
+        delete std::exchange(shared, nullptr);
+        listener->look(", at the end");
     }
 };
 
 const bool registered = [] {
     testing::AddGlobalTestEnvironment(new DeviceEnvironment);
-    testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);
+    testing::UnitTest::GetInstance()->listeners().Append(listener = new ValidationListener);
     return true;
 }();
 
 }  // namespace
+
+void forgetValidationMessages() { listener->forget(); }
 
 Device& device() {
     if (!shared) {

@@ -8,9 +8,12 @@
 
 namespace fw::test {
 
-/// The device that all tests share. After every test of the program, a message of the validation layer that
-/// came during it fails that test.
+/// The device that all tests share. A message of the validation layer, of this device or another, fails the
+/// test during which it came.
 Device& device();
+
+/// What the validation layer said so far in this test was meant.
+void forgetValidationMessages();
 
 /// A compute pipeline from GLSL text (without #version); `name` only labels it.
 Pipeline computePipeline(const std::string& text, const std::vector<uint32_t>& constants = {},
