@@ -14,6 +14,7 @@
 //  gradient for normal.
 //  * The table is derived from a rule that makes every surface closed, oriented and manifold
 //  (marching_cubes_table.h).
+//  * On software devices signs become triangles on the host (connect.h), to the same bytes.
 //  * Places come from prefix sums alone, so that the same input gives the same bytes on every run.
 //
 // A sample is inside if f < 0; zero and NaN are outside. Outside the region everything is: a surface that

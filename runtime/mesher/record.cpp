@@ -62,6 +62,9 @@ struct Recording {
         return chunkOf(device, MESHER_AT_MESH, buffer, push.chunk,
                        uint64_t(MESHER_VERTEX_CHUNK) * sizeof(gpu::MeshVertex));
     }
+    Descriptor patchList() const {
+        return {MESHER_AT_PATCH_LIST, b.patchList, 0, uint64_t(push.vertexCapacity) * 8};
+    }
     MesherCounts counts() const { return download<MesherCounts>(device, b.counts, 1)[0]; }
 };
 
@@ -176,7 +179,7 @@ void recordPatches(Recording& r) {
                {{MESHER_AT_SUMS, b.sums},
                 {MESHER_AT_PLANES, b.planes},
                 {MESHER_AT_EDGES, b.edges},
-                {MESHER_AT_PATCH_LIST, b.patchList},
+                r.patchList(),
                 {MESHER_AT_VERTEX_LIST, b.vertexList},
                 {MESHER_AT_TABLE, b.patchTable},
                 {MESHER_AT_STRIP_LIST, b.stripList}});
@@ -215,7 +218,7 @@ void recordContour(Recording& r) {
                     {MESHER_AT_BRICK_LIST, b.brickList},
                     {MESHER_AT_LINKS, b.links},
                     {MESHER_AT_EDGES, b.edges},
-                    {MESHER_AT_PATCH_LIST, b.patchList},
+                    r.patchList(),
                     {MESHER_AT_TABLE, b.patchTable},
                     {MESHER_AT_CORNERS, r.byHost ? b.uses : b.corners},
                     r.verticesOf(b.vertices)});

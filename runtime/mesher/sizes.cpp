@@ -47,7 +47,8 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
         reserve(device, buffers.points, edges * sizeof(gpu::MeshVertex));
         reserve(device, buffers.corners, edges * 16);
         reserve(device, buffers.pinched, edges * 4);
-        reserve(device, buffers.patchList, uint64_t(buffers.vertexCapacity) * 16);
+        // What connect() tells of a patch takes twice the room.
+        reserve(device, buffers.patchList, uint64_t(buffers.vertexCapacity) * (device.software ? 16 : 8));
         if (device.software) reserve(device, buffers.uses, edges * 16);
     }
     reserve(device, buffers.vertices, uint64_t(buffers.vertexCapacity) * sizeof(gpu::MeshVertex));
