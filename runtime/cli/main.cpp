@@ -299,7 +299,8 @@ int run(int count, char** arguments) {
 
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
     bool devicesOnly = false;
-    infoCommand->add_flag("--devices", devicesOnly, "What each device can do, what it lacks, and what follows");
+    infoCommand->add_flag("--devices", devicesOnly,
+                          "What each device can do, what it lacks, and what follows");
 
     std::vector<std::string> words = readableNumbers(count, arguments);
     std::vector<std::string> names;

@@ -112,8 +112,7 @@ MesherPush prepare(const Device& device, MesherPipelines& pipelines, const Meshe
     const bool families = config.families && config.families->listed > 0 && !config.host;
     // On the longest grids the heads cannot be bound: every brick then evaluates all members.
     if (families && config.pruned &&
-        headBytes(*config.families, placesOf(extent.blocks, most.bricks)) <=
-            device.limits.storageRange) {
+        headBytes(*config.families, placesOf(extent.blocks, most.bricks)) <= device.limits.storageRange) {
         build(device, pipelines, {prune64, prune32, prune16, prune8});
         push.listStart = longestList(*config.families);
     }

@@ -21,8 +21,7 @@ namespace {
 Descriptor chunkOf(const Device& device, uint32_t binding, const Buffer& buffer, uint32_t index,
                    uint64_t stride) {
     uint64_t offset = std::min<uint64_t>(index * stride, buffer.size - 4) / stride * stride;
-    return {binding, buffer, offset,
-            std::min<uint64_t>(buffer.size - offset, device.limits.storageRange)};
+    return {binding, buffer, offset, std::min<uint64_t>(buffer.size - offset, device.limits.storageRange)};
 }
 
 /// A run while it is recorded.

@@ -113,7 +113,8 @@ void drawPoints(Commands& commands, const TalkStages& s, TalkWay way, const Pipe
 
 TalkStages createTalkStages(const Device& device, const TalkOptions& options) {
     assert(std::has_single_bit(unsigned(options.cells)));
-    if (!device.has.geometryShader) throw SystemError("device '" + device.name() + "' has no geometry shaders");
+    if (!device.has.geometryShader)
+        throw SystemError("device '" + device.name() + "' has no geometry shaders");
     TalkStages s{.device = device};
     const VkDeviceSize cells = options.cells, cubed = cells * cells * cells;
     s.grid = {.view = viewOf(options.half),
