@@ -35,7 +35,7 @@ struct Interruption : testing::Test {
     /// A field that takes minutes to measure: sums of noise, each of which moves the surface a little.
     void makeSlow() const {
         test::writeText(graph, R"({"fieldwright": 1, "nodes": [{"id": "a", "type": "expression", "code":
-            "d = length(p) - 1; for (int i = 0; i < 400; i++) d += 0.0001 * perlin(p * (1 + i), i); return d;"},
+            "d = length(p) - 1; for (int i = 0; i < 150; i++) d += 0.0001 * perlin(p * (1 + i), i); return d;"},
             {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}, "resolution": 48}}]})");
     }
 };
