@@ -34,7 +34,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/mesh", ""},
     {"runtime/measure", "graph system mesh"},
     {"runtime/bake", "graph system gpu"},
-    {"runtime/mesher", "graph gpu mesh"},
+    {"runtime/mesher", "graph system gpu mesh"},
     {"runtime/stages", "graph system gpu mesh measure mesher"},
     {"runtime/particles", "graph gpu bake"},
     {"runtime/render", "graph system gpu mesher particles"},
