@@ -324,7 +324,7 @@ TEST(Export, EveryFormatHoldsTheSameTriangles) {
     const WeldedMesh wanted = weld(mesh.positions, mesh.indices);
     for (const char* name : {"mesh.glb", "mesh.gltf", "mesh.obj", "mesh.ply", "MESH.STL"}) {
         mustExport(mesh, folder.path(name));
-        const Result<WeldedMesh> read = readWelded({name, folder.path(name)});
+        const Result<WeldedMesh> read = readWelded({folder.path(name), folder.path(name)});
         ASSERT_TRUE(read) << format(read.error());
         ASSERT_EQ(read->indices.size(), wanted.indices.size()) << name;
         for (std::size_t i = 0; i < wanted.indices.size(); ++i)
