@@ -133,6 +133,7 @@ void copyDepth(Commands& commands, DepthTarget& target) {
     region.imageExtent = extent;
     imageBarrier(commands, target.attachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                  VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    barrier(commands);  // what was copied before, in this frame even, is read
     vkCmdCopyImageToBuffer(commands.handle, target.attachment.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                            target.copy.handle, 1, &region);
     barrier(commands);
