@@ -21,7 +21,7 @@ namespace fw {
 namespace {
 
 std::vector<std::string> samples() {
-    if (!std::getenv("FIELDWRIGHT_LONG")) return {"csg_part", "table_and_stool", "tower"};
+    if (!std::getenv("FIELDWRIGHT_LONG")) return {"csg_part"};
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples"))
         if (const std::string name = entry.path().filename().string(); name.ends_with(".field.json"))
