@@ -217,7 +217,10 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
     for (const ShaderBinding& declared : pipeline.shader.bindings) {
         auto given = std::find_if(descriptors.begin(), descriptors.end(),
                                   [&](const Descriptor& d) { return d.binding == declared.binding; });
-        assert(given != descriptors.end() && "a binding of the shader is not given");
+        // Worth its time in every build: what lies behind the list would be bound, and a driver may fall for
+        // it.
+        if (given == descriptors.end())
+            throw SystemError("binding " + std::to_string(declared.binding) + " of a shader is not given");
         if (declared.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
             given->buffer.range > commands.device.limits.storageRange)
             throw SystemError("device '" + commands.device.name() + "' shows a kernel " +

@@ -73,9 +73,9 @@ TEST_P(NoisyDevice, LosesNoSurface) {
 
 // Solids that are there only because the functions are off, or hardly there: specks far from each other.
 INSTANTIATE_TEST_SUITE_P(Fields, NoisyDevice,
-                         testing::Values("1.0003 - sin(7 * x)", "0.9996 - sin(3 * y) * 0.9999",
-                                         "0.9996 + cos(40 * z)", "atan(x + 2) - 0.78575",
-                                         "max(0.7857 - atan(1 + x * x + y * y), z)"));
+                         testing::Values("1.0003 - sin(7 * p.x)", "0.9996 - sin(3 * p.y) * 0.9999",
+                                         "0.9996 + cos(40 * p.z)", "atan(p.x + 2) - 0.78575",
+                                         "max(0.7857 - atan(1 + p.x * p.x + p.y * p.y), p.z)"));
 
 }  // namespace
 }  // namespace fw

@@ -6,6 +6,9 @@
 namespace fw::test {
 
 FieldResources::FieldResources(const Program& program) {
+    const std::vector<float> numbers = program.numbers();
+    parameters = createBuffer(device(), numbers.size() * sizeof(float), Memory::upload);
+    upload(device(), parameters, numbers);
     const std::vector<uint32_t> words = imageWords(program.ir.images());
     images = createBuffer(device(), words.size() * sizeof(uint32_t));
     upload(device(), images, words);
@@ -21,18 +24,15 @@ std::vector<FieldSample> evaluateOnDevice(const Program& program,
     const Pipeline pipeline = createComputePipeline(gpu, {.name = "field/evaluate.comp", .field = field});
     const Buffer in = createBuffer(gpu, points.size_bytes(), Memory::upload);
     const Buffer out = createBuffer(gpu, points.size() * sizeof(FieldSample), Memory::readback);
-    const std::vector<float> live = program.numbers();
-    const Buffer parameters = createBuffer(gpu, live.size() * sizeof(float), Memory::upload);
     const FieldResources resources(program);
     uploadBytes(gpu, in, points.data(), points.size_bytes());
-    upload(gpu, parameters, live);
 
     Commands commands(gpu);
     const struct {
         uint32_t count;
         float halfSize;
     } push{static_cast<uint32_t>(points.size()), halfSize};
-    std::vector<Descriptor> descriptors = {{0, in}, {1, out}, {kFieldParametersBinding, parameters}};
+    std::vector<Descriptor> descriptors = {{0, in}, {1, out}};
     addField(descriptors, resources.buffers());
     dispatch(commands, pipeline, {groupsFor(points.size(), 64), 1, 1}, push, descriptors);
     submit(commands);

@@ -10,11 +10,13 @@
 
 namespace fw::test {
 
-/// The images and volumes of a program on the device.
+/// The numbers, images and volumes of a program on the device.
 struct FieldResources {
     explicit FieldResources(const Program& program);
-    FieldBuffers buffers() const { return {.images = &images, .volumes = &volumes}; }
-    Buffer images, volumes;
+    FieldBuffers buffers() const {
+        return {.parameters = &parameters, .images = &images, .volumes = &volumes};
+    }
+    Buffer parameters, images, volumes;
 };
 
 /// As shaders/field/evaluate.comp writes it.
