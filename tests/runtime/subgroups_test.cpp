@@ -41,7 +41,8 @@ TEST_P(Subgroups, OfEverySizeGiveTheSameBytes) {
     const std::string of8 = exported("256");
     EXPECT_GT(of8.size(), 10'000u);
     EXPECT_TRUE(exported("128") == of8) << "subgroups of 4";
-    if (!GetParam().fluid) EXPECT_TRUE(exported("512") == of8) << "subgroups of 16";
+    if (GetParam().fluid) return;
+    EXPECT_TRUE(exported("512") == of8) << "subgroups of 16";
 }
 
 const std::vector<Export> kFew = {{"csg_part", "48"},
