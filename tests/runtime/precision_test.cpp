@@ -22,6 +22,8 @@ float noiseOf(float x) {
 float noisySine(float x) { return sin(x) + 4.88e-4 * noiseOf(x); }
 vec2 noisySine(vec2 x) { return vec2(noisySine(x.x), noisySine(x.y)); }
 float noisyArcTangent(float x) { return atan(x) * (1.0 + 4.88e-4 * noiseOf(x)); }
+float noisyArcTangent(float y, float x) { return atan(y, x) * (1.0 + 4.88e-4 * noiseOf(x)); }
+vec2 noisyArcTangent(vec2 y, vec2 x) { return vec2(noisyArcTangent(y.x, x.x), noisyArcTangent(y.y, x.y)); }
 vec2 noisyArcTangent(vec2 x) { return vec2(noisyArcTangent(x.x), noisyArcTangent(x.y)); }
 #define sin noisySine
 #define atan noisyArcTangent
@@ -73,8 +75,9 @@ TEST_P(NoisyDevice, LosesNoSurface) {
 
 // Solids that are there only because the functions are off, or hardly there: specks far from each other.
 INSTANTIATE_TEST_SUITE_P(Fields, NoisyDevice,
-                         testing::Values("1.0003 - sin(7 * p.x)", "0.9996 - sin(3 * p.y) * 0.9999",
-                                         "0.9996 + cos(40 * p.z)", "atan(p.x + 2) - 0.78575",
+                         testing::Values("1.0003 - sin(7 * p.x + 3 * p.y + 5 * p.z)",
+                                         "1.0002 - sin(3 * p.y + p.x * p.z)",
+                                         "0.9998 + sin(40 * p.z + 3 * p.x + p.y)", "atan(p.x + 2) - 0.78575",
                                          "max(0.7857 - atan(1 + p.x * p.x + p.y * p.y), p.z)"));
 
 }  // namespace
