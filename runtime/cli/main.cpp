@@ -1,4 +1,6 @@
 // `fieldwright`: reads the command line and runs one command.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <CLI/CLI.hpp>

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "graph/base/words.h"
 #include "runtime/gpu/precision.h"
 #include "runtime/system/cache_file.h"
 
@@ -157,12 +158,6 @@ std::string lowered(std::string text) {
     return text;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 /// The candidate that `pick` asks for, or the first usable one.
 Result<const Candidate*> choose(const std::vector<Candidate>& all, const std::string& pick) {
     std::string list;
@@ -180,7 +175,7 @@ Result<const Candidate*> choose(const std::vector<Candidate>& all, const std::st
         return Error{.message = "no device matches '" + pick + "'; there are: " + list};
     if (found && !found->info.usable)
         return Error{.message = "device '" + found->info.name + "' lacks " +
-                                joined(missing(found->info.has)) + "; there are: " + list};
+                                listed(missing(found->info.has)) + "; there are: " + list};
     if (!found)
         throw SystemError(
             all.empty() ? "no Vulkan device found: install mesa-vulkan-drivers, which has one in software"
