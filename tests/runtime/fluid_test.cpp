@@ -1,6 +1,6 @@
 // The fluid on the device: neighbours against all pairs, densities against sums in double, what must be kept,
-// walls, and cases with known answers. Where a figure is compared with a band it is printed. The long cases
-// run where FIELDWRIGHT_LONG is set.
+// walls and obstacles. Where a figure is compared with a band it is printed. The long cases run where
+// FIELDWRIGHT_LONG is set.
 #include "runtime/particles/fluid.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <map>
 #include <numbers>
 #include <random>
@@ -19,48 +18,20 @@
 
 #include "graph/compile/compile.h"
 #include "graph/emit/glsl.h"
+#include "tests/support/fluid.h"
 #include "tests/support/gpu.h"
 #include "tests/support/graph/expression_graph.h"
-#include "tests/support/plot.h"
 
 namespace fw {
 namespace {
 
 using test::device;
+using test::kernelsFor;
+using test::mean;
+using test::read;
+using test::run;
 
-/// By the obstacle's text, of all tests.
-std::map<std::string, FluidKernels> kept;
-class Fluid : public testing::Test {
-  public:
-    static void TearDownTestSuite() { kept.clear(); }
-};
-const FluidKernels& kernelsFor(const std::string& obstacle = {}) {
-    const auto found = kept.find(obstacle);
-    return found != kept.end() ? found->second
-                               : kept.emplace(obstacle, createFluidKernels(device(), obstacle)).first->second;
-}
-
-struct State {
-    std::vector<glm::vec3> places, velocities;
-};
-std::vector<glm::vec3> read(const Buffer& buffer, uint32_t count) {
-    std::vector<glm::vec3> list;
-    for (const glm::vec4& each : download<glm::vec4>(device(), buffer, count)) list.emplace_back(each);
-    return list;
-}
-
-/// So many steps at once, in recordings of some.
-void run(FluidParticles& fluid, const FluidConfig& config, int steps, float step,
-         const std::string& obstacle = {}) {
-    for (int done_ = 0; done_ < steps;) {
-        Commands commands(device());
-        for (int i = 0; i < 20 && done_ < steps; ++i, ++done_) {
-            const Done recorded = recordFluidStep(commands, kernelsFor(obstacle), fluid, config, step);
-            ASSERT_TRUE(recorded) << recorded.error().message;
-        }
-        submit(commands);
-    }
-}
+class Fluid : public test::Fluid {};
 
 std::vector<glm::vec3> randomPlaces(std::size_t count, float reach, uint32_t seed) {
     std::mt19937 random(seed);
@@ -153,12 +124,6 @@ TEST_F(Fluid, DensitiesAreSumsAndWallsAreFull) {
     EXPECT_LT(most, 1.06);
 }
 
-glm::dvec3 mean(const std::vector<glm::vec3>& list) {
-    glm::dvec3 sum(0.0);
-    for (const glm::vec3& each : list) sum += each;
-    return sum / double(list.size());
-}
-
 TEST_F(Fluid, MomentumIsKeptAndFallsAreFree) {
     std::vector<glm::vec3> places = fluidBlock(glm::vec3(-0.4f), glm::vec3(0.0f), 0.05f);
     const std::size_t first = places.size();
@@ -232,219 +197,6 @@ TEST_F(Fluid, GoesOnFromWhatWasRead) {
     for (FluidParticles* each : {&fluid, &again}) run(*each, config, 10, 1.0f / 120);
     EXPECT_EQ(read(fluid.places, fluid.count), read(again.places, again.count));
     EXPECT_EQ(read(fluid.velocities, fluid.count), read(again.velocities, again.count));
-}
-
-/// Kinetic and potential, of a kilogramme, above the tank's floor.
-double energyOf(const FluidParticles& fluid, const FluidConfig& config) {
-    const std::vector<glm::vec3> places = read(fluid.places, fluid.count),
-                                 velocities = read(fluid.velocities, fluid.count);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        sum += 0.5 * glm::dot(velocities[i], velocities[i]) - glm::dot(config.gravity, places[i] - config.lo);
-    return sum / double(places.size());
-}
-
-TEST_F(Fluid, WaterComesToRestInATank) {
-    const float spacing = 0.05f, height = 0.4f;
-    FluidParticles fluid;
-    const FluidConfig config{.spacing = spacing,
-                             .lo = glm::vec3(-0.5f, 0.0f, -0.3f),
-                             .hi = glm::vec3(0.5f, 1.5f, 0.3f),
-                             .viscosity = 12.0f};
-    std::vector<test::Curve> curves;
-    for (const bool collapses : {false, true}) {
-        setFluid(device(), fluid,
-                 fluidBlock({-0.5f, 0.0f, -0.3f},
-                            collapses ? glm::vec3(0.0f, 2.0f * height, 0.3f) : glm::vec3(0.5f, height, 0.3f),
-                            spacing),
-                 {});
-        const double lattice = energyOf(fluid, config);
-        Commands commands(device());
-        ASSERT_TRUE(recordSettling(commands, kernelsFor(), fluid, config));
-        submit(commands);
-        const double first = energyOf(fluid, config);
-        double sprung = 0.0, least = 2.0 * first, growth = 0.0;
-        test::Curve& curve =
-            curves.emplace_back(test::Curve{.name = collapses ? "a column that collapses" : "a layer at rest",
-                                            .color = collapses ? "#d55e00" : "#1771a0",
-                                            .points = {{0.0, first / (0.5 * 9.81 * height)}}});
-        for (int i = 1; i <= 120; ++i) {
-            run(fluid, config, 10, 1.0f / 120);
-            const double now = energyOf(fluid, config);
-            sprung = std::max(sprung, now / first - 1.0);
-            if (i <= 60) curve.points.emplace_back(i / 12.0, now / (0.5 * 9.81 * height));
-            if (i < 6) continue;
-            growth = std::max(growth, now / least - 1.0);
-            least = std::min(now, least);
-        }
-        const std::vector<glm::vec3> places = read(fluid.places, fluid.count),
-                                     velocities = read(fluid.velocities, fluid.count);
-        const auto densities = download<float>(device(), fluid.densities, fluid.count);
-        const std::vector<glm::vec3> weighed = read(fluid.weighed, fluid.count);
-        std::vector<float> heights;
-        double fastest = 0.0, squares = 0.0, density = 0.0;
-        std::size_t inner = 0;
-        for (uint32_t i = 0; i < fluid.count; ++i) {
-            ASSERT_TRUE(glm::all(glm::greaterThanEqual(places[i], config.lo)) &&
-                        glm::all(glm::lessThanEqual(places[i], config.hi)));
-            heights.push_back(places[i].y);
-            const double speed = glm::length(velocities[i]);
-            fastest = std::max(fastest, speed), squares += speed * speed;
-            if (weighed[i].y > 0.1f && weighed[i].y < 0.3f) density += densities[i], ++inner;
-        }
-        std::ranges::sort(heights);
-        density /= double(inner);
-        const double top = heights[heights.size() * 98 / 100] + 0.5 * spacing,
-                     filled = 2.0 * mean(places).y / height, rms = std::sqrt(squares / double(fluid.count));
-        std::printf(
-            "water %s for 10 s: surface at %.3f m of %.1f, filled volume %.3f, density %.4f, speed %.4f m/s "
-            "rms, "
-            "%.3f at most; energy sprang up by %.4f before it was let go and by %.4f then, grew by %.4f at "
-            "most after half a second\n",
-            collapses ? "collapsed and left" : "left", top, height, filled, density, rms, fastest,
-            first / lattice - 1.0, sprung, growth);
-        EXPECT_NEAR(density, 1.0, 0.03);
-        EXPECT_NEAR(filled, 1.0, 0.05);
-        EXPECT_NEAR(top, height, 0.5 * spacing);
-        EXPECT_LT(rms, 0.01 * std::sqrt(9.81 * height));
-        EXPECT_LT(growth, 0.01);
-        EXPECT_LT(sprung, 0.01);
-    }
-    test::plot("fluid_tank", "seconds", "energy over that of a layer at rest", curves);
-}
-
-struct Front {
-    double time, at;  ///< T = t sqrt(2 g / a), Z = z / a
-};
-/// Where the front of a collapsing column of base `a` and height 2 a is: the foremost particle with a third
-/// of the neighbours that one at rest has, which are 24 near ones.
-std::vector<Front> damBreak(float a, float spacing, float step, double until, double& growth) {
-    FluidParticles fluid;
-    const FluidConfig config{
-        .spacing = spacing, .lo = glm::vec3(0.0f), .hi = a * glm::vec3(10.0f, 3.0f, 1.0f)};
-    setFluid(device(), fluid, fluidBlock(glm::vec3(0.0f), a * glm::vec3(1.0f, 2.0f, 1.0f), spacing), {});
-    const double first = energyOf(fluid, config), perSecond = std::sqrt(2.0 * 9.81 / a);
-    std::vector<Front> fronts;
-    growth = 0.0;
-    for (double time = step; time * perSecond < until; time += step) {
-        run(fluid, config, 1, step);
-        // The counts are of the guesses, whose order the places keep.
-        const std::vector<glm::vec3> places = read(fluid.places, fluid.count);
-        const auto counts = download<uint32_t>(device(), fluid.counts, fluid.count);
-        float front = 0.0f;
-        for (uint32_t i = 0; i < fluid.count; ++i)
-            if (counts[i] >= 24 / 3) front = std::max(front, places[i].x);
-        fronts.push_back({time * perSecond, front / a});
-        growth = std::max(growth, energyOf(fluid, config) / first - 1.0);
-    }
-    return fronts;
-}
-
-double frontAt(const std::vector<Front>& fronts, double time) {
-    const auto after = std::ranges::lower_bound(fronts, time, {}, &Front::time);
-    const auto before = after - 1;
-    const double t = (time - before->time) / (after->time - before->time);
-    return before->at + t * (after->at - before->at);
-}
-
-/// Martin and Moyce, Phil. Trans. R. Soc. A 244 (1952), figure 3, a = 2.25 in, as digitised in
-/// pysph/examples/db_exp_data.py (BSD-3); those with 1.5 < T < 6. Published simulations without friction run
-/// ahead of it, so the band is from -5 % to +20 %, with a time shift of 0.3 at most (the gate's).
-constexpr Front kMartinMoyce[] = {{1.997, 2.292}, {2.547, 2.995}, {3.345, 4.134}, {4.034, 4.944},
-                                  {4.418, 5.881}, {5.091, 6.980}, {5.685, 7.945}};
-
-TEST_F(Fluid, ADamBreaksAsInTheExperiment) {
-    const float a = 0.5f;
-    double growth = 0.0;
-    const std::vector<Front> fronts = damBreak(a, a / 20, 1.0f / 120, 6.1, growth);
-    std::printf("dam break, front over the experiment's:");
-    for (const Front& wanted : kMartinMoyce) {
-        const double ratio = frontAt(fronts, wanted.time) / wanted.at;  // without a shift
-        std::printf(" T %.2f: %+.1f %%", wanted.time, 100.0 * (ratio - 1.0));
-        EXPECT_GT(ratio, 0.95) << wanted.time;
-        EXPECT_LT(ratio, 1.20) << wanted.time;
-    }
-    for (std::size_t i = 1; i < fronts.size(); ++i) EXPECT_GT(fronts[i].at, fronts[i - 1].at - 0.05);
-    test::Curve found{.name = "20 particles to the column's width", .color = "#1771a0", .points = {}},
-        known{.name = "Martin and Moyce, a = 2.25 in", .color = "#d55e00", .points = {}, .dots = true};
-    for (const Front& each : fronts) found.points.emplace_back(each.time, each.at);
-    for (const Front& each : kMartinMoyce) known.points.emplace_back(each.time, each.at);
-    test::plot("fluid_dam_break", "T = t √(2g / a)", "front Z = z / a", {found, known});
-    const auto four = std::ranges::find_if(fronts, [](const Front& each) { return each.at > 4.0; });
-    const double slope = (frontAt(fronts, 6.0) - four->at) / (6.0 - four->time);
-    std::printf("; slope beyond Z = 4: %.2f; energy grew by %.4f at most\n", slope, growth);
-    EXPECT_GT(slope, 1.4);
-    EXPECT_LT(slope, 2.0);
-    EXPECT_LT(growth, 0.01);
-    if (!std::getenv("FIELDWRIGHT_LONG")) return;
-    const std::vector<Front> finer = damBreak(a, a / 40, 1.0f / 240, 6.1, growth);
-    std::printf("with half the spacing and step:");
-    for (const Front& wanted : kMartinMoyce) {
-        const double ratio = frontAt(finer, wanted.time) / frontAt(fronts, wanted.time);
-        std::printf(" T %.2f: %+.1f %%", wanted.time, 100.0 * (ratio - 1.0));
-        EXPECT_NEAR(ratio, 1.0, 0.05) << wanted.time;
-    }
-    std::printf("; energy grew by %.4f at most\n", growth);
-    EXPECT_LT(growth, 0.01);
-}
-
-/// Root mean square of an axis.
-double spreadAlong(const std::vector<glm::vec3>& places, int axis) {
-    double squares = 0.0;
-    for (const glm::vec3& p : places) squares += double(p[axis]) * p[axis];
-    return std::sqrt(squares / double(places.size()));
-}
-
-/// Monaghan, "Simulating Free Surface Flows with SPH" (JCP 110, 1994): a disc with the velocity (-A x, A y)
-/// becomes an ellipse with a' = -A a, b' = A b, A' = A^2 (a^2 - b^2) / (a^2 + b^2). Two walls without
-/// friction make the space flat.
-TEST_F(Fluid, ADropBecomesTheEllipse) {
-    const float spacing = 0.05f, thickness = 4 * spacing, step = 1.0f / 120;
-    const FluidConfig config{.spacing = spacing,
-                             .lo = glm::vec3(-3.0f, -3.0f, 0.0f),
-                             .hi = glm::vec3(3.0f, 3.0f, thickness),
-                             .gravity = glm::vec3(0.0f)};
-    std::vector<glm::vec3> places = fluidBlock({-1.0f, -1.0f, 0.0f}, {1.0f, 1.0f, thickness}, spacing);
-    std::erase_if(places, [](const glm::vec3& p) { return p.x * p.x + p.y * p.y > 1.0f; });
-    FluidParticles fluid;
-    setFluid(device(), fluid, places, {});
-    for (int i = 0; i < 60; ++i) {  // a lattice between walls is too dense: it parts without gaining speed
-        run(fluid, config, 1, step);
-        places = read(fluid.places, fluid.count);
-        setFluid(device(), fluid, places, {});
-    }
-    std::vector<glm::vec3> velocities;
-    for (const glm::vec3& p : places) velocities.emplace_back(-p.x, p.y, 0.0f);
-    setFluid(device(), fluid, places, velocities);
-    const double across = spreadAlong(places, 0), along = spreadAlong(places, 1),
-                 energy = energyOf(fluid, config);
-    double a = 1.0, b = 1.0, rate = 1.0, growth = 0.0;
-    test::Curve longAxis{.name = "long axis", .color = "#1771a0", .points = {{0.0, 1.0}}},
-        wantedLong{.name = "exact", .color = "#d55e00", .points = {}, .dots = true},
-        shortAxis{.name = "short axis", .color = "#0a5c39", .points = {{0.0, 1.0}}},
-        wantedShort{.name = "exact", .color = "#e69f00", .points = {}, .dots = true};
-    for (int i = 0; i < 120; ++i) {
-        for (int k = 0; k < 100; ++k) {
-            const double h = step / 100.0, change = rate * rate * (a * a - b * b) / (a * a + b * b);
-            a -= h * a * rate, b += h * b * rate, rate += h * change;
-        }
-        run(fluid, config, 1, step);
-        growth = std::max(growth, energyOf(fluid, config) / energy - 1.0);
-        if ((i + 1) % 12 != 0) continue;
-        const std::vector<glm::vec3> now = read(fluid.places, fluid.count);
-        const double ratioA = spreadAlong(now, 0) / across / a, ratioB = spreadAlong(now, 1) / along / b,
-                     seconds = double(step) * (i + 1);
-        longAxis.points.emplace_back(seconds, ratioB * b), wantedLong.points.emplace_back(seconds, b);
-        shortAxis.points.emplace_back(seconds, ratioA * a), wantedShort.points.emplace_back(seconds, a);
-        if (i + 1 != 96 && i + 1 != 120) continue;
-        std::printf("drop after %.1f s: b %.4f, %+.1f %%; a %.4f, %+.1f %%; energy grew by %.4f at most\n",
-                    double(step) * (i + 1), b, 100 * (ratioB - 1), a, 100 * (ratioA - 1), growth);
-        EXPECT_NEAR(ratioB, 1.0, 0.03);
-    }
-    test::plot("fluid_drop", "seconds", "semi-axis", {longAxis, wantedLong, shortAxis, wantedShort});
-    EXPECT_NEAR(a, 0.43946, 2e-3);  // the reference's own figures for 1 s
-    EXPECT_NEAR(b, 2.27552, 5e-3);
-    EXPECT_LT(growth, 0.01);
 }
 
 TEST_F(Fluid, FarNeighboursOnceAreNearlyExact) {

@@ -1,0 +1,142 @@
+#include "runtime/render/lighting.h"
+
+#include "runtime/render/primary.h"
+
+namespace fw {
+
+namespace {
+
+constexpr uint32_t kRaysReference = 64;  // of a frame
+
+/// The pipeline that lights one kind of tiles, made at its first use.
+const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, bool fog, bool mean) {
+    const bool sky = !renderer.described.studio;
+    Pipeline& light = renderer.light[list][lamps + 2 * fog + 4 * mean + 8 * sky];
+    if (light) return light;
+    ShaderOptions options{.name = "render/light.comp"};
+    options.defines.push_back("LIST " + std::to_string(list));
+    if (lamps) options.defines.push_back("LAMPS");
+    if (fog) options.defines.push_back("FOG");
+    if (sky) options.defines.push_back("SKY");
+    if (mean) options.defines.push_back("MEAN");
+    light = createComputePipeline(*renderer.device, options);
+    return light;
+}
+
+/// Edges of the triangles that are seen, over the picture; the mesh's depth has been drawn.
+void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    const Image& depth = renderer.seen.attachment;
+    if (!renderer.wireframe)
+        renderer.wireframe = createGraphicsPipeline(
+            *renderer.device,
+            {.shaders = {{.name = "render/wireframe.vert"}, {.name = "render/wireframe.frag"}},
+             .depthFormat = depth.format,
+             .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL,
+             .depthTest = true});
+    imageBarrier(commands, depth, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    beginDrawing(commands, depth, VK_ATTACHMENT_LOAD_OP_LOAD);
+    const glm::mat4 clip = toClip(renderer.described.now);
+    const Descriptor bound[] = {
+        {1, scene.mesh.vertices, 0, VkDeviceSize(scene.vertices) * sizeof(gpu::MeshVertex)},
+        {2, scene.mesh.triangles, 0, 12ull * scene.triangles},
+        storage(10, renderer.pixels)};
+    fw::bind(commands, renderer.wireframe, &clip, sizeof clip, bound);
+    vkCmdDraw(commands.handle, 3 * scene.triangles, 1, 0, 0);
+    vkCmdEndRendering(commands.handle);
+    barrier(commands);
+}
+
+}  // namespace
+
+bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, bool mean) {
+    const Device& device = commands.device;
+    const GBuffer& gbuffer = renderer.gbuffer;
+    const gpu::RenderFrame& frame = renderer.described;
+    const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
+    const bool lamps = frame.lightCount > 0, fog = frame.fogDensity > 0.0f;
+    std::vector<Descriptor> bound = {
+        {0, renderer.frame},        storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
+        {3, gbuffer.tileLists},     storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
+        storage(9, renderer.means), storage(10, renderer.pixels)};
+    const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
+        dispatchAllTiles(commands, pipeline, gbuffer, list, nullptr, 0, bound);
+    };
+    if (lamps) {
+        beginStage(commands, "lamps");
+        if (!renderer.lamps)
+            renderer.lamps =
+                createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
+        resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
+        bound.push_back(storage(11, renderer.lampLight));
+        std::vector<Descriptor> read = {{0, renderer.frame},
+                                        storage(2, gbuffer.now()),
+                                        {3, gbuffer.tileLists},
+                                        storage(13, renderer.lampLight)};
+        addField(read, fieldOf(renderer, scene));
+        for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND}) {
+            dispatchTiles(commands, renderer.lamps, gbuffer, list, &list, sizeof list, read);
+            if (cancelled(commands)) return false;
+        }
+        barrier(commands);
+    }
+    if (fog) {
+        beginStage(commands, "fog");
+        if (!renderer.fog) renderer.fog = createComputePipeline(device, {.name = "render/fog.comp"});
+        const VkExtent3D half = {(extent.width + 1) / 2, (extent.height + 1) / 2, 1};
+        resizeImage(commands, renderer.fogLight, half, VK_FORMAT_R16G16B16A16_SFLOAT);
+        bound.push_back(storage(12, renderer.fogLight));
+        dispatch(commands, renderer.fog,
+                 {groupsFor(half.width, RENDER_TILE), groupsFor(half.height, RENDER_TILE), 1}, nullptr, 0,
+                 bound);
+        barrier(commands);
+    }
+    beginStage(commands, "light");
+    for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK})
+        overTiles(lightPipeline(renderer, list, lamps, fog, mean), list);
+    barrier(commands);
+    return true;
+}
+
+void traceReference(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    const GBuffer& gbuffer = renderer.gbuffer;
+    const VkExtent3D extent = gbuffer.now().extent;
+    if (!renderer.reference)
+        renderer.reference = createComputePipeline(
+            *renderer.device, {.name = "render/reference.comp", .field = renderer.field});
+    for (Image& history : renderer.ambient.history)
+        resizeImage(commands, history, extent, VK_FORMAT_R32_UINT);
+    std::vector<Descriptor> bound = {{0, renderer.frame},
+                                     storage(2, gbuffer.now()),
+                                     {3, gbuffer.tileLists},
+                                     storage(7, renderer.ambient.now())};
+    addField(bound, fieldOf(renderer, scene));
+    dispatchAllTiles(commands, renderer.reference, gbuffer, RENDER_NEAR, &kRaysReference,
+                     sizeof kRaysReference, bound);
+    barrier(commands);
+}
+
+void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    const uint32_t view = renderer.described.show;
+    if (view == RENDER_WIREFRAME) {
+        beginStage(commands, "view");
+        const uint64_t most = commands.device.limits.storageRange;
+        if (scene.triangles > 0 && 12ull * scene.triangles <= most && 16ull * scene.vertices <= most)
+            drawWireframe(commands, renderer, scene);
+    }
+    if (!showsField(view) || scene.draft) return;
+    beginStage(commands, "view");
+    if (!renderer.show)
+        renderer.show =
+            createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});
+    std::vector<Descriptor> bound = {
+        {0, renderer.frame}, storage(1, renderer.seen.depth), storage(10, renderer.pixels)};
+    addField(bound, fieldOf(renderer, scene));
+    const VkExtent3D extent = renderer.pixels.extent;
+    dispatch(commands, renderer.show,
+             {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1}, nullptr, 0,
+             bound);
+    barrier(commands);
+}
+
+}  // namespace fw

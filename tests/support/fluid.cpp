@@ -1,0 +1,58 @@
+#include "tests/support/fluid.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+
+#include "tests/support/gpu.h"
+
+namespace fw::test {
+
+namespace {
+
+std::map<std::string, FluidKernels> kept;  // by the obstacle's text, of all tests
+
+}  // namespace
+
+void Fluid::TearDownTestSuite() { kept.clear(); }
+
+const FluidKernels& kernelsFor(const std::string& obstacle) {
+    const auto found = kept.find(obstacle);
+    return found != kept.end() ? found->second
+                               : kept.emplace(obstacle, createFluidKernels(device(), obstacle)).first->second;
+}
+
+std::vector<glm::vec3> read(const Buffer& buffer, uint32_t count) {
+    std::vector<glm::vec3> list;
+    for (const glm::vec4& each : download<glm::vec4>(device(), buffer, count)) list.emplace_back(each);
+    return list;
+}
+
+void run(FluidParticles& fluid, const FluidConfig& config, int steps, float step,
+         const std::string& obstacle) {
+    for (int done_ = 0; done_ < steps;) {
+        Commands commands(device());
+        for (int i = 0; i < 20 && done_ < steps; ++i, ++done_) {
+            const Done recorded = recordFluidStep(commands, kernelsFor(obstacle), fluid, config, step);
+            ASSERT_TRUE(recorded) << recorded.error().message;
+        }
+        submit(commands);
+    }
+}
+
+glm::dvec3 mean(const std::vector<glm::vec3>& list) {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3& each : list) sum += each;
+    return sum / double(list.size());
+}
+
+double energyOf(const FluidParticles& fluid, const FluidConfig& config) {
+    const std::vector<glm::vec3> places = read(fluid.places, fluid.count),
+                                 velocities = read(fluid.velocities, fluid.count);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        sum += 0.5 * glm::dot(velocities[i], velocities[i]) - glm::dot(config.gravity, places[i] - config.lo);
+    return sum / double(places.size());
+}
+
+}  // namespace fw::test
