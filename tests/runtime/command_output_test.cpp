@@ -99,14 +99,16 @@ TEST_F(CommandOutput, CtrlCStopsCleanlyAtAnyTime) {
         const CommandResult result = runCommand(to(folder.path("a.stl"), "256"), options);
         EXPECT_EQ(folder.names(), std::vector<std::string>{"a.stl"}) << "after " << delay << " ms";
         EXPECT_LT(result.peakMegabytes, test::kMostMegabytes);
-        if (result.status == 0) {  // it was done before
+        // Done before, or interrupted between the mesh and the end.
+        if (result.status == 0 || result.errors == "fieldwright: interrupted; the mesh was written\n") {
             EXPECT_GT(fs::file_size(folder.path("a.stl")), 100'000u);
             test::writeText(folder.path("a.stl"), "before");
             continue;
         }
         ++interrupted;
         EXPECT_EQ(result.status, 130) << result.errors;
-        EXPECT_EQ(test::readText(folder.path("a.stl")), "before") << "after " << delay << " ms";
+        EXPECT_EQ(test::readText(folder.path("a.stl")).substr(0, 100), "before")
+            << "after " << delay << " ms";
         if (!result.killed) {  // by the signal itself, before the command was read
             EXPECT_EQ(result.errors, "fieldwright: interrupted; nothing was written\n");
         }
