@@ -8,9 +8,16 @@ namespace fw::language {
 
 namespace {
 
-constexpr std::string_view kSymbols[] = {
-    "<=", ">=", "==", "!=", "&&", "||", "++", "--", "+=", "-=", "*=", "/=", "%=", "(", ")", "{", "}",
-    "[",  "]",  ",",  ";",  ".",  "?",  ":",  "=",  "<",  ">",  "+",  "-",  "*",  "/", "%", "!"};
+constexpr std::string_view kSymbols = "(){}[],;.?:=<>+-*/%!";
+constexpr std::string_view kBeforeEqual = "<>=!+-*/%", kTwice = "&|+-";
+
+/// The length of the symbol at the start of `text`, 0 if there is none.
+std::size_t symbolLength(std::string_view text) {
+    const auto among = [&](std::string_view list) { return list.find(text[0]) != std::string_view::npos; };
+    if (text.size() > 1 && ((text[1] == '=' && among(kBeforeEqual)) || (text[1] == text[0] && among(kTwice))))
+        return 2;
+    return among(kSymbols) ? 1 : 0;
+}
 
 bool startsName(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool continuesName(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -31,6 +38,7 @@ Error codeError(Place place, std::string message) {
 
 Result<std::vector<Token>> tokenize(std::string_view code) {
     std::vector<Token> tokens;
+    tokens.reserve(std::min(code.size() / 2 + 1, kMaxTokens + 1));
     Place place;
     std::size_t at = 0;
     const auto advance = [&](std::size_t count) {
@@ -95,11 +103,7 @@ Result<std::vector<Token>> tokenize(std::string_view code) {
             token.text = code.substr(at + 1, end - at - 1);
             length = end + 1 - at;
         } else {
-            for (std::string_view symbol : kSymbols)
-                if (rest().starts_with(symbol)) {
-                    length = symbol.size();
-                    break;
-                }
+            length = symbolLength(rest());
             if (length == 0)
                 return codeError(
                     place, "the character " + inQuotes(wholeCharacter(rest())) + " has no meaning here");

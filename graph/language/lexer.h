@@ -20,7 +20,11 @@ struct Token {
     double value = 0.0;     ///< of integer and number
     Place place;
 
-    bool is(std::string_view symbol) const { return kind == Kind::symbol && text == symbol; }
+    /// `symbol` has one or two characters, as all have.
+    bool is(std::string_view symbol) const {
+        return kind == Kind::symbol && text[0] == symbol[0] && text.size() == symbol.size() &&
+               text.back() == symbol.back();
+    }
     bool isName(std::string_view name) const { return kind == Kind::name && text == name; }
 };
 

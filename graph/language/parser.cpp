@@ -33,12 +33,21 @@ bool isReserved(std::string_view name) {
 /// Binding strength of a binary operator; 0 if it is none.
 int precedence(const Token& token) {
     if (token.kind != Token::Kind::symbol) return 0;
-    static constexpr std::pair<std::string_view, int> table[] = {
-        {"||", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<", 4}, {">", 4}, {"<=", 4},
-        {">=", 4}, {"+", 5},  {"-", 5},  {"*", 6},  {"/", 6}, {"%", 6}};
-    for (const auto& [symbol, strength] : table)
-        if (token.text == symbol) return strength;
-    return 0;
+    const bool single = token.text.size() == 1, equal = token.text.back() == '=';
+    switch (token.text[0]) {
+        case '|': return 1;
+        case '&': return 2;
+        case '=':
+        case '!': return single ? 0 : 3;
+        case '<':
+        case '>': return 4;
+        case '+':
+        case '-': return single ? 5 : 0;
+        case '*':
+        case '/':
+        case '%': return equal ? 0 : 6;
+        default: return 0;
+    }
 }
 constexpr int kUnaryStrength = 7;
 

@@ -14,7 +14,7 @@ using editor::Preview;
 using editor::PreviewResult;
 using editor::PreviewWish;
 
-constexpr int kCells = 128, kWidth = 800, kHeight = 600;
+constexpr int kPreviewCells = 128, kPreviewWidth = 800, kPreviewHeight = 600;
 constexpr int kDrags = 60, kChanges = 12, kNodes = 200;
 constexpr double kMostDrag = 60, kMostLateDrag = 120, kMostChange = 250, kMostAsk = 1;
 
@@ -34,9 +34,9 @@ struct Asked {
         preview.ask({.graph = std::move(shared),
                      .revision = ++revision,
                      .held = std::move(held),
-                     .width = kWidth,
-                     .height = kHeight,
-                     .resolution = kCells});
+                     .width = kPreviewWidth,
+                     .height = kPreviewHeight,
+                     .resolution = kPreviewCells});
         longest = std::max(longest, millisecondsSince(start));
         return wait(start, full);
     }
@@ -110,7 +110,7 @@ void editorTable(Bench& bench) {
     place(1);
     asked.ask(graph, held, true);
     Figure drags;
-    int coarsest = kCells;
+    int coarsest = kPreviewCells;
     for (int i = 0; i < kDrags + 5; ++i) {
         place(i + 2);
         const double took = asked.ask(graph, held, true);
@@ -132,8 +132,9 @@ void editorTable(Bench& bench) {
     changes = sorted(std::move(changes));
     complete = sorted(std::move(complete));
 
-    Table table{.title = "The editor's preview, " + std::to_string(kWidth) + " x " + std::to_string(kHeight) +
-                         ", " + std::to_string(kCells) + " cells (ms)",
+    Table table{.title = "The editor's preview, " + std::to_string(kPreviewWidth) + " x " +
+                         std::to_string(kPreviewHeight) + ", " + std::to_string(kPreviewCells) +
+                         " cells (ms)",
                 .header = {"what", "median", "95 % within", "longest"}};
     const auto row = [&](std::string what, const Figure& figure) {
         table.rows.push_back(

@@ -15,11 +15,11 @@
 namespace fw::bench {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 800;
-constexpr int kFew = 100, kSome = 200, kMany = 1000, kChanges = 12, kFrames = 60, kEdits = 10000;
+constexpr int kWindowWidth = 1280, kWindowHeight = 800;
+constexpr int kFew = 100, kSome = 200, kMany = 1000, kWindowChanges = 12, kFrames = 60, kEdits = 10000;
 constexpr double kRest = 3.0;  // seconds
 constexpr double kMostFew = 14, kMostMany = 40, kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50,
-                 kMostChange = 250, kMostMeanwhile = 50, kMostRest = 2;
+                 kMostWindowChange = 250, kMostMeanwhile = 50, kMostRest = 2;
 
 double processorSeconds() {
     rusage used{};
@@ -48,7 +48,10 @@ Graph grid(int nodes, double difference = 0.0) {
 /// The editor in a window, and its loop as main() has it.
 struct Window {
     Window(const Bench& bench, Graph graph)
-        : shell({.device = bench.options.device, .width = kWidth, .height = kHeight, .scale = 1.0f}),
+        : shell({.device = bench.options.device,
+                 .width = kWindowWidth,
+                 .height = kWindowHeight,
+                 .scale = 1.0f}),
           editor(shell, std::move(graph), {.pick = bench.options.device}) {}
 
     double frame() {
@@ -87,8 +90,8 @@ void interfaceTable(Bench& bench) {
         std::printf("The editor's interface was not measured: there is no display. xvfb-run gives one.\n\n");
         return;
     }
-    Table table{.title = "The editor's interface, window " + std::to_string(kWidth) + " x " +
-                         std::to_string(kHeight) + " (ms)",
+    Table table{.title = "The editor's interface, window " + std::to_string(kWindowWidth) + " x " +
+                         std::to_string(kWindowHeight) + " (ms)",
                 .header = {"what", "median", "95 % within", "longest", "at most wanted"}};
     const auto late = [](const Figure& figure) { return figure.runs[figure.runs.size() * 95 / 100]; };
     const auto row = [&](std::string what, Figure figure, double most) {
@@ -143,14 +146,14 @@ void interfaceTable(Bench& bench) {
         };
         Figure longest, changed;
         std::random_device seed;
-        for (int i = 0; i < kChanges + 2; ++i) {
+        for (int i = 0; i < kWindowChanges + 2; ++i) {
             const Graph chain = grid(kSome - 2, double(seed()) * 1e-11);
             change(chain, false);
             const auto [frame, all] = change(withBall(chain), true);
             if (i >= 2) longest.runs.push_back(frame), changed.runs.push_back(all);
         }
         row("one of " + std::to_string(kSome) + " nodes added, to its picture in the window", changed,
-            kMostChange);
+            kMostWindowChange);
         row("the longest frame meanwhile", longest, kMostMeanwhile);
     }
     double early = 0, end = 0;

@@ -15,9 +15,9 @@ constexpr float kDegreesAFrame = 1.0f;
 constexpr double kMostOfAllRays = 0.2, kMostOfUnshared = 0.7;
 constexpr double kMostFrame = 45, kMostAnimated = 55, kMostPass = 0.1;
 
-const char* verdict(double value, double most) { return value <= most ? "met" : "missed"; }
+const char* metOrMissed(double value, double most) { return value <= most ? "met" : "missed"; }
 
-struct Way {
+struct PrimaryWay {
     const char* name;
     const char* slide;
     AmbientOptions options;
@@ -90,10 +90,10 @@ Figure timeAmbient(const Bench& bench, Stage& stage_, const RenderScene& scene) 
 }
 
 void ambientTable(Bench& bench, Stage& stage_) {
-    const Way ways[] = {{"16 rays a pixel", "30", with(16, false, false)},
-                        {"1 ray, reprojected", "2", with(1, true, false)},
-                        {"1 ray, reprojected, 16 in holes", "12", with(16, true, false)},
-                        {"the same, shared by the lanes of a tile", "4", with(16, true, true)}};
+    const PrimaryWay ways[] = {{"16 rays a pixel", "30", with(16, false, false)},
+                               {"1 ray, reprojected", "2", with(1, true, false)},
+                               {"1 ray, reprojected, 16 in holes", "12", with(16, true, false)},
+                               {"the same, shared by the lanes of a tile", "4", with(16, true, true)}};
     Table table{.title = "Ambient occlusion, 1280 x 720, tower, the camera moving (ms)",
                 .header = {"way", "the slide", "of 16 rays, slide", "ambient", "of 16 rays"}};
     double all = 0, unshared = 0, shared = 0;
@@ -101,7 +101,7 @@ void ambientTable(Bench& bench, Stage& stage_) {
     stage_.options.scene.sun.reset();
     stage_.renderer.tracing = true;
     stage_.renderer.trust = 1.0f;
-    for (const Way& way : ways) {
+    for (const PrimaryWay& way : ways) {
         stage_.renderer.ambient.options = way.options;
         forgetHistory(stage_.renderer.ambient);
         const Figure figure = timeAmbient(bench, stage_, stage_.scene());
@@ -117,9 +117,10 @@ void ambientTable(Bench& bench, Stage& stage_) {
                        "turns by " +
                        number(kDegreesAFrame) + " degree a frame.",
                    "Shared, of 16 rays everywhere: at most " + number(kMostOfAllRays) + " wanted, " +
-                       verdict(shared / all, kMostOfAllRays) + " (" + number(shared / all) + ").",
+                       metOrMissed(shared / all, kMostOfAllRays) + " (" + number(shared / all) + ").",
                    "Shared, of the same unshared: at most " + number(kMostOfUnshared) + " wanted, " +
-                       verdict(shared / unshared, kMostOfUnshared) + " (" + number(shared / unshared) + ")."};
+                       metOrMissed(shared / unshared, kMostOfUnshared) + " (" + number(shared / unshared) +
+                       ")."};
     print(table, bench.options.markdown);
 }
 
@@ -246,11 +247,11 @@ void frameTable(Bench& bench, Stage& stage_) {
             pass = std::min(pass, part("shadow"));
     }
     table.notes = {"The frame of an unchanged mesh: at most " + number(kMostFrame) + " wanted, " +
-                       verdict(best, kMostFrame) + " (" + number(best) + "). Its shadow map stands.",
+                       metOrMissed(best, kMostFrame) + " (" + number(best) + "). Its shadow map stands.",
                    "Mesh and shadow map made anew for each: at most " + number(kMostAnimated) + " wanted, " +
-                       verdict(bestAnimated, kMostAnimated) + " (" + number(bestAnimated) + ").",
+                       metOrMissed(bestAnimated, kMostAnimated) + " (" + number(bestAnimated) + ").",
                    "A further shadow pass, of generating and drawing the mesh again: at most " +
-                       number(kMostPass) + " wanted, " + verdict(pass / (generated + drawn), kMostPass) +
+                       number(kMostPass) + " wanted, " + metOrMissed(pass / (generated + drawn), kMostPass) +
                        " (" + number(pass / (generated + drawn)) + ")."};
     print(table, bench.options.markdown);
 }

@@ -25,15 +25,15 @@ constexpr uint32_t kParticles = 100'000;
 constexpr float kRadiusInCells = 4.0f;
 constexpr double kLeastOverExact = 40;
 
-struct Way {
+struct DensityWay {
     const char* name;
     std::optional<DensityMethod> method;  // none: the slide's own exact way
     const char* slide;                    // ms
 };
-constexpr Way kWays[] = {{"exact", DensityMethod::exact, ""},
-                         {"exact, cells of one sample", {}, "> 200"},
-                         {"proxies", DensityMethod::proxies, "> 100"},
-                         {"blur", DensityMethod::blur, "< 2"}};
+constexpr DensityWay kWays[] = {{"exact", DensityMethod::exact, ""},
+                                {"exact, cells of one sample", {}, "> 200"},
+                                {"proxies", DensityMethod::proxies, "> 100"},
+                                {"blur", DensityMethod::blur, "< 2"}};
 
 /// Evenly in a ball, and the drops of a splash about it.
 std::vector<glm::vec4> splash() {
@@ -190,7 +190,7 @@ void particlesTable(Bench& bench) {
         const std::size_t samples = std::size_t((size + 3) / 4 * 4) * std::size_t(size) * std::size_t(size);
         std::vector<float> exact;
         double slowest = 0.0;
-        for (const Way& way : kWays) {
+        for (const DensityWay& way : kWays) {
             config.method = way.method.value_or(DensityMethod::exact);
             const auto run = [&](bool timed) {
                 const auto start = Clock::now();

@@ -48,20 +48,20 @@ std::vector<Shape> densest(const std::vector<Shape>& shapes) {
     return best;
 }
 
-enum class Way { sharp, blended, straight };
+enum class BallsWay { sharp, blended, straight };
 
-std::optional<Program> unionOf(Bench& bench, const std::vector<Shape>& shapes, Way way) {
+std::optional<Program> unionOf(Bench& bench, const std::vector<Shape>& shapes, BallsWay way) {
     std::string code = "d = 1000.0;\n";
     const auto vector = [](glm::vec3 v) {
         return "vec3(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
     };
     for (const Shape& shape : shapes)
-        code += std::string(way == Way::blended ? "d = smooth_min(d, box(p - " : "d = min(d, box(p - ") +
+        code += std::string(way == BallsWay::blended ? "d = smooth_min(d, box(p - " : "d = min(d, box(p - ") +
                 vector(shape.centre) + ", " + vector(shape.half) + ", 0.01).distance" +
-                (way == Way::blended ? ", 0.02);\n" : ");\n");
+                (way == BallsWay::blended ? ", 0.02);\n" : ");\n");
     Result<Program> program = compile(test::expressionGraph(code + "return d;"));
     if (!program) return bench.fail(format(program.error())), std::nullopt;
-    if (way == Way::straight) program->families = {};
+    if (way == BallsWay::straight) program->families = {};
     return std::move(*program);
 }
 
@@ -69,7 +69,7 @@ std::optional<Program> unionOf(Bench& bench, const std::vector<Shape>& shapes, W
 void picturesTable(Bench& bench, const std::vector<Shape>& all, const std::vector<Shape>& near) {
     Table table{.title = "Many shapes: a frame, 480 x 270, 16 rays of ambient occlusion a pixel (ms)",
                 .header = {"shapes", "frame"}};
-    const auto time = [&](const char* name, const std::vector<Shape>& shapes, Way way) -> double {
+    const auto time = [&](const char* name, const std::vector<Shape>& shapes, BallsWay way) -> double {
         std::optional<Program> program = unionOf(bench, shapes, way);
         if (!program) return 0;
         Result<Device> device = createDevice({.pick = bench.options.device});
@@ -88,9 +88,9 @@ void picturesTable(Bench& bench, const std::vector<Shape>& all, const std::vecto
         table.rows.push_back({name, text(frame)});
         return frame.median();
     };
-    const double straight = time("nearest 50, straight code", near, Way::straight),
-                 few = time("nearest 50", near, Way::sharp), many = time("1000", all, Way::sharp),
-                 blended = time("1000, blended", all, Way::blended);
+    const double straight = time("nearest 50, straight code", near, BallsWay::straight),
+                 few = time("nearest 50", near, BallsWay::sharp), many = time("1000", all, BallsWay::sharp),
+                 blended = time("1000, blended", all, BallsWay::blended);
     if (straight <= 0 || few <= 0 || many <= 0 || blended <= 0) return;
     table.notes.push_back("Straight code takes " + number(straight / few) +
                           " times as long for the 50; the " + "thousand take " + number(many / few) +
@@ -105,8 +105,8 @@ void pruneTable(Bench& bench) {
     Table table{.title = "Many shapes: rounded boxes in a union (ms)",
                 .header = {"shapes", "cells", "triangles", "all"}};
     for (int cells : bench.sizes({128, 256, 512})) {
-        const auto time = [&](const char* name, const std::vector<Shape>& shapes, Way way) -> double {
-            const bool straight = way == Way::straight;
+        const auto time = [&](const char* name, const std::vector<Shape>& shapes, BallsWay way) -> double {
+            const bool straight = way == BallsWay::straight;
             std::optional<Program> program = unionOf(bench, shapes, way);
             if (!program) return 0;
             glm::vec3 low(1e30f), high(-1e30f);
@@ -144,8 +144,9 @@ void pruneTable(Bench& bench) {
             table.rows.push_back(std::move(row));
             return total.median();
         };
-        const double few = time("nearest 50", near, Way::sharp), many = time("1000", all, Way::sharp),
-                     blended = time("1000, blended", all, Way::blended);
+        const double few = time("nearest 50", near, BallsWay::sharp),
+                     many = time("1000", all, BallsWay::sharp),
+                     blended = time("1000, blended", all, BallsWay::blended);
         if (few <= 0 || many <= 0 || blended <= 0) return;
         const double share = many / few;
         table.notes.push_back("At " + std::to_string(cells) + " the thousand take " + number(share) +
@@ -155,7 +156,7 @@ void pruneTable(Bench& bench) {
                                                   (share <= kMostShare ? "met." : "missed.")));
         table.notes.push_back("Blended over 0.02 they take " + number(blended / many) + " times as long.");
         if (cells != 256) continue;
-        const double straight = time("1000, straight code", all, Way::straight), gain = straight / many;
+        const double straight = time("1000, straight code", all, BallsWay::straight), gain = straight / many;
         table.notes.push_back("Straight code takes " + number(gain) + " times as long, at least " +
                               number(kLeastGain) + " wanted, " + (gain >= kLeastGain ? "met." : "missed."));
     }

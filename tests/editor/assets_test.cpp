@@ -13,8 +13,7 @@
 #include "tests/editor/graphs.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::assets_test {
 
 namespace fs = std::filesystem;
 using fw::test::readText;
@@ -209,5 +208,4 @@ TEST_F(Brought, ChangesOfEveryKindAreNoticed) {
     EXPECT_FALSE(look(next));
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::assets_test

@@ -6,10 +6,9 @@
 #include "editor/shortcuts.h"
 #include "tests/editor/graphs.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::canvas_test {
 
-using test::parsed;
+using editor::test::parsed;
 
 /// A document with one node of this type.
 Graph alone(const NodeType& type) {
@@ -222,5 +221,4 @@ TEST(Shortcuts, AreReadAsTheyAreWritten) {
         EXPECT_FALSE(shortcutOf(bad)) << bad;
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::canvas_test

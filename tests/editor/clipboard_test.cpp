@@ -9,10 +9,9 @@
 
 #include "tests/editor/random_edits.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::clipboard_test {
 
-using test::structuralErrors;
+using editor::test::structuralErrors;
 
 Graph sample(const std::string& name) {
     const Result<Graph> graph =
@@ -45,7 +44,7 @@ const std::string* sourceOf(const Graph& graph, const std::string& node, const s
 }
 
 TEST(Copy, AWholeSampleIntoNothingIsTheSample) {
-    for (const Graph& graph : test::graphsToEdit(30)) {
+    for (const Graph& graph : editor::test::graphsToEdit(30)) {
         const std::string text = copyNodes(graph, "", idsOf(graph));
         const Result<Graph> read = parseGraph(text, "", nullptr);
         ASSERT_TRUE(read) << format(read.error());
@@ -187,5 +186,4 @@ TEST(Paste, NoTextBreaksTheGraph) {
     EXPECT_GT(taken, 30);
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::clipboard_test

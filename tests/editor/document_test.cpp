@@ -6,11 +6,10 @@
 #include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::document_test {
 
-using test::graphOf;
-using test::RandomEdits;
+using editor::test::graphOf;
+using editor::test::RandomEdits;
 
 Graph balls(int count) {
     Graph graph;
@@ -148,7 +147,7 @@ TEST(Document, KeepsAThousandSteps) {
 
 TEST(Document, UndoAndRedoToBothEndsGiveTheSameBytes) {
     uint32_t seed = 0;
-    for (const Graph& start : test::graphsToEdit(30)) {
+    for (const Graph& start : editor::test::graphsToEdit(30)) {
         Document document(start);
         RandomEdits edits(++seed);
         std::vector<std::string> texts{writeGraph(start)};
@@ -177,5 +176,4 @@ TEST(Document, UndoAndRedoToBothEndsGiveTheSameBytes) {
     }
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::document_test

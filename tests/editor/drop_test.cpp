@@ -15,8 +15,7 @@
 #include "tests/support/graph/picture_file.h"
 #include "tests/support/graph/triangle_meshes.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::drop_test {
 
 namespace fs = std::filesystem;
 using fw::test::readText;
@@ -350,5 +349,4 @@ TEST_F(Dropped, WhatIsToBeKnownOfAMeshIsAWarning) {
     EXPECT_NE(shown.findings[0].message.find("bad.obj"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::drop_test

@@ -11,11 +11,10 @@
 #include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::edits_test {
 
-using test::graphOf;
-using test::structuralErrors;
+using editor::test::graphOf;
+using editor::test::structuralErrors;
 
 constexpr const char* kTower = R"(
   {"id": "tower", "type": "box", "at": [0, 0], "inputs": {"half_extents": [1, 2, 1]}},
@@ -323,8 +322,8 @@ TEST(Streams, FollowTheWires) {
 TEST(Edits, LeaveNoGraphLessSoundThanItWas) {
     uint32_t seed = 100;
     std::map<std::string, int> changes;  // by the kind of edit
-    for (Graph graph : test::graphsToEdit(90)) {
-        test::RandomEdits edits(++seed);
+    for (Graph graph : editor::test::graphsToEdit(90)) {
+        editor::test::RandomEdits edits(++seed);
         std::vector<std::string> former = structuralErrors(graph);
         for (int i = 0; i < 120; ++i) {
             std::string name;
@@ -346,5 +345,4 @@ TEST(Edits, LeaveNoGraphLessSoundThanItWas) {
     for (const auto& [name, count] : changes) EXPECT_GT(count, 20) << name << " hardly ever did anything";
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::edits_test

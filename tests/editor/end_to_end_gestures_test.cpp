@@ -12,8 +12,7 @@
 #include "graph/document/timeline.h"
 #include "tests/editor/program.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::end_to_end_gestures_test {
 
 constexpr const char* kDocument = R"({"fieldwright": 1, "nodes": [
     {"id": "box", "type": "box", "at": [0, 0]},
@@ -290,5 +289,4 @@ TEST_F(EndToEndGestures, ManyInARowAreTakenBackAndDoneAgain) {
     EXPECT_EQ(program.save(), made);
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::end_to_end_gestures_test

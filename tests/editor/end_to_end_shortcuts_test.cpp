@@ -10,8 +10,7 @@
 #include "graph/document/named_parameters.h"
 #include "tests/editor/program.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::end_to_end_shortcuts_test {
 
 using fw::test::readText;
 using fw::test::writeText;
@@ -594,5 +593,4 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
 INSTANTIATE_TEST_SUITE_P(Commands, EndToEndShortcuts, testing::ValuesIn(areas()),
                          [](const auto& area) { return area.param; });
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::end_to_end_shortcuts_test

@@ -7,8 +7,7 @@
 #include "graph/document/json.h"
 #include "tests/editor/program.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::end_to_end_test {
 
 using fw::test::readText;
 
@@ -140,5 +139,4 @@ TEST(EndToEnd, LooksAsItDid) {
     expect("empty");
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::end_to_end_test

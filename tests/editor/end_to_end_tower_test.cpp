@@ -6,8 +6,7 @@
 #include "tests/editor/program.h"
 #include "tests/support/command.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::end_to_end_tower_test {
 
 using fw::test::readText;
 using fw::test::runCommand;
@@ -120,5 +119,4 @@ TEST(EndToEnd, BuildsTheTowerFromNothing) {
     EXPECT_EQ(program.save(), built);
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::end_to_end_tower_test

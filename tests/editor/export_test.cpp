@@ -12,13 +12,12 @@
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::export_test {
 
 using Phase = ExportState::Phase;
-using test::readText;
-using test::TempDir;
-using test::writeText;
+using fw::test::readText;
+using fw::test::TempDir;
+using fw::test::writeText;
 
 std::shared_ptr<const Graph> read(const std::string& path) {
     const Result<Graph> graph = readGraph(path, nullptr);
@@ -71,7 +70,7 @@ TEST(Export, GivesTheBytesOfTheCommand) {
                           theirs = folder.path(name);
         std::vector<std::string> arguments{"export", sample(each.sample), "-o", theirs};
         arguments.insert(arguments.end(), each.options.begin(), each.options.end());
-        const test::CommandResult command = test::runCommand(arguments);
+        const fw::test::CommandResult command = fw::test::runCommand(arguments);
         ASSERT_EQ(command.status, 0) << command.errors;
         ExportJob job({.graph = read(sample(each.sample)),
                        .path = mine,
@@ -166,5 +165,4 @@ TEST(Export, SaysWhatIsWrongWithAMesh) {
     EXPECT_EQ(soundness(report), "1,234 open edges, 1 edges between triangles that face opposite ways");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::export_test

@@ -14,12 +14,11 @@
 #include "graph/document/json.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::files_test {
 
-using test::readText;
-using test::TempDir;
-using test::writeText;
+using fw::test::readText;
+using fw::test::TempDir;
+using fw::test::writeText;
 
 Graph ball(double radius) {
     const std::string text = R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": "sphere",
@@ -206,5 +205,4 @@ TEST(FileBrowser, OpensAndSaves) {
     EXPECT_NE(browser.problem, "");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::files_test

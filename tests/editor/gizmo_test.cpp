@@ -12,8 +12,7 @@
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::gizmo_test {
 
 using Kind = Handle::Kind;
 
@@ -386,5 +385,4 @@ TEST(Grips, WhatHasNoneGetsANodeInTheWireAhead) {
     EXPECT_EQ(block.ahead, (Plug{"both", "b"}));
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::gizmo_test

@@ -16,11 +16,10 @@
 #include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::groups_test {
 
-using test::graphOf;
-using test::structuralErrors;
+using editor::test::graphOf;
+using editor::test::structuralErrors;
 
 /// Distance and material at some points; empty if the graph does not compile, be it for a node that nothing
 /// needs.
@@ -231,7 +230,7 @@ TEST(Ungroup, ConvertsAsTheGroupsEndsDid) {
 TEST(Group, TheFieldStaysAsItWas) {
     std::mt19937 random(11);
     int grouped = 0, ungrouped = 0, compiled = 0;
-    for (const Graph& start : test::graphsToEdit(80)) {
+    for (const Graph& start : editor::test::graphsToEdit(80)) {
         Graph graph = start;
         const std::vector<double> values = valuesOf(graph);
         compiled += !values.empty();
@@ -278,5 +277,4 @@ TEST(Group, TheFieldStaysAsItWas) {
     EXPECT_GT(ungrouped, 10);
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::groups_test

@@ -12,8 +12,7 @@
 #include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::keyboard_only_test {
 
 #define NEEDS_EDITOR(driven) \
     if (!(driven).works()) GTEST_SKIP() << "Xvfb or xdotool is not installed"
@@ -274,5 +273,4 @@ TEST(Arrangement, IsKeptFromOneTimeToTheNext) {
     EXPECT_EQ(editor->panels.wanted, "");
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::keyboard_only_test

@@ -6,8 +6,7 @@
 #include "editor/document/connections.h"
 #include "graph/document/json.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::keyboard_test {
 
 Graph read(const std::string& text) {
     const Result<Graph> graph = parseGraph(text, "", nullptr);
@@ -129,5 +128,4 @@ TEST(Connections, AnExpressionTakesOneMoreInput) {
     EXPECT_TRUE(into("a2"));
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::keyboard_test

@@ -7,8 +7,7 @@
 
 #include "editor/commands.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::keymap_test {
 
 Shortcut key(std::string_view text) {
     const auto read = shortcutOf(text);
@@ -76,5 +75,4 @@ TEST(Choices, AreFoundByEveryWordAndBeginningsComeFirst) {
     EXPECT_TRUE(findChoices("nothing", choices).empty());
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::keymap_test

@@ -16,8 +16,7 @@
 #include "tests/editor/random_edits.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::layout_test {
 
 struct Rect {
     Position low, high;
@@ -76,7 +75,7 @@ int backward(const Graph& graph, std::string_view scope) {
 }
 
 TEST(Layout, PutsEveryNodeRightOfItsSourcesAndOnNoOther) {
-    for (const Graph& graph : test::graphsToEdit(40)) {
+    for (const Graph& graph : editor::test::graphsToEdit(40)) {
         const Graph placed = placeAll(withoutPlaces(graph));
         EXPECT_EQ(overlaps(placed, ""), 0) << graph.path;
         EXPECT_EQ(backward(placed, ""), 0) << graph.path;
@@ -91,7 +90,7 @@ TEST(Layout, PutsEveryNodeRightOfItsSourcesAndOnNoOther) {
 }
 
 TEST(Layout, LeavesOthersAndTheMiddleWhereTheyWere) {
-    const Graph graph = test::graphsToEdit(0).front();
+    const Graph graph = editor::test::graphsToEdit(0).front();
     NodeIds ids = idsOf(graph, "");
     ASSERT_GT(ids.size(), 3u);
     ids.pop_back();
@@ -167,7 +166,7 @@ TEST(Layout, StandsCyclesAndWrongLinks) {
 }
 
 TEST(Layout, PlacesWhatHasNoPlaceBesideWhatHas) {
-    Graph graph = test::graphsToEdit(0).front();
+    Graph graph = editor::test::graphsToEdit(0).front();
     const Graph placed = placeAll(graph);
     EXPECT_EQ(placed, graph) << "samples have places";
     for (const char* type : {"sphere", "box", "torus"}) {
@@ -234,5 +233,4 @@ TEST(Frames, HoldTheNodesTheyArePutAround) {
     EXPECT_EQ(framesOf(frameNodes(graph, "", {})).size(), 1u);
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::layout_test

@@ -11,12 +11,11 @@
 #include "graph/document/json.h"
 #include "tests/support/virtual_display.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::loss_test {
 
-using test::readText;
-using test::TempDir;
-using test::writeText;
+using fw::test::readText;
+using fw::test::TempDir;
+using fw::test::writeText;
 
 constexpr const char* kGraph = R"({"fieldwright": 1, "nodes": [
     {"id": "ball", "type": "sphere"},
@@ -32,7 +31,7 @@ class Loss : public testing::Test {
         writeText(file, kGraph);
         process = fork();
         if (process != 0) return;
-        const int output = open(folder.path("output").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int output = ::open(folder.path("output").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         dup2(output, STDOUT_FILENO), dup2(output, STDERR_FILENO);
         execl(FIELDWRIGHT_BINARY_DIR "/fieldwright-editor", "fieldwright-editor", "--size", "640x480",
               file.c_str(), nullptr);
@@ -43,7 +42,7 @@ class Loss : public testing::Test {
     }
     template <class Until>
     bool wait(Until until, double seconds = 60.0) {
-        for (; seconds > 0.0; seconds -= 0.05, test::rest(0.05))
+        for (; seconds > 0.0; seconds -= 0.05, fw::test::rest(0.05))
             if (until()) return true;
         return false;
     }
@@ -51,9 +50,9 @@ class Loss : public testing::Test {
     void change() {
         // The window is there, and the file was looked at, when it has made something of it.
         ASSERT_TRUE(wait([&] { return std::filesystem::exists(folder.path("XDG_CONFIG_HOME")); }));
-        test::rest(1.5);
+        fw::test::rest(1.5);
         std::filesystem::remove(file);
-        test::rest(2.5);
+        fw::test::rest(2.5);
     }
     /// How it ended: the exit status, or 128 + the signal.
     int end() {
@@ -77,7 +76,7 @@ class Loss : public testing::Test {
 
     TempDir folder;
     std::string file = folder.path("a.field.json");
-    std::optional<test::VirtualDisplay> display;
+    std::optional<fw::test::VirtualDisplay> display;
     pid_t process = -1;
 };
 
@@ -117,5 +116,4 @@ TEST_F(Loss, AKilledEditorsCopyIsFound) {
     expectKept("");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::loss_test

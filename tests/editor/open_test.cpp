@@ -11,14 +11,13 @@
 #include "graph/document/json.h"
 #include "tests/support/virtual_display.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::open_test {
 
 namespace fs = std::filesystem;
 using Origin = Files::Origin;
-using test::readText;
-using test::TempDir;
-using test::writeText;
+using fw::test::readText;
+using fw::test::TempDir;
+using fw::test::writeText;
 
 constexpr const char* kGood = R"({"fieldwright": 1, "nodes": [
     {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
@@ -56,14 +55,14 @@ class FilesInWindow : public testing::Test {
     /// Frames until it holds, at most some seconds.
     template <class Until>
     bool framesUntil(Until until) {
-        for (int i = 0; i < 1000 && !until(); ++i) frames(1), test::rest(0.01);
+        for (int i = 0; i < 1000 && !until(); ++i) frames(1), fw::test::rest(0.01);
         return until();
     }
     const Graph& graph() const { return editor->document.graph(); }
     double radius() const { return std::get<double>(graph().node("ball")->input("radius")->value); }
 
     TempDir folder;
-    test::VirtualDisplay display{800, 600};
+    fw::test::VirtualDisplay display{800, 600};
     std::optional<Shell> shell;
     std::optional<Editor> editor;
 };
@@ -327,5 +326,4 @@ TEST_F(FilesInWindow, WhatThePreviewsFailureCouldTakeIsKept) {
     editor->files.recovery.discard();
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::open_test

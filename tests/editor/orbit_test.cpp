@@ -9,8 +9,7 @@
 
 #include "runtime/render/view.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::orbit_test {
 
 Orbit somewhere() {
     Orbit orbit;
@@ -131,5 +130,4 @@ TEST(Orbit, WhatIsFramedTouchesTheNearerSides) {
     }
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::orbit_test

@@ -9,11 +9,10 @@
 #include "graph/document/timeline.h"
 #include "tests/editor/graphs.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::panels_test {
 
-using test::errorsOf;
-using test::parsed;
+using editor::test::errorsOf;
+using editor::test::parsed;
 
 const char* const kBall = R"({"fieldwright": 1, "nodes": [
     {"id": "ball", "type": "sphere", "inputs": {"radius": 2}},
@@ -182,5 +181,4 @@ TEST(GroupSockets, AnotherTypeDropsWhatIsNotOfIt) {
     EXPECT_EQ(errorsOf(graph), "");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::panels_test

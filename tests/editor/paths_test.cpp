@@ -6,8 +6,7 @@
 #include "graph/compile/compile.h"
 #include "tests/editor/graphs.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::paths_test {
 
 /// A group `pair` of two instances of the group `ball`, and the document with two of `pair` and one of
 /// `ball`.
@@ -32,7 +31,7 @@ constexpr char kNested[] = R"({"fieldwright": 1,
     {"id": "all", "type": "union", "inputs": {"a": {"from": "two"}, "b": {"from": "third"}}},
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}}]})";
 
-Graph nested() { return test::parsed(kNested); }
+Graph nested() { return editor::test::parsed(kNested); }
 
 using Strings = std::vector<std::string>;
 using Place = std::pair<std::string, std::string>;
@@ -71,5 +70,4 @@ TEST(Paths, TheCompilerKnowsEveryInstance) {
     EXPECT_EQ(both.spoiledBy, "second/both");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::paths_test

@@ -16,8 +16,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::pick_test {
 
 /// Seen from (7, 5, 9) towards the origin.
 Seen seenOf(Graph graph) {
@@ -252,8 +251,8 @@ TEST(Aside, TheNewestQuestionIsAnswered) {
 }
 
 TEST(Pick, ParticlesWhereTheyAreAndNotWhereTheyMightBe) {
-    const test::TempDir dir;
-    test::writeText(dir.path("one.xyz"), "0 0 0\n");
+    const fw::test::TempDir dir;
+    fw::test::writeText(dir.path("one.xyz"), "0 0 0\n");
     Graph graph = nodes(R"(
       {"id": "file", "type": "particle_file", "inputs": {"path": "one.xyz"}},
       {"id": "drop", "type": "particles_to_field", "inputs": {"particles": {"from": "file"}, "radius": 0.5,
@@ -266,12 +265,11 @@ TEST(Pick, ParticlesWhereTheyAreAndNotWhereTheyMightBe) {
     Seen seen = seenOf(graph);
     Result<Program> program = compile(graph);
     ASSERT_TRUE(program);
-    ASSERT_TRUE(makeParticles(*program, graph, 0.0, {}, test::device()));
+    ASSERT_TRUE(makeParticles(*program, graph, 0.0, {}, fw::test::device()));
     EXPECT_EQ(at(seen, {1.2, -0.9, 1.2}), "drop");  // of which nothing is known yet
     seen.particles = program->ir.volumes();
     EXPECT_EQ(at(seen, {1.2, -0.9, 1.2}), "slab");
     EXPECT_EQ(at(seen, {0, 0, 0}), "drop");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::pick_test

@@ -19,11 +19,10 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/graph/triangle_meshes.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::preview_test {
 
 std::shared_ptr<const Graph> shared(const std::string& text) {
-    return std::make_shared<const Graph>(test::parsed(text));
+    return std::make_shared<const Graph>(editor::test::parsed(text));
 }
 
 /// A box and a ball, joined; `radius` is the ball's. The structure has another constant for another `width`.
@@ -380,7 +379,8 @@ TEST(Preview, TellsHowMuchOfAMeshsFieldIsMade) {
         text += "\n";
     }
     fw::test::writeText(folder.path("cube.obj"), text);
-    Graph graph = test::graphOf(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "cube.obj"}},
+    Graph graph =
+        editor::test::graphOf(R"({"id": "file", "type": "mesh_file", "inputs": {"path": "cube.obj"}},
         {"id": "field", "type": "mesh_to_field", "inputs": {"mesh": {"from": "file"}, "resolution": 24}},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}})");
     graph.path = folder.path("g.field.json");
@@ -416,7 +416,7 @@ TEST(Preview, ItCanEndAtAnyTime) {
 }
 
 Graph jet() {
-    return test::graphOf(R"({"id": "jet", "type": "emitter", "inputs": {"rate": 500}},
+    return editor::test::graphOf(R"({"id": "jet", "type": "emitter", "inputs": {"rate": 500}},
         {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "jet"}, "resolution": 24, "radius": 1}},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}})");
 }
@@ -438,5 +438,4 @@ TEST(Preview, TellsHowFarParticlesAre) {
     EXPECT_LT(*std::ranges::min_element(shares), 0.2);
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::preview_test

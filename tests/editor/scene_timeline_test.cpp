@@ -8,16 +8,15 @@
 #include "editor/document/timeline_edits.h"
 #include "tests/editor/graphs.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::scene_timeline_test {
 
-using test::errorsOf;
+using editor::test::errorsOf;
 
 /// A ball, and what follows the nodes.
 Graph read(const std::string& rest) {
-    return test::graphOf(R"({"id": "ball", "type": "sphere", "inputs": {"radius": 2}},
+    return editor::test::graphOf(R"({"id": "ball", "type": "sphere", "inputs": {"radius": 2}},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}})",
-                         rest);
+                                 rest);
 }
 
 const Moved kRadius{Track::Target::input, "ball", "radius"};
@@ -219,5 +218,4 @@ TEST(TimelineEdits, AnySequenceLeavesASoundDocument) {
     }
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::scene_timeline_test

@@ -15,11 +15,10 @@
 #include "runtime/system/clock.h"
 #include "tests/support/virtual_display.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::shell_test {
 
-using test::rest;
-using test::VirtualDisplay;
+using fw::test::rest;
+using fw::test::VirtualDisplay;
 
 double processorSeconds() {
     rusage used{};
@@ -189,7 +188,7 @@ TEST_F(ShellTest, RestsUntilSomethingHappens) {
 }
 
 TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
-    if (test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    if (fw::test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
     std::string pressed;
     std::vector<glm::ivec2> clicks;
     const auto show = [&] {
@@ -201,7 +200,7 @@ TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
     };
     settle(show);
     // All between two frames.
-    const test::ProgramResult sent = test::runProgram(
+    const fw::test::ProgramResult sent = fw::test::runProgram(
         "xdotool mousemove 100 90 key --delay 0 a b ctrl+d click --repeat 2 --delay 0 1 "
         "mousemove 300 200 click 1 mousemove 400 50");
     ASSERT_EQ(sent.status, 0) << sent.output;
@@ -214,7 +213,7 @@ TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
 }
 
 TEST_F(ShellTest, TakesAClickWhereTheMouseHasJustCome) {
-    if (test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    if (fw::test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
     std::string open;
     ImVec2 tab{0, 0}, button{0, 0};
     const auto show = [&] {
@@ -238,18 +237,18 @@ TEST_F(ShellTest, TakesAClickWhereTheMouseHasJustCome) {
     const auto at = [](ImVec2 p) {
         return "mousemove " + std::to_string(int(p.x) + 5) + " " + std::to_string(int(p.y) + 5) + " ";
     };
-    ASSERT_EQ(test::runProgram("xdotool " + at(button)).status, 0);
+    ASSERT_EQ(fw::test::runProgram("xdotool " + at(button)).status, 0);
     rest(0.2);
     settle(show);
     ASSERT_EQ(open, "First");
-    ASSERT_EQ(test::runProgram("xdotool " + at(tab) + "click 1").status, 0);
+    ASSERT_EQ(fw::test::runProgram("xdotool " + at(tab) + "click 1").status, 0);
     rest(0.2);
     settle(show);
     EXPECT_EQ(open, "Second");
 }
 
 TEST_F(ShellTest, KeysWaitForAMenuThatOpens) {
-    if (test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    if (fw::test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
     char typed[32] = {}, after[32] = {};
     int saved = 0;
     const auto show = [&] {
@@ -266,8 +265,8 @@ TEST_F(ShellTest, KeysWaitForAMenuThatOpens) {
         ImGui::EndPopup();
     };
     settle(show);
-    const test::ProgramResult sent =
-        test::runProgram("xdotool mousemove 100 90 key ctrl+a type --args 1 'box max' key Return ctrl+s");
+    const fw::test::ProgramResult sent =
+        fw::test::runProgram("xdotool mousemove 100 90 key ctrl+a type --args 1 'box max' key Return ctrl+s");
     ASSERT_EQ(sent.status, 0) << sent.output;
     rest(0.2);
     for (int i = 0; i < 200 && (shell->waitEvents(0.0) || i < 3); ++i) shell->frame(show);
@@ -309,5 +308,4 @@ TEST_F(ShellTest, TimeOfAFrame) {
         (void)savePicture(seen, std::string(path) + "/demo.png");
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::shell_test

@@ -10,8 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <utility>
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::theme_test {
 
 double linear(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
@@ -138,5 +137,4 @@ TEST(Theme, SimulatedVisionKeepsGrey) {
         EXPECT_LT(glm::distance(sees * glm::dvec3(0.5), glm::dvec3(0.5)), 1e-3) << name;
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::theme_test

@@ -9,8 +9,7 @@
 #include "tests/editor/graphs.h"
 #include "tests/support/gpu.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::thumbnail_test {
 
 /// A red ball in a group, whose only output is a number; a box, and what has no end.
 constexpr char kGraph[] = R"({"fieldwright": 1,
@@ -27,7 +26,7 @@ constexpr char kGraph[] = R"({"fieldwright": 1,
     {"id": "nothing", "type": "subtract", "inputs": {"a": {"from": "box"}, "b": {"from": "box"}}},
     {"id": "out", "type": "output", "inputs": {"surface": {"from": "box"}}}]})";
 
-Graph graph() { return test::parsed(kGraph); }
+Graph graph() { return editor::test::parsed(kGraph); }
 
 double distanceAt(const Graph& shown, const Point& p) {
     const Result<Program> program = compile(shown);
@@ -107,7 +106,7 @@ TEST(Thumbnail, WhatHasNoEndIsSeenAndWhatIsNothingSaysSo) {
 }
 
 TEST(Thumbnail, ShowsTheParticlesOfThePicture) {
-    const Graph graph = test::parsed(R"({"fieldwright": 1, "nodes": [
+    const Graph graph = editor::test::parsed(R"({"fieldwright": 1, "nodes": [
         {"id": "drop", "type": "emitter", "inputs": {"shape": "point", "burst": 1, "velocity": [0, 0, 0]}},
         {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "drop"},
           "region_min": [-1, -1, -1], "region_max": [1, 1, 1], "radius": 0.5, "resolution": 32}},
@@ -128,5 +127,4 @@ TEST(Thumbnail, ShowsTheParticlesOfThePicture) {
     EXPECT_FALSE(thumbnail(graph, "other", program->ir.volumes())) << "is not in the picture";
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::thumbnail_test

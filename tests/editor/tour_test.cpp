@@ -9,8 +9,7 @@
 #include "graph/check/check.h"
 #include "graph/document/json.h"
 
-namespace fw::editor {
-namespace {
+namespace fw::editor::tour_test {
 
 TEST(Tour, NoticesEveryStepAndItsUndoing) {
     ASSERT_EQ(samplesFolder(), FIELDWRIGHT_SOURCE_DIR "/samples");
@@ -71,5 +70,4 @@ TEST(Tour, SurvivesWhatFilesMayHold) {
     EXPECT_EQ(tourStepsDone(*loop), 0u);
 }
 
-}  // namespace
-}  // namespace fw::editor
+}  // namespace fw::editor::tour_test

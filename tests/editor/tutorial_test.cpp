@@ -10,8 +10,7 @@
 #include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 
-namespace fw::editor::test {
-namespace {
+namespace fw::editor::test::tutorial_test {
 
 struct Lesson {
     DrivenEditor& editor;
@@ -155,5 +154,4 @@ TEST(Tutorial, BuildsTheTowerAsThePageTells) {
     EXPECT_TRUE(readGraph(file, nullptr));
 }
 
-}  // namespace
-}  // namespace fw::editor::test
+}  // namespace fw::editor::test::tutorial_test

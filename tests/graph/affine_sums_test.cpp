@@ -8,8 +8,7 @@
 #include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
 
-namespace fw {
-namespace {
+namespace fw::affine_sums_test {
 
 struct Written {
     Ir before, after;
@@ -130,5 +129,4 @@ TEST(AffineSums, WhatIsLiveOrNotAffineStays) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::affine_sums_test

@@ -9,8 +9,7 @@
 #include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
 
-namespace fw {
-namespace {
+namespace fw::affine_test {
 
 struct Lowered {
     Ir ir;
@@ -83,5 +82,4 @@ TEST(Affine, OfManyTurnsOneAfterTheOther) {
     EXPECT_NEAR(glm::length(found->linear * glm::dvec3(1, 0, 0)), 1.0, 1e-9);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::affine_test

@@ -9,8 +9,7 @@
 #include "graph/document/json.h"
 #include "graph/document/sockets.h"
 
-namespace fw {
-namespace {
+namespace fw::check_test {
 
 /// Findings of a document whose nodes (and further top-level keys) are these, as a user sees them.
 std::vector<std::string> findingsOf(const std::string& nodes, const std::string& more = "",
@@ -475,5 +474,4 @@ TEST(Check, LongChainsNeedNoStack) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::check_test

@@ -10,8 +10,7 @@
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
 
-namespace fw {
-namespace {
+namespace fw::effort_test {
 
 Graph graphOf(const std::string& nodes, const std::string& more = "") {
     Result<Graph> graph =
@@ -107,5 +106,4 @@ TEST(Effort, CheckNamesTheNodeThatKeepsTheDriverBusy) {
     EXPECT_NE(findings[0].message.find("busy"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::effort_test

@@ -8,8 +8,7 @@
 #include "graph/emit/glsl.h"
 #include "tests/support/graph/expression_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::emit_test {
 
 std::string textOf(const std::string& code) {
     const Result<Program> program = compile(test::expressionGraph(code));
@@ -52,5 +51,4 @@ TEST(Emit, RowsGoAlongTheAxisThatSavesMost) {
     EXPECT_EQ(textOf("return length(p) - 1;").find("FIELD_ALONG"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::emit_test

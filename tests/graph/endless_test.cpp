@@ -5,8 +5,7 @@
 
 #include "graph/document/json.h"
 
-namespace fw {
-namespace {
+namespace fw::endless_test {
 
 std::string endless(const std::string& nodes, const std::string& shown, const std::string& groups = "") {
     const Result<Graph> graph =
@@ -62,5 +61,4 @@ TEST(Endless, InsideAGroup) {
     EXPECT_EQ(endless(kBall + instance, "first", groups), "'first/ground' (Plane)");
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::endless_test

@@ -15,8 +15,7 @@
 #include "tests/support/graph/expression_graph.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::families_test {
 
 Program programOf(const std::string& code) {
     Result<Program> program = compile(test::expressionGraph(code));
@@ -351,5 +350,4 @@ TEST(Families, SamplesAndRandomGraphsHaveTheValuesOfTheirTables) {
     RecordProperty("with", with);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::families_test

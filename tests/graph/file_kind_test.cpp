@@ -16,8 +16,7 @@
 #include "graph/library/node_type.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::file_kind_test {
 
 using test::TempDir;
 using test::writeText;
@@ -204,5 +203,4 @@ TEST(NamedFiles, AMeshNamesItsPieces) {
     EXPECT_EQ(piecesOfMesh(folder.path("gone.gltf")), Names{});
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::file_kind_test

@@ -14,8 +14,7 @@
 #include "tests/support/graph/picture_file.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::image_test {
 
 using test::TempDir;
 using test::writePictureFile;
@@ -457,5 +456,4 @@ TEST(ImageGraph, ExpressionsAndGroupsTakeImages) {
               std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::image_test

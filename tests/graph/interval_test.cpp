@@ -15,8 +15,7 @@
 #include "graph/ir/ops.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::interval_test {
 
 bool isLong() { return std::getenv("FIELDWRIGHT_LONG") != nullptr; }
 
@@ -197,5 +196,4 @@ TEST(Interval, OfRandomGraphsContainsTheirSamples) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::interval_test

@@ -7,8 +7,7 @@
 #include "graph/evaluate/evaluate.h"
 #include "graph/ir/ir.h"
 
-namespace fw {
-namespace {
+namespace fw::ir_test {
 
 /// Distances to a ball.
 FieldVolumePtr ballVolume() {
@@ -268,5 +267,4 @@ TEST(Interval, SineOverManyPeriods) {
         }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::ir_test

@@ -7,8 +7,7 @@
 
 #include "graph/library/node_type.h"
 
-namespace fw {
-namespace {
+namespace fw::json_test {
 
 /// The example that the format was designed with; also the layout that writing keeps.
 constexpr const char* kTower = R"({
@@ -308,5 +307,4 @@ TEST(Json, BringsFormerNamesUpToDate) {
         }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::json_test

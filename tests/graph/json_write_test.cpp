@@ -13,8 +13,7 @@
 
 #include "graph/document/json.h"
 
-namespace fw {
-namespace {
+namespace fw::json_write_test {
 
 namespace fs = std::filesystem;
 
@@ -344,5 +343,4 @@ TEST_F(JsonFile, NamesWhatPreventsReading) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::json_write_test

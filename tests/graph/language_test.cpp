@@ -9,8 +9,7 @@
 #include "graph/language/lower.h"
 #include "graph/language/resolve.h"
 
-namespace fw {
-namespace {
+namespace fw::language_test {
 
 using language::Value;
 
@@ -493,5 +492,4 @@ TEST(Language, WorkIsBoundedByWhatItCosts) {
         "steps");
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::language_test

@@ -14,8 +14,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/graph/triangle_meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_field_test {
 
 using namespace test;
 
@@ -301,5 +300,4 @@ TEST(MeshFieldNodes, ANumberThatComesByAWireIsInRangeToo) {
               std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_field_test

@@ -6,8 +6,7 @@
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_recipe_test {
 
 using Kind = MeshStage::Kind;
 
@@ -156,5 +155,4 @@ TEST(MeshRecipe, AStageWithoutAMeshIsFound) {
     EXPECT_NE(many.message.find("100"), std::string::npos) << many.message;
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_recipe_test

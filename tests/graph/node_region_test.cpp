@@ -9,8 +9,7 @@
 #include "graph/document/json.h"
 #include "graph/evaluate/region.h"
 
-namespace fw {
-namespace {
+namespace fw::node_region_test {
 
 struct Case {
     std::string type, inputs;
@@ -136,5 +135,4 @@ INSTANTIATE_TEST_SUITE_P(
                     R"({"id": "box", "type": "box", "inputs": {"half_extents": [0.5, 0.5, 0.5]}},
                        {"id": "solid", "type": "translate", "inputs": {"surface": {"from": "box"}, "offset": [2, 0.1, 0]}})"));
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::node_region_test

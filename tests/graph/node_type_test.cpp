@@ -10,8 +10,7 @@
 #include <map>
 #include <set>
 
-namespace fw {
-namespace {
+namespace fw::node_type_test {
 
 bool isName(const std::string& name) {
     return !name.empty() && std::islower(static_cast<unsigned char>(name[0])) &&
@@ -270,5 +269,4 @@ TEST(NodeLookup, UnknownNamesAreRefused) {
     EXPECT_EQ(outputIndex(*findNodeType("sphere"), "value"), -1);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::node_type_test

@@ -10,8 +10,7 @@
 #include "graph/document/json.h"
 #include "graph/evaluate/evaluate.h"
 
-namespace fw {
-namespace {
+namespace fw::node_values_test {
 
 using std::numbers::pi;
 
@@ -398,5 +397,4 @@ TEST(NodeValues, AnExtrudedSolidIsNotExact) {
                      .exactness.exact());
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::node_values_test

@@ -12,8 +12,7 @@
 #include "graph/evaluate/evaluate.h"
 #include "graph/library/node_type.h"
 
-namespace fw {
-namespace {
+namespace fw::nodes_test {
 
 constexpr int kPointsANode = 100'000;
 constexpr double kExtent = 1.6;
@@ -417,5 +416,4 @@ std::vector<std::string> nodesWithABody() {
 INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(nodesWithABody()),
                          [](const auto& test) { return test.param; });
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::nodes_test

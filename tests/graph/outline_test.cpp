@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace fw {
-namespace {
+namespace fw::outline_test {
 
 struct Reference {
     double distance;
@@ -128,5 +127,4 @@ TEST(Outline, ThatIsKnownIsNotMadeAgain) {
     EXPECT_NE(outlineThrough(others), first);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::outline_test

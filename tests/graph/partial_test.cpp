@@ -4,8 +4,7 @@
 
 #include "graph/document/json.h"
 
-namespace fw {
-namespace {
+namespace fw::partial_test {
 
 PartialGraph parse(const std::string& members) {
     return parseWhatCanBeRead(R"({"fieldwright": 1, )" + members + "}", "a.json");
@@ -96,5 +95,4 @@ TEST(Partial, SaysNoMoreThanAPersonReads) {
     EXPECT_NE(partial.findings.back().message.find("401 more"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::partial_test

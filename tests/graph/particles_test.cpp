@@ -13,8 +13,7 @@
 #include "graph/evaluate/region.h"
 #include "tests/support/graph/volume_intervals.h"
 
-namespace fw {
-namespace {
+namespace fw::particles_test {
 
 Graph graphOf(const std::string& nodes, const std::string& more = "") {
     const std::string text = R"({"fieldwright": 1, "nodes": [)" + nodes +
@@ -285,5 +284,4 @@ TEST(Particles, WhatIsNotMadeMayBeAnywhere) {
     EXPECT_NEAR(sampleVolume(volume.layers[0], volume.grid.origin - glm::dvec3(3, 4, 0)).value, 5.0, 1e-9);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::particles_test

@@ -12,8 +12,7 @@
 #include "graph/language/resolve.h"
 #include "tests/support/graph/random_code.h"
 
-namespace fw {
-namespace {
+namespace fw::random_code_test {
 
 using language::Lowering;
 using language::Value;
@@ -168,5 +167,4 @@ TEST(RandomCode, KnownCodesAreAccepted) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::random_code_test

@@ -7,8 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-namespace fw {
-namespace {
+namespace fw::reference_test {
 
 TEST(Reference, PageInDocsIsCurrent) {
     std::ifstream file(FIELDWRIGHT_SOURCE_DIR "/docs/nodes.md", std::ios::binary);
@@ -73,5 +72,4 @@ TEST(Reference, ClassesAreNamed) {
     EXPECT_EQ(text("math"), "");
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::reference_test

@@ -6,8 +6,7 @@
 #include "graph/evaluate/region.h"
 #include "graph/language/lower.h"
 
-namespace fw {
-namespace {
+namespace fw::region_test {
 
 Region regionOf(const std::string& code) {
     language::Lowering state;
@@ -71,5 +70,4 @@ TEST(Region, PaddingKeepsTheCellsPromised) {
     EXPECT_NEAR(box.hi[1], 2 + 1.5 * cell, 1e-12);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::region_test

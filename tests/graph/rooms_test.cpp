@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace fw {
-namespace {
+namespace fw::rooms_test {
 
 const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"graph/base", ""},
@@ -117,5 +116,4 @@ TEST(Rooms, IncludeOnlyWhatTheyMay) {
     EXPECT_GT(seen, 500u);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::rooms_test

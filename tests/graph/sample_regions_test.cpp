@@ -5,8 +5,7 @@
 #include "graph/document/json.h"
 #include "graph/evaluate/region.h"
 
-namespace fw {
-namespace {
+namespace fw::sample_regions_test {
 
 struct SampleRegion {
     const char* name;
@@ -67,5 +66,4 @@ TEST(Region, OfSamples) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::sample_regions_test

@@ -12,8 +12,7 @@
 #include "graph/document/json.h"
 #include "graph/evaluate/region.h"
 
-namespace fw {
-namespace {
+namespace fw::samples_test {
 
 std::string samplePath(const std::string& name) {
     return std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json";
@@ -168,5 +167,4 @@ TEST(Samples, TheTypedTowerIsTheWiredOne) {
     for (std::size_t i = 0; i < around.size(); ++i) ASSERT_EQ(c[i] < 0.0, d[i] < 0.0);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::samples_test

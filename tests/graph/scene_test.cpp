@@ -10,8 +10,7 @@
 #include "graph/document/schema.h"
 #include "graph/document/timeline.h"
 
-namespace fw {
-namespace {
+namespace fw::scene_test {
 
 Scene sceneOf(const std::string& text) {
     const Result<Scene> scene = readScene(Json::parse(text));
@@ -298,5 +297,4 @@ TEST(SceneTracks, ThatMoveNothingAreFound) {
         expectFinding(R"({"lights": [{}], "sun": {"color": [1, 1, 1]}})", track(path, kRising), {});
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::scene_test

@@ -16,8 +16,7 @@
 #include "graph/document/json.h"
 #include "graph/library/node_type.h"
 
-namespace fw {
-namespace {
+namespace fw::schema_test {
 
 constexpr const char* kSchemaPath = FIELDWRIGHT_SOURCE_DIR "/graph/field.schema.json";
 
@@ -175,5 +174,4 @@ TEST(Schema, TellsGoodFromBad) {
         R"({"fieldwright": 1, "nodes": [], "groups": [{"id": "g", "inputs": [{"name": "r", "type": "flot"}]}]})"));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::schema_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/graph/triangle_meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::solid_mesh_test {
 
 using namespace test;
 
@@ -128,5 +127,4 @@ TEST(SolidMesh, NormalsOfACubesFeatures) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::solid_mesh_test

@@ -12,8 +12,7 @@
 #include "graph/compile/compile.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::tape_test {
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
@@ -372,5 +371,4 @@ TEST(Tape, OnlyWhatTheRootNeedsIsInIt) {
     EXPECT_EQ(*machine.value(tape, 1), 10.0);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::tape_test

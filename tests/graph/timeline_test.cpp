@@ -13,8 +13,7 @@
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
 
-namespace fw {
-namespace {
+namespace fw::timeline_test {
 
 constexpr const char* kNodes = R"({"fieldwright": 1, "nodes": [
   {"id": "ball", "type": "sphere", "inputs": {"radius": 0.8}},
@@ -400,5 +399,4 @@ TEST(TimelineBad, TwoTracksForOneThing) {
                   {"moves what another track moves"});
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::timeline_test

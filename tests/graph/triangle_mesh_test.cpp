@@ -13,8 +13,7 @@
 
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::triangle_mesh_test {
 
 using test::TempDir;
 using test::writeText;
@@ -437,5 +436,4 @@ TEST(TriangleMeshCorpus, MalformedFilesAreAsTheManifestSays) {
     EXPECT_GT(refused, 50);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::triangle_mesh_test

@@ -12,8 +12,7 @@
 #include "graph/assets/image.h"
 #include "tests/support/graph/volume_intervals.h"
 
-namespace fw {
-namespace {
+namespace fw::volume_test {
 
 /// A volume of a distance with its gradient.
 template <class Distance, class Gradient>
@@ -177,5 +176,4 @@ TEST(Volume, TheDevicesTexelsHoldEachSampleWithTheNext) {
     EXPECT_EQ(volumeTexels({}).size(), 4u);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::volume_test

@@ -20,8 +20,7 @@
 #include "graph/emit/glsl.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::ambient_test {
 
 constexpr uint32_t kWidth = 96, kHeight = 80;
 constexpr VkExtent3D kExtent = {kWidth, kHeight, 1};
@@ -283,5 +282,4 @@ TEST(Ambient, AForgottenHistoryIsOfNoEffect) {
     EXPECT_EQ(floor.openness(), fresh.openness());
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::ambient_test

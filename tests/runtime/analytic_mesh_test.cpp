@@ -12,8 +12,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::analytic_mesh_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -448,5 +447,4 @@ TEST(AnalyticSolids, ErrorFallsWithTheSquareOfTheCell) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::analytic_mesh_test

@@ -12,8 +12,7 @@
 #include "runtime/render/view.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::clusters_test {
 
 using Triangle = std::array<uint32_t, 3>;
 
@@ -105,5 +104,4 @@ TEST(Clusters, TheTowerFromOutsideAndAlongTheSun) {
                glm::vec4(sun, 0), false, 0.6);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::clusters_test

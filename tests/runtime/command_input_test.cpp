@@ -7,8 +7,7 @@
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::command_input_test {
 
 using test::expectRefusal;
 using test::runCommand;
@@ -194,5 +193,4 @@ TEST(CommandInput, SolidsThatCannotBeMeshed) {
     expectBadGraph(R"({"fieldwright": 1, "nodes": [{"id": "out", "type": "output"}]})", {"error"});
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::command_input_test

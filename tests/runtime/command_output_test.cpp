@@ -8,8 +8,7 @@
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::command_output_test {
 
 using test::CommandOptions;
 using test::CommandResult;
@@ -313,5 +312,4 @@ TEST_F(CommandOutput, BrokenCachesAreMadeAnew) {
     EXPECT_EQ(mesh(), first) << "a place that cannot be written";
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::command_output_test

@@ -10,8 +10,7 @@
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::command_test {
 
 using test::CommandResult;
 using test::expectRefusal;
@@ -326,5 +325,4 @@ TEST_F(Command, ResultsAloneGoToStandardOutput) {
     EXPECT_EQ(runCommand({"check", graph}).status, 0);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::command_test

@@ -10,8 +10,7 @@
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::creases_test {
 
 Mesh withSmoothNormals(Mesh mesh) {
     mesh.normals.clear();
@@ -64,5 +63,4 @@ TEST(Creases, ATriangleWithoutAreaSplitsNothing) {
     EXPECT_TRUE(nothing.positions.empty());
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::creases_test

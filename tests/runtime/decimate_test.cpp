@@ -8,8 +8,7 @@
 #include "runtime/play/session.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::decimate_test {
 
 struct Solid {
     const char* name;
@@ -115,5 +114,4 @@ TEST(Decimate, AnEmptyMeshStaysEmpty) {
     EXPECT_FALSE(decimate(mesh, 1.0, {}));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::decimate_test

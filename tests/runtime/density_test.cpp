@@ -13,8 +13,7 @@
 
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::density_test {
 
 using test::device;
 
@@ -257,5 +256,4 @@ TEST(BlurWeights, AreThoseWhoseProductsAreNearest) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::density_test

@@ -10,8 +10,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/vulkan_calls.h"
 
-namespace fw {
-namespace {
+namespace fw::device_test {
 
 TEST(Device, ListNamesAtLeastTheSoftwareDevice) {
     std::vector<DeviceInfo> devices = listDevices();
@@ -205,5 +204,4 @@ TEST(Device, WorkersOfASoftwareDeviceHaveProcessorsOfTheirOwn) {
     EXPECT_GE(int(processors.size()), std::min(CPU_COUNT(&allowed), 8));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::device_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::embed_test {
 
 using test::runProgram;
 using test::TempDir;
@@ -47,5 +46,4 @@ TEST(Embed, ASmallProgramBuildsAgainstTheInstalledPackageAndPlays) {
     EXPECT_EQ(runProgram(embed + "/nowhere.field.json").status, 1);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::embed_test

@@ -19,8 +19,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::export_failure_test {
 
 using test::TempDir;
 
@@ -275,5 +274,4 @@ TEST(OutputFile, WritesOfAnySizeArriveInOrder) {
     EXPECT_EQ(test::readText(folder.path("bytes.glb")), wanted);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::export_failure_test

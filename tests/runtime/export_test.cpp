@@ -22,8 +22,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::export_test {
 
 using test::TempDir;
 
@@ -409,5 +408,4 @@ TEST(Export, LargeMeshIsNotHeldTwice) {
     EXPECT_LT(peakMemoryBytes(), before + (24u << 20));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::export_test

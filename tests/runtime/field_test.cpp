@@ -12,8 +12,7 @@
 #include "tests/support/device_field.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::field_test {
 
 /// What a comparison over many points found.
 struct Agreement {
@@ -264,5 +263,4 @@ TEST(LiveParameters, KeepTheHashAndFollowTheBuffer) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::field_test

@@ -8,8 +8,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/virtual_display.h"
 
-namespace fw {
-namespace {
+namespace fw::flat_memory_test {
 
 constexpr double kMostGrowth = 10.0;  // MB
 constexpr int kFew = 60;
@@ -49,5 +48,4 @@ TEST(FlatMemory, OfASequence) {
     });
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::flat_memory_test

@@ -13,8 +13,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/plot.h"
 
-namespace fw {
-namespace {
+namespace fw::fluid_experiments_test {
 
 using test::device;
 using test::energyOf;
@@ -228,5 +227,4 @@ TEST_F(FluidExperiments, ADropBecomesTheEllipse) {
     EXPECT_LT(growth, 0.01);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::fluid_experiments_test

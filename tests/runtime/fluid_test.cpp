@@ -22,8 +22,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/expression_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::fluid_test {
 
 using test::device;
 using test::kernelsFor;
@@ -387,5 +386,4 @@ TEST_F(Fluid, WhatCannotBeIsRefused) {
     EXPECT_NE(refusal({}, 0.01f, UINT32_MAX).find("particles at most"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::fluid_test

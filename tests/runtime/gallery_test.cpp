@@ -12,8 +12,7 @@
 #include "tests/support/golden.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::gallery_test {
 
 namespace fs = std::filesystem;
 
@@ -140,5 +139,4 @@ INSTANTIATE_TEST_SUITE_P(Samples, Gallery, testing::ValuesIn(samples()),
 INSTANTIATE_TEST_SUITE_P(Samples, GalleryAmbient, testing::ValuesIn(someSamples()),
                          [](const auto& sample) { return nameOf(sample.param); });
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::gallery_test

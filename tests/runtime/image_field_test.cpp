@@ -10,8 +10,7 @@
 #include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::image_field_test {
 
 const std::string kSamples = std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/";
 
@@ -128,5 +127,4 @@ TEST(ImageField, MeshesAndPicturesShowTheTexture) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::image_field_test

@@ -16,8 +16,7 @@
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::interruption_test {
 
 using test::CommandOptions;
 using test::CommandResult;
@@ -134,5 +133,4 @@ TEST_F(Interruption, ASignalWaitsForWhatMustNotBeParted) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{"after"});
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::interruption_test

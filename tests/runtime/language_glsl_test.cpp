@@ -12,8 +12,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/random_code.h"
 
-namespace fw {
-namespace {
+namespace fw::language_glsl_test {
 
 /// The type of what the code gives; none if it is refused.
 std::optional<Type> resultOf(const test::CodeText& code) {
@@ -73,5 +72,4 @@ TEST(LanguageGlsl, MutationsOfKnownCodeCompile) {
         4, [&](std::mt19937& random) { return test::mutated(known[random() % known.size()], random); });
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::language_glsl_test

@@ -9,8 +9,7 @@
 #include "runtime/play/player.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::limits_test {
 
 using Lower = std::function<void(Device&)>;
 
@@ -220,5 +219,4 @@ void main() {
     EXPECT_EQ(download<uint32_t>(device, out, 5), (std::vector<uint32_t>{0, 1, 3, 6, 10}));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::limits_test

@@ -6,8 +6,7 @@
 #include <map>
 #include <set>
 
-namespace fw {
-namespace {
+namespace fw::marching_cubes_table_test {
 
 bool inside(int pattern, glm::uvec3 corner) {
     return pattern >> (corner.x + 2 * corner.y + 4 * corner.z) & 1;
@@ -168,5 +167,4 @@ TEST(MarchingCubesTable, PackedPatchesAreThePolygonsOneByOne) {
     EXPECT_GT(twice, 0);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::marching_cubes_table_test

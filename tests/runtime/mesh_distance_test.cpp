@@ -14,8 +14,7 @@
 #include "runtime/measure/field_measure.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_distance_test {
 
 Program programOf(const std::string& code) {
     const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
@@ -159,5 +158,4 @@ TEST(MeshReport, AnglesAreThoseOfTheTriangles) {
     EXPECT_NEAR(sliver.largestAngle, 180.0 - 2.0 * std::atan(0.002) * 180.0 / std::numbers::pi, 1e-6);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_distance_test

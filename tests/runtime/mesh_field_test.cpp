@@ -25,8 +25,7 @@
 #include "tests/support/graph/triangle_meshes.h"
 #include "tests/support/graph/volume_intervals.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_field_test {
 
 using namespace test;
 
@@ -431,5 +430,4 @@ TEST_F(MeshFieldDevice, APlayerWatchesTheFileAndBakesOnce) {
     EXPECT_NEAR(reportOnMesh(after->positions, after->indices).volume, 8.0, 0.1);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_field_test

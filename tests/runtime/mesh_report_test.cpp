@@ -15,8 +15,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_report_test {
 
 using test::TempDir;
 
@@ -345,5 +344,4 @@ TEST(ReadBack, MeshesOfOtherPrograms) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_report_test

@@ -7,8 +7,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_requirements_test {
 
 using test::CommandResult;
 using test::expectRefusal;
@@ -106,5 +105,4 @@ TEST(MeshRequirements, TheCommandFailsWithTheReasonAndKeepsTheFile) {
     expectRefusal(required("clsed"), 2, {"--require", "\"clsed\" is no requirement", "closed manifold"});
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_requirements_test

@@ -20,8 +20,7 @@
 #include "tests/support/graph/random_graph.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::mesh_stages_test {
 
 using Kind = MeshStage::Kind;
 
@@ -450,5 +449,4 @@ TEST(MeshStages, PlayersRunThemOnEachFrame) {
     EXPECT_EQ(player->device().validationMessages(), std::vector<std::string>());
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesh_stages_test

@@ -19,8 +19,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::mesher_host_test {
 
 struct Meshed {
     MesherResult result;
@@ -173,5 +172,4 @@ TEST(MesherHost, RandomGraphsAreClosedAndManifoldByBothMethods) {
                 number(pinches));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesher_host_test

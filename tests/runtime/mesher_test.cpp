@@ -13,8 +13,7 @@
 #include "runtime/mesher/marching_cubes_table.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::mesher_test {
 
 /// All parts of a field from an expression for the value in p, its gradient by central differences.
 /// `interval` is an expression for (least, greatest) over lo and hi.
@@ -143,7 +142,7 @@ struct SignField {
                             .cells = glm::ivec3(n - 1),
                             .field = {.parameters = &buffer},
                             .method = method};
-        return fw::polygonise(text, config);
+        return mesher_test::polygonise(text, config);
     }
 
     /// That there are as many vertices and triangles as the table gives, the outside layer included.
@@ -538,5 +537,4 @@ void main() {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::mesher_test

@@ -12,8 +12,7 @@
 #include "tests/support/device_field.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::outline_field_test {
 
 /// A wavy ring, and beside it a star that crosses itself, both extruded; metres.
 Program outlines(int corners) {
@@ -111,5 +110,4 @@ TEST(OutlineField, AnExtrudedRingHasItsVolume) {
     EXPECT_NEAR(report.volume, 0.5 * area, 0.005 * area);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::outline_field_test

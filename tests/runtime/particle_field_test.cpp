@@ -14,8 +14,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/volume_intervals.h"
 
-namespace fw {
-namespace {
+namespace fw::particle_field_test {
 
 using test::device;
 
@@ -244,5 +243,4 @@ TEST_F(ParticleFieldOnDevice, TheBorderIsClosedAndNoneIsEmpty) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::particle_field_test

@@ -10,8 +10,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/expression_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::places_test {
 
 /// Balls that blend into a slab and into one another, among sharp boxes, and round holes in all of it.
 std::string manyShapes() {
@@ -102,5 +101,4 @@ TEST(Places, ListsFollowTheFieldThatMoves) {
     EXPECT_EQ(draw(true).pixels, draw(false).pixels);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::places_test

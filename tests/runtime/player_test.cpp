@@ -17,8 +17,7 @@
 #include "tests/support/graph/picture_file.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::player_test {
 
 using test::TempDir;
 
@@ -502,5 +501,4 @@ TEST(Player, ParticlesThatCannotBeAreRefusedAndLongWorkEnds) {
     EXPECT_EQ(steps, 120);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::player_test

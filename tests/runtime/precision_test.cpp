@@ -9,8 +9,7 @@
 #include "runtime/mesher/mesher.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::precision_test {
 
 // As far off as Vulkan lets functions be, to either side by chance.
 constexpr const char* kNoisy = R"(
@@ -80,5 +79,4 @@ INSTANTIATE_TEST_SUITE_P(Fields, NoisyDevice,
                                          "0.9998 + sin(40 * p.z + 3 * p.x + p.y)", "atan(p.x + 2) - 0.78575",
                                          "max(0.7857 - atan(1 + p.x * p.x + p.y * p.y), p.z)"));
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::precision_test

@@ -17,8 +17,7 @@
 #include "tests/support/graph/expression_graph.h"
 #include "tests/support/graph/random_graph.h"
 
-namespace fw {
-namespace {
+namespace fw::prune_test {
 
 struct Meshed {
     Mesh mesh;
@@ -304,5 +303,4 @@ TEST(Prune, RandomGraphsSparseAndDense) {
     EXPECT_GT(sparser, most / 2);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::prune_test

@@ -15,8 +15,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::random_particles_test {
 
 using nlohmann::json;
 
@@ -142,5 +141,4 @@ TEST(RandomParticles, ArePlayedOrRefused) {
     EXPECT_GT(played, most / 4);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::random_particles_test

@@ -17,8 +17,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::render_test {
 
 using test::TempDir;
 
@@ -438,5 +437,4 @@ TEST(RenderCommand, SaysWhatIsWrong) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::render_test

@@ -17,8 +17,7 @@
 #include "tests/support/golden.h"
 #include "tests/support/second_driver.h"
 
-namespace fw {
-namespace {
+namespace fw::second_driver_test {
 
 std::vector<std::string> samples() {
     if (!std::getenv("FIELDWRIGHT_LONG")) return {"csg_part", "tower"};
@@ -113,5 +112,4 @@ TEST_P(OfSecondDriver, AMeshBecomesAField) {
     expectAlike(first, meshed("cut_duck", options));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::second_driver_test

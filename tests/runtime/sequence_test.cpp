@@ -7,8 +7,7 @@
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::sequence_test {
 
 using test::CommandResult;
 using test::expectRefusal;
@@ -179,5 +178,4 @@ TEST_F(Sequence, ExportAndEvalFollowTheTimeline) {
         << readText(report);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::sequence_test

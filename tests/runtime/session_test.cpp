@@ -13,8 +13,7 @@
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::session_test {
 
 Program sample(const std::string& name) {
     const Result<Graph> graph = readGraph(FIELDWRIGHT_SOURCE_DIR "/samples/" + name + ".field.json", nullptr);
@@ -186,5 +185,4 @@ TEST(Session, ClosesWhileKernelsAreBeingCompiled) {
     EXPECT_TRUE(session.compiling());
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::session_test

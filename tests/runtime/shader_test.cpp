@@ -9,8 +9,7 @@
 #include "runtime/gpu/shader.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::shader_test {
 
 namespace fs = std::filesystem;
 
@@ -176,5 +175,4 @@ TEST(Shader, ManyPipelinesAtOnceAndAFailureAmongThemThrows) {
     EXPECT_THROW(createComputePipelines(test::device(), shaders), SystemError);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::shader_test

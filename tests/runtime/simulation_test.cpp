@@ -16,8 +16,7 @@
 #include "runtime/play/mesh_program.h"
 #include "tests/support/gpu.h"
 
-namespace fw {
-namespace {
+namespace fw::simulation_test {
 
 using test::device;
 
@@ -450,5 +449,4 @@ TEST(Simulation, WaterThatCannotBeIsRefused) {
     EXPECT_NE(format(live.error()).find("above tank_min along y"), std::string::npos) << format(live.error());
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::simulation_test

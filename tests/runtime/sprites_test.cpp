@@ -9,8 +9,7 @@
 #include "runtime/play/player.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::sprites_test {
 
 constexpr int kSide = 200;                                     // pixels
 constexpr double kDistance = 4.0, kHalf = 0.3639702342662024;  // of the camera; tan 20 degrees
@@ -193,5 +192,4 @@ TEST(Sprites, WithoutParticlesThePictureIsThatOfTheSolid) {
               player->frame({.width = 64, .height = 48})->pixels);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::sprites_test

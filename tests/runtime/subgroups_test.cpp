@@ -9,8 +9,7 @@
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::subgroups_test {
 
 struct Export {
     const char* name;  ///< of the sample, and of the test
@@ -66,5 +65,4 @@ INSTANTIATE_TEST_SUITE_P(More, Subgroups,
                          nameOf);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Subgroups);
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::subgroups_test

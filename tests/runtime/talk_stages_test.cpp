@@ -18,8 +18,7 @@
 #include "tests/bench/verify.h"
 #include "tests/support/gpu.h"
 
-namespace fw::bench {
-namespace {
+namespace fw::bench::talk_stages_test {
 
 using fw::test::device;
 
@@ -205,5 +204,4 @@ TEST(Bench, RunsByName) {
     EXPECT_NE(testing::internal::GetCapturedStdout().find("upload and mesh"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace fw::bench
+}  // namespace fw::bench::talk_stages_test

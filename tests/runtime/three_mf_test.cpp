@@ -13,8 +13,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::three_mf_test {
 
 using test::TempDir;
 
@@ -165,5 +164,4 @@ TEST(ThreeMf, WhatIsNoneIsRefused) {
     }
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::three_mf_test

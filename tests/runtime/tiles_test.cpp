@@ -19,8 +19,7 @@
 #include "tests/support/graph/random_graph.h"
 #include "tests/support/graph/temp_dir.h"
 
-namespace fw {
-namespace {
+namespace fw::tiles_test {
 
 namespace fs = std::filesystem;
 using test::CommandOptions;
@@ -458,5 +457,4 @@ TEST_F(TilesCommand, AreKeptWhenInterrupted) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::tiles_test

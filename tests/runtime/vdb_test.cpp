@@ -14,8 +14,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
-namespace fw {
-namespace {
+namespace fw::vdb_test {
 
 using test::TempDir;
 
@@ -106,5 +105,4 @@ TEST(Vdb, TheCommandGivesVoxelsOfTheMeshsCells) {
         EXPECT_NE(printed.output.find(line), std::string::npos) << line << printed.output;
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::vdb_test

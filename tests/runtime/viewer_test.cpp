@@ -7,8 +7,7 @@
 
 #include "runtime/window/overlay.h"
 
-namespace fw {
-namespace {
+namespace fw::viewer_test {
 
 Viewer viewerOf(int width, int height) {
     Viewer viewer;
@@ -177,5 +176,4 @@ TEST(Overlay, ScalingKeepsFlatPicturesAndCorners) {
     EXPECT_EQ(scaled(wide, 8, 1).pixels, wide.pixels);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::viewer_test

@@ -12,8 +12,7 @@
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/virtual_display.h"
 
-namespace fw {
-namespace {
+namespace fw::window_test {
 
 using test::rest;
 using test::TempDir;
@@ -200,5 +199,4 @@ TEST(PlayWindow, CtrlCEndsIt) {
     EXPECT_EQ(playing.status(), 130);
 }
 
-}  // namespace
-}  // namespace fw
+}  // namespace fw::window_test
