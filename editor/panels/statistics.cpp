@@ -31,6 +31,8 @@ void showStatistics(Editor& editor) {
     row("Vertices", "%.0f", double(statistics.vertices));
     row("Cells along the longest side", "%.0f", double(statistics.resolution));
     row("Memory of the device", "%.1f MiB", double(statistics.deviceBytes) / kMebibyte);
+    row("Submissions to the device", "%.0f", double(statistics.submissions));
+    row("   of them awaited", "%.0f", double(statistics.waits));
     row("From edit to picture", "%.1f ms", statistics.milliseconds);
     double all = 0.0;
     for (const StageTime& stage : statistics.stages) all += stage.milliseconds;

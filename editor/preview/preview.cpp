@@ -267,6 +267,7 @@ bool Maker::draw() {
     else if (!player->compiling())
         options.cancel = &overtaken.byOther;
     const auto start = Clock::now();
+    const uint64_t submitted = player->device().record->submissions, awaited = player->device().record->waits;
     const Result<MesherResult> mesh = player->meshOnDevice(wish.view);
     const double meshing = millisecondsSince(start);
     if (!mesh) {
@@ -295,6 +296,8 @@ bool Maker::draw() {
         result.particles.clear();
         result.statistics.stages = {{"compile", loading}, {"mesh", meshing}, {"picture", drew}};
         result.statistics.milliseconds = millisecondsSince(since);
+        result.statistics.submissions = player->device().record->submissions - submitted;
+        result.statistics.waits = player->device().record->waits - awaited;
         adapt(loading + meshing + drew);
         loading = 0;
     }

@@ -39,8 +39,9 @@ struct PreviewStatistics {
     std::vector<StageTime> stages;  ///< of the last mesh and picture
     double milliseconds = 0.0;      ///< from taking the wish to the picture
     uint64_t deviceBytes = 0;
-    uint64_t pipelines = 0;  ///< that the device has built so far
-    int resolution = 0;      ///< of this picture's mesh; coarser than asked for while a hand moves
+    uint64_t pipelines = 0;               ///< that the device has built so far
+    uint64_t submissions = 0, waits = 0;  ///< of a mesh and its first picture
+    int resolution = 0;  ///< of this picture's mesh; coarser than asked for while a hand moves
 };
 
 struct PreviewResult {

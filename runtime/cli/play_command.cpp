@@ -1,4 +1,5 @@
 // `fieldwright play`: the timeline of a graph, in a window or without one.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -26,7 +27,8 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
     const double start = options.mesh.graph.time;
     const RenderOptions render{.width = size.first, .height = size.second, .primary = Primary::measured};
     Picture picture;
-    uint64_t built = 0;
+    const DeviceRecord& device = *player->device().record;
+    uint64_t built = 0, submitted = 0, awaited = 0;  // by the first frame
     double seconds = 0.0;
     long made = 0;
     {
@@ -36,14 +38,20 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
             const Result<bool> shown = player->show(render, picture);
             if (!shown) return badInput(options.mesh, shown.error());
             progress.next(true);
-            if (frame == 0) built = player->pipelinesBuilt();
+            if (frame == 0)
+                built = player->pipelinesBuilt(), submitted = device.submissions, awaited = device.waits;
         }
         seconds = progress.seconds();
         made = progress.made;
     }
-    std::printf("%ld frames in %.2f s, %.2f a second; %llu pipelines built after the first frame\n", made,
-                seconds, static_cast<double>(made) / seconds,
-                static_cast<unsigned long long>(player->pipelinesBuilt() - built));
+    const double later = static_cast<double>(std::max(made - 1, 1L));
+    std::printf(
+        "%ld frames in %.2f s, %.2f a second; %llu pipelines built after the first frame, %.1f submissions a "
+        "frame, %.1f of them awaited\n",
+        made, seconds, static_cast<double>(made) / seconds,
+        static_cast<unsigned long long>(player->pipelinesBuilt() - built),
+        static_cast<double>(device.submissions - submitted) / later,
+        static_cast<double>(device.waits - awaited) / later);
     return kDone;
 }
 

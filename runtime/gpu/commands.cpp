@@ -2,6 +2,7 @@
 #include "runtime/system/clock.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fw {
 namespace {
@@ -14,10 +15,8 @@ void begin(Commands& commands) {
     check(vkBeginCommandBuffer(commands.handle, &info), "recording commands");
 }
 
-/// Ends, runs and awaits what is recorded, so that the host can read what it wrote; returns the wall clock
-/// time of that in ms.
-double run(Commands& commands) {
-    const Device& device = commands.device;
+/// Ends what is recorded, so that the host can read what it wrote, and submits it.
+void launch(Commands& commands, VkFence fence) {
     barrier(commands);
     check(vkEndCommandBuffer(commands.handle), "recording commands");
     auto buffer = zeroed<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
@@ -25,12 +24,31 @@ double run(Commands& commands) {
     auto info = zeroed<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
-    Clock::time_point start = Clock::now();
-    check(vkQueueSubmit2(device.queue, 1, &info, device.fence), "submitting work to the device");
+    check(vkQueueSubmit2(commands.device.queue, 1, &info, fence), "submitting work to the device");
+    ++commands.device.record->submissions;
+}
+
+void release(const Device& device, std::vector<VkDescriptorPool>& pools);
+
+/// Waits for the fence and, as it stands behind all that was submitted before, frees what was sent.
+void await(const Device& device) {
     check(vkWaitForFences(device.handle, 1, &device.fence, VK_TRUE, UINT64_MAX), "waiting for the device");
-    double elapsed = millisecondsSince(start);
     check(vkResetFences(device.handle, 1, &device.fence), "resetting a fence");
-    return elapsed;
+    DeviceRecord& record = *device.record;
+    ++record.waits;
+    for (SentCommands& each : record.sent) {
+        vkFreeCommandBuffers(device.handle, device.commandPool, 1, &each.handle);
+        release(device, each.pools);
+    }
+    record.sent.clear();
+}
+
+/// Runs and awaits what is recorded; the wall clock time of that in ms.
+double run(Commands& commands) {
+    const Clock::time_point before = Clock::now();
+    launch(commands, commands.device.fence);
+    await(commands.device);
+    return millisecondsSince(before);
 }
 
 void allocate(Commands& commands) {
@@ -81,14 +99,13 @@ void addPool(Commands& commands) {
     }
 }
 
-/// What was recorded is done: its pools are free.
-void releasePools(Commands& commands) {
-    if (commands.pools.empty()) return;
-    DeviceRecord& record = *commands.device.record;
-    for (VkDescriptorPool pool : commands.pools) vkResetDescriptorPool(commands.device.handle, pool, 0);
+/// What was recorded with them is done: they are free.
+void release(const Device& device, std::vector<VkDescriptorPool>& pools) {
+    if (pools.empty()) return;
+    for (VkDescriptorPool pool : pools) vkResetDescriptorPool(device.handle, pool, 0);
     std::lock_guard lock(freePoolsUse);
-    record.freePools.insert(record.freePools.end(), commands.pools.begin(), commands.pools.end());
-    commands.pools.clear();
+    device.record->freePools.insert(device.record->freePools.end(), pools.begin(), pools.end());
+    pools.clear();
 }
 
 VkDescriptorSet newSet(Commands& commands, const Pipeline& pipeline) {
@@ -139,7 +156,7 @@ Commands::Commands(const Device& owner, bool wantTimes) : device(owner), timed(w
 Commands::~Commands() {
     if (queries) vkDestroyQueryPool(device.handle, queries, nullptr);
     vkFreeCommandBuffers(device.handle, device.commandPool, 1, &handle);
-    releasePools(*this);
+    release(device, pools);
 }
 
 void beginStage(Commands& commands, const char* name) {
@@ -159,7 +176,7 @@ void flush(Commands& commands) {
     double elapsed = run(commands);
     if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
     vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
-    releasePools(commands);
+    release(commands.device, commands.pools);
     allocate(commands);
 }
 
@@ -280,6 +297,36 @@ void submit(Commands& commands) {
     for (std::size_t i = 0; i < commands.stages.size(); ++i)
         commands.stages[i].milliseconds =
             double(ticks[i + 1] - ticks[i]) * commands.device.properties.limits.timestampPeriod * 1e-6;
+}
+
+void send(Commands& commands) {
+    if (commands.timed) return submit(commands);
+    launch(commands, VK_NULL_HANDLE);
+    commands.device.record->sent.push_back(
+        {std::exchange(commands.handle, VK_NULL_HANDLE), std::exchange(commands.pools, {})});
+}
+
+void finish(const Device& device) {
+    if (device.record->sent.empty()) return;
+    check(vkQueueSubmit2(device.queue, 0, nullptr, device.fence), "submitting work to the device");
+    await(device);
+}
+
+void update(Commands& commands, const Buffer& buffer, const void* data, std::size_t size) {
+    constexpr std::size_t kMostAtOnce = 65536;  // of vkCmdUpdateBuffer
+    barrier(commands);
+    for (std::size_t at = 0; at < size; at += kMostAtOnce)
+        vkCmdUpdateBuffer(commands.handle, buffer.handle, at, std::min(size - at, kMostAtOnce),
+                          static_cast<const char*>(data) + at);
+    barrier(commands);
+}
+
+void copy(Commands& commands, const Buffer& from, VkDeviceSize fromOffset, const Buffer& to,
+          VkDeviceSize toOffset, VkDeviceSize size) {
+    barrier(commands);
+    const VkBufferCopy region{fromOffset, toOffset, size};
+    vkCmdCopyBuffer(commands.handle, from.handle, to.handle, 1, &region);
+    barrier(commands);
 }
 
 }  // namespace fw

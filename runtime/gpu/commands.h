@@ -4,6 +4,9 @@
 // declares. Stage times: on a GPU timestamp queries around each stage; on a software device, whose timestamps
 // lie, a timed recording is submitted and awaited stage by stage and the wall clock is read, which costs some
 // 50 microseconds a stage. An untimed recording is one submission.
+//
+// Nothing waits for a recording that is sent but what needs it: the next submit(), or the host when it reads,
+// writes or frees a buffer. The device does all in the order in which it was given.
 #pragma once
 
 #include <atomic>
@@ -111,6 +114,22 @@ bool cancelled(Commands& commands);
 /// Ends the recording, runs it and waits for it; what it wrote is visible to the host. Fills
 /// `commands.stages` if it is timed. Throws SystemError if the device is lost.
 void submit(Commands& commands);
+
+/// Ends the recording and lets it run. What uses it is waited for: by the next submit() or finish(), which
+/// uploadBytes(), downloadBytes(), reserve() and the ends of buffers and images call; who reads mapped memory
+/// or ends a pipeline calls it himself. Timed recordings are awaited.
+void send(Commands& commands);
+
+/// Waits for what was sent, if anything was.
+void finish(const Device& device);
+
+/// Sets bytes of a buffer (multiples of 4) when the recording runs, behind what was recorded before.
+void update(Commands& commands, const Buffer& buffer, const void* data, std::size_t size);
+
+/// Copies bytes between buffers when the recording runs, behind what was recorded before; it is done before
+/// what is recorded next.
+void copy(Commands& commands, const Buffer& from, VkDeviceSize fromOffset, const Buffer& to,
+          VkDeviceSize toOffset, VkDeviceSize size);
 
 /// Group count that covers `items` with `perGroup` each.
 constexpr uint32_t groupsFor(uint64_t items, uint32_t perGroup) {

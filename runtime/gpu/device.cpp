@@ -337,6 +337,8 @@ Device::~Device() {
             savePipelineCache(*this);
             vkDestroyPipelineCache(handle, pipelineCache, nullptr);
         }
+        for (const SentCommands& each : record->sent)
+            for (VkDescriptorPool pool : each.pools) vkDestroyDescriptorPool(handle, pool, nullptr);
         for (VkDescriptorPool pool : record->freePools) vkDestroyDescriptorPool(handle, pool, nullptr);
         vkDestroyFence(handle, fence, nullptr);
         vkDestroyCommandPool(handle, commandPool, nullptr);

@@ -46,13 +46,21 @@ struct DeviceInfo {
 
 struct Device;
 
+/// A recording that was sent and not yet waited for: what is freed then.
+struct SentCommands {
+    VkCommandBuffer handle;
+    std::vector<VkDescriptorPool> pools;
+};
+
 /// What the validation layer said, the bytes of device memory that are and were in use, the number of
-/// pipelines that were built, the descriptor pools that no recording uses, and the sibling.
+/// pipelines that were built, of recordings that were submitted and of those that were waited for, the
+/// descriptor pools that no recording uses, what runs, and the sibling.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
     std::vector<VkDescriptorPool> freePools;
-    std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0;
+    std::vector<SentCommands> sent;
+    std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0, submissions = 0, waits = 0;
     std::unique_ptr<Device> sibling;
 };
 

@@ -60,6 +60,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 Buffer::~Buffer() {
     if (!device) return;
+    if (!record->sent.empty()) vkDeviceWaitIdle(device);
     if (texels) vkDestroyBufferView(device, texels, nullptr);
     vkDestroyBuffer(device, handle, nullptr);
     vkFreeMemory(device, memory, nullptr);
@@ -130,6 +131,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
 
 bool reserve(const Device& device, Buffer& buffer, VkDeviceSize size, Memory memory) {
     if (buffer && buffer.size >= size) return false;
+    finish(device);
     buffer = Buffer();  // first, so that the old and the new never stand side by side
     buffer = createBuffer(device, size, memory);
     return true;
@@ -139,6 +141,7 @@ void uploadBytes(const Device& device, const Buffer& buffer, const void* data, s
                  VkDeviceSize offset) {
     assert(offset + size <= buffer.size);
     if (!size) return;
+    finish(device);
     if (buffer.mapped) {
         std::memcpy(static_cast<char*>(buffer.mapped) + offset, data, size);
         return;
@@ -146,8 +149,7 @@ void uploadBytes(const Device& device, const Buffer& buffer, const void* data, s
     Buffer staging = createBuffer(device, size, Memory::upload);
     std::memcpy(staging.mapped, data, size);
     Commands commands(device);
-    VkBufferCopy region{0, offset, size};
-    vkCmdCopyBuffer(commands.handle, staging.handle, buffer.handle, 1, &region);
+    copy(commands, staging, 0, buffer, offset, size);
     submit(commands);
 }
 
@@ -155,15 +157,14 @@ void downloadBytes(const Device& device, const Buffer& buffer, void* data, std::
                    VkDeviceSize offset) {
     assert(offset + size <= buffer.size);
     if (!size) return;
+    finish(device);
     if (buffer.mapped) {
         std::memcpy(data, static_cast<const char*>(buffer.mapped) + offset, size);
         return;
     }
     Buffer staging = createBuffer(device, size, Memory::readback);
     Commands commands(device);
-    VkBufferCopy region{offset, 0, size};
-    vkCmdCopyBuffer(commands.handle, buffer.handle, staging.handle, 1, &region);
-    barrier(commands);
+    copy(commands, buffer, offset, staging, 0, size);
     submit(commands);
     std::memcpy(data, staging.mapped, size);
 }
@@ -177,6 +178,7 @@ Image& Image::operator=(Image&& other) noexcept {
 
 Image::~Image() {
     if (!device) return;
+    if (!record->sent.empty()) vkDeviceWaitIdle(device);
     if (view) vkDestroyImageView(device, view, nullptr);
     vkDestroyImage(device, handle, nullptr);
     vkFreeMemory(device, memory, nullptr);

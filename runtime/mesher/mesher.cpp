@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "runtime/mesh/octahedral.h"
+#include "runtime/mesher/connect.h"
 #include "runtime/mesher/host.h"
 #include "runtime/mesher/kernels.h"
 #include "runtime/mesher/pinches.h"
@@ -165,9 +166,13 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         if (isChunked(push, dual)) build(device, pipelines, {topGroupsChunked});
         Commands commands(device, config.timed);
         record(commands, pipelines, buffers, config, push);
-        submit(commands);
+        // Where the host has made the triangles it knows the counts, and nobody waits for the vertices yet.
+        const bool counted = connectsOnHost(device, config) && !dual && !config.host;
+        MesherCounts counts{};
+        if (counted) counts = buffers.counts.as<MesherCounts>()[0];
+        counted ? send(commands) : submit(commands);
         result.stages = commands.stages;
-        MesherCounts counts = download<MesherCounts>(device, buffers.counts, 1)[0];
+        if (!counted) counts = download<MesherCounts>(device, buffers.counts, 1)[0];
         if (counts.bricks > most.bricks)
             return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, most.bricks);
         if (counts.vertices > most.vertices) return tooLarge("vertices", counts.vertices, most.vertices);

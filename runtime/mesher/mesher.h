@@ -120,7 +120,8 @@ struct MesherResult {
     std::vector<StageTime> stages;
 };
 
-/// Polygonises the field over the region into `buffers`. Errors: a region without cells or with too many,
+/// Polygonises the field over the region into `buffers`, of which vertices and colours may still be being
+/// written when it returns (commands.h: send). Errors: a region without cells or with too many,
 /// cells too small for the precision of positions, a surface too large to number
 /// (Error::Code::tooMuchSurface: smaller tiles of the region may do). Throws SystemError if
 /// memory runs out.

@@ -192,8 +192,9 @@ void recordBlur(Run& run) {
     DensityBuffers& b = run.buffers;
     const Device& device = run.commands.device;
     beginStage(run.commands, "blur");
-    reserve(device, b.weights, 4 * (DENSITY_MOST_REACH + 1), Memory::upload);
-    upload(device, b.weights, blurWeights(double(run.config.radius) / run.config.grid.cell));
+    reserve(device, b.weights, 4 * (DENSITY_MOST_REACH + 1));
+    const std::vector<float> weights = blurWeights(double(run.config.radius) / run.config.grid.cell);
+    update(run.commands, b.weights, weights.data(), 4 * weights.size());
     std::array<Pipeline, 3>& blur = run.kernels.blurs[run.push.reach];
     if (!blur[0]) blur = createBlur(device, run.push.reach);
     const glm::ivec3 texels((run.push.size.x + 7) / 8, run.push.size.y, run.push.size.z);

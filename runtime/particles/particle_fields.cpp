@@ -130,7 +130,7 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
                 surfaces ? part.simulation.slots() : 0, volumes, firstTexel(program, part.volume));
             !recorded)
             return atNode(recorded.error(), field);
-        submit(commands);
+        send(commands);
         part.radius = radius, part.threshold = threshold, part.surface = surfaces;
         changes.fields = true;
     }

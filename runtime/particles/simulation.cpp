@@ -20,8 +20,10 @@ namespace fw {
 
 namespace {
 
-constexpr std::size_t kMostCheckpointBytes = 256u << 20;
-constexpr double kLeastSpacing = 1e-6;  // metres
+constexpr VkDeviceSize kMostCheckpointBytes = 256u << 20;
+constexpr VkDeviceSize kCheckpointBufferBytes = 4u
+                                                << 20;  // as far as one fits: drivers allow few allocations
+constexpr double kLeastSpacing = 1e-6;                  // metres
 constexpr double kMostSubsteps = 64;
 
 using Kind = ParticleStage::Kind;
@@ -40,11 +42,11 @@ Obstacle obstacleOf(const Device& device, std::shared_ptr<const Program> program
 
 /// Of the live values, those that the obstacle knows of are the first ones: others may have been added since,
 /// and taken away those that it does not read.
-void setParameters(const Device& device, const Obstacle& obstacle, const std::vector<double>& values) {
+void setParameters(Commands& commands, const Obstacle& obstacle, const std::vector<double>& values) {
     std::vector<float> numbers = obstacle.program->numbers();
     const std::size_t live = std::min(obstacle.program->live.size(), values.size());
     for (std::size_t slot = 0; slot < live; ++slot) numbers[slot] = float(values[slot]);
-    upload(device, obstacle.parameters, numbers);
+    update(commands, obstacle.parameters, numbers.data(), 4 * numbers.size());
 }
 
 }  // namespace
@@ -164,8 +166,6 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
             if (time > 0.0) error.message += " (at " + shortNumber(time) + " s)";
             return error;
         }
-        ++state.steps;
-        if (state.steps % apart == 0) keep();
         if (progress && state.steps > first && !progress(state.steps - first, wanted - first))
             return Error{.message = "the simulation was cancelled"};
     }
@@ -173,13 +173,13 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
 }
 
 void Simulation::valuesChanged() {
-    checkpoints.clear();
+    forget();
     born.resize(std::min(born.size(), std::size_t(state.steps + 1)));
     if (state.steps == 0) state.steps = -1;
 }
 
 Done Simulation::start(const std::vector<double>& values) {
-    checkpoints.clear();  // of a past with other values
+    forget();  // a past with other values
     apart = 1;
     if (source().kind == Kind::fluid) return fill(values);
     const StageNumbers numbers(field->ir, source(), values);
@@ -192,28 +192,26 @@ Done Simulation::start(const std::vector<double>& values) {
         reserve(*device, state.velocities, 16 * from.size());
         upload(*device, state.places, places);
         upload(*device, state.velocities, still);
-        return done();
+        Commands commands(*device);
+        return taken(commands);
     }
     state.slots = 0;
     born = {std::floor(std::max(numbers.scalar("burst"), 0.0))};
     if (const Done room = makeRoom(numbers, born[0]); !room) return room.error();
     Commands commands(*device);
     emit(commands, numbers, 0.0, born[0]);
-    submit(commands);
-    return done();
+    return taken(commands);
 }
 
 Done Simulation::step(const std::vector<double>& values) {
     Commands commands(*device);
     if (fluid) {
         if (const Done flowed = flow(commands, values); !flowed) return flowed.error();
-        submit(commands);
-        return done();
+        return taken(commands);
     }
     if (source().kind != Kind::emitter) {
         move(commands, values);
-        submit(commands);
-        return done();
+        return taken(commands);
     }
     const StageNumbers numbers(field->ir, source(), values);
     const double before = born[std::size_t(state.steps)],
@@ -223,8 +221,7 @@ Done Simulation::step(const std::vector<double>& values) {
     if (const Done room = makeRoom(numbers, after); !room) return room.error();
     move(commands, values);
     emit(commands, numbers, before, after);
-    submit(commands);
-    return done();
+    return taken(commands);
 }
 
 Done Simulation::fill(const std::vector<double>& values) {
@@ -236,16 +233,18 @@ Done Simulation::fill(const std::vector<double>& values) {
     state.slots = uint32_t(places->size());
     setFluid(*device, fluid->particles, *places, {});
     Commands commands(*device);
-    if (const Done settled = recordSettling(commands, fluid->kernels, fluid->particles, configOf(values));
+    if (const Done settled =
+            recordSettling(commands, fluid->kernels, fluid->particles, configOf(commands, values));
         !settled)
         return Error{.message = settled.error().message, .node = source().node};
     submit(commands);
     upload(*device, fluid->particles.velocities,
            std::vector(places->size(), glm::vec4(glm::vec3(numbers.vector("velocity")), 0.0f)));
-    return done();
+    Commands first(*device);
+    return taken(first);
 }
 
-FluidConfig Simulation::configOf(const std::vector<double>& values) const {
+FluidConfig Simulation::configOf(Commands& commands, const std::vector<double>& values) const {
     const StageNumbers numbers(field->ir, source(), values);
     FluidConfig config{.spacing = float(std::max(numbers.scalar("spacing"), kLeastSpacing)),
                        .lo = numbers.vector("tank_min"),
@@ -255,14 +254,14 @@ FluidConfig Simulation::configOf(const std::vector<double>& values) const {
                        .tension = float(std::max(numbers.scalar("tension"), 0.0)),
                        .farOnce = source().words.find("neighbours")->second == "fast"};
     if (fluid->obstacle) {
-        setParameters(*device, *fluid->obstacle, values);
+        setParameters(commands, *fluid->obstacle, values);
         config.field = fluid->obstacle->buffers();
     }
     return config;
 }
 
 Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
-    const FluidConfig config = configOf(values);
+    const FluidConfig config = configOf(commands, values);
     int parts =
         int(std::clamp(StageNumbers(field->ir, source(), values).scalar("substeps"), 0.0, kMostSubsteps));
     if (parts <= 0) {
@@ -373,23 +372,56 @@ void Simulation::move(Commands& commands, const std::vector<double>& values) {
         push.bounce = float(numbers.scalar("bounce"));
         push.friction = float(numbers.scalar("friction"));
         const Move& how = moves[next++];
-        if (how.obstacle) setParameters(*device, *how.obstacle, values);
+        if (how.obstacle) setParameters(commands, *how.obstacle, values);
         run(how.kernel, how.obstacle ? &*how.obstacle : nullptr);
     }
 }
 
-void Simulation::keep() {
-    if (rests()) return;
+Done Simulation::taken(Commands& commands) {
+    ++state.steps;
+    if (!rests() && state.steps % apart == 0) keep(commands);
+    send(commands);
+    return done();
+}
+
+Simulation::Checkpoint Simulation::roomFor(uint32_t slots) {
+    if (const auto same = std::ranges::find(dropped, slots, &Checkpoint::slots); same != dropped.end()) {
+        const Checkpoint room = *same;
+        dropped.erase(same);
+        return room;
+    }
+    dropped.clear();
+    Checkpoint room{.steps = 0, .slots = slots, .kept = open, .at = openFrom};
+    if (!open || openFrom + room.bytes() > open->size) {
+        open = std::make_shared<const Buffer>(
+            createBuffer(*device, std::max(room.bytes(), kCheckpointBufferBytes)));
+        room.kept = open, room.at = 0;
+    }
+    openFrom = room.at + room.bytes();
+    return room;
+}
+
+void Simulation::keep(Commands& commands) {
     const auto place = std::ranges::lower_bound(checkpoints, state.steps, {}, &Checkpoint::steps);
     if (place != checkpoints.end() && place->steps == state.steps) return;
-    checkpoints.insert(place,
-                       {state.steps, state.slots, download<uint32_t>(*device, places(), 4ull * state.slots),
-                        download<uint32_t>(*device, motion(), 4ull * state.slots)});
-    std::size_t bytes = 0;
-    for (const Checkpoint& each : checkpoints) bytes += 32ull * each.slots;
+    Checkpoint made = roomFor(state.slots);
+    made.steps = state.steps;
+    copy(commands, places(), 0, *made.kept, made.at, made.bytes() / 2);
+    copy(commands, motion(), 0, *made.kept, made.at + made.bytes() / 2, made.bytes() / 2);
+    checkpoints.insert(place, std::move(made));
+    VkDeviceSize bytes = 0;
+    for (const Checkpoint& each : checkpoints) bytes += each.bytes();
     if (bytes <= kMostCheckpointBytes || checkpoints.size() < 3) return;
     apart *= 2;
-    std::erase_if(checkpoints, [&](const Checkpoint& each) { return each.steps % apart != 0; });
+    const auto away = std::stable_partition(checkpoints.begin(), checkpoints.end(),
+                                            [&](const Checkpoint& each) { return each.steps % apart == 0; });
+    dropped.insert(dropped.end(), away, checkpoints.end());
+    checkpoints.erase(away, checkpoints.end());
+}
+
+void Simulation::forget() {
+    dropped.insert(dropped.end(), checkpoints.begin(), checkpoints.end());
+    checkpoints.clear();
 }
 
 void Simulation::restore(const Checkpoint& from) {
@@ -399,8 +431,10 @@ void Simulation::restore(const Checkpoint& from) {
         reserve(*device, state.places, 16ull * from.slots);
         reserve(*device, state.velocities, 16ull * from.slots);
     }
-    upload(*device, places(), from.places);
-    upload(*device, motion(), from.velocities);
+    Commands commands(*device);
+    copy(commands, *from.kept, from.at, places(), 0, from.bytes() / 2);
+    copy(commands, *from.kept, from.at + from.bytes() / 2, motion(), 0, from.bytes() / 2);
+    send(commands);
 }
 
 }  // namespace fw

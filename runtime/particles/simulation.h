@@ -2,10 +2,11 @@
 // second.
 //
 // The state after so many steps is a pure function of the recipe and of the live values at the times of all
-// steps before. Going forward takes the steps in between; a step that was taken before is fetched, or starts
-// from the last checkpoint before: copies of the state, of which each step keeps one, and every second is
-// dropped whenever they take too much memory. Where a live value was changed by hand, the particles go on
-// from where they are, and the past is as the new values have it once it is played again.
+// steps before. Going forward takes the steps in between, for none of which the host waits; a step that was
+// taken before is fetched, or starts from the last checkpoint before: copies of the state on the device, of
+// which each step keeps one, and every second is dropped whenever they take too much memory. Where a live
+// value was changed by hand, the particles go on from where they are, and the past is as the new values have
+// it once it is played again.
 //
 // Emitted particles are numbered in the order of their births; number n stands in slot n % slots, so that the
 // last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
@@ -63,10 +64,13 @@ class Simulation {
         Buffer places, velocities;
         uint32_t slots = 0;
     };
+    /// Places, and velocities behind them, from a byte of a buffer that holds several.
     struct Checkpoint {
         int steps;
         uint32_t slots;
-        std::vector<uint32_t> places, velocities;
+        std::shared_ptr<const Buffer> kept;
+        VkDeviceSize at;
+        VkDeviceSize bytes() const { return 32ull * slots; }
     };
 
     struct Fluid {
@@ -81,14 +85,18 @@ class Simulation {
     bool rests() const;
     Done start(const std::vector<double>& values);
     Done fill(const std::vector<double>& values);
-    FluidConfig configOf(const std::vector<double>& values) const;
+    FluidConfig configOf(Commands& commands, const std::vector<double>& values) const;
     Done flow(Commands& commands, const std::vector<double>& values);
     Done step(const std::vector<double>& values);
     void move(Commands& commands, const std::vector<double>& values);
     void emit(Commands& commands, const StageNumbers& emitter, double before, double after);
     Done makeRoom(const StageNumbers& emitter, double born);
     void setSlots(uint32_t slots);
-    void keep();
+    /// Ends a step.
+    Done taken(Commands& commands);
+    void keep(Commands& commands);
+    Checkpoint roomFor(uint32_t slots);
+    void forget();
     void restore(const Checkpoint& from);
 
     const Device* device;
@@ -103,7 +111,10 @@ class Simulation {
     State state;
     std::vector<double> born;            ///< how many were, after each step
     std::deque<Checkpoint> checkpoints;  ///< by their steps
-    int apart = 1;                       ///< steps between checkpoints
+    std::vector<Checkpoint> dropped;     ///< whose room is free
+    std::shared_ptr<const Buffer> open;  ///< has room from here on
+    VkDeviceSize openFrom = 0;
+    int apart = 1;  ///< steps between checkpoints
 };
 
 }  // namespace fw

@@ -108,6 +108,7 @@ Session::~Session() {
 }
 
 void Session::take(Program program) {
+    finish(*gpu);  // what runs may be of the program before
     const bool sameImages = images && program.ir.images() == current.ir.images();
     const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes() &&
                              program.ir.outlines() == current.ir.outlines();
@@ -160,6 +161,7 @@ void Session::buildKernels(std::vector<StageTime>* stages) {
     const std::string field = emitField(current);
     if (stages) stages->push_back({"emit", millisecondsSince(start)});
     const auto compiling = Clock::now();
+    finish(*gpu);
     pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
     renderer.reset();
     if (stages) stages->push_back({"pipelines", millisecondsSince(compiling)});
@@ -178,6 +180,7 @@ void Session::replaceProgram(Program program, const FieldKernelOptions& kernels)
 bool Session::compiling() {
     if (next.valid() && next.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         MesherPipelines made = next.get();
+        finish(*gpu);
         if (nextHash == current.structureHash && !hasMesherKernels()) {
             pipelines = std::move(made);
             if (!kernelsBehind) renderer.reset();
@@ -204,6 +207,7 @@ bool Session::drafting() {
     if (nextKernels.valid() && nextKernels.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         std::optional<FieldKernels> made = nextKernels.get();
         if (made && wanted() && !there()) {
+            finish(*gpu);
             if (!renderer) renderer = createRenderer(*gpu);
             setField(*renderer, std::move(*made));
             kernelsHash = nextKernelsHash;

@@ -115,7 +115,6 @@ void setField(Renderer& renderer, FieldKernels kernels) {
 
 bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                const gpu::View& view, bool resting, int mean) {
-    const Device& device = commands.device;
     const VkExtent3D extent = {uint32_t(options.width), uint32_t(options.height), 1};
     const bool still = mean > 0 || options.samples > 1;
     const gpu::RenderFrame before = renderer.described;
@@ -123,9 +122,9 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         describeFrame(renderer, scene, options, view, resting, mean, still ? kStillShadowSize : kShadowSize);
     const gpu::RenderFrame& frame = renderer.described;
     if (scene.draft) renderer.described.ambientStrength = 0, renderer.described.lightCount = 0;
-    if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(device);
-    if (!scene.particles.empty() && !renderer.sprites.draw) renderer.sprites = createSprites(device);
-    uploadBytes(device, renderer.frame, &frame, sizeof frame);
+    if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(commands.device);
+    if (!scene.particles.empty() && !renderer.sprites.draw) renderer.sprites = createSprites(commands.device);
+    renderer.frame.as<gpu::RenderFrame>()[0] = frame;  // pictures are awaited: none reads it now
     renderer.shadowStands = renderer.shadowStands && before.sun == frame.sun &&
                             before.shadowCentre == frame.shadowCentre &&
                             before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;

@@ -11,6 +11,10 @@ std::string_view fieldName(Field field) {
     }
 }
 
+std::string benchSample(const std::string& name) {
+    return FIELDWRIGHT_BENCH_GRAPHS "/../../../samples/" + name + ".field.json";
+}
+
 std::string benchGraph(Field field) {
     return std::string(FIELDWRIGHT_BENCH_GRAPHS "/") + std::string(fieldName(field)) + ".field.json";
 }

@@ -37,6 +37,8 @@ constexpr float regionHalf(Field field) {
 
 /// Path of the graph file that says the same field.
 std::string benchGraph(Field field);
+/// The file of a sample.
+std::string benchSample(const std::string& name);
 
 /// By value, so that loops over them become vectors, which those of references do not.
 inline float larger(float a, float b) { return a < b ? b : a; }

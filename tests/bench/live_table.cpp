@@ -7,6 +7,7 @@
 #include "graph/emit/glsl.h"
 #include "runtime/mesher/host.h"
 #include "runtime/mesher/mesher.h"
+#include "runtime/play/player.h"
 #include "tests/bench/tables.h"
 #include "tests/bench/verify.h"
 
@@ -22,6 +23,7 @@ double meshOnce(Bench& bench, MesherPipelines& pipelines, MesherBuffers& buffers
                 MesherResult& result) {
     const auto start = Clock::now();
     Result<MesherResult> made = runMesher(bench.device(), pipelines, buffers, config);
+    finish(bench.device());
     const double elapsed = millisecondsSince(start);
     if (!made) throw SystemError(made.error().message);
     result = std::move(*made);
@@ -32,6 +34,38 @@ void checkMesh(Bench& bench, const char* what, const MesherBuffers& buffers, con
     const Mesh mesh = downloadMesh(bench.device(), buffers, result);
     if (const std::string fault = faultOf(mesh.indices, mesh.positions.size()); !fault.empty())
         bench.fail(std::string(what) + ": " + fault);
+}
+
+/// What the device is asked for in a frame of what is played.
+void playedTable(Bench& bench) {
+    Table table{.title = "A frame that is played, a tenth of a second on (640x360, 64 cells)",
+                .header = {"sample", "ms", "submissions", "awaited"}};
+    constexpr int kFrames = 12;
+    for (const char* sample : {"dam_break", "fountain", "moving_booleans"}) {
+        PlayerOptions options{.device = bench.options.device, .resolution = 64};
+        Result<Player> player = Player::open(benchSample(sample), options);
+        if (!player) return bench.fail(format(player.error()));
+        const RenderOptions render{.width = 640, .height = 360};
+        Picture picture;
+        Figure figure;
+        const DeviceRecord& device = *player->device().record;
+        uint64_t submitted = 0, awaited = 0;
+        for (int frame = -4; frame < kFrames; ++frame) {
+            if (frame == 0) submitted = device.submissions, awaited = device.waits;
+            const auto start = Clock::now();
+            player->seek(0.1 * (frame + 4));
+            if (const Result<bool> shown = player->show(render, picture); !shown)
+                return bench.fail(format(shown.error()));
+            if (frame >= 0) figure.runs.push_back(millisecondsSince(start));
+        }
+        std::ranges::sort(figure.runs);
+        table.rows.push_back({sample, text(figure), number(double(device.submissions - submitted) / kFrames),
+                              number(double(device.waits - awaited) / kFrames)});
+    }
+    table.notes = {
+        "Steps, samples, mesh and picture are sent one behind the other. Awaited are the mesh, for its "
+        "triangles, and the picture: wanted at most 2."};
+    print(table, bench.options.markdown);
 }
 
 }  // namespace
@@ -126,6 +160,7 @@ void liveTable(Bench& bench) {
         ". No pipeline is built: hash and code are the same before and after (checked), the mesh is not (" +
         count(results[0].triangles) + " and " + count(results[1].triangles) + " triangles)."};
     print(table, bench.options.markdown);
+    playedTable(bench);
 }
 
 void compileTable(Bench& bench) {

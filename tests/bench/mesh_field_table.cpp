@@ -239,6 +239,7 @@ void meshingTable(Bench& bench) {
         const Figure all = measure(bench.options.repeats, [&] {
             const auto start = Clock::now();
             mesh = session.polygonise({.region = region, .resolution = 256});
+            finish(session.device());
             return millisecondsSince(start);
         });
         mesh = session.polygonise({.region = region, .resolution = 256}, true);

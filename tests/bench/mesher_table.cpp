@@ -71,6 +71,7 @@ std::optional<Ours> timeMesher(Bench& bench, MesherPipelines& pipelines, MesherB
     const std::string name = std::string(fieldName(field)) + " at " + std::to_string(cells);
     const auto run = [&] {
         Result<MesherResult> result = runMesher(bench.device(), pipelines, buffers, config);
+        finish(bench.device());
         if (!result) throw SystemError(name + ": " + result.error().message);
         return std::move(*result);
     };
@@ -176,6 +177,7 @@ void addMeshStages(Bench& bench, Table& table, Field field, const Program& progr
     for (int run = -1; run < bench.options.repeats; run++)
         for (const MeshStage& stage : {smooth, subdivide}) {
             const Result<MesherResult> meshed = runMesher(bench.device(), pipelines, buffers, config);
+            finish(bench.device());
             if (!meshed) return bench.fail(meshed.error().message);
             made = *meshed;
             MesherResult changed = made;

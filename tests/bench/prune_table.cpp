@@ -125,6 +125,7 @@ void pruneTable(Bench& bench) {
             const auto run = [&] {
                 const auto start = Clock::now();
                 Result<MesherResult> made = runMesher(bench.device(), pipelines, buffers, config);
+                finish(bench.device());
                 if (!made) throw SystemError(made.error().message);
                 result = std::move(*made);
                 return millisecondsSince(start);

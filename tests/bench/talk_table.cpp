@@ -86,6 +86,7 @@ void talkTableAt(Bench& bench, int cells) {
     ours.generate = measure(bench.options.repeats, [&] {
         const auto start = Clock::now();
         const Result<MesherResult> result = runMesher(bench.device(), pipelines, buffers, config);
+        finish(bench.device());
         const double elapsed = millisecondsSince(start);
         if (!result) throw SystemError(result.error().message);
         if (result->triangles != triangles) bench.fail("ours: " + count(result->triangles) + " triangles");

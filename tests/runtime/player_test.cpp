@@ -436,6 +436,32 @@ TEST(Player, ParticlesAreTheSameHoweverTheirTimeIsReached) {
     EXPECT_EQ(played->pipelinesBuilt(), built);
 }
 
+TEST(Player, AFrameOfAFluidIsAwaitedTwice) {
+    // Of steps, samples, mesh and picture, the mesh for its triangles, and the picture.
+    Played played(R"({"fieldwright": 1, "nodes": [
+      {"id": "drop", "type": "sphere", "inputs": {"radius": 0.3}},
+      {"id": "post", "type": "cylinder", "inputs": {"radius": 0.1, "half_height": 1}},
+      {"id": "water", "type": "sph_fluid", "inputs": {"source": {"from": "drop"}, "spacing": 0.08,
+        "tank_min": [-0.5, -0.8, -0.5], "tank_max": [0.5, 0.5, 0.5], "collide": {"from": "post"}}},
+      {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "water"}, "resolution": 32}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 32}}],
+      "timeline": {"length": 2}})");
+    const RenderOptions options{.width = 64, .height = 48};
+    Picture picture;
+    for (const double seconds : {0.0, 0.1, 0.2, 0.3}) {  // buffers come to their sizes
+        played->seek(seconds);
+        ASSERT_TRUE(played->show(options, picture));
+    }
+    const DeviceRecord& device = *played->device().record;
+    for (int i = 0; i < 3; ++i) {
+        const uint64_t submitted = device.submissions, awaited = device.waits;
+        played->advance(0.05);  // three steps
+        ASSERT_TRUE(played->show(options, picture));
+        EXPECT_GE(device.submissions - submitted, 6u);
+        EXPECT_EQ(device.waits - awaited, 2u);
+    }
+}
+
 TEST(Player, ParametersOfParticlesAreSetWhileTheyFly) {
     Played played(rain());
     const auto volume = [&] {

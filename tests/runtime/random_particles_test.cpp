@@ -92,8 +92,8 @@ class Chain {
             } else if (!spec.options.empty()) {
                 made[spec.name] = spec.options[random() % spec.options.size()];
             } else if (spec.type == Type::integer) {
-                constexpr double kMost = 48.0;  // cells, parts of a step
-                made[spec.name] = std::round(fit(std::min(40.0 * number(0.3), kMost), spec));
+                const double most = spec.name == "substeps" ? 4.0 : 48.0;  // parts of a step; cells
+                made[spec.name] = std::round(fit(std::min(40.0 * number(0.3), most), spec));
             } else if (spec.type == Type::scalar) {
                 made[spec.name] = fit(number(spec.value.numbers[0]), spec);
             } else if (spec.type == Type::vec3) {
