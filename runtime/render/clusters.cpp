@@ -1,5 +1,6 @@
 #include "runtime/render/clusters.h"
 
+#include <algorithm>
 #include <array>
 
 namespace fw {
@@ -33,9 +34,13 @@ void boundClusters(Commands& commands, Clusters& clusters, const MesherBuffers& 
     clusters.whole = kClusterBytes * count > limits.storageRange ||
                      mesh.vertices.size > DeviceLimits::kTexelBytes * limits.texels();
     if (clusters.whole) return;
-    reserve(commands.device, clusters.clusters, count * sizeof(gpu::Cluster));
-    reserve(commands.device, clusters.seen, 4ull * count);
-    reserve(commands.device, clusters.indices, kClusterBytes * count);
+    // With room for more: a mesh that grows a little with each frame would be waited for each time.
+    const uint64_t most = limits.storageRange / kClusterBytes,
+                   room = clusters.seen.size >= 4ull * count ? count
+                                                             : std::min<uint64_t>(count + count / 4, most);
+    reserve(commands.device, clusters.clusters, room * sizeof(gpu::Cluster));
+    reserve(commands.device, clusters.seen, 4 * room);
+    reserve(commands.device, clusters.indices, kClusterBytes * room);
     const Descriptor bound[] = {
         {0, mesh.vertices}, {1, mesh.triangles, 0, 12ull * triangles}, {2, clusters.clusters}};
     dispatch(commands, clusters.bound, spread(commands.device, groupsFor(count, 64)), triangles, bound);

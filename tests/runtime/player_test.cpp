@@ -98,7 +98,7 @@ TEST(Player, AWholePlaybackBuildsNoPipeline) {
         Result<Player> player = Player::open(sample(name), {.resolution = 40});
         ASSERT_TRUE(player) << format(player.error());
         EXPECT_TRUE(player->moves());
-        ASSERT_TRUE(player->frame({.width = 64, .height = 48}));
+        ASSERT_TRUE(player->frame({.width = 64, .height = 48, .samples = 1}));
         const uint64_t built = player->pipelinesBuilt();
         EXPECT_GT(built, 0u);
         const double length = player->timeline().length;
@@ -107,7 +107,7 @@ TEST(Player, AWholePlaybackBuildsNoPipeline) {
             player->seek(length * frame / 10);
             const Mesh mesh = meshOf(*player);
             least = std::min(least, mesh.triangleCount()), most = std::max(most, mesh.triangleCount());
-            ASSERT_TRUE(player->frame({.width = 64, .height = 48}));
+            ASSERT_TRUE(player->frame({.width = 64, .height = 48, .samples = 1}));
         }
         EXPECT_EQ(player->pipelinesBuilt(), built) << name;
         EXPECT_LT(least, most) << name;
@@ -118,7 +118,7 @@ TEST(Player, AFrameDependsOnItsTimeAlone) {
     const std::vector<double> times = {0.0, 0.7, 1.9, 2.0, 3.3};
     std::vector<Mesh> meshes;
     std::vector<std::vector<uint8_t>> pictures;
-    const RenderOptions small{.width = 64, .height = 48};
+    const RenderOptions small{.width = 64, .height = 48, .samples = 2};
     Played first(risingBall());
     for (const double time : times) {
         first->seek(time);
@@ -427,11 +427,11 @@ TEST(Player, ParticlesAreTheSameHoweverTheirTimeIsReached) {
     EXPECT_EQ(shells(seen.at(0.0)), 1u);
     EXPECT_NE(seen.at(0.5).positions, seen.at(1.5).positions);
     played->seek(1.5);
-    ASSERT_TRUE(played->frame({.width = 64, .height = 48}));
+    ASSERT_TRUE(played->frame({.width = 64, .height = 48, .samples = 1}));
     const uint64_t built = played->pipelinesBuilt();
     for (int i = 0; i < 5; ++i) {
         played->advance(0.1);
-        ASSERT_TRUE(played->frame({.width = 64, .height = 48}));
+        ASSERT_TRUE(played->frame({.width = 64, .height = 48, .samples = 1}));
     }
     EXPECT_EQ(played->pipelinesBuilt(), built);
 }
