@@ -11,6 +11,7 @@
 #include "editor/panels/tour.h"
 #include "editor/shell/loss.h"
 #include "runtime/gpu/driver_cache.h"
+#include "runtime/gpu/drivers.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::editor {
@@ -114,6 +115,7 @@ int main(int count, char** arguments) {
 
 int main(int count, char** arguments) {
     fw::makeRoomForDriverCache();
+    fw::passOverDriversWithoutCards();
     try {
         return fw::editor::main(count, arguments);
     } catch (const fw::SystemError& error) {

@@ -89,7 +89,7 @@ Result<ExportState> ExportJob::Shared::make() {
     if (!start("region")) return stopped;
     const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
     if (!region) return region.error();
-    prepareKernels(*program);
+    prepareKernels(*program, [&] { return !opening.isOpen(); });
     if (!start("device")) return stopped;
     Result<Device>& device = opening.get();
     if (!device) return device.error();

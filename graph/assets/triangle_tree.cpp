@@ -130,17 +130,18 @@ NearestPoint nearestOnTriangle(const glm::dvec3& p, const Triangle& triangle) {
 TriangleTree::TriangleTree(std::span<const glm::vec3> positions_, std::span<const uint32_t> indices_,
                            Purpose purpose)
     : positions(positions_), indices(indices_) {
-    std::vector<Box> boxes(indices.size() / 3);
-    for (std::size_t t = 0; t < boxes.size(); ++t) {
+    std::vector<Item> items;
+    items.reserve(indices.size() / 3);
+    for (std::size_t t = 0; t < indices.size() / 3; ++t) {
         const uint32_t* corner = &indices[3 * t];
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
         const glm::vec3 &a = positions[corner[0]], &b = positions[corner[1]], &c = positions[corner[2]];
-        boxes[t] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
-        order.push_back(uint32_t(t));
+        items.push_back({{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))}, uint32_t(t)});
     }
-    if (order.empty()) return;
-    nodes.resize(nodesOf(uint32_t(order.size())));
-    build(0, 0, uint32_t(order.size()), boxes);
+    if (items.empty()) return;
+    order.resize(items.size());
+    nodes.resize(nodesOf(uint32_t(items.size())));
+    build(0, 0, items);
     if (purpose == Purpose::winding) findDipoles();
 }
 
@@ -169,28 +170,31 @@ void TriangleTree::findDipoles() {
     }
 }
 
-void TriangleTree::build(uint32_t index, uint32_t first, uint32_t count, std::span<const Box> boxes) {
-    Box box = boxes[order[first]];
-    for (uint32_t i = first + 1; i < first + count; ++i)
-        box = {glm::min(box.lo, boxes[order[i]].lo), glm::max(box.hi, boxes[order[i]].hi)};
+void TriangleTree::build(uint32_t index, uint32_t first, std::span<Item> items) {
+    const auto count = uint32_t(items.size());
+    Box box = items[0].box;
+    for (const Item& item : items) box = {glm::min(box.lo, item.box.lo), glm::max(box.hi, item.box.hi)};
     nodes[index] = {box, first, count, 0};
-    if (count <= kLeaf) return;
+    if (count <= kLeaf) {
+        for (uint32_t i = 0; i < count; ++i) order[first + i] = items[i].triangle;
+        return;
+    }
     const glm::vec3 size = box.hi - box.lo;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto middle = order.begin() + first + count / 2;
-    std::nth_element(order.begin() + first, middle, order.begin() + first + count,
-                     [&](uint32_t a, uint32_t b) {
-                         return boxes[a].lo[axis] + boxes[a].hi[axis] < boxes[b].lo[axis] + boxes[b].hi[axis];
+    std::nth_element(items.begin(), items.begin() + count / 2, items.end(),
+                     [axis](const Item& a, const Item& b) {
+                         return a.box.lo[axis] + a.box.hi[axis] < b.box.lo[axis] + b.box.hi[axis];
                      });
     const uint32_t left = count / 2, right = index + 1 + nodesOf(left);
     nodes[index].count = 0;
     nodes[index].right = right;
+    const auto buildLeft = [&] { build(index + 1, first, items.first(left)); };
     std::future<void> beside;
     if (count >= kWorthAThread)
-        beside = std::async(std::launch::async, [&] { build(index + 1, first, left, boxes); });
+        beside = std::async(std::launch::async, buildLeft);
     else
-        build(index + 1, first, left, boxes);
-    build(right, first + left, count - left, boxes);
+        buildLeft();
+    build(right, first + left, items.subspan(left));
     if (beside.valid()) beside.get();
 }
 
@@ -203,12 +207,12 @@ std::array<glm::dvec3, 3> TriangleTree::corners(uint32_t triangle) const {
 double TriangleTree::distance(const glm::dvec3& point) const {
     if (empty()) return std::numeric_limits<double>::infinity();
     NearestPoint on;
-    nearest(point, order[0], on);
+    nearest(point, kNoGuess, on);
     return std::sqrt(on.squared);
 }
 
 uint32_t TriangleTree::nearest(const glm::dvec3& point, uint32_t guess, NearestPoint& on) const {
-    uint32_t found = guess;
+    uint32_t found = guess = guess == kNoGuess ? order[0] : guess;
     on = nearestOnTriangle(point, corners(guess));
     struct Open {
         uint32_t node;

@@ -48,11 +48,13 @@ class TriangleTree {
     TriangleTree(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
                  Purpose purpose = Purpose::winding);
 
+    static constexpr uint32_t kNoGuess = ~0u;
+
     bool empty() const { return order.empty(); }
     /// The distance from the point to the nearest triangle, in metres; infinite if there is none.
     double distance(const glm::dvec3& point) const;
     /// The triangle that is nearest to the point; of those equally near, any. `guess` is one that may be
-    /// near. Only for a tree that is not empty.
+    /// near, or kNoGuess. Only for a tree that is not empty.
     uint32_t nearest(const glm::dvec3& point, uint32_t guess, NearestPoint& on) const;
     /// The generalized winding number, to some 0.02.
     double windingNumber(const glm::dvec3& point) const;
@@ -78,7 +80,13 @@ class TriangleTree {
         double radius = 0.0;
     };
 
-    void build(uint32_t index, uint32_t first, uint32_t count, std::span<const Box> boxes);
+    /// A triangle while the tree is built: beside its box, so that sorting reads what it moves.
+    struct Item {
+        Box box;
+        uint32_t triangle;
+    };
+
+    void build(uint32_t index, uint32_t first, std::span<Item> items);
     void findDipoles();
     std::array<glm::dvec3, 3> corners(uint32_t triangle) const;
     struct Facet;

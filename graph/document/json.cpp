@@ -436,12 +436,13 @@ Result<std::string> readGraphText(const std::string& path) {
                                    : "cannot open the file: " + std::string(std::strerror(errno)));
     // One byte beyond the limit is enough to know; the size that the system reports is not to be trusted for
     // pipes.
+    constexpr std::size_t kPiece = 64u << 10;
     std::string text;
     ssize_t got = 0;
     do {
         const std::size_t length = text.size();
-        text.resize(length + (1u << 20));
-        got = ::read(file, text.data() + length, 1u << 20);
+        text.resize(length + kPiece);
+        got = ::read(file, text.data() + length, kPiece);
         pollfd ready{file, POLLIN, 0};
         if (got < 0 && errno == EAGAIN) poll(&ready, 1, -1);
         text.resize(length + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));

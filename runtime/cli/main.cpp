@@ -21,6 +21,7 @@
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
 #include "runtime/gpu/driver_cache.h"
+#include "runtime/gpu/drivers.h"
 #include "runtime/system/interruption.h"
 #include "runtime/window/viewer.h"
 
@@ -322,8 +323,10 @@ int run(int count, char** arguments) {
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
     const bool writes = exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed();
-    if (!checkCommand->parsed() && !nodesCommand->parsed() && !parametersCommand->parsed())
+    if (!checkCommand->parsed() && !nodesCommand->parsed() && !parametersCommand->parsed()) {
         makeRoomForDriverCache();
+        passOverDriversWithoutCards();
+    }
     endOnSignals({.said = writes ? kNothingWritten : ""});
     if (exportCommand->parsed()) return runExport(exportOptions);
     if (mergeCommand->parsed()) return runMerge(mergeOptions);

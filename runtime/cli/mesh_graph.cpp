@@ -103,7 +103,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
                               options.method.value_or(program->method)};
     const Result<Box> box = meshRegion(*program, request, &*graph);
     if (!box) return fail(badInput(options, box.error()));
-    prepareKernels(*program);
+    prepareKernels(*program, [&] { return !device.isOpen(); });
     progress.start("device", 15);
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), fail(kBadUsage);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -208,12 +209,16 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         return refuse("nothing to export: the surface has no triangle inside the region");
     if (mesh.positions.size() > 0x7fffffffu || mesh.triangleCount() > 0xffffffffu)
         return refuse("the mesh is too large for this format; lower the resolution");
-    if (*std::max_element(mesh.indices.begin(), mesh.indices.end()) >= mesh.positions.size())
-        return refuse("the mesh refers to a vertex that it does not have");
+    std::future<uint32_t> greatest = std::async(
+        std::launch::async, [&] { return *std::max_element(mesh.indices.begin(), mesh.indices.end()); });
     const std::optional<Bounds> bounds = finiteBounds(mesh.positions);
+    const bool repairs =
+        std::any_of(mesh.normals.begin(), mesh.normals.end(), [](glm::vec3 n) { return !unitLength(n); });
+    if (greatest.get() >= mesh.positions.size())
+        return refuse("the mesh refers to a vertex that it does not have");
     if (!bounds)
         return refuse("the mesh has a vertex that is not finite; the field is infinite or undefined there");
-    if (std::any_of(mesh.normals.begin(), mesh.normals.end(), [](glm::vec3 n) { return !unitLength(n); })) {
+    if (repairs) {
         Mesh repaired = mesh;
         repaired.normals = repairedNormals(mesh);
         return exportMesh(repaired, path, options);

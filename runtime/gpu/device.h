@@ -8,6 +8,7 @@
 #include <vulkan/vulkan.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <future>
 #include <memory>
@@ -125,6 +126,10 @@ class OpeningDevice {
     /// With std::launch::async it opens from now on, with deferred at the first use.
     OpeningDevice(std::launch when, const DeviceOptions& options)
         : opening(std::async(when, [options] { return createDevice(options); })) {}
+    /// Whether get() need not wait; false of one that opens at its first use.
+    bool isOpen() const {
+        return opened || opening.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    }
     /// Waits until it is open. As createDevice().
     Result<Device>& get() {
         if (!opened) opened.emplace(opening.get());

@@ -70,8 +70,8 @@ void createLayout(const Device& device, Pipeline& pipeline) {
           "creating a pipeline layout");
 }
 
-Spirv compileOrThrow(const Device& device, const ShaderOptions& options) {
-    Result<Spirv> spirv = compileShader(fitted(options, device.limits));
+Spirv compileOrThrow(const Device& device, const ShaderOptions& options, bool* before = nullptr) {
+    Result<Spirv> spirv = compileShader(fitted(options, device.limits), before);
     if (!spirv) throw SystemError(format(spirv.error()));
     return std::move(*spirv);
 }
@@ -144,38 +144,33 @@ namespace {
 /// A software device turns a kernel into machine code when it first runs, on the queue's one thread. An empty
 /// dispatch of each pipeline as soon as it is made lets that go on beside the compiling of the other shaders.
 /// About half of the pipelines run first on the device's sibling, on another thread, and are then found in
-/// the driver's disk cache. With `Compile::behind` all do, and the device's own queue is left alone.
+/// the driver's disk cache. Those that an earlier process compiled are there already, and do without the
+/// sibling. With `Compile::behind` all run on it, and the device's own queue is left alone.
 class FirstRuns {
   public:
-    FirstRuns(const Device& device, Compile when)
-        : behind(when == Compile::behind),
-          siblingUse(siblingOf(device).record->mutex, std::defer_lock),
-          own(device),
-          sibling(siblingOf(device)) {
-        // One at a time may use the sibling; who must not wait does without.
-        if (behind)
-            siblingUse.lock();
-        else
-            (void)siblingUse.try_lock();
+    FirstRuns(const Device& device, Compile when) : behind(when == Compile::behind), own(device) {
+        if (behind) useSibling();
     }
 
-    /// One call at a time. `pipeline` must stay where it is.
-    void start(const Pipeline& pipeline, const ShaderOptions& options, const Spirv& spirv) {
+    /// One call at a time. `pipeline` must stay where it is. `before`: an earlier process compiled it.
+    void start(const Pipeline& pipeline, const ShaderOptions& options, const Spirv& spirv, bool before) {
         for (const ShaderBinding& binding : pipeline.shader.bindings)
             if (!isBuffer(binding) && !(behind && binding.format != VK_FORMAT_UNDEFINED)) return;
-        const bool toSibling = behind || (siblingUse.owns_lock() && sibling.words < own.words);
-        Lane& lane = toSibling ? sibling : own;
+        if (before && !behind) return run(own, pipeline);
+        if (!triedSibling) useSibling();
+        const bool toSibling = behind || (sibling && sibling->words < own.words);
+        Lane& lane = toSibling ? *sibling : own;
         lane.words += spirv.size();
         if (!toSibling) return run(own, pipeline);
-        translated.push_back(build(sibling.device, options, spirv));
-        run(sibling, translated.back());
+        translated.push_back(build(sibling->device, options, spirv));
+        run(*sibling, translated.back());
         later.push_back(&pipeline);
     }
 
     /// Waits until every pipeline has run.
     void finish() {
         for (std::size_t i = 0; i < later.size(); ++i) {
-            check(vkWaitForFences(sibling.device.handle, 1, &sibling.fences[i], VK_TRUE, UINT64_MAX),
+            check(vkWaitForFences(sibling->device.handle, 1, &sibling->fences[i], VK_TRUE, UINT64_MAX),
                   "waiting for a first run");
             if (!behind) run(own, *later[i]);
         }
@@ -196,6 +191,18 @@ class FirstRuns {
         std::vector<std::unique_ptr<Commands>> recorded = {};
         std::vector<VkFence> fences = {};
     };
+
+    /// One at a time may use the sibling; who must not wait does without.
+    void useSibling() {
+        triedSibling = true;
+        const Device& other = siblingOf(own.device);
+        siblingUse = std::unique_lock(other.record->mutex, std::defer_lock);
+        if (behind)
+            siblingUse.lock();
+        else
+            (void)siblingUse.try_lock();
+        if (siblingUse.owns_lock()) sibling.emplace(other);
+    }
 
     static bool isBuffer(const ShaderBinding& binding) {
         return binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
@@ -238,10 +245,12 @@ class FirstRuns {
     }
 
     const bool behind;
+    bool triedSibling = false;
     std::unique_lock<std::mutex> siblingUse;
     std::deque<Pipeline> translated;  // on the sibling
     std::vector<const Pipeline*> later;
-    Lane own, sibling;  // after the pipelines: their work ends before those do
+    Lane own;  // after the pipelines, as the sibling's: their work ends before those do
+    std::optional<Lane> sibling;
 };
 
 }  // namespace
@@ -258,11 +267,12 @@ std::vector<Pipeline> createComputePipelines(const Device& device, std::span<con
         for (std::size_t i; (i = next++) < shaders.size();) {
             try {
                 Clock::time_point start = Clock::now();
-                Spirv spirv = compileOrThrow(device, shaders[i]);
+                bool before = false;
+                Spirv spirv = compileOrThrow(device, shaders[i], &before);
                 double compiled = millisecondsSince(start);
                 pipelines[i] = build(device, shaders[i], spirv);
                 std::lock_guard lock(mutex);
-                if (firstRuns) firstRuns->start(pipelines[i], shaders[i], spirv);
+                if (firstRuns) firstRuns->start(pipelines[i], shaders[i], spirv, before);
                 if (times) {
                     times->spirv += compiled;
                     times->pipeline += millisecondsSince(start) - compiled;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "runtime/gpu/commands.h"
+#include "runtime/system/large_pages.h"
 
 namespace fw {
 namespace {
@@ -110,6 +111,7 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory))
         check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
               "mapping a buffer");
+    if (buffer.mapped && device.software) wantLargePages(buffer.mapped, buffer.size);
     // Fresh memory of a software device is zero, and hides what is read before it is written.
     if (buffer.mapped && device.messenger) std::memset(buffer.mapped, 0xCD, buffer.size);
     const VkDeviceSize texels = buffer.size / kTexelSize;

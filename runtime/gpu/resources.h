@@ -10,6 +10,7 @@
 #include <span>
 
 #include "runtime/gpu/device.h"
+#include "runtime/system/large_pages.h"
 
 namespace fw {
 
@@ -70,7 +71,8 @@ void upload(const Device& device, const Buffer& buffer, const std::vector<T>& da
 template <class T>
 std::vector<T> download(const Device& device, const Buffer& buffer, std::size_t count,
                         VkDeviceSize byteOffset = 0) {
-    std::vector<T> data(count);
+    std::vector<T> data;
+    resizeInLargePages(data, count);
     downloadBytes(device, buffer, data.data(), count * sizeof(T), byteOffset);
     return data;
 }

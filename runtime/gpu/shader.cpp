@@ -6,6 +6,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <mutex>
 #include <set>
 
 #include "runtime/gpu/texels.h"
@@ -113,6 +114,12 @@ Result<Spirv> compileText(const std::string& name, const std::string& text, EShL
     return spirv;
 }
 
+/// Names of the files that this process has put into the cache.
+struct {
+    std::mutex mutex;
+    std::set<std::string> names;
+} compiledHere;
+
 }  // namespace
 
 ShaderOptions fitted(ShaderOptions options, const DeviceLimits& limits) {
@@ -138,7 +145,8 @@ Result<std::string> completeSource(const ShaderOptions& options) {
     return options.texelsInStorage ? withTexelsInStorage(std::move(out)) : out;
 }
 
-Result<Spirv> compileShader(const ShaderOptions& options) {
+Result<Spirv> compileShader(const ShaderOptions& options, bool* before) {
+    if (before) *before = false;
     Result<std::string> text = completeSource(options);
     if (!text) return text.error();
     const Stage& stage = stageOf(options.name);
@@ -152,10 +160,16 @@ Result<Spirv> compileShader(const ShaderOptions& options) {
     std::snprintf(name, sizeof name, "%016llx.spv", static_cast<unsigned long long>(hash));
     std::string path = cachePath("spirv", name);
     constexpr uint32_t kSpirvMagic = 0x07230203;
-    if (Spirv cached = readCacheFile(path, second); cached.size() > 5 && cached[0] == kSpirvMagic)
+    if (Spirv cached = readCacheFile(path, second); cached.size() > 5 && cached[0] == kSpirvMagic) {
+        std::lock_guard lock(compiledHere.mutex);
+        if (before) *before = !compiledHere.names.contains(path);
         return cached;
+    }
     Result<Spirv> spirv = compileText(options.name, *text, stage.language);
-    if (spirv) writeCacheFile(path, second, *spirv);
+    if (!spirv) return spirv;
+    writeCacheFile(path, second, *spirv);
+    std::lock_guard lock(compiledHere.mutex);
+    compiledHere.names.insert(path);
     return spirv;
 }
 

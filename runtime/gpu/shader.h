@@ -49,7 +49,8 @@ using Spirv = std::vector<uint32_t>;
 Result<std::string> completeSource(const ShaderOptions& options);
 
 /// Compiles, or fetches from the disk cache. Errors carry glslang's message. Safe on several threads.
-Result<Spirv> compileShader(const ShaderOptions& options);
+/// `before` becomes whether an earlier process compiled it.
+Result<Spirv> compileShader(const ShaderOptions& options, bool* before = nullptr);
 
 struct ShaderBinding {
     uint32_t binding = 0;

@@ -129,8 +129,12 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
     std::vector<Point> points;
     for (const std::vector<Point>& part : parts) points.insert(points.end(), part.begin(), part.end());
     std::vector<ValueGradient> fields(points.size());
-    TapeMachine<double> machine;
-    evaluateGradient(machine, tape, points, fields);
+    constexpr std::size_t kPoints = 4096;
+    forBlocks(points.size(), kPoints, [&](std::size_t, std::size_t first, std::size_t last) {
+        TapeMachine<double> machine;
+        evaluateGradient(machine, tape, std::span(points).subspan(first, last - first),
+                         std::span(fields).subspan(first, last - first));
+    });
     std::vector<SurfacePoint> surface;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Point& g = fields[i].gradient;

@@ -169,15 +169,18 @@ void measureTopology(const WeldedMesh& mesh, const Corners& corners, Report& rep
                                  static_cast<int64_t>(faces);
 }
 
-/// In degrees.
-double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * (180.0 / 3.14159265358979323846);
-}
+/// An angle between two sides, as what has its tangent: larger angles have lesser cotangents.
+struct MeshAngle {
+    double cosine = 0, sine = 0, cotangent = 0;  ///< the first two in any one unit
+    double degrees() const { return std::atan2(sine, cosine) * (180.0 / 3.14159265358979323846); }
+};
 
 void measureSize(const WeldedMesh& mesh, Report& report) {
     constexpr std::size_t kTriangles = 65536;
     struct Part {
-        double volume = 0, area = 0, smallest = 180, largest = 0;
+        double volume = 0, area = 0;
+        MeshAngle smallest{0, 0, -std::numeric_limits<double>::infinity()},
+            largest{0, 0, std::numeric_limits<double>::infinity()};
         uint64_t degenerate = 0;
     };
     if (mesh.indices.empty()) return;
@@ -204,10 +207,10 @@ void measureSize(const WeldedMesh& mesh, Report& report) {
             const bool degenerate = collapsed(triangle) || area <= kDegenerateRatio * longest;
             part.degenerate += degenerate;
             if (!degenerate)
-                for (const double angle :
-                     {angleBetween(ab, ac), angleBetween(-ab, bc), angleBetween(ac, bc)}) {
-                    part.smallest = std::min(part.smallest, angle);
-                    part.largest = std::max(part.largest, angle);
+                for (const double cosine : {glm::dot(ab, ac), -glm::dot(ab, bc), glm::dot(ac, bc)}) {
+                    const MeshAngle corner{cosine, 2.0 * area, cosine / (2.0 * area)};
+                    if (corner.cotangent > part.smallest.cotangent) part.smallest = corner;
+                    if (corner.cotangent < part.largest.cotangent) part.largest = corner;
                 }
             part.area += area;
             part.volume += glm::dot(a, normal) / 6.0;
@@ -215,8 +218,10 @@ void measureSize(const WeldedMesh& mesh, Report& report) {
     });
     report.smallestAngle = 180;
     for (const Part& part : parts) {
-        report.smallestAngle = std::min(report.smallestAngle, part.smallest);
-        report.largestAngle = std::max(report.largestAngle, part.largest);
+        if (part.smallest.sine > 0.0) {
+            report.smallestAngle = std::min(report.smallestAngle, part.smallest.degrees());
+            report.largestAngle = std::max(report.largestAngle, part.largest.degrees());
+        }
         report.volume += part.volume;
         report.area += part.area;
         report.degenerateTriangles += part.degenerate;
@@ -297,7 +302,13 @@ void measureFromSurface(const TriangleTree& tree, const std::vector<SurfacePoint
     if (surface.empty()) return;
     std::vector<double> distances(surface.size());
     forBlocks(distances.size(), 256, [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) distances[i] = tree.distance(surface[i].position);
+        // The next point of a line, or of the one beside it, is near: so is what is nearest to it.
+        uint32_t near = TriangleTree::kNoGuess;
+        for (std::size_t i = first; i < last; ++i) {
+            NearestPoint on;
+            near = tree.nearest(surface[i].position, near, on);
+            distances[i] = std::sqrt(on.squared);
+        }
     });
     SampledDistance found{0, 0, distances.size()};
     double weights = 0.0;

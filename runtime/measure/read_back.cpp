@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "runtime/measure/readers.h"
+#include "runtime/system/large_pages.h"
 #include "runtime/system/output_file.h"
 
 namespace fw {
@@ -49,12 +50,19 @@ uint32_t Welder::add(glm::vec3 position) {
     positions.push_back(position);
     const auto number = static_cast<uint32_t>(positions.size() - 1);
     slots[at] = number + 1;
-    if (positions.size() * 2 > slots.size()) grow();
+    if (positions.size() * 2 > slots.size()) resize(slots.size() * 2);
     return number;
 }
 
-void Welder::grow() {
-    std::vector<uint32_t> larger(slots.size() * 2, 0);
+void Welder::expect(std::size_t more) {
+    positions.reserve(positions.size() + more);
+    if (const std::size_t wanted = std::bit_ceil((positions.size() + more) * 2 + 16); wanted > slots.size())
+        resize(wanted);
+}
+
+void Welder::resize(std::size_t slotCount) {
+    std::vector<uint32_t> larger;
+    resizeInLargePages(larger, slotCount);
     const std::size_t mask = larger.size() - 1;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         std::size_t at = hashOf(positions[i]) & mask;

@@ -29,10 +29,12 @@ class Welder {
     /// `expected` positions fit without growing.
     explicit Welder(std::size_t expected);
     uint32_t add(glm::vec3 position);
+    /// So many more may come.
+    void expect(std::size_t more);
     std::vector<glm::vec3> take() { return std::move(positions); }
 
   private:
-    void grow();
+    void resize(std::size_t slotCount);
     std::vector<glm::vec3> positions;
     std::vector<uint32_t> slots;  ///< open addressing; number + 1, 0 is free
 };

@@ -112,6 +112,7 @@ struct GltfReader {
         if (!points) return points.error();
         if (points->componentType != 5126) return fault("positions are not floats");
         std::vector<uint32_t> numbers(points->count);
+        welder.expect(points->count);
         for (uint64_t i = 0; i < points->count; ++i) {
             const auto p = load<glm::vec3>(points->bytes, i * points->stride);
             if (!finite(p)) return fault("vertex " + std::to_string(i) + " is not finite");

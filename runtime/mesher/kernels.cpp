@@ -49,7 +49,10 @@ void build(const Device& device, MesherPipelines& pipelines, std::initializer_li
 
 using namespace mesher;
 
-void prepareMesher(const std::string& field) { (void)compileShader({.name = kNames[cull], .field = field}); }
+void prepareMesher(const std::string& field, const std::function<bool()>& goOn) {
+    for (const Kernel kernel : {cull, sample, vertices})  // the longest
+        if (goOn()) (void)compileShader({.name = kNames[kernel], .field = field});
+}
 
 MesherPipelines createMesherPipelines(const Device& device, std::string field, bool wantColors,
                                       const MesherPipelines& previous, CompileTimes* times, Compile when) {

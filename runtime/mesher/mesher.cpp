@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "graph/base/parallel.h"
 #include "runtime/mesh/octahedral.h"
 #include "runtime/mesher/connect.h"
 #include "runtime/mesher/host.h"
@@ -203,17 +204,27 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result) {
     Mesh mesh;
-    mesh.indices.resize(std::size_t(result.triangles) * 3);
-    downloadBytes(device, buffers.triangles, mesh.indices.data(), mesh.indices.size() * 4);
-    std::vector<gpu::MeshVertex> packed =
-        download<gpu::MeshVertex>(device, buffers.vertices, result.vertices);
-    mesh.positions.resize(packed.size());
-    mesh.normals.resize(packed.size());
-    for (std::size_t i = 0; i < packed.size(); ++i) {
-        mesh.positions[i] = packed[i].position;
-        mesh.normals[i] = unpackOctahedral(packed[i].normal);
-    }
-    if (result.colors) mesh.colors = download<glm::vec3>(device, buffers.colors, result.vertices);
+    // Where the host sees the vertices they are unpacked from where they are.
+    const bool seen = buffers.vertices.mapped;
+    std::vector<gpu::MeshVertex> copies;
+    if (!seen) copies = download<gpu::MeshVertex>(device, buffers.vertices, result.vertices);
+    const gpu::MeshVertex* packed = seen ? buffers.vertices.as<gpu::MeshVertex>().data() : copies.data();
+    const auto rest = [&] {
+        mesh.indices = download<uint32_t>(device, buffers.triangles, std::size_t(result.triangles) * 3);
+        if (result.colors) mesh.colors = download<glm::vec3>(device, buffers.colors, result.vertices);
+    };
+    // Where it does not, one thread at a time has the queue.
+    std::future<void> beside = std::async(seen ? std::launch::async : std::launch::deferred, rest);
+    resizeInLargePages(mesh.positions, result.vertices);
+    resizeInLargePages(mesh.normals, result.vertices);
+    constexpr std::size_t kBlock = 16384;
+    forBlocks(result.vertices, kBlock, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            mesh.positions[i] = packed[i].position;
+            mesh.normals[i] = unpackOctahedral(packed[i].normal);
+        }
+    });
+    beside.get();
     return mesh;
 }
 

@@ -37,6 +37,7 @@
 // needs more and hold the last mesh), the configuration to one run.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -90,9 +91,10 @@ MesherPipelines createMesherPipelines(const Device& device, std::string field, b
                                       const MesherPipelines& previous = {}, CompileTimes* times = nullptr,
                                       Compile when = Compile::now);
 
-/// Translates one kernel to SPIR-V and into the cache. That needs no device, and the first translation of a
-/// process takes some 70 ms more than any later one: worth doing while the device opens.
-void prepareMesher(const std::string& field);
+/// Translates kernels to SPIR-V and into the cache, for as long as `goOn` says so before each. That needs no
+/// device, and the first translation of a process takes some 70 ms more than any later one: worth doing while
+/// the device opens.
+void prepareMesher(const std::string& field, const std::function<bool()>& goOn);
 
 /// Everything the kernels write. Made empty; runMesher sizes it.
 struct MesherBuffers {

@@ -97,8 +97,8 @@ Result<CellGrid> cellGrid(const Box& region, int resolution) {
     return grid;
 }
 
-void prepareKernels(const Program& program) {
-    if (secondsToCompile(program) <= kMostSecondsToCompile) prepareMesher(emitField(program));
+void prepareKernels(const Program& program, const std::function<bool()>& goOn) {
+    if (secondsToCompile(program) <= kMostSecondsToCompile) prepareMesher(emitField(program), goOn);
 }
 
 Session::Session(Device device, FieldBy by_) : gpu(std::make_unique<Device>(std::move(device))), by(by_) {}

@@ -40,9 +40,9 @@ Result<CellGrid> cellGrid(const Box& region, int resolution);
 
 inline constexpr int kMostResolution = 4096;
 
-/// Translates a kernel of the program, if it will have some, while the device is not yet open:
+/// Translates kernels of the program, if it will have some, while the device is not yet open:
 /// prepareMesher().
-void prepareKernels(const Program& program);
+void prepareKernels(const Program& program, const std::function<bool()>& goOn);
 
 /// Kernels that are compiled behind take at most so long: the device is busy with them, and the next
 /// structure waits.

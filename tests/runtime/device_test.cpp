@@ -3,11 +3,15 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <set>
 
+#include "tests/support/command.h"
 #include "tests/support/gpu.h"
+#include "tests/support/graph/temp_dir.h"
 #include "tests/support/vulkan_calls.h"
 
 namespace fw::device_test {
@@ -96,6 +100,51 @@ TEST(Resources, AnImpossibleBufferIsASystemErrorThatSaysSo) {
     } catch (const SystemError& error) {
         EXPECT_NE(std::string(error.what()).find("lower resolution"), std::string::npos);
     }
+}
+
+/// Flags of the mapping that the address lies in, as the system states them.
+std::string flagsOfMapping(const void* address) {
+    std::ifstream mappings("/proc/self/smaps");
+    bool inside = false;
+    for (std::string line; std::getline(mappings, line);) {
+        unsigned long long first = 0, end = 0;
+        const auto at = reinterpret_cast<std::uintptr_t>(address);
+        if (std::sscanf(line.c_str(), "%llx-%llx ", &first, &end) == 2) inside = first <= at && at < end;
+        if (inside && line.starts_with("VmFlags:")) return line + " ";
+    }
+    return {};
+}
+
+TEST(Resources, LargeOnesOfASoftwareDeviceLieInLargePages) {
+    if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "of this system";
+    constexpr std::size_t kBytes = 64u << 20;
+    const Buffer buffer = createBuffer(test::device(), kBytes);
+    if (test::device().software) {
+        EXPECT_NE(flagsOfMapping(buffer.as<char>().data() + kBytes / 2).find(" hg "), std::string::npos);
+    }
+    std::vector<int> many;
+    resizeInLargePages(many, kBytes / sizeof(int));
+    EXPECT_EQ(many.size(), kBytes / sizeof(int));
+    EXPECT_NE(flagsOfMapping(&many[many.size() / 2]).find(" hg "), std::string::npos);
+}
+
+TEST(Device, DriversOfCardsThatAreNotThereAreNotLoaded) {
+    if (std::filesystem::exists("/dev/dri")) GTEST_SKIP() << "there are cards";
+    // A driver that cannot be loaded, which the loader tells.
+    const test::TempDir folder;
+    std::filesystem::create_directories(folder.path("vulkan/icd.d"));
+    test::writeText(folder.path("vulkan/icd.d/radeon_icd.test.json"),
+                    R"({"file_format_version": "1.0.0",
+                        "ICD": {"library_path": "/no/such/driver.so", "api_version": "1.3.0"}})");
+    const std::string data = "XDG_DATA_HOME=" + folder.path(""), told = "VK_LOADER_DEBUG=error";
+    const auto devices = [&](const std::string& more) {
+        return test::runCommand({"info", "--devices"}, {.environment = {data, told, more}});
+    };
+    const test::CommandResult quiet = devices("LANG=C");
+    EXPECT_EQ(quiet.status, 0);
+    EXPECT_EQ(quiet.errors.find("/no/such/driver.so"), std::string::npos) << quiet.errors;
+    const test::CommandResult kept = devices("VK_LOADER_DRIVERS_DISABLE=none*");
+    EXPECT_NE(kept.errors.find("/no/such/driver.so"), std::string::npos) << kept.errors;
 }
 
 TEST(Commands, TheHostSeesWhatWasWritten) {

@@ -122,6 +122,26 @@ TEST(Shader, CacheReturnsTheSameWordsAndSurvivesDamage) {
     EXPECT_EQ(cacheFiles(cache.folder).size(), 1u) << "temporary files were left";
 }
 
+TEST(Shader, WhatAnEarlierProcessCompiledIsNotTranslatedTwice) {
+    const std::vector<ShaderOptions> shaders = {withText("layout(local_size_x = 8) in;\nvoid main() {}\n"),
+                                                withText("layout(local_size_x = 16) in;\nvoid main() {}\n")};
+    const auto hasSibling = [&] {
+        Result<Device> device = createDevice({.pick = test::device().name()});
+        createComputePipelines(*device, shaders);
+        return bool(device->record->sibling);
+    };
+    test::TemporaryCache cache;
+    if (!test::device().software) GTEST_SKIP() << "of software devices";
+    EXPECT_TRUE(hasSibling()) << "what is new takes two queues";
+    EXPECT_TRUE(hasSibling()) << "this process compiled it";
+    // A cache at another place is as one that another process filled.
+    const fs::path filled = cache.folder + "/fieldwright", before = cache.folder + "/before/fieldwright";
+    fs::create_directories(before.parent_path());
+    fs::rename(filled, before);
+    ASSERT_EQ(setenv("XDG_CACHE_HOME", before.parent_path().c_str(), 1), 0);
+    EXPECT_FALSE(hasSibling());
+}
+
 TEST(Shader, AnUnwritableCacheIsNoError) {
     test::TemporaryCache cache;
     std::ofstream(cache.folder + "/fieldwright") << "a file where the folder should be";
