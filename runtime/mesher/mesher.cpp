@@ -203,6 +203,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 }
 
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result) {
+    finish(device);
     Mesh mesh;
     // Where the host sees the vertices they are unpacked from where they are.
     const bool seen = buffers.vertices.mapped;
