@@ -1,6 +1,7 @@
 #include "runtime/cli/tiled_export.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -128,6 +129,9 @@ int notMeshed(const ExportOptions& options, const Error& error) {
 /// All tiles straight into the mesh file.
 int exportWhole(const ExportOptions& options, Session& session, const MeshRequest& request,
                 const TilePlan& plan, bool givenRegion, Progress& progress) {
+    // A tile's arrays go back to the system with the tile: by itself the allocator would keep some of each
+    // thread.
+    ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
     progress.start("count", 20);
     Result<CountedTiles> tiles = countTiles(session, request, plan, [&](std::size_t tile) {
         const std::string words =
