@@ -139,14 +139,14 @@ int run(int count, char** arguments) {
     exportCommand
         ->add_option("--tiles", exportOptions.tiles,
                      "Mesh in tiles, about this many along the longest side, each by itself: memory is "
-                     "bounded by one, and "
-                     "an export that was stopped goes on where it was (default: above 1,024 cells and where "
-                     "the surface is too much at once)")
+                     "bounded by a few (default: above 1,024 cells and where the surface is too much at "
+                     "once)")
         ->check(whole(1, 64));
     exportCommand
         ->add_option(
             "--tile", exportOptions.share,
-            "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge")
+            "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge; a "
+            "part that was stopped goes on where it was")
         ->check(something());
 
     MergeOptions mergeOptions;

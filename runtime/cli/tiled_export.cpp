@@ -1,6 +1,7 @@
 #include "runtime/cli/tiled_export.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -105,13 +106,76 @@ class TileFolder {
     int descriptor;
 };
 
-/// Has the pieces' loading shown as progress from 80 %: a format reads each about twice.
-void showLoading(MeshPieces& mesh, const Progress& progress) {
-    mesh.load = [load = mesh.load, &progress, all = 2 * mesh.count, loaded = std::size_t(0)](
-                    std::size_t piece, MeshPieces::Part part) mutable {
-        progress.show(80 + int(20 * std::min(loaded++, all - 1) / all));
+/// Has the pieces' loading shown as progress from `begin` %: each is loaded once.
+void showLoading(MeshPieces& mesh, const Progress& progress, int begin) {
+    mesh.load = [load = mesh.load, &progress, begin, all = mesh.count](std::size_t piece,
+                                                                       MeshPieces::Part part) {
+        progress.show(begin + int((100 - begin) * piece / all));
         return load(piece, part);
     };
+}
+
+void noteCapped(const ExportOptions& options) {
+    std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
+                 options.output.c_str());
+}
+
+int notMeshed(const ExportOptions& options, const Error& error) {
+    if (error.code == Error::Code::tooMuchSurface)
+        return badInput(options.mesh, {.message = error.message + "; or take more --tiles"});
+    return print(error), error.file.empty() ? kBadInput : kSystemFailure;
+}
+
+/// All tiles straight into the mesh file.
+int exportWhole(const ExportOptions& options, Session& session, const MeshRequest& request,
+                const TilePlan& plan, bool givenRegion, Progress& progress) {
+    // A tile's arrays go back to the system with the tile: by itself the allocator would keep some of each
+    // thread.
+    ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    progress.start("count", 20);
+    Result<CountedTiles> tiles = countTiles(session, request, plan, [&](std::size_t tile) {
+        const std::string words =
+            "tile " + std::to_string(tile + 1) + " of " + std::to_string(plan.tiles.size());
+        progress.start("count", int(20 + 30 * tile / plan.tiles.size()), words.c_str());
+    });
+    if (!tiles) return progress.finish(), notMeshed(options, tiles.error());
+    if (tiles->mesh.triangleCount == 0)
+        return badInput(options.mesh, nothingToSee(givenRegion, *request.region, request.resolution));
+    progress.start("write", 50);
+    showLoading(tiles->mesh, progress, 50);
+    const Result<ExportedFiles> written = exportPieces(tiles->mesh, options.output);
+    if (!written) return progress.finish(), print(written.error()), kSystemFailure;
+    whenEnded({.said = "; the mesh was written"});
+    progress.finish();
+    if (tiles->capped) noteCapped(options);
+    return kDone;
+}
+
+/// The tiles of a share, one after another into a folder, then into the part.
+int exportPart(const ExportOptions& options, Session& session, const MeshRequest& request,
+               const TilePlan& plan, const Share& share, Progress& progress) {
+    const std::string folder = options.output + ".tiles";
+    whenEnded({"; no mesh was written", folder, whatIsKept(folder)});
+    const Result<TileFolder> held = TileFolder::open(folder);
+    if (!held) return print(held.error()), kSystemFailure;
+    const uint64_t key = tileKey(session, plan);
+    const Result<std::vector<TileRecord>> tiles =
+        meshTiles(session, request, plan, key, tilesOfShare(plan.tiles.size(), share.share, share.shares),
+                  folder, progress);
+    if (!tiles) {
+        progress.finish();
+        const int status = notMeshed(options, tiles.error());
+        return sayWhatIsKept(folder), status;
+    }
+    progress.start("write", 80);
+    const PartHeader part{.key = key, .share = share.share, .shares = share.shares};
+    if (const Done written = writePart(part, *tiles, options.output, nullptr); !written)
+        return print(written.error()), sayWhatIsKept(folder), kSystemFailure;
+    progress.finish();
+    removeTiles(folder);
+    if (std::ranges::any_of(*tiles, [](const TileRecord& tile) { return tile.header.capped != 0; }))
+        noteCapped(options);
+    return kDone;
 }
 
 }  // namespace
@@ -159,63 +223,19 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     const bool given = opened.request.region || opened.program.region;
     opened.request.region = opened.region;
     const Share share = readShare(options.share).value_or(Share{});
-    const std::string folder = options.output + ".tiles";
 
     progress.start("pipelines", 15, kCompiling);
     Session session(std::move(opened.device));
     session.setProgram(std::move(opened.program));
-    whenEnded({"; no mesh was written", folder, whatIsKept(folder)});
-    const Result<TileFolder> held = TileFolder::open(folder);
-    if (!held) return print(held.error()), kSystemFailure;
-
     const int longest = std::max({grid->cells.x, grid->cells.y, grid->cells.z});
     const TilePlan plan = planTiles(*grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
-    if (share.shares > plan.tiles.size()) {
-        sayWhatIsKept(folder);
+    if (share.shares > plan.tiles.size())
         return print({.message = "too few tiles, " + std::to_string(plan.tiles.size()) + ", for " +
                                  std::to_string(share.shares) + " parts: ask for fewer parts or more --tiles",
                       .file = options.output}),
                kBadUsage;
-    }
-    const uint64_t key = tileKey(session, plan);
-    Result<std::vector<TileRecord>> tiles =
-        meshTiles(session, opened.request, plan, key,
-                  tilesOfShare(plan.tiles.size(), share.share, share.shares), folder, progress);
-    if (!tiles) {
-        progress.finish();
-        int status = kDone;
-        if (tiles.error().code == Error::Code::tooMuchSurface)
-            status = badInput(options.mesh, {.message = tiles.error().message + "; or take more --tiles"});
-        else
-            status = (print(tiles.error()), tiles.error().file.empty() ? kBadInput : kSystemFailure);
-        sayWhatIsKept(folder);
-        return status;
-    }
-    progress.start("write", 80);
-    const bool capped = std::any_of(tiles->begin(), tiles->end(),
-                                    [](const TileRecord& tile) { return tile.header.capped != 0; });
-    const bool empty = std::all_of(tiles->begin(), tiles->end(),
-                                   [](const TileRecord& tile) { return tile.header.triangles == 0; });
-    if (!options.share.empty()) {
-        PartHeader part{.key = key, .share = share.share, .shares = share.shares};
-        if (const Done written = writePart(part, *tiles, options.output, nullptr); !written)
-            return print(written.error()), sayWhatIsKept(folder), kSystemFailure;
-    } else if (empty) {
-        removeTiles(folder);
-        return badInput(options.mesh, nothingToSee(given, opened.region, opened.request.resolution));
-    } else {
-        Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
-        if (!mesh) return removeTiles(folder), badInput(options.mesh, mesh.error());
-        showLoading(*mesh, progress);
-        const Result<ExportedFiles> written = exportPieces(*mesh, options.output);
-        if (!written) return print(written.error()), sayWhatIsKept(folder), kSystemFailure;
-    }
-    progress.finish();
-    removeTiles(folder);
-    if (capped)
-        std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
-                     options.output.c_str());
-    return kDone;
+    if (options.share.empty()) return exportWhole(options, session, opened.request, plan, given, progress);
+    return exportPart(options, session, opened.request, plan, share, progress);
 }
 
 int runMerge(const MergeOptions& options) {
@@ -233,7 +253,7 @@ int runMerge(const MergeOptions& options) {
                       .file = options.parts[0]}),
                kBadInput;
     progress.start("write", 80);
-    showLoading(*mesh, progress);
+    showLoading(*mesh, progress, 80);
     const Result<ExportedFiles> written = exportPieces(*mesh, options.output);
     if (!written) return print(written.error()), kSystemFailure;
     progress.finish();

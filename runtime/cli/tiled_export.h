@@ -1,5 +1,5 @@
-// `fieldwright export` in tiles: those that are done lie in the folder OUTPUT.tiles until the mesh file is
-// there, so that the same command goes on after it was stopped.
+// `fieldwright export` in tiles, straight into the mesh file. Of a part, --tile i/n, tiles that are done lie
+// in the folder OUTPUT.tiles until the part is there, so that the same command goes on after it was stopped.
 #pragma once
 
 #include "runtime/cli/mesh_graph.h"

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -154,6 +155,69 @@ Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& op
     return files;
 }
 
+/// Hands that part of every piece to `write`, while the next is loaded.
+Done forPieces(const MeshPieces& mesh, MeshPieces::Part part, const OutputFile& to,
+               const std::function<void(const Mesh&)>& write) {
+    const auto load = [&](std::size_t piece) {
+        return std::async(std::launch::async, [&mesh, piece, part] { return mesh.load(piece, part); });
+    };
+    std::future<Result<Mesh>> next = load(0);
+    for (std::size_t i = 0; i < mesh.count && to.good(); ++i) {
+        const Result<Mesh> piece = next.get();
+        if (!piece) return piece.error();
+        if (i + 1 < mesh.count) next = load(i + 1);
+        write(*piece);
+    }
+    return done();
+}
+
+/// One of the arrays of a file, to which pieces are added behind each other.
+struct Section {
+    uint64_t next, end;  ///< bytes of the file
+
+    void add(OutputFile& file, const std::function<void()>& write) {
+        file.goTo(next);
+        write();
+        next = file.position();
+    }
+};
+
+/// What is written of the pieces is as much as was said.
+Done checkFilled(std::initializer_list<Section> sections, OutputFile& file) {
+    for (const Section& section : sections)
+        if (file.good() && section.next != section.end)
+            return Error{.message = "the mesh was another when it was made again; run the command again"};
+    file.goTo(file.size());
+    return done();
+}
+
+Done writeGltfPieces(const MeshPieces& mesh, const GltfLayout& layout, OutputFile& file) {
+    const auto behind = [](uint64_t begin, uint64_t bytes) { return Section{begin, begin + bytes}; };
+    Section positions = behind(file.position(), layout.vertices * 12),
+            normals = behind(positions.end, layout.vertices * 12),
+            colors = behind(normals.end, layout.colors ? layout.vertices * 8 : 0),
+            indices = behind(colors.end, layout.indices * layout.indexSize());
+    const Done written = forPieces(mesh, MeshPieces::numbered, file, [&](const Mesh& m) {
+        positions.add(file, [&] { file.write(std::span(m.positions)); });
+        normals.add(file, [&] { file.write(std::span(m.normals)); });
+        if (layout.colors) colors.add(file, [&] { writeGltfColors(m, file); });
+        indices.add(file, [&] { writeGltfIndices(m.indices, layout.shortIndices(), file); });
+    });
+    if (!written) return written;
+    return checkFilled({positions, normals, colors, indices}, file);
+}
+
+Done writePlyPieces(const MeshPieces& mesh, OutputFile& file) {
+    Section vertices{file.position(), file.position() + mesh.vertexCount * kPlyVertexBytes},
+        faces{vertices.end, vertices.end + mesh.triangleCount * kPlyFaceBytes};
+    const Done written = forPieces(mesh, MeshPieces::numbered, file, [&](const Mesh& m) {
+        vertices.add(file, [&] { writePlyVertices(m, file); });
+        faces.add(file, [&] { writePlyFaces(m, file); });
+    });
+    if (!written) return written;
+    return checkFilled({vertices, faces}, file);
+}
+
 }  // namespace
 
 std::span<const ExportFormat> exportFormats() { return kFormats; }
@@ -294,58 +358,37 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         printable(options.name.empty() ? std::filesystem::path(path).stem().string() : options.name);
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
     if (!file) return file.error();
-    /// Loads that part of every piece and hands it to `write`.
-    const auto each = [&](MeshPieces::Part part, OutputFile& to,
-                          const std::function<void(const Mesh&)>& write) -> Done {
-        for (std::size_t i = 0; i < mesh.count && to.good(); ++i) {
-            const Result<Mesh> piece = mesh.load(i, part);
-            if (!piece) return piece.error();
-            write(*piece);
-        }
-        return done();
-    };
     const GltfLayout layout{.vertices = mesh.vertexCount,
                             .indices = 3 * mesh.triangleCount,
                             .normals = true,
                             .colors = mesh.colors};
     const Bounds bounds{mesh.least, mesh.greatest};
-    const auto binaryPart = [&](OutputFile& to) -> Done {
-        using enum MeshPieces::Part;
-        Done written = each(vertices, to, [&](const Mesh& m) { to.write(std::span(m.positions)); });
-        if (written) written = each(vertices, to, [&](const Mesh& m) { to.write(std::span(m.normals)); });
-        if (written && mesh.colors)
-            written = each(vertices, to, [&](const Mesh& m) { writeGltfColors(m, to); });
-        if (!written) return written;
-        return each(triangles, to,
-                    [&](const Mesh& m) { writeGltfIndices(m.indices, layout.shortIndices(), to); });
-    };
+    Done written = done();
+    std::optional<OutputFile> beside;
     if (format == Format::gltf) {
         const std::string besidePath = exportedPaths(path).back();
-        Result<OutputFile> beside = OutputFile::open(besidePath, options.cancel);
-        if (!beside) return beside.error();
+        Result<OutputFile> opened = OutputFile::open(besidePath, options.cancel);
+        if (!opened) return opened.error();
+        beside.emplace(std::move(*opened));
         file->write(gltfJson(mesh.material, layout, bounds, name,
                              percentEncoded(std::filesystem::path(besidePath).filename().string())));
-        if (const Done written = binaryPart(*beside); !written) return written.error();
-        return commitAll(path, options, *file, &*beside);
-    }
-    Done written = done();
-    if (format == Format::glb) {
+        written = writeGltfPieces(mesh, layout, *beside);
+    } else if (format == Format::glb) {
         if (!writeGlbHead(mesh.material, layout, bounds, name, *file))
             return refuse(
                 "the mesh exceeds the 4 GiB of a GLB; write .gltf or .ply, or lower the resolution");
-        written = binaryPart(*file);
+        written = writeGltfPieces(mesh, layout, *file);
         writeGlbEnd(layout, *file);
     } else if (format == Format::stl) {
         writeStlHeader(mesh.triangleCount, *file);
-        written = each(MeshPieces::corners, *file, [&](const Mesh& m) { writeStlFacets(m, *file); });
+        written =
+            forPieces(mesh, MeshPieces::corners, *file, [&](const Mesh& m) { writeStlFacets(m, *file); });
     } else {
         writePlyHeader(mesh.vertexCount, mesh.triangleCount, true, *file);
-        written = each(MeshPieces::vertices, *file, [&](const Mesh& m) { writePlyVertices(m, *file); });
-        if (written)
-            written = each(MeshPieces::triangles, *file, [&](const Mesh& m) { writePlyFaces(m, *file); });
+        written = writePlyPieces(mesh, *file);
     }
     if (!written) return written.error();
-    return commitAll(path, options, *file, nullptr);
+    return commitAll(path, options, *file, beside ? &*beside : nullptr);
 }
 
 std::string generatorName() { return "Fieldwright " FIELDWRIGHT_VERSION; }

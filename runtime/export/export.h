@@ -51,23 +51,25 @@ struct ExportedFiles {
 Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
                                  const ExportOptions& options = {});
 
-/// A mesh too large for memory, read piece by piece. Its vertices are those of the pieces in their order.
+/// A mesh too large for memory, given piece by piece. Its vertices are those of the pieces in their order.
 struct MeshPieces {
     enum Part {
-        vertices,   ///< those of the piece: positions, normals, and colours if there are some
-        triangles,  ///< their indices into the vertices of the whole mesh
-        corners     ///< all that the triangles need: positions, and indices into those
+        numbered,  ///< the piece's vertices: positions, normals, and colours if there are some; and its
+                   ///< triangles, as indices into the vertices of the whole mesh
+        corners    ///< all that the triangles need: positions, and indices into those
     };
     Mesh material;                    ///< of which only the material counts
     glm::vec3 least{0}, greatest{0};  ///< coordinates over all vertices
     uint64_t vertexCount = 0, triangleCount = 0;
     bool colors = false;
     std::size_t count = 0;
+    /// Called for one piece at a time, on a thread of the caller's choice.
     std::function<Result<Mesh>(std::size_t piece, Part part)> load;
 };
 
-/// As exportMesh, with one piece in memory at a time. Errors also: a format that cannot be written so (OBJ),
-/// what load() says, and more triangles than the format can count.
+/// As exportMesh, with two pieces in memory at a time: each is loaded once, in order, while the one before is
+/// written to its places in the file. Errors also: a format that cannot be written so (OBJ), what load()
+/// says, more triangles than the format can count, pieces that are not as large together as was said.
 Result<ExportedFiles> exportPieces(const MeshPieces& pieces, const std::string& path,
                                    const ExportOptions& options = {});
 /// Refuses, before any work is done, a path that exportPieces cannot write.

@@ -63,7 +63,9 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
               OutputFile& library);
 void writePly(const Mesh& mesh, OutputFile& file);
 void writeStl(const Mesh& mesh, OutputFile& file);
-/// Their parts, for meshes that come in pieces: the header, then each piece's vertices, then its triangles.
+/// Of a vertex with its normal, and of a face.
+inline constexpr uint64_t kPlyVertexBytes = 27, kPlyFaceBytes = 13;
+/// Their parts, for meshes that come in pieces: the header, then all vertices, then all triangles.
 void writePlyHeader(uint64_t vertices, uint64_t triangles, bool normals, OutputFile& file);
 void writePlyVertices(const Mesh& mesh, OutputFile& file);
 void writePlyFaces(const Mesh& mesh, OutputFile& file);

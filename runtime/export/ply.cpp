@@ -36,7 +36,7 @@ void writePlyHeader(uint64_t vertices, uint64_t triangles, bool normals, OutputF
 
 void writePlyVertices(const Mesh& mesh, OutputFile& file) {
     const bool normals = !mesh.normals.empty();
-    const std::size_t stride = normals ? 27 : 15;
+    const std::size_t stride = normals ? kPlyVertexBytes : 15;
     const auto formatVertices = [&](char* out, std::size_t first, std::size_t last) {
         glm::vec3 lastColor = mesh.baseColor;  // neighbours mostly share a colour: encode it once
         Rgb lastCode = encode(lastColor);
@@ -54,13 +54,13 @@ void writePlyVertices(const Mesh& mesh, OutputFile& file) {
 
 void writePlyFaces(const Mesh& mesh, OutputFile& file) {
     const auto formatFaces = [&](char* out, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i, out += 13) {
+        for (std::size_t i = first; i < last; ++i, out += kPlyFaceBytes) {
             out[0] = 3;
             std::memcpy(out + 1, &mesh.indices[i * 3], 12);
         }
         return out;
     };
-    writeBlocks(mesh.triangleCount(), 13, formatFaces, file);
+    writeBlocks(mesh.triangleCount(), kPlyFaceBytes, formatFaces, file);
 }
 
 void writePly(const Mesh& mesh, OutputFile& file) {

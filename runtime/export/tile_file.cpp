@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 #include <memory>
 #include <type_traits>
-#include <unordered_map>
 
 #include "runtime/mesh/octahedral.h"
 #include "runtime/mesher/mesher.h"
@@ -109,87 +108,27 @@ uint64_t bits(float value) {
     return word;
 }
 
-struct PositionHash {
-    std::size_t operator()(const glm::vec3& p) const {
-        uint64_t hash = bits(p.x);
-        for (const uint64_t word : {bits(p.y), bits(p.z)})
-            hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + word;
-        return (hash ^ hash >> 32) * 0xBF58476D1CE4E5B9u;
-    }
-};
-struct SameBits {
-    bool operator()(const glm::vec3& a, const glm::vec3& b) const {
-        return std::memcmp(&a, &b, sizeof a) == 0;
-    }
-};
-
-/// What is kept of all tiles to load any of them.
-struct Joined {
-    struct Tile {
-        TileRecord record;
-        uint32_t firstVertex = 0;            ///< of the whole mesh
-        std::vector<uint32_t> sharedNumber;  ///< in the whole mesh, of each shared vertex
-    };
-    std::vector<Tile> tiles;
-
-    Result<Mesh> load(std::size_t tile, MeshPieces::Part part) const;
-};
-
-Result<Mesh> Joined::load(std::size_t index, MeshPieces::Part part) const {
-    const Tile& tile = tiles[index];
-    const auto& [path, offset, header] = tile.record;
+/// What `part` needs of the record.
+Result<TileContent> readContent(const TileRecord& record, MeshPieces::Part part) {
+    const auto& [path, offset, header] = record;
     const RecordLayout at = layoutOf(header);
-    Mesh mesh;
-    std::vector<SharedVertex> shared;
-    if (part != MeshPieces::corners) {
-        Result<std::vector<SharedVertex>> read =
-            readArray<SharedVertex>(path, offset + at.shared, header.shared);
-        if (!read) return read.error();
-        shared = std::move(*read);
-    }
-    if (part != MeshPieces::vertices) {
-        Result<std::vector<uint32_t>> indices =
-            readArray<uint32_t>(path, offset + at.triangles, header.triangles * 3);
-        if (!indices) return indices.error();
-        for (const uint32_t corner : *indices)
-            if (corner >= header.vertices) return damaged(path, "the file is damaged");
-        mesh.indices = std::move(*indices);
-    }
-    if (part == MeshPieces::triangles) {
-        std::vector<uint32_t> numbers(header.vertices);
-        uint32_t next = tile.firstVertex;
-        std::size_t s = 0;
-        for (uint32_t v = 0; v < header.vertices; ++v) {
-            const bool isShared = s < shared.size() && shared[s].vertex == v;
-            const bool known = isShared && tile.sharedNumber[s] < tile.firstVertex;
-            numbers[v] = known ? tile.sharedNumber[s] : next++;
-            s += isShared ? 1 : 0;
-        }
-        for (uint32_t& corner : mesh.indices) corner = numbers[corner];
-        return mesh;
-    }
-    const Result<std::vector<gpu::MeshVertex>> vertices =
-        readArray<gpu::MeshVertex>(path, offset + at.vertices, header.vertices);
-    if (!vertices) return vertices.error();
-    if (part == MeshPieces::corners) {
-        for (const gpu::MeshVertex& vertex : *vertices) mesh.positions.push_back(vertex.position);
-        return mesh;
-    }
-    const Result<std::vector<glm::vec3>> colors =
-        readArray<glm::vec3>(path, offset + at.colors, header.colors ? header.vertices : 0);
-    if (!colors) return colors.error();
-    mesh.baseColor = header.baseColor;
-    std::size_t s = 0;
-    for (uint32_t v = 0; v < header.vertices; ++v) {
-        const bool isShared = s < shared.size() && shared[s].vertex == v;
-        if (!isShared || tile.sharedNumber[s] >= tile.firstVertex) {
-            mesh.positions.push_back((*vertices)[v].position);
-            mesh.normals.push_back(unpackOctahedral((*vertices)[v].normal));
-            if (header.colors) mesh.colors.push_back((*colors)[v]);
-        }
-        s += isShared ? 1 : 0;
-    }
-    return mesh;
+    TileContent tile;
+    tile.header = header;
+    const auto read = [&]<class T>(std::vector<T>& to, uint64_t place, uint64_t count) -> Done {
+        Result<std::vector<T>> values = readArray<T>(path, offset + place, count);
+        if (!values) return values.error();
+        to = std::move(*values);
+        return done();
+    };
+    Done all = read(tile.vertices, at.vertices, header.vertices);
+    if (all) all = read(tile.indices, at.triangles, header.triangles * 3);
+    if (all && part == MeshPieces::numbered) all = read(tile.shared, at.shared, header.shared);
+    if (all && part == MeshPieces::numbered && header.colors)
+        all = read(tile.colors, at.colors, header.vertices);
+    if (!all) return all.error();
+    for (const uint32_t corner : tile.indices)
+        if (corner >= header.vertices) return damaged(path, "the file is damaged");
+    return tile;
 }
 
 }  // namespace
@@ -294,53 +233,111 @@ Result<std::vector<TileRecord>> readParts(const std::vector<std::string>& paths)
     return tiles;
 }
 
+std::size_t TileJoin::PositionHash::operator()(const glm::vec3& p) const {
+    uint64_t hash = bits(p.x);
+    for (const uint64_t word : {bits(p.y), bits(p.z)})
+        hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + word;
+    return (hash ^ hash >> 32) * 0xBF58476D1CE4E5B9u;
+}
+
+bool TileJoin::SameBits::operator()(const glm::vec3& a, const glm::vec3& b) const {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+Result<TileNumbers> TileJoin::add(const TileHeader& header, std::span<const SharedVertex> shared,
+                                  const std::string& path) {
+    if (pieces.vertexCount + header.vertices > 0x7fffffffu)
+        return Error{.message = "the mesh has more than 2,147,483,647 vertices; lower the resolution"};
+    TileNumbers numbers{uint32_t(pieces.vertexCount), {}};
+    numbers.shared.reserve(shared.size());
+    uint32_t known = 0;
+    for (const SharedVertex& vertex : shared) {
+        if (vertex.vertex >= header.vertices || vertex.holders < 2)
+            return damaged(path, "the file is damaged");
+        const auto [at, isNew] = open.try_emplace(
+            vertex.position, Known{numbers.firstVertex + vertex.vertex - known, vertex.holders});
+        known += isNew ? 0 : 1;
+        numbers.shared.push_back(at->second.number);
+        if (--at->second.left == 0) open.erase(at);
+    }
+    if (header.vertices > 0) {
+        const bool first = pieces.vertexCount == 0;
+        pieces.least = first ? header.least : glm::min(pieces.least, header.least);
+        pieces.greatest = first ? header.greatest : glm::max(pieces.greatest, header.greatest);
+        pieces.colors = header.colors != 0;
+    }
+    if (pieces.count++ == 0) {
+        pieces.material.baseColor = header.baseColor;
+        pieces.material.emission = header.emission;
+        pieces.material.roughness = header.roughness;
+        pieces.material.metallic = header.metallic;
+    }
+    pieces.vertexCount += header.vertices - known;
+    pieces.triangleCount += header.triangles;
+    return numbers;
+}
+
+Result<MeshPieces> TileJoin::end() const {
+    if (open.empty()) return pieces;
+    return Error{.message =
+                     "the tiles do not fit together: the surface ends at a face between two of them. The "
+                     "field's bounds are wrong there, or the devices compute differently; export without "
+                     "tiles, or all parts on one kind of device"};
+}
+
+Mesh pieceOf(TileContent tile, const TileNumbers& numbers, MeshPieces::Part part) {
+    Mesh mesh;
+    mesh.baseColor = tile.header.baseColor;
+    mesh.indices = std::move(tile.indices);
+    if (part == MeshPieces::corners) {
+        mesh.positions.reserve(tile.vertices.size());
+        for (const gpu::MeshVertex& vertex : tile.vertices) mesh.positions.push_back(vertex.position);
+        return mesh;
+    }
+    const auto known =
+        std::ranges::count_if(numbers.shared, [&](uint32_t number) { return number < numbers.firstVertex; });
+    const std::size_t own = tile.vertices.size() - std::size_t(known);
+    mesh.positions.reserve(own);
+    mesh.normals.reserve(own);
+    if (!tile.colors.empty()) mesh.colors.reserve(own);
+    std::vector<uint32_t> numberOf(tile.vertices.size());
+    uint32_t next = numbers.firstVertex;
+    std::size_t s = 0;
+    for (uint32_t v = 0; v < tile.vertices.size(); ++v) {
+        const bool isShared = s < tile.shared.size() && tile.shared[s].vertex == v;
+        const uint32_t number = isShared ? numbers.shared[s++] : next;
+        numberOf[v] = number;
+        if (number < numbers.firstVertex) continue;  // a tile before has it
+        ++next;
+        mesh.positions.push_back(tile.vertices[v].position);
+        mesh.normals.push_back(unpackOctahedral(tile.vertices[v].normal));
+        if (!tile.colors.empty()) mesh.colors.push_back(tile.colors[v]);
+    }
+    for (uint32_t& corner : mesh.indices) corner = numberOf[corner];
+    return mesh;
+}
+
 Result<MeshPieces> joinTiles(std::vector<TileRecord> tiles) {
-    struct Known {
-        uint32_t number, left;
-    };
-    std::unordered_map<glm::vec3, Known, PositionHash, SameBits> open;
-    auto joined = std::make_shared<Joined>();
-    MeshPieces pieces;
-    const TileHeader& some = tiles.front().header;
-    pieces.material.baseColor = some.baseColor;
-    pieces.material.emission = some.emission;
-    pieces.material.roughness = some.roughness;
-    pieces.material.metallic = some.metallic;
-    const Error hole{.message =
-                         "the tiles do not fit together: the surface ends at a face between two of them. The "
-                         "field's bounds are wrong there, or the devices compute differently; export without "
-                         "tiles, or all parts on one kind of device"};
-    for (TileRecord& record : tiles) {
-        const TileHeader header = record.header;
+    TileJoin join;
+    std::vector<TileNumbers> numbers;
+    for (const TileRecord& record : tiles) {
+        const TileHeader& header = record.header;
         const Result<std::vector<SharedVertex>> shared =
             readArray<SharedVertex>(record.path, record.offset + layoutOf(header).shared, header.shared);
         if (!shared) return shared.error();
-        if (pieces.vertexCount + header.vertices > 0x7fffffffu)
-            return Error{.message = "the mesh has more than 2,147,483,647 vertices; lower the resolution"};
-        Joined::Tile tile{std::move(record), uint32_t(pieces.vertexCount), {}};
-        uint32_t known = 0;
-        for (const SharedVertex& vertex : *shared) {
-            if (vertex.vertex >= header.vertices || vertex.holders < 2)
-                return damaged(tile.record.path, "the file is damaged");
-            const auto [at, isNew] = open.try_emplace(
-                vertex.position, Known{tile.firstVertex + vertex.vertex - known, vertex.holders});
-            known += isNew ? 0 : 1;
-            tile.sharedNumber.push_back(at->second.number);
-            if (--at->second.left == 0) open.erase(at);
-        }
-        if (header.vertices > 0) {
-            pieces.least = pieces.vertexCount > 0 ? glm::min(pieces.least, header.least) : header.least;
-            pieces.greatest =
-                pieces.vertexCount > 0 ? glm::max(pieces.greatest, header.greatest) : header.greatest;
-            pieces.colors = header.colors != 0;
-        }
-        pieces.vertexCount += header.vertices - known;
-        pieces.triangleCount += header.triangles;
-        joined->tiles.push_back(std::move(tile));
+        Result<TileNumbers> added = join.add(header, *shared, record.path);
+        if (!added) return added.error();
+        numbers.push_back(std::move(*added));
     }
-    if (!open.empty()) return hole;
-    pieces.count = joined->tiles.size();
-    pieces.load = [joined](std::size_t tile, MeshPieces::Part part) { return joined->load(tile, part); };
+    Result<MeshPieces> pieces = join.end();
+    if (!pieces) return pieces;
+    const auto kept = std::make_shared<const std::pair<std::vector<TileRecord>, std::vector<TileNumbers>>>(
+        std::move(tiles), std::move(numbers));
+    pieces->load = [kept](std::size_t i, MeshPieces::Part part) -> Result<Mesh> {
+        Result<TileContent> tile = readContent(kept->first[i], part);
+        if (!tile) return tile.error();
+        return pieceOf(std::move(*tile), kept->second[i], part);
+    };
     return pieces;
 }
 

@@ -4,7 +4,8 @@
 // triangles. A tile's file holds one record; a part, which shares out the work on one mesh, is a PartHeader
 // and the records of consecutive tiles. Numbers are as in memory, little-endian.
 //
-// Joining: neighbours hold a vertex on their common face each, with equal bits. The first tile in order keeps
+// Joining, of tiles from files and of those that are counted first and meshed again (play/tiled_mesh.h):
+// neighbours hold a vertex on their common face each, with equal bits. The first tile in order keeps
 // it. Only those vertices are numbered through a table of positions, and one is dropped from it with the last
 // tile that holds it; what is kept is four bytes for each time a tile has one. A table that is not empty in
 // the end means a hole: tiles that do not belong together, or a field whose bounds are wrong.
@@ -14,6 +15,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "graph/base/result.h"
@@ -48,6 +50,38 @@ struct TileContent {
     std::vector<glm::vec3> colors;
     std::vector<uint32_t> indices;
 };
+
+/// Which vertices of the one mesh are a tile's.
+struct TileNumbers {
+    uint32_t firstVertex = 0;      ///< of those that no tile before it has; the tile's others follow in order
+    std::vector<uint32_t> shared;  ///< of each of its shared vertices
+};
+
+/// Numbers the vertices of the tiles of one mesh, which are given in order.
+class TileJoin {
+  public:
+    /// Errors: a damaged tile, whose file is `path`; too many vertices.
+    Result<TileNumbers> add(const TileHeader& header, std::span<const SharedVertex> shared,
+                            const std::string& path = {});
+    /// What the one mesh is, without its pieces. Error: a hole.
+    Result<MeshPieces> end() const;
+
+  private:
+    struct Known {
+        uint32_t number, left;
+    };
+    struct PositionHash {
+        std::size_t operator()(const glm::vec3& p) const;
+    };
+    struct SameBits {
+        bool operator()(const glm::vec3& a, const glm::vec3& b) const;
+    };
+    std::unordered_map<glm::vec3, Known, PositionHash, SameBits> open;
+    MeshPieces pieces;
+};
+
+/// The tile as a piece of the one mesh. Its indices must be below its number of vertices.
+Mesh pieceOf(TileContent tile, const TileNumbers& numbers, MeshPieces::Part part);
 
 /// Where a record is.
 struct TileRecord {

@@ -54,6 +54,57 @@ Faces facesOf(const TilePlan& plan, std::size_t index) {
     return faces;
 }
 
+/// The numbers in the header, and the shared vertices.
+Done lookAtVertices(TileContent& tile, std::span<const gpu::MeshVertex> vertices, const Faces& faces) {
+    if (!vertices.empty()) tile.header.least = tile.header.greatest = vertices[0].position;
+    glm::vec3 poison(0.0f);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const glm::vec3 p = vertices[v].position;
+        tile.header.least = glm::min(tile.header.least, p);
+        tile.header.greatest = glm::max(tile.header.greatest, p);
+        poison += p * 0.0f;  // NaN if it is not finite
+        if (const uint32_t count = faces.count(p)) tile.shared.push_back({uint32_t(v), 1u << count, p});
+    }
+    if (poison == glm::vec3(0.0f)) return done();
+    return Error{.message =
+                     "the mesh has a vertex that is not finite; the field is infinite or undefined there"};
+}
+
+/// Meshes the tile; without `arrays` its vertices, colours and triangles are only counted.
+Result<TileContent> contentOf(Session& session, const MeshRequest& request, const TilePlan& plan,
+                              std::size_t index, bool arrays) {
+    MeshRequest ofTile = request;
+    ofTile.tile = plan.tiles[index];
+    const Result<MesherResult> meshed = session.polygonise(ofTile);
+    if (!meshed) return meshed.error();
+    TileContent tile;
+    const gpu::DraftMaterial material = session.material();
+    tile.header.tile = uint32_t(index);
+    tile.header.tiles = uint32_t(plan.tiles.size());
+    tile.header.capped = meshed->capped ? 1 : 0;
+    tile.header.colors = session.program().hasMaterial() && meshed->vertices > 0 ? 1 : 0;
+    tile.header.vertices = meshed->vertices;
+    tile.header.triangles = meshed->triangles;
+    tile.header.roughness = material.roughness;
+    tile.header.metallic = material.metallic;
+    tile.header.baseColor = material.base;
+    tile.header.emission = material.emission;
+
+    const MesherBuffers& buffers = session.meshBuffers();
+    std::span<const gpu::MeshVertex> vertices;
+    if (!arrays && buffers.vertices.mapped) {
+        vertices = buffers.vertices.as<gpu::MeshVertex>().first(meshed->vertices);
+    } else {
+        tile.vertices = download<gpu::MeshVertex>(session.device(), buffers.vertices, meshed->vertices);
+        vertices = tile.vertices;
+    }
+    if (arrays) tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed->triangles * 3);
+    if (arrays && tile.header.colors)
+        tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed->vertices);
+    if (const Done fine = lookAtVertices(tile, vertices, facesOf(plan, index)); !fine) return fine.error();
+    return tile;
+}
+
 }  // namespace
 
 TilePlan planTiles(const CellGrid& grid, int tileCells) {
@@ -110,43 +161,42 @@ std::optional<TileRecord> doneTile(const std::string& folder, const TilePlan& pl
 
 Result<TileRecord> meshTile(Session& session, const MeshRequest& request, const TilePlan& plan, uint64_t key,
                             std::size_t index, const std::string& folder, const std::atomic<bool>* cancel) {
-    MeshRequest ofTile = request;
-    ofTile.tile = plan.tiles[index];
-    const Result<MesherResult> meshed = session.polygonise(ofTile);
-    if (!meshed) return meshed.error();
-
-    TileContent tile;
-    const gpu::DraftMaterial material = session.material();
-    tile.header.key = key;
-    tile.header.tile = uint32_t(index);
-    tile.header.tiles = uint32_t(plan.tiles.size());
-    tile.header.capped = meshed->capped ? 1 : 0;
-    tile.header.roughness = material.roughness;
-    tile.header.metallic = material.metallic;
-    tile.header.baseColor = material.base;
-    tile.header.emission = material.emission;
-
-    const MesherBuffers& buffers = session.meshBuffers();
-    tile.vertices = download<gpu::MeshVertex>(session.device(), buffers.vertices, meshed->vertices);
-    tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed->triangles * 3);
-    if (session.program().hasMaterial() && meshed->vertices > 0)
-        tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed->vertices);
-    const Faces faces = facesOf(plan, index);
-    if (!tile.vertices.empty()) tile.header.least = tile.header.greatest = tile.vertices[0].position;
-    glm::vec3 poison(0.0f);
-    for (std::size_t v = 0; v < tile.vertices.size(); ++v) {
-        const glm::vec3 p = tile.vertices[v].position;
-        tile.header.least = glm::min(tile.header.least, p);
-        tile.header.greatest = glm::max(tile.header.greatest, p);
-        poison += p * 0.0f;  // NaN if it is not finite
-        if (const uint32_t count = faces.count(p)) tile.shared.push_back({uint32_t(v), 1u << count, p});
-    }
-    if (poison != glm::vec3(0.0f))
-        return Error{
-            .message = "the mesh has a vertex that is not finite; the field is infinite or undefined there"};
+    Result<TileContent> tile = contentOf(session, request, plan, index, true);
+    if (!tile) return tile.error();
+    tile->header.key = key;
     const std::string path = tilePath(folder, plan, index);
-    if (const Done written = writeTile(tile, path, cancel); !written) return written.error();
-    return TileRecord{path, 0, tile.header};
+    if (const Done written = writeTile(*tile, path, cancel); !written) return written.error();
+    return TileRecord{path, 0, tile->header};
+}
+
+Result<CountedTiles> countTiles(Session& session, const MeshRequest& request, const TilePlan& plan,
+                                const std::function<void(std::size_t tile)>& counting) {
+    TileJoin join;
+    std::vector<TileNumbers> numbers;
+    std::vector<bool> empty;
+    bool capped = false;
+    for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
+        if (counting) counting(i);
+        const Result<TileContent> tile = contentOf(session, request, plan, i, false);
+        if (!tile) return tile.error();
+        capped = capped || tile->header.capped != 0;
+        empty.push_back(tile->header.vertices == 0);
+        Result<TileNumbers> added = join.add(tile->header, tile->shared);
+        if (!added) return added.error();
+        numbers.push_back(std::move(*added));
+    }
+    Result<MeshPieces> pieces = join.end();
+    if (!pieces) return pieces.error();
+    pieces->load = [&session, request, plan, numbers = std::move(numbers), empty = std::move(empty)](
+                       std::size_t i, MeshPieces::Part part) -> Result<Mesh> {
+        if (empty[i]) return Mesh{};
+        Result<TileContent> tile = contentOf(session, request, plan, i, true);
+        if (!tile) return tile.error();
+        if (tile->shared.size() != numbers[i].shared.size())
+            return Error{.message = "the mesh was another when it was made again; run the command again"};
+        return pieceOf(std::move(*tile), numbers[i], part);
+    };
+    return CountedTiles{std::move(*pieces), capped};
 }
 
 void removeTiles(const std::string& folder) {

@@ -1,10 +1,16 @@
-// A region's mesh in tiles, each meshed by itself and left on disk: memory is bounded by one tile, and what
-// is done stays done.
+// A region's mesh in tiles, each meshed by itself: memory is bounded by a few tiles.
+//
+// The whole in one file: all tiles are meshed once to count what each has and to number the vertices that
+// they share, then again, each written where it belongs. That is sooner than to write and read them in
+// between, for meshing takes less time than the disk. A part of the mesh, which another machine may make,
+// is left on disk tile by tile, and what is done stays done.
 //
 // Tiles are whole blocks of the region's grid, about as large as asked for; the last along an axis takes what
 // is left. The files are named by tile, and each says by a key what it belongs to; one of something else is
 // made again.
 #pragma once
+
+#include <functional>
 
 #include "runtime/export/tile_file.h"
 #include "runtime/play/session.h"
@@ -32,6 +38,16 @@ std::string tilePath(const std::string& folder, const TilePlan& plan, std::size_
 /// Whether that tile is there, whole and of this key.
 std::optional<TileRecord> doneTile(const std::string& folder, const TilePlan& plan, uint64_t key,
                                    std::size_t index);
+
+/// The whole mesh, whose pieces are the tiles, meshed anew at each load. `session` and what it meshes must
+/// stay as they are. `counting` is called before each tile is counted. Errors: as Session::polygonise, as
+/// TileJoin, a vertex that is not finite.
+struct CountedTiles {
+    MeshPieces mesh;
+    bool capped = false;
+};
+Result<CountedTiles> countTiles(Session& session, const MeshRequest& request, const TilePlan& plan,
+                                const std::function<void(std::size_t tile)>& counting = {});
 
 /// Meshes tile `index` and writes its file. `request` is that of the whole. Errors: as Session::polygonise, a
 /// vertex that is not finite, what writing meets.

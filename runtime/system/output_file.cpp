@@ -96,14 +96,20 @@ Result<OutputFile> OutputFile::open(const std::string& path, const std::atomic<b
         mode = existing.st_mode & 07777;
     }
 
-    if (!file.create()) {
-        const int cause = errno;
+    bool created = false;
+    int cause = 0;
+    {
+        const Uninterrupted now;  // or the file would be there and its name not known
+        created = file.create();
+        cause = errno;
+        if (created) file.slot = remember(file.temporary);
+    }
+    if (!created) {
         file.temporary.clear();
         std::string folder = std::filesystem::path(file.target).parent_path().string();
         if (folder.empty()) folder = ".";
         return failed(path, "cannot create a file in folder '" + folder + "': " + reason(cause));
     }
-    file.slot = remember(file.temporary);
     // Best effort: a file system without permissions must not prevent the export.
     if (mode != 0 && ::fchmod(file.descriptor, mode) != 0) errno = 0;
     file.buffer = std::make_unique_for_overwrite<char[]>(kBufferBytes);
@@ -144,7 +150,9 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       cancel(other.cancel),
       descriptor(std::exchange(other.descriptor, -1)),
       finished(other.finished),
-      appended(other.appended),
+      next(other.next),
+      reached(other.reached),
+      flushed(other.flushed),
       buffer(std::move(other.buffer)),
       buffered(std::exchange(other.buffered, 0)) {}
 
@@ -157,7 +165,8 @@ void OutputFile::discard() {
 }
 
 void OutputFile::write(const void* data, std::size_t size) {
-    appended += size;
+    next += size;
+    reached = std::max(reached, next);
     if (!good() || size == 0) return;
     if (size > kBufferBytes - buffered) flush();
     if (size >= kBufferBytes) {
@@ -166,6 +175,12 @@ void OutputFile::write(const void* data, std::size_t size) {
         std::memcpy(buffer.get() + buffered, data, size);
         buffered += size;
     }
+}
+
+void OutputFile::goTo(uint64_t place) {
+    if (place == next) return;
+    flush();
+    next = flushed = place;
 }
 
 void OutputFile::flush() {
@@ -179,7 +194,8 @@ void OutputFile::put(const char* data, std::size_t size) {
             failure = kCancelled;
             return;
         }
-        const ssize_t count = ::write(descriptor, data, std::min(size, kPieceBytes));
+        const ssize_t count =
+            ::pwrite(descriptor, data, std::min(size, kPieceBytes), static_cast<off_t>(flushed));
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) {
             failure = "cannot write: " + reason(count < 0 ? errno : ENOSPC) + "; nothing was written";
@@ -187,6 +203,7 @@ void OutputFile::put(const char* data, std::size_t size) {
         }
         data += count;
         size -= static_cast<std::size_t>(count);
+        flushed += static_cast<std::size_t>(count);
     }
 }
 

@@ -43,14 +43,20 @@ class OutputFile {
         write(values.data(), values.size_bytes());
     }
 
+    /// What is written next goes to byte `place` on, before or behind what was written. In the end every byte
+    /// of the file must have been.
+    void goTo(uint64_t place);
+    /// The byte that is written next.
+    uint64_t position() const { return next; }
+
     /// False once a write has failed or the export was cancelled: formatting more is pointless.
     bool good() const { return failure.empty(); }
-    /// Bytes appended so far.
-    uint64_t size() const { return appended; }
+    /// Bytes of the file so far.
+    uint64_t size() const { return reached; }
 
     /// Writes what is buffered; the name still shows the old file. For exports of several files.
     Done finish();
-    /// Where the bytes are until commit().
+    /// The file that holds the bytes until commit().
     const std::string& place() const { return temporary; }
     /// Finishes if that is not done, then renames to the final name.
     Done commit();
@@ -74,7 +80,8 @@ class OutputFile {
     const std::atomic<bool>* cancel = nullptr;
     int descriptor = -1;
     bool finished = false;
-    uint64_t appended = 0;
+    uint64_t next = 0, reached = 0;
+    uint64_t flushed = 0;  ///< where the buffer's first byte goes
     std::unique_ptr<char[]> buffer;
     std::size_t buffered = 0;
 };

@@ -258,6 +258,56 @@ TEST(OutputFile, ReplacesTheTargetOfALinkAndKeepsItsPermissions) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"inner", "mesh.stl"}));
 }
 
+TEST(ExportPieces, AreRefusedBeforeTheyAreMadeWhereTheFormatEnds) {
+    const TempDir folder;
+    MeshPieces pieces;
+    pieces.vertexCount = 150'000'000;
+    pieces.triangleCount = 300'000'000;
+    pieces.count = 1;
+    pieces.load = [](std::size_t, MeshPieces::Part) -> Result<Mesh> { return Error{.message = "(loaded)"}; };
+    const auto messageOfPieces = [&](const std::string& name) {
+        return exportPieces(pieces, folder.path(name)).error().message;
+    };
+    EXPECT_NE(messageOfPieces("a.glb").find("4 GiB"), std::string::npos) << messageOfPieces("a.glb");
+    EXPECT_EQ(messageOfPieces("a.ply"), "(loaded)");
+    EXPECT_EQ(messageOfPieces("a.gltf"), "(loaded)");
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(ExportPieces, ThatAreNotAsLargeAsWasSaidAreRefused) {
+    const TempDir folder;
+    const Mesh ring = test::torus(16, 8);
+    MeshPieces pieces;
+    pieces.count = 1;
+    pieces.triangleCount = ring.triangleCount();
+    pieces.load = [&](std::size_t, MeshPieces::Part) -> Result<Mesh> { return ring; };
+    for (const char* name : {"a.ply", "a.glb", "a.gltf"}) {
+        pieces.vertexCount = ring.positions.size();
+        EXPECT_TRUE(exportPieces(pieces, folder.path(name))) << name;
+        ++pieces.vertexCount;
+        const Result<ExportedFiles> more = exportPieces(pieces, folder.path(name));
+        ASSERT_FALSE(more) << name;
+        EXPECT_NE(more.error().message.find("run the command again"), std::string::npos);
+    }
+}
+
+TEST(OutputFile, PlacesAreWrittenInAnyOrder) {
+    const TempDir folder;
+    Result<OutputFile> file = OutputFile::open(folder.path("bytes.glb"), nullptr);
+    ASSERT_TRUE(file);
+    const std::string large(3u << 20, 'x');
+    file->write("ab");
+    file->goTo(4 + large.size());
+    file->write("ef");
+    file->goTo(2);
+    file->write(large);
+    file->write("cd");
+    EXPECT_EQ(file->position(), 4 + large.size());
+    EXPECT_EQ(file->size(), 6 + large.size());
+    ASSERT_TRUE(file->commit());
+    EXPECT_TRUE(test::readText(folder.path("bytes.glb")) == "ab" + large + "cdef");
+}
+
 TEST(OutputFile, WritesOfAnySizeArriveInOrder) {
     const TempDir folder;
     Result<OutputFile> file = OutputFile::open(folder.path("bytes.glb"), nullptr);

@@ -51,15 +51,14 @@ std::vector<Corners> trianglesOf(const Mesh& mesh) {
 Mesh gathered(const MeshPieces& pieces) {
     Mesh whole;
     for (std::size_t i = 0; i < pieces.count; ++i) {
-        const Result<Mesh> vertices = pieces.load(i, MeshPieces::vertices),
-                           triangles = pieces.load(i, MeshPieces::triangles),
+        const Result<Mesh> piece = pieces.load(i, MeshPieces::numbered),
                            corners = pieces.load(i, MeshPieces::corners);
-        if (!vertices || !triangles || !corners) throw SystemError("a tile cannot be loaded");
-        whole.positions.insert(whole.positions.end(), vertices->positions.begin(), vertices->positions.end());
-        whole.normals.insert(whole.normals.end(), vertices->normals.begin(), vertices->normals.end());
-        whole.colors.insert(whole.colors.end(), vertices->colors.begin(), vertices->colors.end());
-        EXPECT_EQ(triangles->indices.size(), corners->indices.size());
-        whole.indices.insert(whole.indices.end(), triangles->indices.begin(), triangles->indices.end());
+        if (!piece || !corners) throw SystemError("a tile cannot be loaded");
+        whole.positions.insert(whole.positions.end(), piece->positions.begin(), piece->positions.end());
+        whole.normals.insert(whole.normals.end(), piece->normals.begin(), piece->normals.end());
+        whole.colors.insert(whole.colors.end(), piece->colors.begin(), piece->colors.end());
+        EXPECT_EQ(piece->indices.size(), corners->indices.size());
+        whole.indices.insert(whole.indices.end(), piece->indices.begin(), piece->indices.end());
     }
     EXPECT_EQ(whole.positions.size(), pieces.vertexCount);
     EXPECT_EQ(whole.indices.size(), 3 * pieces.triangleCount);
@@ -89,6 +88,18 @@ Tiled tiledMesh(Session& session, const MeshRequest& request, int tileCells) {
     const Result<MeshPieces> pieces = joinTiles(std::move(tiles));
     if (!pieces) throw SystemError(format(pieces.error()));
     result.mesh = gathered(*pieces);
+
+    // The same of tiles that are counted and meshed again.
+    const Result<CountedTiles> counted = countTiles(session, request, plan);
+    if (!counted) throw SystemError(format(counted.error()));
+    const Mesh again = gathered(counted->mesh);
+    EXPECT_EQ(counted->capped, result.capped);
+    EXPECT_EQ(counted->mesh.least, pieces->least);
+    EXPECT_EQ(counted->mesh.greatest, pieces->greatest);
+    EXPECT_EQ(counted->mesh.colors, pieces->colors);
+    EXPECT_EQ(counted->mesh.material.baseColor, pieces->material.baseColor);
+    EXPECT_TRUE(again.positions == result.mesh.positions && again.normals == result.mesh.normals);
+    EXPECT_TRUE(again.colors == result.mesh.colors && again.indices == result.mesh.indices);
     return result;
 }
 
@@ -327,20 +338,24 @@ TEST_F(TilesCommand, PartsMergeToTheSameBytes) {
     EXPECT_FALSE(fs::exists(folder.path("a.part.tiles")));
 }
 
-TEST_F(TilesCommand, GoOnWhereTheyWereStopped) {
-    const std::string whole = expected();
-    // The tiles fit, the mesh does not.
+TEST_F(TilesCommand, OfAPartGoOnWhereTheyWereStopped) {
+    const std::string name = "a.part";
+    const auto part = [&](const char* resolution = "130") { return to(name, {"--tile", "1/1"}, resolution); };
+    expectDone(part());
+    const std::string whole = bytes(name);
+    fs::remove(folder.path(name));
+    // The tiles fit, the part does not.
     CommandOptions quota;
     quota.maxFileBytes = static_cast<long>(whole.size() / 2);
     const auto stop = [&] {
-        const CommandResult result = runCommand(to("a.ply"), quota);
+        const CommandResult result = runCommand(part(), quota);
         EXPECT_EQ(result.status, 3);
         EXPECT_NE(result.errors.find("goes on from there"), std::string::npos) << result.errors;
-        EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
+        EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part.tiles"}));
     };
     const auto files = [&] {
         std::vector<fs::path> tiles;
-        for (const auto& entry : fs::directory_iterator(folder.path("a.ply.tiles")))
+        for (const auto& entry : fs::directory_iterator(folder.path("a.part.tiles")))
             tiles.push_back(entry.path());
         std::sort(tiles.begin(), tiles.end());
         return tiles;
@@ -349,11 +364,11 @@ TEST_F(TilesCommand, GoOnWhereTheyWereStopped) {
     ASSERT_EQ(files().size(), 8u);
     fs::remove(files()[3]);
     fs::resize_file(files()[1], 1000);
-    test::writeText(folder.path("a.ply.tiles/.64-000002.tile.1-1.tmp"), "of a killed process");
-    expectDone(to("a.ply"));
-    EXPECT_TRUE(bytes("a.ply") == whole);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
-    fs::remove(folder.path("a.ply"));
+    test::writeText(folder.path("a.part.tiles/.64-000002.tile.1-1.tmp"), "of a killed process");
+    expectDone(part());
+    EXPECT_TRUE(bytes(name) == whole);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part"}));
+    fs::remove(folder.path(name));
 
     // What is there is taken, but for a tile that is damaged.
     stop();
@@ -365,44 +380,49 @@ TEST_F(TilesCommand, GoOnWhereTheyWereStopped) {
     stop();
     for (std::size_t i = 0; i < written.size(); ++i)
         EXPECT_EQ(fs::last_write_time(files()[i]) == written[i], i != 0) << i;
-    expectDone(to("a.ply"));
-    EXPECT_TRUE(bytes("a.ply") == whole);
-    fs::remove(folder.path("a.ply"));
+    expectDone(part());
+    EXPECT_TRUE(bytes(name) == whole);
+    fs::remove(folder.path(name));
 
     // Unless it is of another mesh.
     stop();
-    expectDone(to("a.ply", {}, "129"));
-    EXPECT_FALSE(bytes("a.ply") == whole);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+    expectDone(part("129"));
+    EXPECT_FALSE(bytes(name) == whole);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part"}));
 }
 
-TEST_F(TilesCommand, AFullQuotaLeavesNoPiecesOfTiles) {
+TEST_F(TilesCommand, AFullQuotaLeavesNothing) {
     test::writeText(folder.path("a.ply"), "before");
     CommandOptions quota;
     quota.maxFileBytes = 20'000;
-    expectRefusal(runCommand(to("a.ply"), quota), 3, {"a.ply.tiles/64-000000.tile: error", "cannot write"});
+    expectRefusal(runCommand(to("a.ply"), quota), 3, {"a.ply: error", "cannot write"});
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
     EXPECT_EQ(bytes("a.ply"), "before");
-    test::writeText(folder.path("b.ply.tiles"), "a file in the way");
-    expectRefusal(runCommand(to("b.ply")), 3, {"b.ply.tiles: error", "folder for the tiles"});
-    expectRefusal(runCommand(to("none/b.ply")), 3, {"none/b.ply.tiles: error", "folder for the tiles"});
+    expectRefusal(runCommand(to("none/b.ply")), 3, {"none/b.ply: error", "cannot create"});
+
+    const auto part = [&](const std::string& name) { return to(name, {"--tile", "1/1"}); };
+    expectRefusal(runCommand(part("a.part"), quota), 3,
+                  {"a.part.tiles/64-000000.tile: error", "cannot write"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+    test::writeText(folder.path("b.part.tiles"), "a file in the way");
+    expectRefusal(runCommand(part("b.part")), 3, {"b.part.tiles: error", "folder for the tiles"});
+    expectRefusal(runCommand(part("none/b.part")), 3, {"none/b.part.tiles: error", "folder for the tiles"});
 }
 
 TEST_F(TilesCommand, AreTakenAboveAThousandCellsWhereTheyCanBe) {
-    const auto stopped = [&](const std::string& name, const char* resolution, long quotaBytes) {
-        CommandOptions quota;
-        quota.maxFileBytes = quotaBytes;
-        const CommandResult result =
-            runCommand({"export", graph, "-o", folder.path(name), "--resolution", resolution, "--region",
-                        "-1", "-0.03", "-0.03", "1", "0.03", "0.03"},
-                       quota);
-        EXPECT_EQ(result.status, 3) << result.errors;
-        return result.errors.find("goes on from there") != std::string::npos;
+    // In tiles vertices come in another order.
+    const auto written = [&](const std::string& name, const char* resolution,
+                             const std::vector<std::string>& more = {}) {
+        std::vector<std::string> words = {"export",   graph,      "-o",  folder.path(name), "--resolution",
+                                          resolution, "--region", "-1",  "-0.03",           "-0.03",
+                                          "1",        "0.03",     "0.03"};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(runCommand(words).status, 0);
+        return bytes(name);
     };
-    EXPECT_TRUE(stopped("a.ply", "1200", 4'800'000));  // the tile fits, with 4.1 MB, the mesh does not
-    EXPECT_FALSE(stopped("b.obj", "1200", 4'800'000));
-    EXPECT_FALSE(stopped("c.ply", "1024", 3'500'000));
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
+    EXPECT_TRUE(written("a.ply", "1200") == written("a.ply", "1200", {"--tiles", "5"}));
+    EXPECT_FALSE(written("a.ply", "1024") == written("a.ply", "1024", {"--tiles", "4"}));
+    written("b.obj", "1200");
 }
 
 TEST_F(TilesCommand, AreTakenWhereTheSurfaceIsTooMuchAtOnce) {
@@ -427,34 +447,43 @@ TEST_F(TilesCommand, AreTakenWhereTheSurfaceIsTooMuchAtOnce) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply", "dense.field.json"}));
 }
 
-TEST_F(TilesCommand, TwoThatWriteOneMeshDoNotMeet) {
-    fs::create_directory(folder.path("a.ply.tiles"));
-    const int other = ::open(folder.path("a.ply.tiles").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+TEST_F(TilesCommand, TwoThatMakeOnePartDoNotMeet) {
+    const std::vector<std::string> part = to("a.part", {"--tile", "1/1"});
+    fs::create_directory(folder.path("a.part.tiles"));
+    const int other = ::open(folder.path("a.part.tiles").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
-    test::expectRefusal(runCommand(to("a.ply")), 3,
-                        {"a.ply.tiles", "another command is writing this mesh's tiles"});
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply.tiles"}));
+    test::expectRefusal(runCommand(part), 3,
+                        {"a.part.tiles", "another command is writing this mesh's tiles"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part.tiles"}));
     ::close(other);
-    expectDone(to("a.ply"));
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+    expectDone(part);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part"}));
 }
 
-TEST_F(TilesCommand, AreKeptWhenInterrupted) {
-    const std::string whole = expected();
-    int interrupted = 0;
-    for (int delay : {100, 300, 500, 700, 900, 1100, 1500, 2000}) {
+TEST_F(TilesCommand, InterruptedLeaveNothingOrThePartsThatAreDone) {
+    const auto interrupted = [&](const std::vector<std::string>& words, int signal, const char* at) {
         CommandOptions options;
-        options.interruptAfterMs = delay;
-        const CommandResult result = runCommand(to("a.ply"), options);
-        interrupted += result.status == 130 ? 1 : 0;
-        if (result.status == 0) break;
-        EXPECT_EQ(result.status, 130) << result.errors;
-        EXPECT_FALSE(fs::exists(folder.path("a.ply")));
-    }
-    EXPECT_GT(interrupted, 0);
-    expectDone(to("a.ply"));
-    EXPECT_TRUE(bytes("a.ply") == whole);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply"}));
+        options.signal = signal;
+        options.interruptAt = at;
+        return runCommand(words, options);
+    };
+    for (const auto& [signal, status] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
+        for (const char* at : {"tile 1 of", "tile 8 of", "write"}) {
+            SCOPED_TRACE(at);
+            const CommandResult result = interrupted(to("a.ply"), signal, at);
+            EXPECT_EQ(result.status, status) << result.errors;
+            EXPECT_TRUE(folder.names().empty());
+        }
+    const std::vector<std::string> part = to("a.part", {"--tile", "1/1"});
+    expectDone(part);
+    const std::string whole = bytes("a.part");
+    fs::remove(folder.path("a.part"));
+    const CommandResult result = interrupted(part, SIGINT, "tile 8 of");
+    EXPECT_EQ(result.status, 130) << result.errors;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part.tiles"}));
+    expectDone(part);
+    EXPECT_TRUE(bytes("a.part") == whole);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.part"}));
 }
 
 }  // namespace fw::tiles_test
