@@ -68,6 +68,10 @@ Buffer::~Buffer() {
     record->allocated -= allocated;
 }
 
+void Buffer::mustRest() const {
+    if (!record->sent.empty()) throw SystemError("a buffer is looked at while the device may write it");
+}
+
 Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     Buffer buffer;
     buffer.device = device.handle;

@@ -40,11 +40,16 @@ struct Buffer : BufferState {
     ~Buffer();
     explicit operator bool() const { return handle != VK_NULL_HANDLE; }
 
-    /// The content as elements of T; only where `mapped`.
+    /// The content as elements of T; only where `mapped`, and not while recordings run that were sent: throws
+    /// SystemError.
     template <class T>
     std::span<T> as() const {
+        mustRest();
         return {static_cast<T*>(mapped), size / sizeof(T)};
     }
+
+  private:
+    void mustRest() const;
 };
 
 /// A buffer of `size` bytes, or a little more, so that its texels are whole; usable as storage, uniform,

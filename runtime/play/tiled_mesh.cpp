@@ -92,6 +92,7 @@ Result<TileContent> contentOf(Session& session, const MeshRequest& request, cons
 
     const MesherBuffers& buffers = session.meshBuffers();
     std::span<const gpu::MeshVertex> vertices;
+    finish(session.device());
     if (!arrays && buffers.vertices.mapped) {
         vertices = buffers.vertices.as<gpu::MeshVertex>().first(meshed->vertices);
     } else {

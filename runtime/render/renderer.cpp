@@ -124,7 +124,7 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     if (scene.draft) renderer.described.ambientStrength = 0, renderer.described.lightCount = 0;
     if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(commands.device);
     if (!scene.particles.empty() && !renderer.sprites.draw) renderer.sprites = createSprites(commands.device);
-    renderer.frame.as<gpu::RenderFrame>()[0] = frame;  // pictures are awaited: none reads it now
+    std::memcpy(renderer.frame.mapped, &frame, sizeof frame);  // pictures are awaited: none reads it now
     renderer.shadowStands = renderer.shadowStands && before.sun == frame.sun &&
                             before.shadowCentre == frame.shadowCentre &&
                             before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;
