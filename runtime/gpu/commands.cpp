@@ -300,7 +300,9 @@ void submit(Commands& commands) {
 }
 
 void send(Commands& commands) {
-    if (commands.timed) return submit(commands);
+    // Long work is told of and ended between its parts: the device is not to be far behind.
+    constexpr std::size_t kMostSent = 8;
+    if (commands.timed || commands.device.record->sent.size() >= kMostSent) return submit(commands);
     launch(commands, VK_NULL_HANDLE);
     commands.device.record->sent.push_back(
         {std::exchange(commands.handle, VK_NULL_HANDLE), std::exchange(commands.pools, {})});

@@ -117,7 +117,8 @@ void submit(Commands& commands);
 
 /// Ends the recording and lets it run. What uses it is waited for: by the next submit() or finish(), which
 /// uploadBytes(), downloadBytes(), reserve() and the ends of buffers and images call; who reads mapped memory
-/// or ends a pipeline calls it himself. Timed recordings are awaited.
+/// or ends a pipeline calls it himself. Timed recordings are awaited, and so is
+/// one behind eight others.
 void send(Commands& commands);
 
 /// Waits for what was sent, if anything was.

@@ -21,9 +21,8 @@ namespace fw {
 namespace {
 
 constexpr VkDeviceSize kMostCheckpointBytes = 256u << 20;
-constexpr VkDeviceSize kCheckpointBufferBytes = 4u
-                                                << 20;  // as far as one fits: drivers allow few allocations
-constexpr double kLeastSpacing = 1e-6;                  // metres
+constexpr VkDeviceSize kCheckpointBufferBytes = 4u << 20;  // that several share: drivers allow few
+constexpr double kLeastSpacing = 1e-6;                     // metres
 constexpr double kMostSubsteps = 64;
 
 using Kind = ParticleStage::Kind;
