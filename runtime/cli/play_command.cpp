@@ -32,8 +32,12 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
     {
         SequenceProgress progress(range.count());
         for (long frame = 0; frame < range.last; ++frame) {
-            player->seek(start + range.time(frame));
-            const Result<bool> shown = player->show(render, picture);
+            const auto make = [&] {
+                player->seek(start + range.time(frame));
+                return player->show(render, picture);
+            };
+            const Result<bool> shown = onceMoreIfLost(
+                make, [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
             if (!shown) return badInput(options.mesh, shown.error());
             progress.next(true);
             if (frame == 0) built = player->pipelinesBuilt();
@@ -41,6 +45,7 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
         seconds = progress.seconds();
         made = progress.made;
     }
+    if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     std::printf("%ld frames in %.2f s, %.2f a second; %llu pipelines built after the first frame\n", made,
                 seconds, static_cast<double>(made) / seconds,
                 static_cast<unsigned long long>(player->pipelinesBuilt() - built));

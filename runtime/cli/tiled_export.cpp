@@ -21,9 +21,6 @@ namespace fw::cli {
 namespace {
 
 constexpr int kMostUntiled = 1024;  // cells along the longest side, unless the option asks for tiles
-/// A tile's side unless the option says otherwise: the fastest here of 256, 512 and 1,024
-/// (docs/benchmarks.md), and too few bricks for what the mesher can number.
-constexpr int kTileCells = 256;
 constexpr char kPartEnding[] = ".part";
 
 struct Share {
@@ -68,13 +65,6 @@ std::string whatIsKept(const std::string& folder) {
            ": the same command goes on from there\n";
 }
 
-/// Says that tiles stay for the next time, if some do.
-void sayWhatIsKept(const std::string& folder) {
-    std::error_code ignored;
-    std::filesystem::remove(folder, ignored);  // only if it is empty
-    if (std::filesystem::exists(folder, ignored)) std::fputs(whatIsKept(folder).c_str(), stderr);
-}
-
 /// The folder of the tiles, held against other processes that would write the same mesh.
 class TileFolder {
   public:
@@ -115,6 +105,12 @@ void showLoading(MeshPieces& mesh, const Progress& progress) {
 }
 
 }  // namespace
+
+void sayWhatIsKept(const std::string& folder) {
+    std::error_code ignored;
+    std::filesystem::remove(folder, ignored);  // only if it is empty
+    if (std::filesystem::exists(folder, ignored)) std::fputs(whatIsKept(folder).c_str(), stderr);
+}
 
 Done checkTiledExport(const ExportOptions& options) {
     const auto refuse = [&](std::string message) {
@@ -159,7 +155,7 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     const bool given = opened.request.region || opened.program.region;
     opened.request.region = opened.region;
     const Share share = readShare(options.share).value_or(Share{});
-    const std::string folder = options.output + ".tiles";
+    const std::string folder = tilesFolder(options.output);
 
     progress.start("pipelines", 15, kCompiling);
     Session session(std::move(opened.device));

@@ -107,6 +107,12 @@ Session::~Session() {
     if (overtaken) *overtaken = true;
 }
 
+Session& Session::operator=(Session&& other) noexcept {
+    if (this == &other) return *this;
+    std::destroy_at(this);
+    return *std::construct_at(this, std::move(other));
+}
+
 void Session::take(Program program) {
     const bool sameImages = images && program.ir.images() == current.ir.images();
     const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes() &&
@@ -337,6 +343,11 @@ gpu::DraftMaterial Session::material() const {
         constants.emission[i] = constant(emissionComponent + i);
     }
     return constants;
+}
+
+void Session::dropMesh() {
+    buffers = MesherBuffers();
+    stageBuffers = MeshStageBuffers();
 }
 
 Mesh Session::download(const MesherResult& result) const {
