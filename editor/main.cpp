@@ -49,6 +49,17 @@ void complain(const std::string& words) { std::fprintf(stderr, "fieldwright-edit
     std::_Exit(kSystemFailure);
 }
 
+/// A frame, with another device if its device is lost meanwhile.
+void draw(Shell& shell, Editor& editor) {
+    onceMoreIfLost([&] { shell.frame([&] { showEditor(editor); }); },
+                   [&] {
+                       // What is unsaved is kept first: nobody knows what a driver does that has crashed.
+                       if (const std::string kept = keepForNextTime(editor); !kept.empty()) complain(kept);
+                       shell.renewDevice();
+                       say(editor, "the graphics device was lost, and opened anew");
+                   });
+}
+
 int run(const Options& options) {
     // Before any other thread, which would take the signals.
     std::atomic<int> signal = 0;
@@ -76,7 +87,7 @@ int run(const Options& options) {
             }
             const bool asked = shell.waitEvents(moves(editor) ? 0.0 : kLongestRest);
             const bool fresh = exchange(editor);
-            if (asked || fresh || moves(editor)) shell.frame([&] { showEditor(editor); });
+            if (asked || fresh || moves(editor)) draw(shell, editor);
         }
     } catch (const SystemError& error) { endAtOnce(editor, error.what()); }
     onDisplayLost({});

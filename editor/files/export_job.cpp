@@ -116,7 +116,8 @@ Result<ExportState> ExportJob::Shared::make() {
 void ExportJob::Shared::run() {
     const auto attempt = [this]() -> Result<ExportState> {
         try {
-            return make();
+            return onceMoreIfLost([this] { return make(); },
+                                  [this] { change([](ExportState& now) { now.again = true; }); });
         } catch (const std::bad_alloc&) {
             return Error{.message = "out of memory: lower the resolution, or give a smaller region"};
         } catch (const std::exception& error) { return Error{.message = error.what()}; }
@@ -124,6 +125,7 @@ void ExportJob::Shared::run() {
     Result<ExportState> made = attempt();
     change([&](ExportState& now) {
         if (made) {
+            made->again = now.again;
             now = std::move(*made);
         } else if (cancel) {
             now.phase = Phase::cancelled, now.stage = "cancelled";

@@ -34,6 +34,7 @@ struct ExportState {
     enum class Phase : unsigned char { running, done, failed, cancelled } phase = Phase::running;
     const char* stage = "waiting";     ///< words for what is being done
     float part = 0.0f;                 ///< of the work that lies behind, 0 to 1
+    bool again = false;                ///< it began again, since the device was lost
     std::vector<Error> problems = {};  ///< why it failed
     ExportedFiles files = {};          ///< that were written
     Report report = {};                ///< measured from the mesh; with what it took and the device

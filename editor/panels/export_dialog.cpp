@@ -145,6 +145,7 @@ void showJob(Editor& editor, const ExportState& state) {
         case Phase::running:
             ImGui::ProgressBar(state.part, {-1, 0});
             ImGui::TextUnformatted(dialog.job->cancelling() ? "cancelling …" : state.stage);
+            if (state.again) wrapped(themeColor(ThemeColor::warning), "The device was lost: it began again.");
             break;
         case Phase::done: showDone(state); break;
         case Phase::cancelled: ImGui::TextUnformatted("Cancelled: no file was written."); break;

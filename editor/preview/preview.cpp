@@ -60,6 +60,7 @@ struct Preview::Shared {
     std::atomic<double> baked = 1.0;      ///< of a mesh that is being made a field; 1: none is
     std::atomic<double> simulated = 1.0;  ///< of the steps of particles up to the time; 1: all
     bool stop = false, working = true;
+    bool renewed = false;  ///< the device was lost since the last result
     std::thread thread;
 
     void publish(PreviewResult result) {
@@ -69,6 +70,7 @@ struct Preview::Shared {
         result.picture = std::move(picture);
         {
             std::lock_guard lock(mutex);
+            renewed = false;
             ready = std::move(result);
             told = std::move(bare);
         }
@@ -77,8 +79,11 @@ struct Preview::Shared {
     void tell(std::atomic<double>& of, double share) {
         if (of.exchange(share) != share && changed) changed();
     }
-    /// What the thread does: work(), and again with another device after a failure, when something is asked.
+    /// What the thread does: work(), and again with another device after a failure, when something is asked;
+    /// at once after the first loss of the device.
     void run();
+    bool beginsAgain();
+    void fail(const std::string& why);
     void work();
 };
 
@@ -281,6 +286,7 @@ bool Maker::draw() {
     if (!drawn) return refuse(drawn.error()), tell(), false;
     if (!*drawn && options.cancel && *options.cancel) return false;
     result.findings = checked;
+    if (std::optional<Error> note = player->coarser()) result.findings.push_back(std::move(*note));
     if (!*drawn) {  // it shows that already
         result.current = good;
         result.draft = player->compiling();
@@ -364,20 +370,35 @@ void Preview::Shared::work() {
     }
 }
 
+bool Preview::Shared::beginsAgain() {
+    std::lock_guard lock(mutex);
+    if (std::exchange(renewed, true)) return false;
+    if (!next) next = last;
+    baked = simulated = 1.0;
+    return true;
+}
+
+void Preview::Shared::fail(const std::string& why) {
+    {
+        std::lock_guard lock(mutex);
+        if (!ready) ready = told;
+        ready->failure = why;
+        ready->current = false;
+        next.reset();  // it may be what failed
+        baked = simulated = 1.0;
+        renewed = working = false;
+    }
+    if (changed) changed();
+}
+
 void Preview::Shared::run() {
     for (;;) {
         try {
             return work();
-        } catch (const std::exception& error) {
-            std::lock_guard lock(mutex);
-            if (!ready) ready = told;
-            ready->failure = error.what();
-            ready->current = false;
-            next.reset();  // it may be what failed
-            baked = simulated = 1.0;
-            working = false;
-        }
-        if (changed) changed();
+        } catch (const DeviceLost& lost) {
+            if (beginsAgain()) continue;
+            fail(lostAgain(lost).what());
+        } catch (const std::exception& error) { fail(error.what()); }
         std::unique_lock lock(mutex);
         asked.wait(lock, [&] { return stop || next; });
         if (stop) return;

@@ -79,17 +79,16 @@ DrawLists createDrawLists(const Device& device, VkFormat format) {
     return lists;
 }
 
-void fillTexture(const Device& device, DrawLists& lists, Texture& texture, int width, int height,
-                 const void* pixels) {
-    const VkExtent3D extent = {uint32_t(width), uint32_t(height), 1};
-    const std::size_t bytes = std::size_t(width) * std::size_t(height) * 4;
+void fillTexture(const Device& device, DrawLists& lists, Texture& texture) {
+    const Picture& picture = texture.picture;
+    const VkExtent3D extent = {uint32_t(picture.width), uint32_t(picture.height), 1};
     Image& image = texture.image;
     if (!image || image.extent.width != extent.width || image.extent.height != extent.height)
         image = createImage(device, {.extent = extent,
                                      .format = VK_FORMAT_R8G8B8A8_UNORM,
                                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    reserve(device, lists.staging, bytes, Memory::upload);
-    uploadBytes(device, lists.staging, pixels, bytes);
+    reserve(device, lists.staging, picture.pixels.size(), Memory::upload);
+    upload(device, lists.staging, picture.pixels);
     Commands commands(device);
     imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkBufferImageCopy copy{};
@@ -100,6 +99,7 @@ void fillTexture(const Device& device, DrawLists& lists, Texture& texture, int w
     imageBarrier(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     submit(commands);
+    texture.filled = true;
 }
 
 void draw(Commands& commands, DrawLists& lists, const ImDrawData& data, VkImageView target, VkExtent2D extent,

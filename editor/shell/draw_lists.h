@@ -14,8 +14,10 @@
 
 namespace fw::editor {
 
-/// What an ImTextureID points to.
+/// What an ImTextureID points to: a picture, and its copy on the device once it is filled.
 struct Texture {
+    Picture picture;
+    bool filled = false;
     Image image;
 };
 
@@ -27,10 +29,9 @@ struct DrawLists {
 
 DrawLists createDrawLists(const Device& device, VkFormat format);
 
-/// Four bytes a pixel, rows from the top, into the texture, which is made or replaced if its size is another.
-/// Waits until they are there.
-void fillTexture(const Device& device, DrawLists& lists, Texture& texture, int width, int height,
-                 const void* pixels);
+/// Copies the texture's picture into its image, which is made or replaced if its size is another. Waits until
+/// it is there.
+void fillTexture(const Device& device, DrawLists& lists, Texture& texture);
 
 /// Draws what ImGui::Render() made over `background`. The target is of the pipeline's format, in
 /// VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, and as large as the draw data's display.

@@ -78,12 +78,41 @@ struct Shell::State {
     explicit State(const ShellOptions& options)
         : device(openDevice(desktop, options.device)),
           window(openWindow(options.width, options.height)),
-          swapchain(device, window.get()),
           interface(window.get()),
           input(window.get()),
-          askedScale(options.scale),
-          lists(createDrawLists(device, swapchain.format())) {
+          askedScale(options.scale) {
+        show();
         followScale();
+    }
+
+    /// Makes what is the device's own.
+    void show() {
+        swapchain.emplace(device, window.get());
+        lists = createDrawLists(device, swapchain->format());
+    }
+
+    void renewDevice() {
+        const auto drop = [](Texture& texture) {
+            texture.filled = false;
+            texture.image = Image();
+        };
+        drop(glyphs);
+        for (const auto& texture : textures) drop(*texture);
+        forgotten.clear();
+        lists = DrawLists();
+        swapchain.reset();
+        const DeviceOptions asked = device.asked;
+        device = Device();  // the lost one goes before another comes
+        device = reopenDevice(asked);
+        show();
+        unsettled = kSettling;
+    }
+
+    void fillTextures() {
+        if (!glyphs.filled) fillTexture(device, lists, glyphs);
+        for (const auto* all : {&textures, &forgotten})
+            for (const auto& texture : *all)
+                if (!texture->filled) fillTexture(device, lists, *texture);
     }
 
     /// Style and fonts for the scale asked for, or the display's, which changes as the window is moved to
@@ -98,7 +127,8 @@ struct Shell::State {
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         atlas.GetTexDataAsRGBA32(&pixels, &width, &height);
-        fillTexture(device, lists, glyphs, width, height, pixels);
+        glyphs.picture = {width, height, {pixels, pixels + std::size_t(width) * std::size_t(height) * 4}};
+        glyphs.filled = false;
         atlas.SetTexID(&glyphs);
         atlas.ClearTexData();
     }
@@ -112,7 +142,7 @@ struct Shell::State {
     Desktop desktop;
     Device device;
     WindowHandle window;
-    Swapchain swapchain;
+    std::optional<Swapchain> swapchain;
     Interface interface;
     Input input;
     float askedScale;
@@ -164,7 +194,8 @@ void Shell::frame(const std::function<void()>& show) {
     show();
     ImGui::Render();
 
-    const SwapchainImage target = state->swapchain.acquire();
+    state->fillTextures();
+    const SwapchainImage target = state->swapchain->acquire();
     if (!target) {
         state->unsettled = std::max(state->unsettled, int(target.changed));
         return;
@@ -177,8 +208,10 @@ void Shell::frame(const std::function<void()>& show) {
     imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                  VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     submit(commands);
-    if (!state->swapchain.present(target)) state->unsettled = std::max(state->unsettled, 1);
+    if (!state->swapchain->present(target)) state->unsettled = std::max(state->unsettled, 1);
 }
+
+void Shell::renewDevice() { state->renewDevice(); }
 
 bool Shell::closed() const { return glfwWindowShouldClose(state->window.get()); }
 void Shell::keepOpen() { glfwSetWindowShouldClose(state->window.get(), GLFW_FALSE); }
@@ -186,7 +219,8 @@ void Shell::keepOpen() { glfwSetWindowShouldClose(state->window.get(), GLFW_FALS
 ImTextureID Shell::show(ImTextureID id, const Picture& picture) {
     auto* texture = static_cast<Texture*>(id);
     if (!texture) texture = state->textures.emplace_back(std::make_unique<Texture>()).get();
-    fillTexture(state->device, state->lists, *texture, picture.width, picture.height, picture.pixels.data());
+    texture->picture = picture;
+    texture->filled = false;
     return texture;
 }
 
@@ -220,7 +254,8 @@ Picture Shell::capture() {
     assert(data && "there was no frame yet");
     const Device& device = state->device;
     const VkExtent3D extent = {uint32_t(data->DisplaySize.x), uint32_t(data->DisplaySize.y), 1};
-    const VkFormat format = state->swapchain.format();
+    const VkFormat format = state->swapchain->format();
+    state->fillTextures();
     const Image image =
         createImage(device, {.extent = extent,
                              .format = format,

@@ -3,6 +3,7 @@
 //
 // Nothing is drawn unless something happened: waitEvents() sleeps until there is input, wake() was called, or
 // a frame was asked for. Lifetime: one Shell in a process, on the thread that made it; the device dies last.
+// Pictures stay on the host too, so that the device can be made anew: frame() alone hands them to it.
 #pragma once
 
 #include <imgui.h>
@@ -42,6 +43,9 @@ class Shell {
     /// One frame: show() builds the interface, which is then drawn over ThemeColor::canvas and presented. A
     /// minimised window draws nothing, and show() is not called.
     void frame(const std::function<void()>& show);
+    /// After frame() has thrown DeviceLost: opens another device for the same window and the same pictures.
+    /// Throws SystemError where none opens, or none that can show pictures.
+    void renewDevice();
     bool closed() const;
     void keepOpen();  ///< after closed(): the user was asked and stays
 

@@ -39,6 +39,8 @@ std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOp
                                    const std::function<const Device*()>& simulator = {},
                                    const std::function<bool(int done, int all)>& progress = {});
 void print(const Error& error);
+/// Says that the device was lost, and what is done now.
+void noteLost(const std::string& now);
 
 /// What every command that meshes a graph takes.
 struct MeshOptions {

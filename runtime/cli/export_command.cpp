@@ -7,6 +7,7 @@
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
 #include "runtime/measure/field_measure.h"
+#include "runtime/play/tiled_mesh.h"
 #include "runtime/system/clock.h"
 #include "runtime/system/interruption.h"
 #include "runtime/system/output_file.h"
@@ -22,14 +23,65 @@ Done writeText(const std::string& path, const std::string& text) {
     return file->commit();
 }
 
+constexpr char kOrTiles[] =
+    "; or let it be meshed in tiles: by marching cubes, without stages, --report, --require and --manifold, "
+    "to "
+    ".ply, .stl, .glb or .gltf";
+
 /// The exit status if nothing was written.
 int notWritten(const ExportOptions& options, const Error& error) {
     if (error.code != Error::Code::tooMuchSurface) return badInput(options.mesh, error);
     Error more = error;
-    more.message +=
-        "; or let it be meshed in tiles: by marching cubes, without stages, --report, --require and "
-        "--manifold, to .ply, .stl, .glb or .gltf";
+    more.message += kOrTiles;
     return badInput(options.mesh, more);
+}
+
+struct WholeMesh {
+    MeshedProgram program;
+    Mesh mesh;
+};
+
+/// All of the mesh at once. Where the device has no room for it and tiles can be had, says so, and it is an
+/// error as of too much surface.
+Result<WholeMesh> meshWhole(const ExportOptions& options, OpenedGraph graph, Progress& progress, bool timed) {
+    const bool canTile = canBeTiled(options, graph);
+    try {
+        Result<MeshedProgram> meshed = meshOpened(std::move(graph), progress, timed);
+        if (!meshed) return meshed.error();
+        progress.start("download", 60);
+        Mesh mesh = meshed->session.download(meshed->mesh);
+        return WholeMesh{std::move(*meshed), std::move(mesh)};
+    } catch (const DeviceTooSmall& full) {
+        if (!canTile) throw DeviceTooSmall(full.what() + std::string(kOrTiles));
+        std::fprintf(stderr, "%s: note: %s: it is meshed in tiles instead\n", options.output.c_str(),
+                     full.what());
+        return Error{.message = full.what(), .code = Error::Code::tooMuchSurface};
+    }
+}
+
+/// exportTiles(); where the device has no room for one, and the options leave their number open, of tiles
+/// with half the side, and again.
+int tiledExport(const ExportOptions& options, const MeshOptions& wanted, OpenedGraph opened,
+                Progress& progress) {
+    ExportOptions tiled = options;
+    std::optional<OpenedGraph> graph = std::move(opened);
+    const int resolution = graph->request.resolution;
+    for (int side = kTileCells;; side /= 2) {
+        try {
+            return exportTiles(tiled, std::move(*graph), progress);
+        } catch (const DeviceTooSmall& full) {
+            if (options.tiles > 0 || !options.share.empty() || side / 2 < kLeastTile) {
+                sayWhatIsKept(tilesFolder(options.output));
+                throw DeviceTooSmall(full.what() +
+                                     std::string(options.tiles > 0 ? "; or take more --tiles" : ""));
+            }
+        }
+        tiled.tiles = std::max(2 * resolution / side, 1);
+        int status = kDone;
+        graph.reset();
+        graph = openForMesh(wanted, progress, status);
+        if (!graph) return status;
+    }
 }
 
 void note(const ExportOptions& options, const MesherResult& meshed) {
@@ -96,34 +148,35 @@ int runExport(const ExportOptions& options) {
     int status = kDone;
     std::optional<OpenedGraph> graph = openForMesh(wanted, progress, status);
     if (!graph) return status;
-    if (tiled || wantsTiles(options, *graph)) return exportTiles(options, std::move(*graph), progress);
+    if (tiled || wantsTiles(options, *graph))
+        return tiledExport(options, wanted, std::move(*graph), progress);
     const bool canTile = canBeTiled(options, *graph);
-    const Result<MeshedProgram> opened = meshOpened(std::move(*graph), progress, reported);
-    if (!opened && canTile && opened.error().code == Error::Code::tooMuchSurface) {
+    const Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, reported);
+    if (!whole && canTile && whole.error().code == Error::Code::tooMuchSurface) {
+        graph.reset();
         graph = openForMesh(wanted, progress, status);
-        return graph ? exportTiles(options, std::move(*graph), progress) : status;
+        return graph ? tiledExport(options, wanted, std::move(*graph), progress) : status;
     }
-    if (!opened) return notWritten(options, opened.error());
-    progress.start("download", 60);
-    const Mesh mesh = opened->session.download(opened->mesh);
+    if (!whole) return notWritten(options, whole.error());
+    const MeshedProgram& meshed = whole->program;
     progress.start("write", 70);
-    how.cellSize = static_cast<float>(opened->cellSize);
+    how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
     if (reported)
         how.examine = [&](const StoredMesh& file) -> Done {
-            Result<Report> measured = measure(options, *opened, file, begin, progress);
+            Result<Report> measured = measure(options, meshed, file, begin, progress);
             if (!measured) return measured.error();
             report = std::move(*measured);
             return done();
         };
-    const Result<ExportedFiles> written = exportMesh(mesh, options.output, how);
+    const Result<ExportedFiles> written = exportMesh(whole->mesh, options.output, how);
     if (!written) return print(written.error()), kSystemFailure;
     whenEnded({.said = "; the mesh was written"});
     progress.finish();
     if (!options.report.empty())
         if (const Done saved = writeText(options.report, writeReport(report)); !saved)
             return print(saved.error()), kSystemFailure;
-    note(options, opened->mesh);
+    note(options, meshed.mesh);
     return meets(options, report) ? kDone : kBadInput;
 }
 

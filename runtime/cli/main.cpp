@@ -327,18 +327,25 @@ int run(int count, char** arguments) {
         makeRoomForDriverCache();
         passOverDriversWithoutCards();
     }
-    endOnSignals({.said = writes ? kNothingWritten : ""});
-    if (exportCommand->parsed()) return runExport(exportOptions);
-    if (mergeCommand->parsed()) return runMerge(mergeOptions);
-    if (renderCommand->parsed()) return runRender(renderOptions);
-    if (playCommand->parsed()) return runPlay(playOptions);
-    if (checkCommand->parsed()) return runCheck(checkPaths);
-    if (evalCommand->parsed()) return runEval(evalOptions);
-    if (compileCommand->parsed()) return runCompile(compileOptions);
-    if (parametersCommand->parsed()) return runParameters(parametersPath);
-    if (nodesCommand->parsed()) return runNodes(nodesFormat);
-    if (infoCommand->parsed()) return runInfo(devicesOnly);
-    return kBadUsage;
+    const WhenEnded nothingYet{.said = writes ? kNothingWritten : ""};
+    endOnSignals(nothingYet);
+    const auto command = [&] {
+        if (exportCommand->parsed()) return runExport(exportOptions);
+        if (mergeCommand->parsed()) return runMerge(mergeOptions);
+        if (renderCommand->parsed()) return runRender(renderOptions);
+        if (playCommand->parsed()) return runPlay(playOptions);
+        if (checkCommand->parsed()) return runCheck(checkPaths);
+        if (evalCommand->parsed()) return runEval(evalOptions);
+        if (compileCommand->parsed()) return runCompile(compileOptions);
+        if (parametersCommand->parsed()) return runParameters(parametersPath);
+        if (nodesCommand->parsed()) return runNodes(nodesFormat);
+        if (infoCommand->parsed()) return runInfo(devicesOnly);
+        return kBadUsage;
+    };
+    return onceMoreIfLost(command, [&] {
+        noteLost("beginning again");
+        whenEnded(nothingYet);
+    });
 }
 
 /// The status, unless what was printed did not reach standard output.

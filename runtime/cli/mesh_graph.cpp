@@ -158,6 +158,18 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     return std::move(*player);
 }
 
+void noteLost(const std::string& now) {
+    std::fprintf(stderr, "%sfieldwright: note: the device was lost (its driver crashed or was reset): %s\n",
+                 isatty(STDERR_FILENO) ? "\r\033[K" : "", now.c_str());
+}
+
+void renewDevice(Player& player, const std::string& goesOn) {
+    const std::string before = player.device().name();
+    player.renewDevice();
+    const std::string now = player.device().name();
+    noteLost(goesOn + (now == before ? "" : ", on device '" + now + "'"));
+}
+
 std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text) {
     std::pair<int, int> size;
     const char* end = text.data() + text.size();

@@ -63,6 +63,9 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& player,
                                  int& status, const std::function<int(const Graph&)>& accept = {});
 
+/// After the device was lost: opens another for the player, and says that it `goesOn`.
+void renewDevice(Player& player, const std::string& goesOn);
+
 /// "1280x720" to {1280, 720}. If it is not that, or no picture can have that size, says so for the command.
 std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text);
 

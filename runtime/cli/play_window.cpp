@@ -53,9 +53,9 @@ class Stage {
                 viewer.dirty = false;
                 refined = false;
                 changed = before;
-                shown += draw(kSides[level]);
+                shown += drawOnceMoreIfLost(kSides[level]);
             } else if (!refined && secondsSince(changed) > kRest) {
-                shown += draw(1.0);
+                shown += drawOnceMoreIfLost(1.0);
             }
         }
     }
@@ -92,7 +92,7 @@ class Stage {
     }
 
     void reload() {
-        const Done done = readAgain();
+        const Done done = onceMoreIfLost([&] { return readAgain(); }, [&] { renew(); });
         if (done) {
             message.clear();
             describe();
@@ -100,6 +100,17 @@ class Stage {
             complain(format(done.error()));
         }
         viewer.dirty = true;
+    }
+
+    /// After the device was lost: another, in the same window.
+    void renew() {
+        window.leaveDevice();
+        renewDevice(player, "going on");
+        window.useDevice(player.device());
+    }
+
+    bool drawOnceMoreIfLost(double side) {
+        return onceMoreIfLost([&] { return draw(side); }, [&] { renew(); });
     }
 
     /// Makes the next picture, of that share of the window's width and height, and shows it; whether it did.
@@ -121,6 +132,7 @@ class Stage {
         if (made) {
             if (!failed.empty() && message == failed) message.clear();
             failed.clear();
+            sayIfCoarser();
             see(static_cast<float>(aspect));
         } else {
             complain(failed = format(made.error()));
@@ -132,6 +144,14 @@ class Stage {
         Picture decorated = scaled(picture, viewer.width, viewer.height);
         drawOverlay(decorated, viewer, message);
         return window.show(decorated);
+    }
+
+    void sayIfCoarser() {
+        const std::optional<Error> now = player.coarser();
+        const std::string before = std::exchange(coarser, now ? format(*now) : "");
+        if (coarser == before) return;
+        if (message == before) message.clear();
+        if (!coarser.empty()) complain(coarser);
     }
 
     /// Notes by what camera the picture was seen, where an orbit would start.
@@ -162,6 +182,7 @@ class Stage {
     Picture picture;                           ///< the last good one
     std::string message;                       ///< shown over it
     std::string failed;                        ///< why there is no picture of this time
+    std::string coarser;                       ///< why the mesh is coarser than it should be
     std::size_t level = 1;                     ///< of kSides
     int slow = 0, quick = 0;                   ///< pictures in a row
     bool refined = false;                      ///< nothing is left to refine

@@ -96,6 +96,7 @@ int runRender(const RenderCommandOptions& options) {
         return print(written.error()), kSystemFailure;
     progress.finish();
     noteDraft(*player, options);
+    if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     if (mesh->capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());

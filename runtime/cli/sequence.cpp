@@ -154,13 +154,18 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
             const std::string path = pathOf(frame).string();
             const bool there = !options.overwrite && sizeOfPng(path) == size;
             if (!there) {
-                player->seek(range->time(frame));
-                const Result<Picture> picture = player->frame(render);
+                const auto make = [&] {
+                    player->seek(range->time(frame));
+                    Result<Picture> drawn = player->frame(render);
+                    if (drawn) capped = capped || player->meshOnDevice(render.show)->capped;
+                    return drawn;
+                };
+                const Result<Picture> picture = onceMoreIfLost(
+                    make, [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
                 if (!picture) return badInput(options.mesh, picture.error());
                 if (progress.made == 0) noteDraft(*player, options);
                 if (const Done written = savePicture(*picture, path); !written)
                     return print(written.error()), kSystemFailure;
-                capped = capped || player->meshOnDevice(render.show)->capped;
             }
             progress.next(!there);
             whenEnded(goesOn(progress.made));
@@ -170,6 +175,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     if (made < range->count())
         std::fprintf(stderr, "%s: note: %ld of %ld frames were there already (--overwrite makes them anew)\n",
                      options.output.c_str(), range->count() - made, range->count());
+    if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     if (capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());

@@ -22,9 +22,6 @@ namespace fw::cli {
 namespace {
 
 constexpr int kMostUntiled = 1024;  // cells along the longest side, unless the option asks for tiles
-/// A tile's side unless the option says otherwise: the fastest here of 256, 512 and 1,024
-/// (docs/benchmarks.md), and too few bricks for what the mesher can number.
-constexpr int kTileCells = 256;
 constexpr char kPartEnding[] = ".part";
 
 struct Share {
@@ -67,13 +64,6 @@ Result<std::vector<TileRecord>> meshTiles(Session& session, const MeshRequest& r
 std::string whatIsKept(const std::string& folder) {
     return "fieldwright: the tiles that are done are kept in " + inQuotes(folder) +
            ": the same command goes on from there\n";
-}
-
-/// Says that tiles stay for the next time, if some do.
-void sayWhatIsKept(const std::string& folder) {
-    std::error_code ignored;
-    std::filesystem::remove(folder, ignored);  // only if it is empty
-    if (std::filesystem::exists(folder, ignored)) std::fputs(whatIsKept(folder).c_str(), stderr);
 }
 
 /// The folder of the tiles, held against other processes that would write the same mesh.
@@ -179,6 +169,12 @@ int exportPart(const ExportOptions& options, Session& session, const MeshRequest
 }
 
 }  // namespace
+
+void sayWhatIsKept(const std::string& folder) {
+    std::error_code ignored;
+    std::filesystem::remove(folder, ignored);  // only if it is empty
+    if (std::filesystem::exists(folder, ignored)) std::fputs(whatIsKept(folder).c_str(), stderr);
+}
 
 Done checkTiledExport(const ExportOptions& options) {
     const auto refuse = [&](std::string message) {

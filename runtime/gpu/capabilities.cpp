@@ -24,6 +24,7 @@ constexpr std::array kCapabilities = {
                "fields of meshes are baked on the processor"},
     Capability{"geometry shaders", &DeviceCapabilities::geometryShader, "no 'bench talk'"},
     Capability{"buffer addresses", &DeviceCapabilities::deviceAddresses, "nothing slower"},
+    Capability{"memory budgets", &DeviceCapabilities::memoryBudget, "what other programs have is not known"},
 };
 
 bool hasExtension(VkPhysicalDevice physical, const char* name) {
@@ -97,6 +98,15 @@ DeviceLimits limitsOf(VkPhysicalDevice physical) {
             .subgroupSize = v11.subgroupSize};
 }
 
+uint64_t budgetLeft(VkPhysicalDevice physical, uint32_t heap) {
+    auto budget = chained<VkPhysicalDeviceMemoryBudgetPropertiesEXT>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT);
+    auto all = chained<VkPhysicalDeviceMemoryProperties2>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, &budget);
+    vkGetPhysicalDeviceMemoryProperties2(physical, &all);
+    return budget.heapBudget[heap] - std::min(budget.heapUsage[heap], budget.heapBudget[heap]);
+}
+
 std::optional<uint32_t> universalQueueFamily(VkPhysicalDevice physical) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -137,6 +147,7 @@ DeviceCapabilities capabilitiesOf(VkPhysicalDevice physical) {
     has.int64Atomics = core.shaderInt64 && features.v12.shaderBufferInt64Atomics;
     has.geometryShader = core.geometryShader;
     has.deviceAddresses = features.v12.bufferDeviceAddress;
+    has.memoryBudget = hasExtension(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     return has;
 }
 

@@ -20,7 +20,7 @@ struct DeviceCapabilities {
     bool vulkan13 = false, scalarBlocks = false, universalQueue = false, subgroups = false,
          storageFormats = false, storesFromFragments = false, largeGroups = false;
     bool pushDescriptors = false, largeTexelBuffers = false, int64Atomics = false, geometryShader = false,
-         deviceAddresses = false;
+         deviceAddresses = false, memoryBudget = false;
 };
 
 /// One of them.
@@ -58,6 +58,10 @@ DeviceLimits lowered(DeviceLimits limits, const DeviceLimits& most);
 
 DeviceLimits limitsOf(VkPhysicalDevice physical);
 DeviceCapabilities capabilitiesOf(VkPhysicalDevice physical);
+
+/// Bytes that this process can still have of a heap as things are now; only where the device has
+/// memoryBudget.
+uint64_t budgetLeft(VkPhysicalDevice physical, uint32_t heap);
 
 /// The family of queues that draw and compute.
 std::optional<uint32_t> universalQueueFamily(VkPhysicalDevice physical);

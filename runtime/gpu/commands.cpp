@@ -240,10 +240,10 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
             throw SystemError("binding " + std::to_string(declared.binding) + " of a shader is not given");
         if (declared.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
             given->buffer.range > commands.device.limits.storageRange)
-            throw SystemError("device '" + commands.device.name() + "' shows a kernel " +
-                              std::to_string(commands.device.limits.storageRange >> 10) +
-                              " KiB of a buffer, and " + std::to_string(given->buffer.range >> 10) +
-                              " are needed; a lower resolution needs less");
+            throw DeviceTooSmall("device '" + commands.device.name() + "' shows a kernel " +
+                                 std::to_string(commands.device.limits.storageRange >> 10) +
+                                 " KiB of a buffer, and " + std::to_string(given->buffer.range >> 10) +
+                                 " are needed; a lower resolution needs less");
         VkWriteDescriptorSet& write = writes[count++];
         write = zeroed<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstBinding = declared.binding;
@@ -260,10 +260,10 @@ void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, c
               std::size_t pushSize, std::span<const Descriptor> descriptors) {
     const uint32_t most = commands.device.limits.groups;
     if (groups.x > most || groups.y > most || groups.z > most)
-        throw SystemError("device '" + commands.device.name() + "' runs " + std::to_string(most) +
-                          " work groups in a row, and " +
-                          std::to_string(std::max({groups.x, groups.y, groups.z})) +
-                          " are needed; a lower resolution needs less");
+        throw DeviceTooSmall("device '" + commands.device.name() + "' runs " + std::to_string(most) +
+                             " work groups in a row, and " +
+                             std::to_string(std::max({groups.x, groups.y, groups.z})) +
+                             " are needed; a lower resolution needs less");
     bind(commands, pipeline, push, pushSize, descriptors);
     vkCmdDispatch(commands.handle, groups.x, groups.y, groups.z);
 }

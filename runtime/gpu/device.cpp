@@ -304,11 +304,15 @@ void check(VkResult result, const char* what) {
     if (result >= 0) return;
     auto reason = [&]() -> std::string {
         switch (result) {
-            case VK_ERROR_OUT_OF_HOST_MEMORY: return "the system is out of memory";
+            case VK_ERROR_OUT_OF_HOST_MEMORY:
+                return "the system is out of memory; a lower resolution needs less";
             case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-                return "the device is out of memory; a lower resolution needs less";
-            case VK_ERROR_DEVICE_LOST:
-                return "the device was lost (driver crash or reset); run the command again";
+            case VK_ERROR_OUT_OF_POOL_MEMORY:
+            case VK_ERROR_FRAGMENTATION: return "the device is out of memory; a lower resolution needs less";
+            case VK_ERROR_MEMORY_MAP_FAILED:
+                return "the system has no room to show the device's memory; a lower resolution needs less";
+            case VK_ERROR_DEVICE_LOST: return "the device was lost (its driver crashed or was reset)";
+            case VK_ERROR_SURFACE_LOST_KHR: return "the window's surface was lost";
             case VK_ERROR_INITIALIZATION_FAILED: return "the driver failed to start";
             case VK_ERROR_LAYER_NOT_PRESENT: return "a layer is not installed";
             case VK_ERROR_EXTENSION_NOT_PRESENT: return "an extension is missing";
@@ -319,7 +323,17 @@ void check(VkResult result, const char* what) {
             default: return "Vulkan error " + std::to_string(int(result));
         }
     };
-    throw SystemError(std::string(what) + " failed: " + reason());
+    const std::string message = std::string(what) + " failed: " + reason();
+    switch (result) {
+        case VK_ERROR_DEVICE_LOST:
+        case VK_ERROR_SURFACE_LOST_KHR: throw DeviceLost(message);
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        case VK_ERROR_OUT_OF_POOL_MEMORY:
+        case VK_ERROR_FRAGMENTATION:
+        case VK_ERROR_MEMORY_MAP_FAILED: throw DeviceTooSmall(message);
+        default: throw SystemError(message);
+    }
 }
 
 Device::Device(Device&& other) noexcept : DeviceState(std::exchange(static_cast<DeviceState&>(other), {})) {}
@@ -376,6 +390,7 @@ std::vector<DeviceInfo> listDevices() {
 Result<Device> createDevice(const DeviceOptions& options) {
     const bool validation = options.validation || !askedFor().empty();
     Device device;
+    device.asked = options;
     device.record = std::make_shared<DeviceRecord>();
     device.instance = createInstance(options.instanceExtensions, validation ? device.record.get() : nullptr);
     if (validation) {
@@ -402,6 +417,23 @@ Result<Device> createDevice(const DeviceOptions& options) {
     createPools(device);
     if ((*choice)->driver != VK_DRIVER_ID_MESA_LLVMPIPE) device.precision = measurePrecision(device);
     return device;
+}
+
+Device reopenDevice(const DeviceOptions& asked) {
+    const DeviceOptions again = asked;  // it may be the lost one's, and that goes
+    Result<Device> device = createDevice(again);
+    if (!device)
+        throw SystemError(
+            "the device was lost (its driver crashed or was reset), and none opens in its place: " +
+            device.error().message);
+    return std::move(*device);
+}
+
+SystemError lostAgain(const DeviceLost& lost) {
+    return SystemError(
+        std::string(lost.what()) +
+        ", and again after it was opened anew: lower the resolution or the picture's size, end "
+        "other programs that use it, pick another device, or update its driver");
 }
 
 const Device& siblingOf(const Device& device) {

@@ -22,6 +22,18 @@
 
 namespace fw {
 
+/// The driver crashed or was reset. What was made from the device is good for nothing but to be destroyed;
+/// the work can begin again on another that is opened in its place.
+struct DeviceLost : SystemError {
+    using SystemError::SystemError;
+};
+
+/// The device has no room: memory that it lacks, or more of a buffer than it shows a kernel. Less at once may
+/// do: tiles, a lower resolution.
+struct DeviceTooSmall : SystemError {
+    using SystemError::SystemError;
+};
+
 struct DeviceOptions {
     std::string pick =
         {};  ///< index in listDevices() or part of a name, without regard to case; empty: chosen
@@ -87,6 +99,8 @@ struct DeviceState {
         0;  ///< of the content that was loaded; what did not change is not written again
     PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;  ///< without it, sets come from pools
 
+    DeviceOptions asked;  ///< as createDevice() was
+
     VkPhysicalDeviceProperties properties = {};
     VkPhysicalDeviceMemoryProperties memory = {};
     DeviceLimits limits;
@@ -119,6 +133,26 @@ std::vector<DeviceInfo> listDevices();
 /// Opens the preferred usable device, or the one that `options.pick` names; an Error where nothing matches
 /// it. Throws SystemError where Vulkan or a usable device is missing.
 Result<Device> createDevice(const DeviceOptions& options = {});
+
+/// A device in place of one that was lost, as that was asked for. Throws SystemError where there is none any
+/// more.
+Device reopenDevice(const DeviceOptions& asked);
+
+/// Of a device that was lost a second time within the same work: no DeviceLost, and says what to do.
+SystemError lostAgain(const DeviceLost& lost);
+
+/// Does the work; if a device is lost meanwhile, calls `renew`, which opens another in its place, and does
+/// the work once more. Throws lostAgain() if one is lost then.
+template <class Work, class Renew>
+auto onceMoreIfLost(Work work, Renew renew) -> decltype(work()) {
+    try {
+        return work();
+    } catch (const DeviceLost&) {}  // what the work held is gone now
+    try {
+        renew();
+        return work();
+    } catch (const DeviceLost& lost) { throw lostAgain(lost); }
+}
 
 /// A device that opens beside other work, or at its first use.
 class OpeningDevice {
@@ -159,7 +193,8 @@ T zeroed(VkStructureType type) {
     return value;
 }
 
-/// Throws SystemError with a sentence for the result unless it is a success; `what` names the action.
+/// Throws SystemError with a sentence for the result unless it is a success, of the kinds above where it is
+/// such a failure; `what` names the action.
 void check(VkResult result, const char* what);
 
 /// $XDG_CACHE_HOME/fieldwright, or ~/.cache/fieldwright; empty where neither variable is set.

@@ -11,6 +11,9 @@ namespace {
 
 constexpr VkDeviceSize kTexelSize = 16;  // bytes
 
+/// From so many bytes on, what other programs have is asked for.
+constexpr VkDeviceSize kLarge = 16 << 20;
+
 std::string mebibytes(VkDeviceSize size) { return std::to_string((size + (1 << 20) - 1) >> 20) + " MiB"; }
 
 /// The first memory type that has the first of `wishes` that any type has; wishes are ordered from best to
@@ -23,14 +26,23 @@ std::optional<uint32_t> memoryType(const Device& device, uint32_t allowed,
     return std::nullopt;
 }
 
+DeviceTooSmall noRoom(const Device& device, const char* purpose, VkDeviceSize size, const std::string& why) {
+    return DeviceTooSmall("device '" + device.name() + "' is out of memory: " + purpose + " of " +
+                          mebibytes(size) + " " + why + "; a lower resolution needs less");
+}
+
 VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs, uint32_t type,
                         bool addressable, const char* purpose) {
-    uint32_t heap = device.memory.memoryTypes[type].heapIndex;
-    uint64_t used = device.record->allocated + needs.size;
-    if (needs.size > device.limits.allocation || used > device.memory.memoryHeaps[heap].size)
-        throw SystemError("device '" + device.name() + "' is out of memory: " + purpose + " of " +
-                          mebibytes(needs.size) + " does not fit beside " +
-                          mebibytes(device.record->allocated) + " in use; a lower resolution needs less");
+    const uint32_t heap = device.memory.memoryTypes[type].heapIndex;
+    const uint64_t used = device.record->allocated + needs.size, most = device.memory.memoryHeaps[heap].size;
+    const std::string inUse = mebibytes(device.record->allocated) + " in use";
+    if (needs.size > device.limits.allocation || used > most)
+        throw noRoom(device, purpose, needs.size, "does not fit beside " + inUse + " of " + mebibytes(most));
+    if (needs.size >= kLarge && device.has.memoryBudget)
+        if (const uint64_t left = budgetLeft(device.physical, heap); needs.size > left)
+            throw noRoom(device, purpose, needs.size,
+                         "does not fit into the " + mebibytes(left) + " that are left beside " + inUse +
+                             " and what other programs have");
     auto flags = zeroed<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     auto info = zeroed<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
@@ -40,9 +52,7 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkResult result = vkAllocateMemory(device.handle, &info, nullptr, &memory);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
-        throw SystemError("device '" + device.name() + "' is out of memory: " + purpose + " of " +
-                          mebibytes(needs.size) + " was refused with " + mebibytes(device.record->allocated) +
-                          " in use; a lower resolution needs less");
+        throw noRoom(device, purpose, needs.size, "was refused with " + inUse);
     check(result, "allocating device memory");
     device.record->allocated = used;
     uint64_t peak = device.record->peak;
@@ -78,9 +88,9 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     buffer.record = device.record;
     buffer.size = std::max((size + kTexelSize - 1) / kTexelSize * kTexelSize, kTexelSize);
     if (buffer.size > device.limits.allocation)
-        throw SystemError("device '" + device.name() + "' cannot hold a buffer of " + mebibytes(size) +
-                          ", its limit is " + mebibytes(device.limits.allocation) +
-                          "; a lower resolution needs less");
+        throw DeviceTooSmall("device '" + device.name() + "' cannot hold a buffer of " + mebibytes(size) +
+                             ", its limit is " + mebibytes(device.limits.allocation) +
+                             "; a lower resolution needs less");
     auto info = zeroed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = buffer.size;
     info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -112,9 +122,13 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory) {
     buffer.allocated = needs.size;
     check(vkBindBufferMemory(device.handle, buffer.handle, buffer.memory, 0), "binding a buffer's memory");
     VkMemoryPropertyFlags got = device.memory.memoryTypes[*type].propertyFlags;
-    if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory))
-        check(vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
-              "mapping a buffer");
+    if ((got & kHost) == kHost && (memory != Memory::device || device.unifiedMemory)) {
+        const VkResult result =
+            vkMapMemory(device.handle, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped);
+        if (result == VK_ERROR_MEMORY_MAP_FAILED)
+            throw noRoom(device, "a buffer", size, "could not be shown to the processor");
+        check(result, "mapping a buffer");
+    }
     if (buffer.mapped && device.software) wantLargePages(buffer.mapped, buffer.size);
     // Fresh memory of a software device is zero, and hides what is read before it is written.
     if (buffer.mapped && device.messenger) std::memset(buffer.mapped, 0xCD, buffer.size);

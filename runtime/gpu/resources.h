@@ -54,7 +54,8 @@ struct Buffer : BufferState {
 
 /// A buffer of `size` bytes, or a little more, so that its texels are whole; usable as storage, uniform,
 /// indirect, vertex, index, copy source and target. The content is undefined; with validation no zeros.
-/// Throws SystemError if memory runs out.
+/// Throws DeviceTooSmall if memory runs out: what the device has, or what it says is left beside other
+/// programs.
 Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory = Memory::device);
 
 /// Replaces the buffer by one of at least `size` bytes unless it is as large already; the content is then

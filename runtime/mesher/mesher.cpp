@@ -37,10 +37,27 @@ std::string brief(float number) {
     return text;
 }
 
-Error tooLarge(const char* what, uint64_t has, uint64_t most) {
-    return {.message = "the surface needs " + std::to_string(has) + " " + what + " at this resolution, " +
-                       std::to_string(most) + " is the most; choose a lower resolution or a smaller region",
-            .code = Error::Code::tooMuchSurface};
+/// An error if there is more surface than can be numbered and bound. It grows with the square of the
+/// resolution, about.
+std::optional<Error> tooLarge(const MesherCounts& counts, const Limits& most, const MesherConfig& config) {
+    struct Counted {
+        const char* what;
+        uint32_t has, most;
+        double share() const { return double(has) / most; }
+    };
+    const Counted all[] = {{"bricks of 8 x 8 x 8 cells", counts.bricks, most.bricks},
+                           {"vertices", counts.vertices, most.vertices},
+                           {"triangles", counts.triangles, most.triangles}};
+    const Counted& worst =
+        *std::ranges::max_element(all, {}, [](const Counted& each) { return each.share(); });
+    if (worst.has <= worst.most) return std::nullopt;
+    const int longest = std::max({config.cells.x, config.cells.y, config.cells.z});
+    const int fits = std::max(int(0.9 * longest / std::sqrt(worst.share())), 1);
+    return Error{.message = "the surface needs " + std::to_string(worst.has) + " " + worst.what +
+                            " at this resolution, " + std::to_string(worst.most) +
+                            " is the most; choose a lower resolution, of about " + std::to_string(fits) +
+                            " cells, or a smaller region",
+                 .code = Error::Code::tooMuchSurface};
 }
 
 float longestCell(const MesherConfig& config) {
@@ -174,10 +191,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         counted ? send(commands) : submit(commands);
         result.stages = commands.stages;
         if (!counted) counts = download<MesherCounts>(device, buffers.counts, 1)[0];
-        if (counts.bricks > most.bricks)
-            return tooLarge("bricks of 8 x 8 x 8 cells", counts.bricks, most.bricks);
-        if (counts.vertices > most.vertices) return tooLarge("vertices", counts.vertices, most.vertices);
-        if (counts.triangles > most.triangles) return tooLarge("triangles", counts.triangles, most.triangles);
+        if (std::optional<Error> refused = tooLarge(counts, most, config)) return std::move(*refused);
         if (!madeRoom(buffers, counts, most)) continue;
         if (counts.leaks) {
             push.margin = widerMargin(push.margin, config);

@@ -12,6 +12,9 @@ namespace {
 
 constexpr uint32_t kMostBricks = 1u << 20;  // twenty bits in the list of vertices
 constexpr uint64_t kLookupBytes = 16 * 16;  // of the edge -> vertex lookup, for a brick
+constexpr uint64_t kChunkBytes = 1 << 27;   // of the longest chunk of a mesh, and what spills from it
+static_assert(MESHER_VERTEX_CHUNK * sizeof(gpu::MeshVertex) <= kChunkBytes &&
+              MESHER_TRIANGLE_CHUNK * 12 <= kChunkBytes && MESHER_QUAD_CHUNK * 24 <= kChunkBytes);
 
 }  // namespace
 
@@ -76,9 +79,13 @@ Limits limitsOf(const Device& device, bool dual) {
     // Bound as a whole: the list of edges; of dual contouring that of patches, and each edge's four corners.
     uint64_t listed = dual ? std::min(range / 8, texels) : range / 4;
     uint64_t quads = dual ? std::min(range / 16, texels) : UINT32_MAX;
+    // The mesh is written by chunks; where a kernel sees less of it than one, that is all it can write.
+    const auto written = [&](uint64_t chunk, uint64_t bytes) {
+        return range < kChunkBytes ? range / bytes : chunk * MESHER_CHUNKS;
+    };
     return {uint32_t(std::min<uint64_t>({kMostBricks, range / kLookupBytes, texels * 16 / kLookupBytes})),
-            uint32_t(std::min<uint64_t>(uint64_t(MESHER_VERTEX_CHUNK) * MESHER_CHUNKS, listed)),
-            uint32_t(std::min<uint64_t>(uint64_t(MESHER_TRIANGLE_CHUNK) * MESHER_CHUNKS, 2 * quads))};
+            uint32_t(std::min<uint64_t>(written(MESHER_VERTEX_CHUNK, sizeof(gpu::MeshVertex)), listed)),
+            uint32_t(std::min<uint64_t>(written(MESHER_TRIANGLE_CHUNK, 12), 2 * quads))};
 }
 
 /// Memory of a software device costs nothing

@@ -18,6 +18,7 @@ namespace {
 
 /// Steps over the timeline and cells of the meshes that a picture frames.
 constexpr int kOutlineSteps = 16, kOutlineResolution = 40;
+constexpr int kMostHalvings = 2;
 
 Error problem(const Graph& graph, std::string message) {
     return {.message = std::move(message), .file = graph.path};
@@ -153,17 +154,36 @@ void Player::adopt(Prepared prepared) {
                       now.program.resolution == prepared.program.resolution &&
                       now.program.method == prepared.program.method &&
                       now.program.stages == prepared.program.stages;
+    if (session.program().structureHash != prepared.program.structureHash ||
+        now.program.resolution != prepared.program.resolution)
+        halvings = 0;
     const bool moved = prepared.fieldMoves || now.fieldMoves;
     const bool other = now.timeline != prepared.timeline || now.inputs != prepared.inputs;
     now = std::move(prepared);
-    if (options.compileBehind)
-        session.replaceProgram(now.program, {.lamps = hasLamps(now.graph), .show = options.fieldViews});
-    else
-        session.setProgram(now.program);
+    give();
     if (other) session.valuesChanged();
     if (same && !moved) return;
     meshed.reset();
     points.clear();
+}
+
+void Player::give() {
+    if (options.compileBehind)
+        session.replaceProgram(now.program, {.lamps = hasLamps(now.graph), .show = options.fieldViews});
+    else
+        session.setProgram(now.program);
+}
+
+void Player::renewDevice() {
+    const DeviceOptions asked = device().asked;
+    meshed.reset();
+    halvings = 0;
+    session = Session(Device(), options.fieldBy);  // the lost one goes before another comes
+    session = Session(reopenDevice(asked), options.fieldBy);
+    bake = toldBaker(session.device(), options.baking);
+    const std::vector<double> values = now.valuesAt(seconds);
+    for (std::size_t slot = 0; slot < values.size(); ++slot) now.program.live[slot].value = values[slot];
+    give();
 }
 
 std::vector<std::string> Player::files() const {
@@ -243,7 +263,39 @@ void Player::seek(double to) {
     }
 }
 
-Result<MesherResult> Player::meshOnDevice(uint32_t show) { return makeMesh(true, show); }
+int Player::resolution() const {
+    const int asked = options.resolution > 0 ? options.resolution : now.program.resolution;
+    return std::max(asked >> halvings, 1);
+}
+
+std::optional<Error> Player::coarser() const {
+    if (halvings == 0) return std::nullopt;
+    const int asked = options.resolution > 0 ? options.resolution : now.program.resolution;
+    return Error{.message = "a mesh of " + std::to_string(asked) +
+                            " cells along its longest side does not fit into the device: it has " +
+                            std::to_string(resolution()) + " (" + full + ")",
+                 .file = now.graph.path,
+                 .severity = Error::Severity::warning};
+}
+
+template <class Work>
+auto Player::halvedIfFull(Work work) -> decltype(work()) {
+    for (;;) {
+        try {
+            return work();
+        } catch (const DeviceTooSmall& error) {
+            if (halvings == kMostHalvings) throw;
+            full = error.what();
+        }
+        ++halvings;
+        meshed.reset();
+        session.dropMesh();
+    }
+}
+
+Result<MesherResult> Player::meshOnDevice(uint32_t show) {
+    return halvedIfFull([&] { return makeMesh(true, show); });
+}
 
 Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     const Result<bool> changed = session.simulate(
@@ -261,12 +313,12 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     const double time = timelineTime();
     const bool beyond = now.regionFound && now.fieldMoves && !(time >= 0.0 && time <= now.timeline.length);
     Result<MesherResult> result = MesherResult{};
-    if (!beyond) result = session.polygonise({*now.region, options.resolution, options.method, stages});
+    if (!beyond) result = session.polygonise({*now.region, resolution(), options.method, stages});
     if (result && (beyond || result->capped) && now.regionFound) {
         // Beyond the timeline, or between the times that were looked at, the solid reaches farther.
-        const Result<Box> own = meshRegion(session.program(), {{}, options.resolution}, &now.graph);
+        const Result<Box> own = meshRegion(session.program(), {{}, resolution()}, &now.graph);
         if (!own) return problem(now.graph, own.error().message);
-        result = session.polygonise({joined(*now.region, *own), options.resolution, options.method, stages});
+        result = session.polygonise({joined(*now.region, *own), resolution(), options.method, stages});
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
@@ -274,20 +326,22 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
 }
 
 Result<Mesh> Player::mesh() {
-    const Result<MesherResult> result = meshOnDevice();
-    if (!result) return result.error();
-    return session.download(*result);
+    return halvedIfFull([&]() -> Result<Mesh> {
+        const Result<MesherResult> result = makeMesh(true);
+        if (!result) return result.error();
+        return session.download(*result);
+    });
 }
 
 Result<std::span<const gpu::MeshVertex>> Player::outline() {
     if (!points.empty()) return std::span<const gpu::MeshVertex>(points);
-    const double rest = seconds;
+    std::vector<gpu::MeshVertex> found;
     const auto add = [&](bool stages) -> Done {
         const Result<MesherResult> result = makeMesh(stages);
         if (!result) return result.error();
         const auto more =
             download<gpu::MeshVertex>(session.device(), session.meshBuffers().vertices, result->vertices);
-        points.insert(points.end(), more.begin(), more.end());
+        found.insert(found.end(), more.begin(), more.end());
         return done();
     };
     Done added = done();
@@ -295,25 +349,32 @@ Result<std::span<const gpu::MeshVertex>> Player::outline() {
         // Where they will be is not known before they were there: the corners of what they are looked for in.
         if (!now.region) added = findSharedRegion(now, options);
         for (int corner = 0; added && corner < 8; ++corner) {
-            gpu::MeshVertex& point = points.emplace_back();
+            gpu::MeshVertex& point = found.emplace_back();
             for (int axis = 0; axis < 3; ++axis)
                 point.position[axis] =
                     float((corner >> axis & 1 ? now.region->hi : now.region->lo)[std::size_t(axis)]);
         }
     } else if (now.fieldMoves) {
-        const int resolution = std::exchange(options.resolution, kOutlineResolution);
+        const struct Rest {
+            Player& player;
+            const double seconds = player.seconds;
+            const int resolution = std::exchange(player.options.resolution, kOutlineResolution);
+            ~Rest() {  // also where the device fails
+                player.options.resolution = resolution;
+                player.meshed.reset();
+                player.seek(seconds);
+            }
+        } rest{*this};
         for (int i = 0; i <= kOutlineSteps && added; ++i) {
             seek(now.timeline.length * i / kOutlineSteps);
             meshed.reset();
             added = add(false);
         }
-        options.resolution = resolution;
-        meshed.reset();
-        seek(rest);
     } else {
         added = add(true);
     }
-    if (!added) return points.clear(), added.error();
+    if (!added) return added.error();
+    points = std::move(found);
     return std::span<const gpu::MeshVertex>(points);
 }
 
@@ -338,14 +399,18 @@ auto Player::look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult
 }
 
 Result<Picture> Player::frame(const RenderOptions& options_) {
-    return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
-        return session.render(mesh, wishes);
+    return halvedIfFull([&] {
+        return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+            return session.render(mesh, wishes);
+        });
     });
 }
 
 Result<bool> Player::show(const RenderOptions& options_, Picture& picture) {
-    return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
-        return session.renderLive(mesh, wishes, picture);
+    return halvedIfFull([&] {
+        return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+            return session.renderLive(mesh, wishes, picture);
+        });
     });
 }
 
@@ -376,7 +441,8 @@ Done Player::reload(Graph graph, const PlayerOptions& options_) {
         if (std::optional<Error> error = firstError(graph, nullptr)) return std::move(*error);
     Result<Prepared> prepared = prepare(std::move(graph), changed);
     if (!prepared) return prepared.error();
-    if (changed.resolution != options.resolution || changed.method != options.method) meshed.reset();
+    if (changed.resolution != options.resolution || changed.method != options.method)
+        meshed.reset(), halvings = 0;
     options = changed;
     adopt(std::move(*prepared));
     chosen.clear();

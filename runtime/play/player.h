@@ -21,9 +21,10 @@
 // seeking back. A parameter that is set while they fly bears on what is to come, and on all once they are
 // played from the start again.
 //
-// Lifetime: a Player owns its device unless it was given one; a mesh or picture that it returned is the
-// caller's. It is not safe to call from several threads at once. A failure of the device or the system is
-// thrown as SystemError; every other is a returned Error, after which the player is as it was before.
+// Lifetime: a Player owns its device; a mesh or picture that it returned is the caller's. It is not safe to
+// call from several threads at once. A failure of the device or the system is thrown as SystemError; every
+// other is a returned Error, after which the player is as it was before. After a DeviceLost, renewDevice()
+// has it go on.
 #pragma once
 
 #include <functional>
@@ -109,7 +110,10 @@ class Player {
     /// whether it was found rather than given; and the cells along its longest side.
     Box region() const { return now.region.value_or(Box{}); }
     bool regionFound() const { return now.regionFound; }
-    int resolution() const { return options.resolution > 0 ? options.resolution : now.program.resolution; }
+    int resolution() const;
+    /// What to say of a mesh that has fewer cells than it should, since the device has no room for those:
+    /// half of them, or a quarter.
+    std::optional<Error> coarser() const;
     const MesherBuffers& deviceMesh() const { return session.meshBuffers(); }
 
     /// A picture of what the graph shows now, through the document's scene unless `options` bring a camera.
@@ -132,6 +136,10 @@ class Player {
     /// The same with other options; the device stays. If only values of live inputs differ, that is an
     /// upload.
     Done reload(Graph graph, const PlayerOptions& changed);
+
+    /// Opens a device in place of the one that was lost, for the same document, time and parameters. All that
+    /// was made from device() dies before. Throws SystemError where none opens.
+    void renewDevice();
 
     const Program& program() const { return now.program; }
     /// Whether kernels are still being compiled behind: then meshes and pictures will change without another
@@ -163,6 +171,11 @@ class Player {
     Result<Prepared> prepare(Graph graph, const PlayerOptions& wishes) const;
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
     void adopt(Prepared prepared);
+    /// Hands the session `now`'s program.
+    void give();
+    /// Does the work; where the device has no room for it, again with half of the cells.
+    template <class Work>
+    auto halvedIfFull(Work work) -> decltype(work());
     /// meshOnDevice(), or the mesh without the program's stages: an outline needs none.
     Result<MesherResult> makeMesh(bool stages, uint32_t show = RENDER_PICTURE);
     /// Calls draw(mesh, options) with all that a picture of now needs.
@@ -175,6 +188,8 @@ class Player {
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
+    int halvings = 0;                     ///< of the resolution, for want of room
+    std::string full = {};                ///< why
     std::optional<MesherResult> meshed;   ///< of the values that the session has
     std::vector<gpu::MeshVertex> points;  ///< the outline; empty until it is asked for
 };

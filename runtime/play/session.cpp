@@ -107,6 +107,12 @@ Session::~Session() {
     if (overtaken) *overtaken = true;
 }
 
+Session& Session::operator=(Session&& other) noexcept {
+    if (this == &other) return *this;
+    std::destroy_at(this);
+    return *std::construct_at(this, std::move(other));
+}
+
 void Session::take(Program program) {
     finish(*gpu);  // what runs may be of the program before
     const bool sameImages = images && program.ir.images() == current.ir.images();
@@ -341,6 +347,11 @@ gpu::DraftMaterial Session::material() const {
         constants.emission[i] = constant(emissionComponent + i);
     }
     return constants;
+}
+
+void Session::dropMesh() {
+    buffers = MesherBuffers();
+    stageBuffers = MeshStageBuffers();
 }
 
 Mesh Session::download(const MesherResult& result) const {

@@ -107,6 +107,8 @@ class Session {
     /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
     Mesh download(const MesherResult& result) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
+    /// Gives the last mesh's memory back.
+    void dropMesh();
 
     /// A still picture of the last mesh, whose points are framed unless the options say otherwise. Errors as
     /// renderPicture.
@@ -117,7 +119,8 @@ class Session {
 
     ~Session();
     Session(Session&&) = default;
-    Session& operator=(Session&&) = default;
+    /// What it had goes first, and its device last.
+    Session& operator=(Session&& other) noexcept;
 
   private:
     void take(Program program);

@@ -86,7 +86,7 @@ DeviceOptions Desktop::deviceOptions() const {
 }
 
 Window::Window(const Device& device_, const std::string& title, int width, int height, Viewer& viewer_)
-    : device(device_), viewer(viewer_) {
+    : viewer(viewer_) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     handle = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
     if (!handle) throw SystemError("cannot open a window: " + windowSystemComplaint());
@@ -100,13 +100,23 @@ Window::Window(const Device& device_, const std::string& title, int width, int h
     glfwSetWindowRefreshCallback(handle, onRefresh);
     const auto [wide, high] = size();
     viewer.resize(wide, high);
-
-    swapchain.emplace(device, handle);
+    useDevice(device_);
 }
 
 Window::~Window() {
-    swapchain.reset();
+    leaveDevice();
     if (handle) glfwDestroyWindow(handle);
+}
+
+void Window::leaveDevice() {
+    swapchain.reset();
+    staging = Buffer();
+    shown = Image();
+}
+
+void Window::useDevice(const Device& device_) {
+    device = &device_;
+    swapchain.emplace(*device, handle);
 }
 
 std::pair<int, int> Window::size() const {
@@ -155,14 +165,14 @@ bool Window::show(const Picture& picture) {
     }
     const VkExtent3D drawn = {uint32_t(picture.width), uint32_t(picture.height), 1};
     if (!shown || shown.extent.width != drawn.width || shown.extent.height != drawn.height)
-        shown =
-            createImage(device, {.extent = drawn,
-                                 .format = VK_FORMAT_R8G8B8A8_UNORM,
-                                 .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    reserve(device, staging, picture.pixels.size(), Memory::upload);
-    upload(device, staging, picture.pixels);
+        shown = createImage(*device,
+                            {.extent = drawn,
+                             .format = VK_FORMAT_R8G8B8A8_UNORM,
+                             .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    reserve(*device, staging, picture.pixels.size(), Memory::upload);
+    upload(*device, staging, picture.pixels);
     {
-        Commands commands(device);
+        Commands commands(*device);
         imageBarrier(commands, shown, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         VkBufferImageCopy copy{};
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};

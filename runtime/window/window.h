@@ -7,7 +7,8 @@
 // anew.
 //
 // Lifetime: a Desktop before the device (it says what instance extensions a window needs), the Window after
-// it; the Window dies before the device. One Window at a time; all calls come from the main thread.
+// it; the Window dies before the device, or leaves it before and uses another. One Window at a time; all
+// calls come from the main thread.
 #pragma once
 
 #include <functional>
@@ -45,6 +46,12 @@ class Window {
     Window& operator=(const Window&) = delete;
     ~Window();
 
+    /// Gives up what it has of the device, which may have been lost, so that it can be destroyed. The window
+    /// stays as it is, and is to show nothing before useDevice().
+    void leaveDevice();
+    /// Throws SystemError where the device cannot present to the window.
+    void useDevice(const Device& device);
+
     /// Width and height in pixels now; zeros while it is minimised.
     std::pair<int, int> size() const;
     /// Handles what has happened; waits for something to happen, but at most so many seconds.
@@ -56,7 +63,7 @@ class Window {
     void setFullScreen(bool full);
 
   private:
-    const Device& device;
+    const Device* device = nullptr;
     Viewer& viewer;
     GLFWwindow* handle = nullptr;
     std::optional<Swapchain> swapchain;

@@ -9,6 +9,7 @@
 
 #include "editor/files/recovery.h"
 #include "graph/document/json.h"
+#include "tests/support/faults.h"
 #include "tests/support/virtual_display.h"
 
 namespace fw::editor::loss_test {
@@ -29,6 +30,7 @@ class Loss : public testing::Test {
         for (const char* name : {"XDG_CONFIG_HOME", "XDG_STATE_HOME"})
             setenv(name, folder.path(name).c_str(), 1);
         writeText(file, kGraph);
+        faults.emplace(fw::test::Fault{.loseWhenThere = lose, .presenting = true});
         process = fork();
         if (process != 0) return;
         const int output = ::open(folder.path("output").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -39,6 +41,7 @@ class Loss : public testing::Test {
     }
     void TearDown() override {
         if (process > 0) kill(process, SIGKILL), waitpid(process, nullptr, 0);
+        faults.reset();
     }
     template <class Until>
     bool wait(Until until, double seconds = 60.0) {
@@ -53,6 +56,13 @@ class Loss : public testing::Test {
         fw::test::rest(1.5);
         std::filesystem::remove(file);
         fw::test::rest(2.5);
+    }
+    /// Loses the window's device so often, in a frame that there is because the file is another.
+    void loseDevice(const char* times) {
+        writeText(lose, times);
+        std::string other = kGraph;
+        writeText(file, other.replace(other.find("24"), 2, "25"));
+        ASSERT_TRUE(wait([&] { return !std::filesystem::exists(lose); }));
     }
     /// How it ended: the exit status, or 128 + the signal.
     int end() {
@@ -75,7 +85,8 @@ class Loss : public testing::Test {
     }
 
     TempDir folder;
-    std::string file = folder.path("a.field.json");
+    std::string file = folder.path("a.field.json"), lose = folder.path("lose");
+    std::optional<fw::test::Faults> faults;
     std::optional<fw::test::VirtualDisplay> display;
     pid_t process = -1;
 };
@@ -101,6 +112,21 @@ TEST_F(Loss, TheDisplaysEndKeepsWhatIsUnsaved) {
     display.reset();
     EXPECT_EQ(end(), 3);
     expectKept("the display");
+}
+
+TEST_F(Loss, TheWindowsDeviceIsOpenedAnew) {
+    change();
+    loseDevice("1");
+    kill(process, SIGTERM);
+    EXPECT_EQ(end(), 128 + SIGTERM);
+    expectKept("ended by a signal");
+}
+
+TEST_F(Loss, TheWindowsDeviceLostTwiceKeepsWhatIsUnsaved) {
+    change();
+    loseDevice("2");
+    EXPECT_EQ(end(), 3);
+    expectKept("and again after it was opened anew");
 }
 
 TEST_F(Loss, AKilledEditorsCopyIsFound) {

@@ -98,6 +98,25 @@ TEST(Limits, AMeshThatIsLargerThanKernelsSeeIsDrawnWhole) {
                make("csg_part", none, 0, 64, [](Device& device) { device.limits.storageRange = kRange; }));
 }
 
+TEST(Limits, AMeshThatIsLargerThanKernelsWriteIsRefusedWithWhatWouldFit) {
+    const Made own = make("csg_part", none, 0, 96);
+    for (const int bits : {27, 26, 24, 20, 18}) {
+        const uint64_t range = (uint64_t(1) << bits) - 1;
+        const auto few = [&](Device& device) { device.limits.storageRange = range; };
+        const bool fits = own.mesh.positions.size() * 16 <= range && own.mesh.indices.size() * 4 <= range;
+        try {
+            expectSame(own, make("csg_part", few, 0, 96));
+            EXPECT_TRUE(fits) << range;
+        } catch (const SystemError& error) {
+            EXPECT_FALSE(fits) << error.what();
+            const std::string said = error.what(), about = "choose a lower resolution, of about ";
+            const std::size_t at = said.find(about);
+            ASSERT_NE(at, std::string::npos) << said;
+            EXPECT_NO_THROW(make("csg_part", few, 0, std::stoi(said.substr(at + about.size())))) << said;
+        }
+    }
+}
+
 TEST(Limits, EveryKernelIsWithinWhatEveryDeviceHas) {
     const DeviceLimits most = leastLimits();
     for (const EmbeddedShader& shader : embeddedShaders()) {

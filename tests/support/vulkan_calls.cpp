@@ -6,6 +6,7 @@ namespace fw::test {
 namespace {
 
 thread_local bool forTheHost = false, ended = false;
+uint64_t budgetOfHeaps = 0;
 
 template <class Function>
 Function* next(const char* name) {
@@ -16,6 +17,7 @@ Function* next(const char* name) {
 }  // namespace
 
 bool endedForTheHost() { return ended; }
+void setBudget(uint64_t bytes) { budgetOfHeaps = bytes; }
 
 }  // namespace fw::test
 
@@ -47,6 +49,14 @@ VKAPI_ATTR VkResult VKAPI_CALL vkEndCommandBuffer(VkCommandBuffer commands) {
     fw::test::ended = fw::test::forTheHost;
     fw::test::forTheHost = false;
     return real(commands);
+}
+
+VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceMemoryProperties2(
+    VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties2* properties) {
+    NEXT(vkGetPhysicalDeviceMemoryProperties2);
+    if (fw::test::budgetOfHeaps == 0) return real(physical, properties);
+    auto* budget = static_cast<VkPhysicalDeviceMemoryBudgetPropertiesEXT*>(properties->pNext);
+    for (uint64_t& bytes : budget->heapBudget) bytes = fw::test::budgetOfHeaps;
 }
 
 }  // extern "C"

@@ -9,4 +9,8 @@ namespace fw::test {
 /// visible to the host.
 bool endedForTheHost();
 
+/// What every heap's budget is said to be from now on, in bytes, of which nothing is used; 0: what the driver
+/// says.
+void setBudget(uint64_t bytes);
+
 }  // namespace fw::test
