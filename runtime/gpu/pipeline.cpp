@@ -301,7 +301,6 @@ Pipeline createComputePipeline(const Device& device, const ShaderOptions& shader
 }
 
 Pipeline createGraphicsPipeline(const Device& device, const GraphicsOptions& options) {
-    finish(device);  // likewise
     Pipeline pipeline;
     pipeline.device = device.handle;
     std::vector<Module> modules;
