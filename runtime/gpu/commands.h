@@ -116,13 +116,22 @@ bool cancelled(Commands& commands);
 void submit(Commands& commands);
 
 /// Ends the recording and lets it run. What uses it is waited for: by the next submit() or finish(), which
-/// uploadBytes(), downloadBytes(), reserve() and the ends of buffers and images call; who reads mapped memory
-/// or ends a pipeline calls it himself. Timed recordings are awaited, and so is
-/// one behind eight others.
+/// uploadBytes(), downloadBytes(), look(), reserve() and the ends of buffers and images call; who ends a
+/// pipeline calls it himself. Timed recordings are awaited, and so is one behind eight others.
 void send(Commands& commands);
 
 /// Waits for what was sent, if anything was.
 void finish(const Device& device);
+
+/// The first elements of a buffer, once nothing runs that may write them: where they lie, if the host sees
+/// them there, else downloaded into `copies`, which must stay.
+template <class T>
+std::span<const T> look(const Device& device, const Buffer& buffer, std::size_t count,
+                        std::vector<T>& copies) {
+    finish(device);
+    if (buffer.mapped) return buffer.as<T>().first(count);
+    return copies = download<T>(device, buffer, count);
+}
 
 /// Sets bytes of a buffer (multiples of 4) when the recording runs, behind what was recorded before.
 void update(Commands& commands, const Buffer& buffer, const void* data, std::size_t size);

@@ -257,6 +257,8 @@ class FirstRuns {
 
 std::vector<Pipeline> createComputePipelines(const Device& device, std::span<const ShaderOptions> shaders,
                                              CompileTimes* times, Compile when) {
+    // First runs use the queue from threads of their own, where nothing may wait for what was sent.
+    if (when == Compile::now) finish(device);
     std::vector<Pipeline> pipelines(shaders.size());
     std::atomic<std::size_t> next = 0;
     std::mutex mutex;

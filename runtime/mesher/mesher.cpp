@@ -217,19 +217,16 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
 }
 
 Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const MesherResult& result) {
-    finish(device);
     Mesh mesh;
-    // Where the host sees the vertices they are unpacked from where they are.
-    const bool seen = buffers.vertices.mapped;
     std::vector<gpu::MeshVertex> copies;
-    if (!seen) copies = download<gpu::MeshVertex>(device, buffers.vertices, result.vertices);
-    const gpu::MeshVertex* packed = seen ? buffers.vertices.as<gpu::MeshVertex>().data() : copies.data();
+    const std::span<const gpu::MeshVertex> packed = look(device, buffers.vertices, result.vertices, copies);
     const auto rest = [&] {
         mesh.indices = download<uint32_t>(device, buffers.triangles, std::size_t(result.triangles) * 3);
         if (result.colors) mesh.colors = download<glm::vec3>(device, buffers.colors, result.vertices);
     };
-    // Where it does not, one thread at a time has the queue.
-    std::future<void> beside = std::async(seen ? std::launch::async : std::launch::deferred, rest);
+    // Where the host does not see them, one thread at a time has the queue.
+    const std::launch when = buffers.vertices.mapped ? std::launch::async : std::launch::deferred;
+    std::future<void> beside = std::async(when, rest);
     resizeInLargePages(mesh.positions, result.vertices);
     resizeInLargePages(mesh.normals, result.vertices);
     constexpr std::size_t kBlock = 16384;

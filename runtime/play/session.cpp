@@ -167,7 +167,6 @@ void Session::buildKernels(std::vector<StageTime>* stages) {
     const std::string field = emitField(current);
     if (stages) stages->push_back({"emit", millisecondsSince(start)});
     const auto compiling = Clock::now();
-    finish(*gpu);
     pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
     renderer.reset();
     if (stages) stages->push_back({"pipelines", millisecondsSince(compiling)});

@@ -91,14 +91,8 @@ Result<TileContent> contentOf(Session& session, const MeshRequest& request, cons
     tile.header.emission = material.emission;
 
     const MesherBuffers& buffers = session.meshBuffers();
-    std::span<const gpu::MeshVertex> vertices;
-    finish(session.device());
-    if (!arrays && buffers.vertices.mapped) {
-        vertices = buffers.vertices.as<gpu::MeshVertex>().first(meshed->vertices);
-    } else {
-        tile.vertices = download<gpu::MeshVertex>(session.device(), buffers.vertices, meshed->vertices);
-        vertices = tile.vertices;
-    }
+    const auto vertices = look(session.device(), buffers.vertices, meshed->vertices, tile.vertices);
+    if (arrays && tile.vertices.empty()) tile.vertices.assign(vertices.begin(), vertices.end());
     if (arrays) tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed->triangles * 3);
     if (arrays && tile.header.colors)
         tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed->vertices);

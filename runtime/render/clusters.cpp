@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/mesher/sizes.h"
+
 namespace fw {
 namespace {
 
@@ -35,9 +37,8 @@ void boundClusters(Commands& commands, Clusters& clusters, const MesherBuffers& 
                      mesh.vertices.size > DeviceLimits::kTexelBytes * limits.texels();
     if (clusters.whole) return;
     // With room for more: a mesh that grows a little with each frame would be waited for each time.
-    const uint64_t most = limits.storageRange / kClusterBytes,
-                   room = clusters.seen.size >= 4ull * count ? count
-                                                             : std::min<uint64_t>(count + count / 4, most);
+    const auto most = uint32_t(limits.storageRange / kClusterBytes);
+    const uint64_t room = std::min(mesher::grown(uint32_t(clusters.seen.size / 4), count, most), most);
     reserve(commands.device, clusters.clusters, room * sizeof(gpu::Cluster));
     reserve(commands.device, clusters.seen, 4 * room);
     reserve(commands.device, clusters.indices, kClusterBytes * room);
