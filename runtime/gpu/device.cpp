@@ -264,7 +264,8 @@ void createLogicalDevice(Device& device, const DeviceOptions& options) {
     check(vkCreateDevice(device.physical, &info, nullptr, &device.handle), "opening the Vulkan device");
     if (device.software) spreadThreads(threads);
     vkGetDeviceQueue(device.handle, device.queueFamily, 0, &device.queue);
-    if (device.has.pushDescriptors)
+    // The layer knows what shaders reach through sets alone.
+    if (device.has.pushDescriptors && askedFor() != "gpu")
         device.pushDescriptors = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
             vkGetDeviceProcAddr(device.handle, "vkCmdPushDescriptorSetKHR"));
 }

@@ -39,6 +39,7 @@ void main() {
     [[dont_unroll]] do {
         bool valid = groupValid && item < base.w;
         uint word = stripList[group * MESHER_GROUP_STRIPS + (item < base.w ? item : 0)];
+        word = base.w > 0 ? word : 0;  // a group without surface has no list: the group's first strip, of which nothing is kept
         uint own = group * MESHER_GROUP_STRIPS + (word & 127);
         uint side = own & 1, z = own >> 1 & 7, slot = own >> 4;
         StripSigns low = stripSigns(planes[slot * 9 + z], side), high = stripSigns(planes[slot * 9 + z + 1], side);
