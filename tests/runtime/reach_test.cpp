@@ -2,6 +2,7 @@
 //
 // Its kernels take many times as long to compile: a few exports, pictures and fluids with FIELDWRIGHT_LONG.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -55,5 +56,14 @@ std::vector<Work> works() {
 
 std::string nameOf(const testing::TestParamInfo<Work>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(, Reach, testing::ValuesIn(works()), nameOf);
+
+/// Software devices leave these to the processor; tests have them run.
+TEST(ReachOfKernels, ThatTheHostStandsInFor) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "half a minute: with FIELDWRIGHT_LONG";
+    const test::ProgramResult result = test::runProgram(
+        "FIELDWRIGHT_VALIDATION=gpu /proc/" + std::to_string(getpid()) +
+        "/exe --gtest_filter=Mesher/EachMethod.BuffersGrowUntilTheSurfaceFits/MarchingCubes 2>&1");
+    EXPECT_EQ(result.status, 0) << result.output;
+}
 
 }  // namespace fw::reach_test
