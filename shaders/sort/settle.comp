@@ -14,8 +14,8 @@ void main() {
     if (place >= push.items) return;
     uint item = order[place], key = keys[item], start = starts[key], count = counts[key];
     uint at = start, before = 0, end = start + (count <= SORT_MOST_SETTLED ? count : 1);
-    do {
-        before += order[at] < item ? 1 : 0;
+    do {  // on some drivers a lane that has ended goes on beside its neighbours: it counts no more
+        before += at < end && order[at] < item ? 1 : 0;
     } while (++at < end);
     settled[count <= SORT_MOST_SETTLED ? start + before : place] = item;
 }
