@@ -166,9 +166,9 @@ class Maker {
             near.insert(near.end(), some.begin(), some.end());
         }
         std::ranges::sort(near);
-        near.erase(std::ranges::unique(near).begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
         const auto meets = [&](uint32_t i) { return all[i].distance(own.centre()) <= own.reach(); };
-        const auto met = std::size_t(std::ranges::stable_partition(near, meets).begin() - near.begin());
+        const auto met = std::size_t(std::stable_partition(near.begin(), near.end(), meets) - near.begin());
         const Corner place = placeIn(own, std::span(near).first(met));
         const bool isInside = level == 0 && inside(rows[std::size_t(y)], place);
         outline.texels[firstOf(outline, level) + std::size_t(y * sideOf(outline, level) + x)] = {

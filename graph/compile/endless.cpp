@@ -41,7 +41,8 @@ bool isEndless(Search& search, const Link& link) {
     options.bake = boxInPlace;
     const Result<Program> program = compile(shown, options);
     return program &&
-           findRegion(program->ir, program->distance(), program->parameters()).extent == Extent::unbounded;
+           findRegion(program->ir, program->distance(), program->parameters(), program->exactness.lipschitz)
+                   .extent == Extent::unbounded;
 }
 
 bool takesSurface(const Graph& graph, const Node& node, const std::string& input, const Link& link) {

@@ -15,6 +15,7 @@ namespace {
 struct Field {
     IrId root;
     Tape tape;
+    double lipschitz;  ///< that cells are judged by, too; infinite: they are not
     TapeMachine<double> machine = {};
 
     bool positive(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
@@ -150,11 +151,25 @@ class Cells {
     void look(const Box& box, std::size_t rounds, std::shared_ptr<const Tape> tape) {
         TapeMachine<double>& machine = field.machine;
         ++looks;
-        if (machine.interval(*tape, box).lo >= 0.0) return;
+        if (farFromSurface(*tape, box) || machine.interval(*tape, box).lo >= 0.0) return;
         const bool jumps = machine.jumps();
         if (kWorthShortening * machine.decidedSteps() > tape->steps.size())
             tape = std::make_shared<const Tape>(machine.shortenedForSigns(*tape));
         if (!jumps || !machine.positiveInEachCase(*tape, box)) add(box, rounds, std::move(tape));
+    }
+
+    /// By the value in its middle.
+    bool farFromSurface(const Tape& tape, const Box& box) {
+        if (std::isinf(field.lipschitz)) return false;
+        Point middle;
+        double squared = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            middle[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+            squared += (box.hi[axis] - middle[axis]) * (box.hi[axis] - middle[axis]);
+        }
+        double value = 0.0;
+        field.machine.evaluate(tape, std::span(&middle, 1), std::span(&value, 1));
+        return value > field.lipschitz * std::sqrt(squared);
     }
 
     void add(const Box& box, std::size_t rounds, std::shared_ptr<const Tape> tape) {
@@ -176,8 +191,9 @@ class Cells {
 };
 
 /// The hull of what is left of `start`; none if nothing is. Ends after `patience` rounds that did not move
-/// the hull (three rounds halve the cells), or once the budget is spent.
-std::optional<Box> shrink(Field& field, const Box& start, int patience, const Budget& budget) {
+/// the hull (three rounds halve the cells), or once the budget is spent, which `spent` is told.
+std::optional<Box> shrink(Field& field, const Box& start, int patience, const Budget& budget,
+                          bool* spent = nullptr) {
     Cells cells(field, start, budget);
     for (int idle = 0; idle < patience && cells.canSplit(); ++idle) {
         const Box before = cells.hull();
@@ -188,6 +204,7 @@ std::optional<Box> shrink(Field& field, const Box& start, int patience, const Bu
             if (moved > 0.01 * longestSide(before)) idle = -1;
         }
     }
+    if (spent) *spent = !cells.canSplit();
     return cells.hull();
 }
 
@@ -225,6 +242,40 @@ bool reachesBeyond(Field& field, const Box& box) {
     return std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; });
 }
 
+/// From octrees that begin ever larger; none if there is always something at their faces. `spent` is told
+/// whether the box would be tighter with a larger budget.
+std::optional<Region> boundByCells(Field& field, const Budget& budget, bool& spent) {
+    // Far enough from kFarthest that what repeats shows up again before it.
+    constexpr double kMostReach = kFarthest / 32.0;
+    for (double reach = 2.0; reach <= kMostReach; reach *= 4.0) {
+        const Box start = everywhere(reach);
+        const std::optional<Box> tight = shrink(field, start, 18, budget);
+        if (tight ? touches(*tight, start) : reach < kMostReach) continue;
+        if (reachesBeyond(field, tight.value_or(start))) continue;
+        if (!tight) return Region{Extent::empty, {}};
+        return Region{
+            Extent::bounded,
+            shrink(field, *tight, 18, {4 * budget.looks, 4 * budget.steps}, &spent).value_or(*tight)};
+    }
+    return std::nullopt;
+}
+
+/// The same where that found none too soon: with its constant, if that is known, and from where samples say
+/// that nothing is beyond.
+std::optional<Region> boundPatiently(Field& field, double lipschitz, const Budget& budget) {
+    double reach = kFarthest / 32.0;
+    if (reachesBeyond(field, everywhere(reach))) return std::nullopt;
+    while (reach > 2.0 && !reachesBeyond(field, everywhere(reach / 4.0))) reach /= 4.0;
+    field.lipschitz = lipschitz;
+    for (; reach <= kFarthest / 32.0; reach *= 4.0) {
+        const std::optional<Box> tight = shrink(field, everywhere(reach), 18, budget);
+        if (!tight) return Region{Extent::empty, {}};
+        if (!touches(*tight, everywhere(reach)) && !reachesBeyond(field, *tight))
+            return Region{Extent::bounded, *tight};
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Box joined(const Box& a, const Box& b) {
@@ -240,29 +291,26 @@ double longestSide(const Box& box) {
     return std::max({0.0, box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
 }
 
-Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters) {
-    Field field{distance, makeTape(ir, distance, parameters)};
+Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters, double lipschitz) {
+    Field field{distance, makeTape(ir, distance, parameters), std::numeric_limits<double>::infinity()};
     if (field.positive(everywhere(kFarthest))) return {Extent::empty, {}};
-    // Some 5 ms of interval arithmetic, more only where a field has tens of thousands of operations.
+    // Some 5 ms of interval arithmetic, more only where a field has tens of thousands of operations; a third
+    // of a second where that is not enough.
     const Budget budget{20'000, std::max<std::size_t>(400'000, 64 * field.tape.steps.size())};
+    const Budget patient{64 * budget.looks, 64 * budget.steps};
     if (const std::optional<Box> box = boundByHalfSpaces(field)) {
         for (int axis = 0; axis < 3; ++axis)
             if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};
         const std::optional<Box> tight = shrink(field, *box, 12, budget);
         return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
     }
-    // Far enough from kFarthest that what repeats shows up again before it.
-    constexpr double kMostReach = kFarthest / 32.0;
-    for (double reach = 2.0; reach <= kMostReach; reach *= 4.0) {
-        const Box start = everywhere(reach);
-        const std::optional<Box> tight = shrink(field, start, 18, budget);
-        if (tight ? touches(*tight, start) : reach < kMostReach) continue;
-        if (reachesBeyond(field, tight.value_or(start))) continue;
-        if (!tight) return {Extent::empty, {}};
-        return {Extent::bounded,
-                shrink(field, *tight, 18, {4 * budget.looks, 4 * budget.steps}).value_or(*tight)};
-    }
-    return {Extent::unbounded, {}};
+    bool spent = false;
+    const std::optional<Region> found = boundByCells(field, budget, spent);
+    if (!found) return boundPatiently(field, lipschitz, patient).value_or(Region{Extent::unbounded, {}});
+    if (!spent) return *found;
+    field.lipschitz = lipschitz;
+    const std::optional<Box> tight = shrink(field, found->box, 18, patient);
+    return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
 }
 
 Box padded(const Box& box, int resolution, double cells) {

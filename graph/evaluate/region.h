@@ -8,6 +8,7 @@
 // the copies of a repetition, are looked at side by side (jump_cases.h).
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "graph/base/result.h"
@@ -25,7 +26,10 @@ struct Region {
 /// Searches within ±kFarthest metres of the origin. A solid that reaches farther, or repeats without end, is
 /// unbounded. What lies beyond an octree's start is known by samples, all else is proven; so `empty` is a
 /// proof within kFarthest, or within 512 metres where half-spaces prove nothing.
-Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters);
+/// `lipschitz`: of the distance, infinite where it is not known. Intervals of turned shapes are loose; where
+/// they prove nothing soon, so does it, from the values in the middle of cells.
+Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters,
+                  double lipschitz = std::numeric_limits<double>::infinity());
 
 inline constexpr double kFarthest = 16384.0;
 

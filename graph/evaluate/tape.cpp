@@ -302,8 +302,7 @@ bool TapeMachine<T>::positiveInEachCase(const Tape& tape, const Box& box) requir
 
 /// Runs the steps from `first` on, in each case of the first jump that is met.
 template <class T>
-bool TapeMachine<T>::positiveFrom(const Tape& tape, std::size_t first,
-                                  int splits) requires std::is_same_v<T, double> {
+bool TapeMachine<T>::positiveFrom(const Tape& tape, std::size_t first, int splits) {
     const OpInfo* const table = opTable().data();
     for (std::size_t i = first; i < tape.steps.size(); ++i) {
         const TapeStep& step = tape.steps[i];

@@ -136,7 +136,7 @@ class TapeMachine {
     void enter(const Tape& tape, const Box& box);
     /// Puts a step's interval into its register, and gives those of its operands.
     void takeInterval(const Tape& tape, const TapeStep& step, const OpInfo* table, Interval* operands);
-    bool positiveFrom(const Tape& tape, std::size_t first, int splits) requires std::is_same_v<T, double>;
+    bool positiveFrom(const Tape& tape, std::size_t first, int splits);
     Operands operandsOf(const Tape& tape, const TapeStep& step) const;
 
     std::vector<Row> rows;            // by register

@@ -174,8 +174,8 @@ class Finder {
         std::vector<uint32_t> order(found.all.size()), place(order.size());
         std::iota(order.begin(), order.end(), 0u);
         const auto isListed = [&](uint32_t f) { return found.all[f].members >= kListedMembers; };
-        const auto rest = std::ranges::stable_partition(order, isListed);
-        found.listed = uint32_t(rest.begin() - order.begin());
+        const auto rest = std::stable_partition(order.begin(), order.end(), isListed);
+        found.listed = uint32_t(rest - order.begin());
         std::vector<Family> all;
         for (const uint32_t f : order) {
             place[f] = uint32_t(all.size());

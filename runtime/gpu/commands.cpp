@@ -172,12 +172,26 @@ void beginStage(Commands& commands, const char* name) {
     commands.stageOpen = true;
 }
 
-void flush(Commands& commands) {
-    double elapsed = run(commands);
+namespace {
+
+/// flush(), and the wall clock time in ms.
+double runOn(Commands& commands) {
+    const double elapsed = run(commands);
     if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
     vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
     release(commands.device, commands.pools);
     allocate(commands);
+    return elapsed;
+}
+
+}  // namespace
+
+void flush(Commands& commands) { runOn(commands); }
+
+uint32_t flushPart(Commands& commands, uint32_t done) {
+    constexpr double kLeast = 50.0, kMost = 125.0;  // ms
+    const double elapsed = runOn(commands);
+    return elapsed < kLeast ? 2 * done : elapsed > kMost ? std::max(done / 2, 1u) : done;
 }
 
 void barrier(Commands& commands) {
@@ -256,16 +270,40 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
     if (count) give(commands, pipeline, point, {writes.data(), count});
 }
 
-void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
-              std::size_t pushSize, std::span<const Descriptor> descriptors) {
-    const uint32_t most = commands.device.limits.groups;
+namespace {
+
+void checkGroups(const Device& device, glm::uvec3 groups) {
+    const uint32_t most = device.limits.groups;
     if (groups.x > most || groups.y > most || groups.z > most)
-        throw DeviceTooSmall("device '" + commands.device.name() + "' runs " + std::to_string(most) +
+        throw DeviceTooSmall("device '" + device.name() + "' runs " + std::to_string(most) +
                              " work groups in a row, and " +
                              std::to_string(std::max({groups.x, groups.y, groups.z})) +
                              " are needed; a lower resolution needs less");
+}
+
+}  // namespace
+
+void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
+              std::size_t pushSize, std::span<const Descriptor> descriptors) {
+    checkGroups(commands.device, groups);
     bind(commands, pipeline, push, pushSize, descriptors);
     vkCmdDispatch(commands.handle, groups.x, groups.y, groups.z);
+}
+
+void dispatchRows(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
+                  std::size_t pushSize, std::span<const Descriptor> descriptors) {
+    if (!commands.parted) return dispatch(commands, pipeline, groups, push, pushSize, descriptors);
+    constexpr uint32_t kFirstGroups = 512;
+    checkGroups(commands.device, groups);
+    uint32_t rows = std::max(kFirstGroups / std::max(groups.x, 1u), 1u);
+    for (uint32_t row = 0; row < groups.y;) {
+        const uint32_t now = std::min(rows, groups.y - row);
+        bind(commands, pipeline, push, pushSize, descriptors);
+        vkCmdDispatchBase(commands.handle, 0, row, 0, groups.x, now, groups.z);
+        row += now;
+        if (row < groups.y) rows = flushPart(commands, now);
+        if (commands.cancel && *commands.cancel) return;
+    }
 }
 
 void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,

@@ -7,6 +7,9 @@
 //
 // Nothing waits for a recording that is sent but what needs it: the next submit(), or the host when it reads,
 // writes or frees a buffer. The device does all in the order in which it was given.
+//
+// Drivers end what takes them seconds, and with it the device: a parted recording runs long passes in parts of
+// about a tenth of a second, each awaited. How long they are is found as they run.
 #pragma once
 
 #include <atomic>
@@ -37,6 +40,7 @@ struct Commands {
     VkQueryPool queries = VK_NULL_HANDLE;  ///< GPU only
     bool stageOpen = false;
     const std::atomic<bool>* cancel = nullptr;  ///< if given, long work looks at it between its parts
+    bool parted = false;                        ///< dispatchRows(), and who asks for it, work in parts
     std::vector<VkDescriptorPool> pools;  ///< of its sets, the last with room; none where sets are pushed
 };
 
@@ -90,6 +94,15 @@ void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, c
 void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,
                       VkDeviceSize offset, const void* push, std::size_t pushSize,
                       std::span<const Descriptor> descriptors);
+
+/// dispatch() by rows of groups (y), for passes that may take long: in a parted recording some rows at a time,
+/// until `commands.cancel` says otherwise.
+void dispatchRows(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
+                  std::size_t pushSize, std::span<const Descriptor> descriptors);
+
+/// Runs what is recorded so far, `done` of the things that a long pass is made of, and returns how many to do
+/// next for that to take about a tenth of a second: as many, twice or half as many.
+uint32_t flushPart(Commands& commands, uint32_t done);
 
 /// As above, with a struct for the push constants.
 template <class Push>

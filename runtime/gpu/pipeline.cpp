@@ -114,6 +114,7 @@ Pipeline build(const Device& device, const ShaderOptions& options, const Spirv& 
     Module module(device, spirv);
     Specialization constants(device, options.constants);
     auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;  // dispatchRows() begins at any row
     info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.handle, constants);
     info.layout = pipeline.layout;
     check(vkCreateComputePipelines(device.handle, device.pipelineCache, 1, &info, nullptr, &pipeline.handle),

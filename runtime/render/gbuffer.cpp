@@ -162,8 +162,9 @@ void traceDepth(Commands& commands, const DepthPipelines& pipelines, DepthTarget
     const auto pass = [&](const Pipeline& pipeline, VkExtent3D size, const Image& written) {
         std::vector<Descriptor> bound = {storage(0, written), storage(1, target.starts)};
         addField(bound, field);
-        dispatch(commands, pipeline,
-                 {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, rays, bound);
+        dispatchRows(commands, pipeline,
+                     {groupsFor(size.width, kTraceGroup), groupsFor(size.height, kTraceGroup), 1}, &rays,
+                     sizeof rays, bound);
         barrier(commands);
     };
     pass(pipelines.cones, cones, target.starts);
@@ -229,14 +230,17 @@ void dispatchAllTiles(Commands& commands, const Pipeline& pipeline, const GBuffe
 
 void dispatchTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
                    const void* push, std::size_t pushSize, std::span<const Descriptor> bound) {
-    if (!commands.cancel || !commands.device.software)
-        return dispatchAllTiles(commands, pipeline, gbuffer, list, push, pushSize, bound);
-    if (cancelled(commands)) return;
+    if (!commands.parted) return dispatchAllTiles(commands, pipeline, gbuffer, list, push, pushSize, bound);
+    flush(commands);
     const uint32_t tiles = download<uint32_t>(commands.device, gbuffer.arguments, RENDER_LISTS)[list];
-    for (uint32_t first = 0; first < tiles; first += kSlice) {
-        dispatch(commands, pipeline, {std::min(kSlice, tiles - first), 1, 1}, push, pushSize,
-                 fromTile(bound, gbuffer, first));
-        if (cancelled(commands)) return;
+    uint32_t slices = 1;
+    for (uint32_t first = 0; first < tiles;) {
+        if (commands.cancel && *commands.cancel) return;
+        slices = std::min(slices, mostTiles(commands.device) / kSlice);
+        const uint32_t now = std::min(slices * kSlice, tiles - first);
+        dispatch(commands, pipeline, {now, 1, 1}, push, pushSize, fromTile(bound, gbuffer, first));
+        first += now;
+        if (first < tiles) slices = flushPart(commands, slices);
     }
 }
 

@@ -88,8 +88,8 @@ void listTiles(Commands& commands, GBuffer& gbuffer, const Image& depth, const B
 void dispatchAllTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
                       const void* push, std::size_t pushSize, std::span<const Descriptor> bound);
 
-/// The same, but a recording that can be cancelled is run in slices on a software device, and the rest is
-/// left out once it is.
+/// The same for passes that may take long: a parted recording runs some tiles at a time, and leaves out the
+/// rest once it is cancelled.
 void dispatchTiles(Commands& commands, const Pipeline& pipeline, const GBuffer& gbuffer, uint32_t list,
                    const void* push, std::size_t pushSize, std::span<const Descriptor> bound);
 

@@ -111,8 +111,8 @@ void traceReference(Commands& commands, Renderer& renderer, const RenderScene& s
                                      {3, gbuffer.tileLists},
                                      storage(7, renderer.ambient.now())};
     addField(bound, fieldOf(renderer, scene));
-    dispatchAllTiles(commands, renderer.reference, gbuffer, RENDER_NEAR, &kRaysReference,
-                     sizeof kRaysReference, bound);
+    dispatchTiles(commands, renderer.reference, gbuffer, RENDER_NEAR, &kRaysReference, sizeof kRaysReference,
+                  bound);
     barrier(commands);
 }
 
@@ -133,9 +133,9 @@ void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) 
         {0, renderer.frame}, storage(1, renderer.seen.depth), storage(10, renderer.pixels)};
     addField(bound, fieldOf(renderer, scene));
     const VkExtent3D extent = renderer.pixels.extent;
-    dispatch(commands, renderer.show,
-             {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1}, nullptr, 0,
-             bound);
+    dispatchRows(commands, renderer.show,
+                 {groupsFor(extent.width, RENDER_TILE), groupsFor(extent.height, RENDER_TILE), 1}, nullptr, 0,
+                 bound);
     barrier(commands);
 }
 

@@ -7,6 +7,7 @@
 #include "runtime/render/describe.h"
 #include "runtime/render/lighting.h"
 #include "runtime/render/primary.h"
+#include "runtime/system/clock.h"
 
 namespace fw {
 
@@ -14,7 +15,8 @@ namespace {
 
 constexpr uint32_t kShadowSize = 768;  // texels along each side
 constexpr uint32_t kStillShadowSize = 2048;
-constexpr int kRestFrames = 64;  // of the live view, after which it stops
+constexpr int kRestFrames = 64;       // of the live view, after which it stops
+constexpr double kSlowFrame = 100.0;  // ms; then the next live frame is drawn in parts
 constexpr int kRaysStill = 16, kRaysResting = 8;
 
 /// What ambient occlusion is to do for this scene.
@@ -110,6 +112,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.shadowStands = false;
     renderer.tracing.reset();
     renderer.trust = 0.5f;
+    renderer.slow = true;
     forgetHistory(renderer.ambient);
 }
 
@@ -189,7 +192,10 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         view.jitter = jitterOf(i, options);
         renderer.shadowStands = false;
         Commands commands(*renderer.device);
-        drawFrame(commands, renderer, scene, options, view, i > 0, i);
+        commands.parted = true;
+        commands.cancel = options.cancel;
+        if (!drawFrame(commands, renderer, scene, options, view, i > 0, i))
+            return Error{.message = "cancelled"};
         if (i + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);
     }
@@ -226,8 +232,10 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
         renderer.described = describeFrame(renderer, scene, options, view, false, 0, kShadowSize);
         measurePrimary(renderer, scene);
     }
+    const Clock::time_point start = Clock::now();
     Commands commands(*renderer.device);
     commands.cancel = options.cancel;
+    commands.parted = renderer.slow || (options.cancel && renderer.device->software);
     const auto state = [&] {
         return std::tie(renderer.described, renderer.gbuffer.current, renderer.ambient.current,
                         renderer.ambient.rays, renderer.ambient.hasHistory);
@@ -246,6 +254,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     }
     recordReading(commands, renderer.pixels, renderer.readback);
     submit(commands);
+    renderer.slow = millisecondsSince(start) > kSlowFrame;
     renderer.shown = shows;
     picture = readPicture(renderer);
     return true;

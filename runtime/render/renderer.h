@@ -144,6 +144,7 @@ struct Renderer {
     int rested = 0;                ///< frames that the live view's picture is the mean of, less one
     bool shadowStands = false;     ///< the shadow map is still that of the mesh and the sun
     std::optional<bool> tracing;   ///< what Primary::measured came to
+    bool slow = true;    ///< a live frame of this field took long, or none was drawn: the next is parted
     float trust = 0.5f;  ///< part of its value by which a field without a known constant may be stepped
 };
 

@@ -45,7 +45,8 @@ void dropFlat(std::vector<uint32_t>& indices) {
     if (std::ranges::adjacent_find(all) == all.end()) return;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < indices.size(); i += 3) {
-        if (std::ranges::equal_range(all, cornersAt(i)).size() > 1) continue;
+        const auto [first, last] = std::equal_range(all.begin(), all.end(), cornersAt(i));
+        if (last - first > 1) continue;
         std::copy_n(&indices[i], 3, &indices[kept]);
         kept += 3;
     }

@@ -80,7 +80,6 @@ std::vector<uint32_t> readCacheFile(const std::string& path, uint64_t key) {
 
 void writeCacheFile(const std::string& path, uint64_t key, const std::vector<uint32_t>& words) {
     if (path.empty()) return;
-    static std::atomic<int> counter = 0;
     std::error_code error;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
     Result<OutputFile> file = OutputFile::open(path, nullptr);

@@ -2,20 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "graph/evaluate/region.h"
 #include "graph/language/lower.h"
 
 namespace fw::region_test {
 
-Region regionOf(const std::string& code) {
+Region regionOf(const std::string& code, double lipschitz = std::numeric_limits<double>::infinity()) {
     language::Lowering state;
     state.time = state.ir.constant(0.0);
     const auto value = language::lowerText(state, code);
     EXPECT_TRUE(value) << format(value.error());
     std::array<IrId, 1> root{value->ids[0]};
     const Ir ir = state.ir.compact(root);
-    return findRegion(ir, root[0], {});
+    return findRegion(ir, root[0], {}, lipschitz);
 }
 
 void expectBounds(const std::string& code, Point lo, Point hi, double slack) {
@@ -46,6 +48,35 @@ TEST(Region, OfSolidsWhoseHalfSpacesProveLittle) {
         {-r * 1.01, -0.5, -r * 1.01}, {r * 1.01, 0.5, r * 1.01}, 0.3);
     expectBounds("return twist(box(p, vec3(0.5, 1, 0.5)), 90);", {-0.5, -1, -0.5}, {0.5, 1, 0.5}, 1.1);
     expectBounds("return capped_cone(p, 0.5, 0.6, 0.25);", {-0.6, -0.5, -0.6}, {0.6, 0.5, 0.6}, 0.1);
+}
+
+TEST(Region, OfManySolidsThatAreTurned) {
+    // Half-spaces prove nothing, and the intervals of turned coordinates little.
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::string code = "float d = 1e9; vec3 q;";
+    const auto number = [](double value) { return "(" + std::to_string(value) + ")"; };
+    for (int i = 0; i < 200; ++i) {
+        const double angle = 3.0 * unit(random), c = std::cos(angle), s = std::sin(angle);
+        code += "q = p - vec3(" + number(4 * unit(random)) + ", " + number(4 * unit(random)) + ", " +
+                number(4 * unit(random)) + "); q = vec3(" + number(c) + " * q.x - " + number(s) +
+                " * q.z, q.y, " + number(s) + " * q.x + " + number(c) +
+                " * q.z); d = min(d, box(q, vec3(0.2, 0.3, 0.1)));";
+    }
+    for (const double lipschitz : {1.0, std::numeric_limits<double>::infinity()}) {
+        const Region region = regionOf(code + "return d;", lipschitz);
+        ASSERT_EQ(region.extent, Extent::bounded) << lipschitz;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GT(region.box.lo[axis], -6.0);
+            EXPECT_LT(region.box.hi[axis], 6.0);
+        }
+    }
+}
+
+TEST(Region, OfADrill) {
+    const Region region = regionOf("return twist(box(p, vec3(0.3, 1, 0.1)), 1440);");
+    ASSERT_EQ(region.extent, Extent::bounded);
+    EXPECT_LT(longestSide(region.box), 4.0);
 }
 
 TEST(Region, OfSolidsWithoutBounds) {

@@ -53,7 +53,8 @@ void expectAlike(const Report& first, const Report& second) {
     EXPECT_EQ(second.closedManifold(), first.closedManifold());
     EXPECT_EQ(second.shells, first.shells);
     EXPECT_EQ(second.eulerCharacteristic, first.eulerCharacteristic);
-    EXPECT_NEAR(second.volume, first.volume, 1e-4 * std::abs(first.volume));
+    // The second driver's sines are a little off, and move surfaces that are made of them by millionths of a metre.
+    EXPECT_NEAR(second.volume, first.volume, 1e-4 * std::abs(first.volume) + 5e-6 * first.area);
 }
 
 class OnSecondDriver : public testing::TestWithParam<std::string> {
