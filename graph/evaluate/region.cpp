@@ -298,18 +298,25 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
     // of a second where that is not enough.
     const Budget budget{20'000, std::max<std::size_t>(400'000, 64 * field.tape.steps.size())};
     const Budget patient{64 * budget.looks, 64 * budget.steps};
-    if (const std::optional<Box> box = boundByHalfSpaces(field)) {
+    bool spent = false;
+    std::optional<Box> box = boundByHalfSpaces(field);
+    if (box) {
         for (int axis = 0; axis < 3; ++axis)
             if (box->lo[axis] >= box->hi[axis]) return {Extent::empty, {}};
-        const std::optional<Box> tight = shrink(field, *box, 12, budget);
-        return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
+        const double before = longestSide(*box);
+        box = shrink(field, *box, 12, budget, &spent);
+        if (!box) return {Extent::empty, {}};
+        // Half-spaces are tight but for what is turned.
+        spent = spent && longestSide(*box) < 0.5 * before;
+    } else if (const std::optional<Region> found = boundByCells(field, budget, spent)) {
+        if (found->extent != Extent::bounded) return *found;
+        box = found->box;
+    } else {
+        return boundPatiently(field, lipschitz, patient).value_or(Region{Extent::unbounded, {}});
     }
-    bool spent = false;
-    const std::optional<Region> found = boundByCells(field, budget, spent);
-    if (!found) return boundPatiently(field, lipschitz, patient).value_or(Region{Extent::unbounded, {}});
-    if (!spent) return *found;
+    if (!spent) return {Extent::bounded, *box};
     field.lipschitz = lipschitz;
-    const std::optional<Box> tight = shrink(field, found->box, 18, patient);
+    const std::optional<Box> tight = shrink(field, *box, 18, patient);
     return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
 }
 
