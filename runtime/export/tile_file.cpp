@@ -110,7 +110,9 @@ uint64_t bits(float value) {
 
 /// What `part` needs of the record.
 Result<TileContent> readContent(const TileRecord& record, MeshPieces::Part part) {
-    const auto& [path, offset, header] = record;
+    const std::string& path = record.path;
+    const uint64_t offset = record.offset;
+    const auto& header = record.header;
     const RecordLayout at = layoutOf(header);
     TileContent tile;
     tile.header = header;
