@@ -27,7 +27,10 @@ std::optional<Error> fieldProblem(const Graph& graph, const Node& output, const 
                        "the field has more than " + std::to_string(kMaxIrOperations) +
                            " operations: use fewer nodes, copies or loops");
     if (!ir.isConstant(distance) || std::isfinite(ir.number(distance))) return std::nullopt;
-    Error error = errorAt(graph, &output, "the field is not a number anywhere: look for a division by zero");
+    Error error =
+        errorAt(graph, &output,
+                "the field is not a number anywhere: look for a division by zero, or for numbers that grow "
+                "beyond all bounds");
     error.code = Error::Code::divisionByZero;  // it may be one at another time
     return error;
 }

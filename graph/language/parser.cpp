@@ -274,6 +274,10 @@ class Parser {
     }
 
     void endStatement() {
+        if (startsAssignment(0))
+            fail(reader.peek(),
+                 "only a variable, or components of one (as in v.x), can be assigned to, and not within "
+                 "an expression");
         if (!reader.ended() && !reader.peek().is("}")) reader.expect(";", "after the statement");
     }
 
@@ -316,7 +320,12 @@ class Parser {
                 if (!type)
                     fail(typeToken, "expected a parameter's type (float, int, bool, vec2 or vec3), found " +
                                         shown(typeToken));
-                made.parameters.emplace_back(*type, reader.newName("a parameter"));
+                const Token& named = reader.peek();
+                std::string name = reader.newName("a parameter");
+                if (std::ranges::find(made.parameters, name, [](const auto& each) { return each.second; }) !=
+                    made.parameters.end())
+                    fail(named, "the parameter " + inQuotes(name) + " is there twice");
+                made.parameters.emplace_back(*type, std::move(name));
             } while (reader.accept(","));
         reader.expect(")", "after the parameters");
         if (!reader.peek().is("{"))
@@ -420,6 +429,9 @@ class Parser {
         if (reader.peek().kind == Token::Kind::name && declaredType(reader.peek().text) &&
             reader.peek(1).kind == Token::Kind::name)
             return declaration(std::move(made));
+        if (reader.peek().kind == Token::Kind::name && reader.peek(1).kind == Token::Kind::name)
+            fail(reader.peek(),
+                 "expected a type (float, int, bool, vec2 or vec3), found " + shown(reader.peek()));
         if (made.constant)
             fail(reader.peek(), "expected a type behind 'const' (float, int, bool, vec2 or vec3), found " +
                                     shown(reader.peek()));
@@ -440,9 +452,10 @@ class Parser {
         return add(std::move(made));
     }
 
-    bool startsAssignment() const {
-        std::size_t ahead = 1;
-        while (reader.peek(ahead).is(".") && reader.peek(ahead + 1).kind == Token::Kind::name) ahead += 2;
+    /// Whether the sign of an assignment follows so many words.
+    bool startsAssignment(std::size_t ahead = 1) const {
+        while (ahead > 0 && reader.peek(ahead).is(".") && reader.peek(ahead + 1).kind == Token::Kind::name)
+            ahead += 2;
         const Token& token = reader.peek(ahead);
         for (std::string_view symbol : {"=", "+=", "-=", "*=", "/=", "%=", "++", "--"})
             if (token.is(symbol)) return true;

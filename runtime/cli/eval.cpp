@@ -170,13 +170,14 @@ class Lines {
                 std::string_view(buffer.data() + filled, std::size_t(got)).rfind('\n');
             if (newline != std::string::npos) whole = filled + newline + 1;
             filled += std::size_t(got);
-            if (whole == 0 && filled >= kChunk) break;  // no line of numbers is that long
+            if (whole == 0 && filled >= kChunk) return tooLong = true, std::string_view();
         }
         given = ended || whole == 0 ? filled : whole;
         return {buffer.data(), given};
     }
 
-    int fault = 0;  ///< errno, where reading failed
+    int fault = 0;         ///< errno, where reading failed
+    bool tooLong = false;  ///< the next line is longer than kChunk
 
   private:
     bool more() const {
@@ -219,6 +220,10 @@ int evalLines(const Program& program, const std::string& path, Asked asked) {
         }
         if (std::fflush(stdout) != 0) return kDone;  // which is told behind every command
     }
+    if (lines.tooLong)
+        return refuse(
+            "a line is longer than " + std::to_string(kChunk >> 20) + " MiB: give a point or box a line",
+            line + 1, 1);
     if (lines.fault) return refuse(std::string("cannot be read: ") + std::strerror(lines.fault));
     return kDone;
 }

@@ -234,6 +234,12 @@ TEST(Language, Diagnostics) {
     expectError("++p.;", "expected a component");
     expectError(std::string("return 1 \0;", 11), "the character '?' has no meaning");
     expectError("return é;", "the character 'é' has no meaning");
+    expectError("float f(float x, float x) { return x; } return f(1, 2);",
+                "code 1:24: the parameter 'x' is there twice");
+    expectError("p[0] = 1; return 1;", "code 1:6: only a variable, or components of one");
+    expectError("i = 1; return i++;", "code 1:16: only a variable");
+    expectError("vec4 v; return 1;",
+                "code 1:1: expected a type (float, int, bool, vec2 or vec3), found 'vec4'");
     expectError("while (true) {}", "'while' is not part of the language");
     expectError("return vec3(1) + vec2(1);", "vec2 and vec3 do not mix");
     expectError("return \"a\";", "string");
@@ -403,10 +409,15 @@ TEST(Language, DeepAndLongCodeNeedsNoStack) {
     std::string chain = "return p.x";
     for (int i = 0; i < 49'000; ++i) chain += "+p.x";
     const auto stackless = [&](const std::string& code) {
-        // On half a megabyte of stack.
+    // On half a megabyte of stack; under a sanitizer frames are many times as large.
+#ifdef __SANITIZE_ADDRESS__
+        constexpr std::size_t kStack = 8 << 20;
+#else
+        constexpr std::size_t kStack = 512 << 10;
+#endif
         pthread_attr_t attributes;
         pthread_attr_init(&attributes);
-        pthread_attr_setstacksize(&attributes, 512 << 10);
+        pthread_attr_setstacksize(&attributes, kStack);
         pthread_t thread;
         std::string copy = code;
         pthread_create(

@@ -184,6 +184,8 @@ TEST_F(Command, EvalRefusesALineThatIsWrongByItsNumber) {
     refused("--points", "2 0 0\n1 2\n", "2:4: error: expected 3 numbers, found 2", "0\n");
     refused("--points", "2 0 0 0", "1:7: error: expected 3 numbers and no more: there is '0' behind them");
     refused("--points", "\n# but\n1 two 3", "3:3: error: 'two' is not a finite number");
+    refused("--points", "# " + std::string((4 << 20) - 2, '-') + "9 8 7\n0 0 0\n",
+            "1:1: error: a line is longer than 4 MiB");
     refused("--points", "1 nan 3", "1:3: error: 'nan' is not a finite number");
     refused("--points", "1 2 1e999", "1:5: error: '1e999' is not a finite number");
     refused("--points", "1,,3", "1:3: error: expected a number before ',3'");

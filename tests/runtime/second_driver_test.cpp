@@ -2,7 +2,8 @@
 // first driver meshes them, look as they do there, and fluids and fields of meshes become what they become
 // there.
 //
-// SwiftShader is slow: meshes of two samples, everything with FIELDWRIGHT_LONG.
+// SwiftShader is slow: meshes of two samples, everything with FIELDWRIGHT_LONG. But for the city, whose
+// kernels it compiles for ten minutes into 20 GB.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ std::vector<std::string> samples() {
     if (!std::getenv("FIELDWRIGHT_LONG")) return {"csg_part", "tower"};
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples"))
-        if (const std::string name = entry.path().filename().string(); name.ends_with(".field.json"))
+        if (const std::string name = entry.path().filename().string();
+            name.ends_with(".field.json") && name != "dusk_city.field.json")
             names.push_back(name.substr(0, name.size() - std::string(".field.json").size()));
     std::sort(names.begin(), names.end());
     return names;
@@ -53,7 +55,8 @@ void expectAlike(const Report& first, const Report& second) {
     EXPECT_EQ(second.closedManifold(), first.closedManifold());
     EXPECT_EQ(second.shells, first.shells);
     EXPECT_EQ(second.eulerCharacteristic, first.eulerCharacteristic);
-    // The second driver's sines are a little off, and move surfaces that are made of them by millionths of a metre.
+    // The second driver's sines are a little off, and move surfaces that are made of them by millionths of a
+    // metre.
     EXPECT_NEAR(second.volume, first.volume, 1e-4 * std::abs(first.volume) + 5e-6 * first.area);
 }
 
