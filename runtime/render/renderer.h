@@ -82,8 +82,7 @@ struct RenderOptions {
     bool reference = false;  ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
     uint32_t show = RENDER_PICTURE;  ///< or one of the views that shaders/render/render.h lists
     Slice slice = {};
-    /// Looked at between the frames of a still picture, and within a frame of the live view, which can be
-    /// drawn again as if this one had not begun.
+    /// Looked at within a frame; that of a live view can be drawn again as if this one had not begun.
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };

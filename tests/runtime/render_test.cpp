@@ -378,6 +378,51 @@ TEST(Render, SizesOutOfRangeAndCancelling) {
     EXPECT_NE(picture.error().message.find("cancelled"), std::string::npos);
 }
 
+TEST(Render, AStillIsCancelledWithinASample) {
+    std::atomic<bool> cancel = false;
+    int told = 0;
+    const Result<Picture> picture = draw(
+        kBall, {{}, 16}, {.width = 256, .height = 256, .samples = 1, .cancel = &cancel, .progress = [&](int) {
+                              ++told;  // before the sample
+                              cancel = true;
+                          }});
+    EXPECT_EQ(told, 1);
+    ASSERT_FALSE(picture);
+    EXPECT_EQ(picture.error().message, "cancelled");
+}
+
+TEST(Render, InPartsItLooksTheSame) {
+    // A live field's first frame is drawn in parts, in case that it takes long, and the next as one.
+    const Result<Graph> graph = parseGraph(kBall, "", nullptr);
+    Result<Program> program = compile(*graph);
+    Result<Device> device = createDevice({.validation = true});
+    ASSERT_TRUE(device);
+    const std::shared_ptr<DeviceRecord> record = device->record;
+    Session session(std::move(*device));
+    session.setProgram(std::move(*program));
+    const Result<MesherResult> mesh = session.polygonise({{}, 16});
+    ASSERT_TRUE(mesh);
+    const auto frame = [&](Picture& picture, int wide) {
+        const uint64_t before = record->waits;
+        const Result<bool> drawn = session.renderLive(*mesh, {.width = wide, .height = 200}, picture);
+        EXPECT_TRUE(drawn && *drawn);
+        return record->waits - before;
+    };
+    Picture parted, whole, other;
+    const uint64_t waits = frame(parted, 300);
+    frame(other, 299);
+    EXPECT_LT(frame(whole, 300), waits);
+    // Rays of occlusion are others in each frame.
+    double apart = 0, most = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+        const double each = std::abs(double(parted.pixels[i]) - double(whole.pixels[i]));
+        apart += each, most = std::max(most, each);
+    }
+    EXPECT_LT(apart / double(whole.pixels.size()), 1.0);
+    EXPECT_LT(most, 80.0);
+    EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
+}
+
 /// Runs `fieldwright render` on a graph's text.
 test::ProgramResult command(const TempDir& folder, const std::string& text, const std::string& rest) {
     test::writeText(folder.path("graph.field.json"), text);
