@@ -274,7 +274,7 @@ class Parser {
     }
 
     void endStatement() {
-        if (startsAssignment(0))
+        if (!reader.peek().is(";") && startsAssignment(0))
             fail(reader.peek(),
                  "only a variable, or components of one (as in v.x), can be assigned to, and not within "
                  "an expression");

@@ -87,6 +87,42 @@ void SequenceProgress::next(bool work) {
     std::fflush(stderr);
 }
 
+namespace {
+
+fs::path pathOf(const RenderCommandOptions& options, long frame) {
+    return fs::path(options.output) / frameName(frame);
+}
+
+/// Finds the frames of the graph that are asked for, and whether their files may be written; if not, says why
+/// and returns a status other than kDone.
+int acceptFrames(const Graph& graph, const RenderCommandOptions& options, std::pair<int, int> size,
+                 std::optional<FrameRange>& range) {
+    const Timeline timeline = *readTimeline(graph);
+    const Result<FrameRange> wanted =
+        framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length),
+                      options.framesPerSecond.value_or(timeline.framesPerSecond));
+    if (!wanted) return badUsage(wanted.error().message);
+    range = *wanted;
+    const std::vector<std::string> read = filesRead(graph);
+    for (long frame = range->first; frame < range->last; ++frame) {
+        const fs::path path = pathOf(options, frame);
+        std::error_code failure;
+        if (const Done kept = checkReplacesNone(read, {path.string()}); !kept)
+            return print(kept.error()), kBadUsage;
+        if (fs::exists(path, failure) && !fs::is_regular_file(path, failure))
+            return badUsage(path.string() + " is no ordinary file: give another folder");
+        if (options.overwrite) continue;
+        const auto there = sizeOfPng(path);
+        if (there && *there != size)
+            return badUsage(path.string() + " is there already, with " + std::to_string(there->first) + "x" +
+                            std::to_string(there->second) +
+                            " pixels: give that --size, another folder, or --overwrite");
+    }
+    return kDone;
+}
+
+}  // namespace
+
 int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     if (fs::path(options.output).extension() == ".png")
         return badUsage(options.output +
@@ -95,30 +131,8 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     if (fs::exists(options.output, failure) && !fs::is_directory(options.output, failure))
         return badUsage(options.output + ": this is a file: a sequence goes into a folder");
 
-    const auto pathOf = [&](long frame) { return fs::path(options.output) / frameName(frame); };
     std::optional<FrameRange> range;
-    const auto accept = [&](const Graph& graph) {
-        const Timeline timeline = *readTimeline(graph);
-        const Result<FrameRange> wanted =
-            framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length),
-                          options.framesPerSecond.value_or(timeline.framesPerSecond));
-        if (!wanted) return badUsage(wanted.error().message);
-        range = *wanted;
-        const std::vector<std::string> read = filesRead(graph);
-        for (long frame = range->first; frame < range->last; ++frame) {
-            if (const Done kept = checkReplacesNone(read, {pathOf(frame).string()}); !kept)
-                return print(kept.error()), kBadUsage;
-            if (fs::exists(pathOf(frame), failure) && !fs::is_regular_file(pathOf(frame), failure))
-                return badUsage(pathOf(frame).string() + " is no ordinary file: give another folder");
-            if (options.overwrite) continue;
-            const auto there = sizeOfPng(pathOf(frame));
-            if (there && *there != size)
-                return badUsage(pathOf(frame).string() + " is there already, with " +
-                                std::to_string(there->first) + "x" + std::to_string(there->second) +
-                                " pixels: give that --size, another folder, or --overwrite");
-        }
-        return kDone;
-    };
+    const auto accept = [&](const Graph& graph) { return acceptFrames(graph, options, size, range); };
     std::optional<Player> player;
     {
         Progress progress;
@@ -151,7 +165,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
         SequenceProgress progress(range->count());
         const RenderOptions render = renderOptions(options, size);
         for (long frame = range->first; frame < range->last; ++frame) {
-            const std::string path = pathOf(frame).string();
+            const std::string path = pathOf(options, frame).string();
             const bool there = !options.overwrite && sizeOfPng(path) == size;
             if (!there) {
                 const auto make = [&] {

@@ -8,8 +8,8 @@
 // Nothing waits for a recording that is sent but what needs it: the next submit(), or the host when it reads,
 // writes or frees a buffer. The device does all in the order in which it was given.
 //
-// Drivers end what takes them seconds, and with it the device: a parted recording runs long passes in parts of
-// about a tenth of a second, each awaited. How long they are is found as they run.
+// Drivers end what takes them seconds, and with it the device: a parted recording runs long passes in parts
+// of about a tenth of a second, each awaited. How long they are is found as they run.
 #pragma once
 
 #include <atomic>
@@ -95,8 +95,8 @@ void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer
                       VkDeviceSize offset, const void* push, std::size_t pushSize,
                       std::span<const Descriptor> descriptors);
 
-/// dispatch() by rows of groups (y), for passes that may take long: in a parted recording some rows at a time,
-/// until `commands.cancel` says otherwise.
+/// dispatch() by rows of groups (y), for passes that may take long: in a parted recording some rows at a
+/// time, until `commands.cancel` says otherwise.
 void dispatchRows(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
                   std::size_t pushSize, std::span<const Descriptor> descriptors);
 
