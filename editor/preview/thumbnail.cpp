@@ -168,8 +168,7 @@ Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path,
     useParticles(*program, particles);
     if (lacksParticles(*program)) return Error{.message = "its particles are not in the picture: connect it"};
     const std::vector<double> parameters = program->parameters();
-    const Region region =
-        findRegion(program->ir, program->distance(), parameters, program->exactness.lipschitz);
+    const Region region = findRegion(*program);
     if (region.extent == Extent::empty)
         return Error{.message = "there is nothing to see: the solid is empty"};
     // What has no end is looked at where things mostly are.

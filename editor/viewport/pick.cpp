@@ -271,8 +271,7 @@ std::optional<Box> solidOf(const Graph& graph, const std::string& node, double s
     const Result<Program> program =
         compile(shownAt(graph, node, seconds), {.time = seconds, .bake = boxInPlace});
     if (!program) return std::nullopt;
-    const Region region =
-        findRegion(program->ir, program->distance(), program->parameters(), program->exactness.lipschitz);
+    const Region region = findRegion(*program);
     return region.extent == Extent::bounded ? std::optional(region.box) : std::nullopt;
 }
 

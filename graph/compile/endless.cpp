@@ -40,9 +40,7 @@ bool isEndless(Search& search, const Link& link) {
     CompileOptions options;
     options.bake = boxInPlace;
     const Result<Program> program = compile(shown, options);
-    return program &&
-           findRegion(program->ir, program->distance(), program->parameters(), program->exactness.lipschitz)
-                   .extent == Extent::unbounded;
+    return program && findRegion(*program).extent == Extent::unbounded;
 }
 
 bool takesSurface(const Graph& graph, const Node& node, const std::string& input, const Link& link) {

@@ -24,4 +24,8 @@ std::vector<float> Program::numbers() const {
     return all;
 }
 
+Region findRegion(const Program& program) {
+    return findRegion(program.ir, program.distance(), program.parameters(), program.exactness.lipschitz);
+}
+
 }  // namespace fw

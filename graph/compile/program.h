@@ -11,6 +11,7 @@
 
 #include "graph/base/result.h"
 #include "graph/compile/mesh_recipe.h"
+#include "graph/evaluate/region.h"
 #include "graph/ir/families.h"
 #include "graph/ir/ir.h"
 #include "graph/library/types.h"
@@ -60,5 +61,8 @@ struct Program {
     /// What the field's buffer holds: the live values in their slots, then the families' tables. Not empty.
     std::vector<float> numbers() const;
 };
+
+/// Where the program's solid lies, its live values as they are.
+Region findRegion(const Program& program);
 
 }  // namespace fw

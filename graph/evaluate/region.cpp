@@ -17,12 +17,17 @@ struct Field {
     Tape tape;
     double lipschitz;  ///< that cells are judged by, too; infinite: they are not
     TapeMachine<double> machine = {};
+    std::size_t pointSteps = 0;  ///< of tapes, that were run for one point
 
+    std::size_t steps() const { return machine.intervalSteps() + pointSteps; }
     bool positive(const Box& box) { return machine.interval(tape, box).lo >= 0.0; }
 };
 
 /// A tape is shortened if of so many steps one was decided.
 constexpr std::size_t kWorthShortening = 16;
+
+/// Of octrees, in metres: far enough from kFarthest that what repeats shows up again before it.
+constexpr double kLeastReach = 2.0, kMostReach = kFarthest / 32.0;
 
 Box everywhere(double reach) { return {{-reach, -reach, -reach}, {reach, reach, reach}}; }
 
@@ -81,7 +86,7 @@ bool holdsUp(const Box& bound, const Box& cell) {
 /// What a search may take.
 struct Budget {
     std::size_t looks;  ///< boxes that are looked at
-    std::size_t steps;  ///< of tapes, on intervals
+    std::size_t steps;  ///< of tapes, on intervals and points
 };
 
 /// The cells of an octree that may hold some of the solid, looked at only where the hull hangs on them.
@@ -92,10 +97,7 @@ struct Budget {
 class Cells {
   public:
     Cells(Field& field_, const Box& start, const Budget& budget)
-        : field(field_),
-          lastLook(budget.looks),
-          lastStep(field.machine.intervalSteps() + budget.steps),
-          hulls{start} {
+        : field(field_), lastLook(budget.looks), lastStep(field.steps() + budget.steps), hulls{start} {
         add(start, 0, std::make_shared<const Tape>(field.tape));
         for (std::size_t face = 0; face < faces.size(); ++face) enter(face, 0);
     }
@@ -112,7 +114,7 @@ class Cells {
         return true;
     }
     const Box& hull() const { return hulls.back(); }
-    bool canSplit() const { return looks + 2 <= lastLook && field.machine.intervalSteps() < lastStep; }
+    bool canSplit() const { return looks + 2 <= lastLook && field.steps() < lastStep; }
 
   private:
     struct Cell {
@@ -168,6 +170,7 @@ class Cells {
             squared += (box.hi[axis] - middle[axis]) * (box.hi[axis] - middle[axis]);
         }
         double value = 0.0;
+        field.pointSteps += tape.steps.size();
         field.machine.evaluate(tape, std::span(&middle, 1), std::span(&value, 1));
         return value > field.lipschitz * std::sqrt(squared);
     }
@@ -214,8 +217,9 @@ bool touches(const Box& inner, const Box& outer) {
     return false;
 }
 
-/// A sampled point beyond `box` lies inside the solid: at distances spread evenly over their logarithm.
-bool reachesBeyond(Field& field, const Box& box) {
+/// The farthest, by a coordinate, of sampled points beyond `box` that lie inside the solid: at distances
+/// spread evenly over their logarithm. None if none does.
+std::optional<double> reachBeyond(Field& field, const Box& box) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     std::vector<Point> points;
@@ -239,39 +243,26 @@ bool reachesBeyond(Field& field, const Box& box) {
     }
     std::vector<double> values(points.size());
     field.machine.evaluate(field.tape, points, values);
-    return std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; });
+    std::optional<double> farthest;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (int axis = 0; axis < 3 && values[i] < 0.0; ++axis)
+            farthest = std::max(farthest.value_or(0.0), std::abs(points[i][axis]));
+    return farthest;
 }
 
-/// From octrees that begin ever larger; none if there is always something at their faces. `spent` is told
-/// whether the box would be tighter with a larger budget.
-std::optional<Region> boundByCells(Field& field, const Budget& budget, bool& spent) {
-    // Far enough from kFarthest that what repeats shows up again before it.
-    constexpr double kMostReach = kFarthest / 32.0;
-    for (double reach = 2.0; reach <= kMostReach; reach *= 4.0) {
+/// From octrees that begin ever larger, from `reach` on; none if there is always something at their faces.
+/// `budget` is for each, `most` the steps for all of them.
+std::optional<Region> boundByCells(Field& field, double reach, const Budget& budget,
+                                   std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    const std::size_t before = field.steps();
+    for (; reach <= kMostReach; reach *= 4.0) {
         const Box start = everywhere(reach);
-        const std::optional<Box> tight = shrink(field, start, 18, budget);
+        const std::size_t left = most - std::min(most, field.steps() - before);
+        const std::optional<Box> tight =
+            shrink(field, start, 18, {budget.looks, std::min(budget.steps, left)});
         if (tight ? touches(*tight, start) : reach < kMostReach) continue;
-        if (reachesBeyond(field, tight.value_or(start))) continue;
-        if (!tight) return Region{Extent::empty, {}};
-        return Region{
-            Extent::bounded,
-            shrink(field, *tight, 18, {4 * budget.looks, 4 * budget.steps}, &spent).value_or(*tight)};
-    }
-    return std::nullopt;
-}
-
-/// The same where that found none too soon: with its constant, if that is known, and from where samples say
-/// that nothing is beyond.
-std::optional<Region> boundPatiently(Field& field, double lipschitz, const Budget& budget) {
-    double reach = kFarthest / 32.0;
-    if (reachesBeyond(field, everywhere(reach))) return std::nullopt;
-    while (reach > 2.0 && !reachesBeyond(field, everywhere(reach / 4.0))) reach /= 4.0;
-    field.lipschitz = lipschitz;
-    for (; reach <= kFarthest / 32.0; reach *= 4.0) {
-        const std::optional<Box> tight = shrink(field, everywhere(reach), 18, budget);
-        if (!tight) return Region{Extent::empty, {}};
-        if (!touches(*tight, everywhere(reach)) && !reachesBeyond(field, *tight))
-            return Region{Extent::bounded, *tight};
+        if (reachBeyond(field, tight.value_or(start))) continue;
+        return tight ? Region{Extent::bounded, *tight} : Region{Extent::empty, {}};
     }
     return std::nullopt;
 }
@@ -294,10 +285,14 @@ double longestSide(const Box& box) {
 Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameters, double lipschitz) {
     Field field{distance, makeTape(ir, distance, parameters), std::numeric_limits<double>::infinity()};
     if (field.positive(everywhere(kFarthest))) return {Extent::empty, {}};
-    // Some 5 ms of interval arithmetic, more only where a field has tens of thousands of operations; a third
-    // of a second where that is not enough.
-    const Budget budget{20'000, std::max<std::size_t>(400'000, 64 * field.tape.steps.size())};
-    const Budget patient{64 * budget.looks, 64 * budget.steps};
+    // Some 5 ms of interval arithmetic, more only where a field has tens of thousands of operations. Where
+    // that is not enough some tenth of a second, and for long fields more only with their constant, which
+    // gets further.
+    constexpr std::size_t kLooks = 20'000, kSteps = 400'000, kPatience = 32;
+    const Budget budget{kLooks, std::max(kSteps, 64 * field.tape.steps.size())};
+    const Budget patient{kPatience * kLooks, std::isinf(lipschitz)
+                                                 ? std::max(kPatience * kSteps, budget.steps)
+                                                 : kPatience * budget.steps};
     bool spent = false;
     std::optional<Box> box = boundByHalfSpaces(field);
     if (box) {
@@ -308,11 +303,18 @@ Region findRegion(const Ir& ir, IrId distance, std::span<const double> parameter
         if (!box) return {Extent::empty, {}};
         // Half-spaces are tight but for what is turned.
         spent = spent && longestSide(*box) < 0.5 * before;
-    } else if (const std::optional<Region> found = boundByCells(field, budget, spent)) {
+    } else if (const std::optional<Region> found = boundByCells(field, kLeastReach, budget)) {
         if (found->extent != Extent::bounded) return *found;
-        box = found->box;
+        box =
+            shrink(field, found->box, 18, {4 * budget.looks, 4 * budget.steps}, &spent).value_or(found->box);
     } else {
-        return boundPatiently(field, lipschitz, patient).value_or(Region{Extent::unbounded, {}});
+        // From where samples say that nothing is beyond, with room to show it.
+        const double seen = reachBeyond(field, everywhere(kLeastReach)).value_or(0.0);
+        double reach = kLeastReach;
+        while (reach < 2.0 * seen) reach *= 4.0;
+        field.lipschitz = lipschitz;
+        return boundByCells(field, reach, {patient.looks, patient.steps / 4}, patient.steps)
+            .value_or(Region{Extent::unbounded, {}});
     }
     if (!spent) return {Extent::bounded, *box};
     field.lipschitz = lipschitz;

@@ -14,6 +14,9 @@ struct Failure {
     bool last = false;  ///< what follows would only be misread
 };
 
+/// What can be declared, in words.
+constexpr char kTypes[] = "(float, int, bool, vec2 or vec3)";
+
 std::optional<Type> declaredType(std::string_view name) {
     if (name == "float") return Type::scalar;
     if (name == "int") return Type::integer;
@@ -274,7 +277,7 @@ class Parser {
     }
 
     void endStatement() {
-        if (!reader.peek().is(";") && startsAssignment(0))
+        if (!reader.peek().is(";") && assigns(reader.peek()))
             fail(reader.peek(),
                  "only a variable, or components of one (as in v.x), can be assigned to, and not within "
                  "an expression");
@@ -318,7 +321,7 @@ class Parser {
                 const Token& typeToken = reader.take();
                 const auto type = declaredType(typeToken.text);
                 if (!type)
-                    fail(typeToken, "expected a parameter's type (float, int, bool, vec2 or vec3), found " +
+                    fail(typeToken, "expected a parameter's type " + std::string(kTypes) + ", found " +
                                         shown(typeToken));
                 const Token& named = reader.peek();
                 std::string name = reader.newName("a parameter");
@@ -426,15 +429,13 @@ class Parser {
     StmtId simpleStatement() {
         Stmt made{Stmt::Kind::assign, reader.peek().place};
         made.constant = reader.acceptName("const");
-        if (reader.peek().kind == Token::Kind::name && declaredType(reader.peek().text) &&
-            reader.peek(1).kind == Token::Kind::name)
-            return declaration(std::move(made));
-        if (reader.peek().kind == Token::Kind::name && reader.peek(1).kind == Token::Kind::name)
-            fail(reader.peek(),
-                 "expected a type (float, int, bool, vec2 or vec3), found " + shown(reader.peek()));
+        if (reader.peek().kind == Token::Kind::name && reader.peek(1).kind == Token::Kind::name) {
+            if (declaredType(reader.peek().text)) return declaration(std::move(made));
+            fail(reader.peek(), "expected a type " + std::string(kTypes) + ", found " + shown(reader.peek()));
+        }
         if (made.constant)
-            fail(reader.peek(), "expected a type behind 'const' (float, int, bool, vec2 or vec3), found " +
-                                    shown(reader.peek()));
+            fail(reader.peek(),
+                 "expected a type behind 'const' " + std::string(kTypes) + ", found " + shown(reader.peek()));
         if (reader.peek().is("++") || reader.peek().is("--")) {
             made.operation = reader.take().text[0];
             target(made);
@@ -452,14 +453,16 @@ class Parser {
         return add(std::move(made));
     }
 
-    /// Whether the sign of an assignment follows so many words.
-    bool startsAssignment(std::size_t ahead = 1) const {
-        while (ahead > 0 && reader.peek(ahead).is(".") && reader.peek(ahead + 1).kind == Token::Kind::name)
-            ahead += 2;
-        const Token& token = reader.peek(ahead);
+    static bool assigns(const Token& token) {
         for (std::string_view symbol : {"=", "+=", "-=", "*=", "/=", "%=", "++", "--"})
             if (token.is(symbol)) return true;
         return false;
+    }
+
+    bool startsAssignment() const {
+        std::size_t ahead = 1;
+        while (reader.peek(ahead).is(".") && reader.peek(ahead + 1).kind == Token::Kind::name) ahead += 2;
+        return assigns(reader.peek(ahead));
     }
 
     void target(Stmt& made) {

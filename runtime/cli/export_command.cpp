@@ -25,8 +25,7 @@ Done writeText(const std::string& path, const std::string& text) {
 
 constexpr char kOrTiles[] =
     "; or let it be meshed in tiles: by marching cubes, without stages, --report, --require and --manifold, "
-    "to "
-    ".ply, .stl, .glb or .gltf";
+    "to .ply, .stl, .glb or .gltf";
 
 /// The exit status if nothing was written.
 int notWritten(const ExportOptions& options, const Error& error) {

@@ -108,6 +108,16 @@ void release(const Device& device, std::vector<VkDescriptorPool>& pools) {
     pools.clear();
 }
 
+/// flush(), and the wall clock time in ms.
+double runOn(Commands& commands) {
+    const double elapsed = run(commands);
+    if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
+    vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
+    release(commands.device, commands.pools);
+    allocate(commands);
+    return elapsed;
+}
+
 VkDescriptorSet newSet(Commands& commands, const Pipeline& pipeline) {
     if (commands.pools.empty()) addPool(commands);
     auto info = zeroed<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
@@ -138,6 +148,15 @@ void give(Commands& commands, const Pipeline& pipeline, VkPipelineBindPoint poin
     for (VkWriteDescriptorSet& write : writes) write.dstSet = set;
     vkUpdateDescriptorSets(device.handle, count, writes.data(), 0, nullptr);
     vkCmdBindDescriptorSets(commands.handle, point, pipeline.layout, 0, 1, &set, 0, nullptr);
+}
+
+void checkGroups(const Device& device, glm::uvec3 groups) {
+    const uint32_t most = device.limits.groups;
+    if (groups.x > most || groups.y > most || groups.z > most)
+        throw DeviceTooSmall("device '" + device.name() + "' runs " + std::to_string(most) +
+                             " work groups in a row, and " +
+                             std::to_string(std::max({groups.x, groups.y, groups.z})) +
+                             " are needed; a lower resolution needs less");
 }
 
 }  // namespace
@@ -171,20 +190,6 @@ void beginStage(Commands& commands, const char* name) {
     commands.stages.push_back({name, 0});
     commands.stageOpen = true;
 }
-
-namespace {
-
-/// flush(), and the wall clock time in ms.
-double runOn(Commands& commands) {
-    const double elapsed = run(commands);
-    if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
-    vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
-    release(commands.device, commands.pools);
-    allocate(commands);
-    return elapsed;
-}
-
-}  // namespace
 
 void flush(Commands& commands) { runOn(commands); }
 
@@ -269,19 +274,6 @@ void bind(Commands& commands, const Pipeline& pipeline, const void* push, std::s
     }
     if (count) give(commands, pipeline, point, {writes.data(), count});
 }
-
-namespace {
-
-void checkGroups(const Device& device, glm::uvec3 groups) {
-    const uint32_t most = device.limits.groups;
-    if (groups.x > most || groups.y > most || groups.z > most)
-        throw DeviceTooSmall("device '" + device.name() + "' runs " + std::to_string(most) +
-                             " work groups in a row, and " +
-                             std::to_string(std::max({groups.x, groups.y, groups.z})) +
-                             " are needed; a lower resolution needs less");
-}
-
-}  // namespace
 
 void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
               std::size_t pushSize, std::span<const Descriptor> descriptors) {

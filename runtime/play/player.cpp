@@ -263,15 +263,15 @@ void Player::seek(double to) {
     }
 }
 
-int Player::resolution() const {
-    const int asked = options.resolution > 0 ? options.resolution : now.program.resolution;
-    return std::max(asked >> halvings, 1);
+int Player::askedResolution() const {
+    return options.resolution > 0 ? options.resolution : now.program.resolution;
 }
+
+int Player::resolution() const { return std::max(askedResolution() >> halvings, 1); }
 
 std::optional<Error> Player::coarser() const {
     if (halvings == 0) return std::nullopt;
-    const int asked = options.resolution > 0 ? options.resolution : now.program.resolution;
-    return Error{.message = "a mesh of " + std::to_string(asked) +
+    return Error{.message = "a mesh of " + std::to_string(askedResolution()) +
                             " cells along its longest side does not fit into the device: it has " +
                             std::to_string(resolution()) + " (" + full + ")",
                  .file = now.graph.path,

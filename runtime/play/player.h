@@ -171,6 +171,7 @@ class Player {
     Result<Prepared> prepare(Graph graph, const PlayerOptions& wishes) const;
     static Done findSharedRegion(Prepared& prepared, const PlayerOptions& options);
     void adopt(Prepared prepared);
+    int askedResolution() const;
     /// Hands the session `now`'s program.
     void give();
     /// Does the work; where the device has no room for it, again with half of the cells.

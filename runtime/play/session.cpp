@@ -52,8 +52,7 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request, const
         return box;
     }
     const int resolution = request.resolution > 0 ? request.resolution : program.resolution;
-    const Region found =
-        findRegion(program.ir, program.distance(), program.parameters(), program.exactness.lipschitz);
+    const Region found = findRegion(program);
     switch (found.extent) {
         case Extent::empty: {
             const bool particles =

@@ -187,7 +187,6 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     renderer.number = 0;
     renderer.shown.reset();
     for (int i = 0; i < options.samples; ++i) {
-        if (options.cancel && *options.cancel) return Error{.message = "cancelled"};
         if (options.progress) options.progress(100 * i / options.samples);
         view.jitter = jitterOf(i, options);
         renderer.shadowStands = false;

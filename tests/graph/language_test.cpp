@@ -409,9 +409,8 @@ TEST(Language, DeepAndLongCodeNeedsNoStack) {
     std::string chain = "return p.x";
     for (int i = 0; i < 49'000; ++i) chain += "+p.x";
     const auto stackless = [&](const std::string& code) {
-    // On half a megabyte of stack; under a sanitizer frames are many times as large.
 #ifdef __SANITIZE_ADDRESS__
-        constexpr std::size_t kStack = 8 << 20;
+        constexpr std::size_t kStack = 8 << 20;  // its frames are many times as large
 #else
         constexpr std::size_t kStack = 512 << 10;
 #endif

@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 #include "tests/support/command.h"
-#include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
 namespace fw::reach_test {

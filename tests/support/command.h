@@ -35,7 +35,7 @@ struct CommandResult {
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr double kMostSeconds = 10.0, kMostMegabytes = 1500.0;
 #else
-inline constexpr double kMostSeconds = 4.0, kMostMegabytes = 500.0;
+inline constexpr double kMostSeconds = 2.0, kMostMegabytes = 500.0;
 #endif
 
 /// `fieldwright` with these arguments. Its caches lie in a folder of the test program's own unless the
