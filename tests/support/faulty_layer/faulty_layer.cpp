@@ -83,9 +83,11 @@ Link* advance(const Info* info, VkStructureType type) {
 int isLast() {
     if (const char* path = variable("FAULTY_LOSE_FILE")) {
         std::ifstream file(path);
-        int more = 1;
-        if (file && (!(file >> more) || more <= 1)) return unlink(path), 1;
-        if (file) return std::ofstream(path) << more - 1, 1;
+        int more = 0;
+        if (file >> more) {  // one that is empty is still being written
+            if (more <= 1) return unlink(path), 1;
+            return std::ofstream(path) << more - 1, 1;
+        }
     }
     static std::string told;  // other numbers are counted from the start again
     const std::string list = variable("FAULTY_LOSE") ? variable("FAULTY_LOSE") : "";
