@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "graph/base/words.h"
 #include "graph/compile/effort.h"
@@ -35,24 +36,49 @@ std::optional<Error> fieldProblem(const Graph& graph, const Node& output, const 
     return error;
 }
 
-/// A warning if the driver would be busy with the field for long, at the node that has most part in that.
-std::optional<Error> slowness(const Graph& graph, GraphLowering& lowering, IrId distance) {
-    Ir& ir = lowering.state.ir;
-    if (secondsToCompile(codeWeight(ir, distance, {})) <= kMostSecondsToCompile) return std::nullopt;
-    const Families families = findFamilies(ir, distance);
-    const double weight = codeWeight(ir, distance, families), seconds = secondsToCompile(weight);
-    if (seconds <= kMostSecondsToCompile) return std::nullopt;
-    const NodeEffort most = effortByNode(ir, std::span(&distance, 1), families, lowering.origins).front();
-    const Node* node = graph.node(most.node.substr(0, most.node.find('/')));
-    const auto rounded = [](double number) { return std::to_string(std::lround(number)); };
-    Error warning = errorAt(graph, node,
-                            "the driver would be busy with the field's code for about " + rounded(seconds) +
-                                " s, and " + rounded(100 * most.code / std::max(weight, 1.0)) +
-                                " % of it comes from here: the host makes meshes where that is sooner, and "
-                                "pictures are drafts ('fieldwright compile --cost' has what each node adds)");
-    warning.node = most.node;
+/// A warning at a node of the graph, or of a group in it by its path.
+Error warningAt(const Graph& graph, const std::string& path, std::string message) {
+    Error warning = errorAt(graph, graph.node(path.substr(0, path.find('/'))), std::move(message));
+    warning.node = path;
     warning.severity = Error::Severity::warning;
     return warning;
+}
+
+/// A warning if the field's numbers are more than a float holds, at the node where they come to be. Looked
+/// for near the origin, in fields with large factors.
+std::optional<Error> overflow(const Graph& graph, const Ir& ir, std::span<const IrId> roots,
+                              std::span<const LiveParameter> live, std::span<const std::string> origins) {
+    constexpr double kLarge = 1e6, kMost = std::numeric_limits<float>::max();
+    std::vector<bool> needed(ir.size());
+    for (const IrId root : roots) needed[root] = true;
+    bool large = false;
+    for (IrId id = IrId(ir.size()); id-- > 0;) {
+        if (!needed[id]) continue;
+        large |= ir.isConstant(id) && std::abs(ir.number(id)) > kLarge;
+        for (int i = 0; i < opInfo(ir[id].op).arity; ++i) needed[ir[id].operands[i]] = true;
+    }
+    if (!large) return std::nullopt;
+    std::vector<double> values(ir.size());
+    for (const std::array<double, 3>& place : {std::array{0.37, -0.61, 0.83}, {-3.1, 4.7, -2.3}}) {
+        for (IrId id = 0; id < ir.size(); ++id) {
+            if (!needed[id]) continue;
+            const IrNode& node = ir[id];
+            const OpInfo& info = opInfo(node.op);
+            std::array<double, kMaxArity> operands{};
+            for (int i = 0; i < info.arity; ++i) operands[i] = values[node.operands[i]];
+            values[id] = id < 3                     ? place[id]
+                         : node.op == Op::parameter ? live[std::size_t(node.number)].value
+                         : node.op == Op::constant  ? node.number
+                         : node.op == Op::column    ? 0
+                                                    : info.value(operands.data(), ir.layer(node));
+            if (info.arity > 0 && std::abs(values[id]) > kMost)
+                return warningAt(graph, origins[ir.origin(id)],
+                                 "numbers grow to " + shortNumber(values[id]) +
+                                     " here, where a device holds no more than 3.4e38: the surface would be "
+                                     "wrong; use smaller ones");
+        }
+    }
+    return std::nullopt;
 }
 
 /// How the mesh is made: by the polygonize node that it comes from, else by the output node.
@@ -115,9 +141,39 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     program.spoiledBy = result.spoiledBy;
     program.nodeExactness = std::move(lowering.exactness);
     program.notes = std::move(lowering.findings);
+    if (auto note = overflow(graph, program.ir, program.surface, program.live, program.origins))
+        program.notes.push_back(std::move(*note));
     readSettings(*output, result.value.mesh ? *result.value.mesh : MeshRecipe{}, program);
     return program;
 }
+
+namespace {
+
+/// A warning if the driver would be busy with the field for long, at the node that has most part in that.
+std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance) {
+    if (secondsToCompile(codeWeight(ir, distance, {})) <= kMostSecondsToCompile) return std::nullopt;
+    const double seconds = secondsToCompile(codeWeight(ir, distance, findFamilies(ir, distance)));
+    if (seconds <= kMostSecondsToCompile) return std::nullopt;
+    CompileOptions options;
+    options.bake = boxInPlace;
+    options.costByNode = true;
+    Result<Program> program = compile(graph, options);
+    options.costByNode = false;  // kept apart there may be too many operations
+    if (!program) program = compile(graph, options);
+    if (!program) return std::nullopt;
+    const std::vector<NodeEffort> efforts = effortByNode(*program);
+    double all = 0;
+    for (const NodeEffort& effort : efforts) all += effort.code;
+    const NodeEffort& most = efforts.front();
+    const auto rounded = [](double number) { return std::to_string(std::lround(number)); };
+    return warningAt(graph, most.node,
+                     "the driver would be busy with the field's code for about " + rounded(seconds) +
+                         " s, and " + rounded(100 * most.code / std::max(all, 1.0)) +
+                         " % of it comes from here: the host makes meshes where that is sooner, and "
+                         "pictures are drafts ('fieldwright compile --cost' has what each node adds)");
+}
+
+}  // namespace
 
 std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& options) {
     CompileOptions unmeasured = options;
@@ -131,11 +187,14 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
         // Only what the output needs counts.
         std::array<IrId, 9> surface = lowered.at(output->id).outputs[0].value.ids;
         const bool small = lowering.state.ir.size() <= kMaxIrOperations;
+        if (small)
+            if (auto note = overflow(graph, lowering.state.ir, surface, lowering.live, lowering.origins))
+                lowering.findings.push_back(std::move(*note));
         const Ir needed = small ? Ir() : lowering.state.ir.compact(surface);
         if (auto problem =
                 fieldProblem(graph, *output, small ? lowering.state.ir : needed, surface[distanceComponent]))
             lowering.findings.push_back(*problem);
-        else if (auto slow = slowness(graph, lowering, surface[distanceComponent]))
+        else if (auto slow = slowness(graph, lowering.state.ir, surface[distanceComponent]))
             lowering.findings.push_back(*slow);
     }
     return std::move(lowering.findings);

@@ -32,6 +32,8 @@ struct CompileOptions {
     std::vector<std::map<std::string, std::vector<double>>> moments = {};
     double time = 0.0;                 ///< seconds, folded unless live
     MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
+    /// Every node that has part in an operation is known, for effortByNode(); takes longer.
+    bool costByNode = false;
 };
 
 /// Compiles the field that the graph's output shows. The Error is the first of check()'s errors, if there are

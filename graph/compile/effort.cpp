@@ -59,26 +59,28 @@ double secondsByTapes(const Program& program, int resolution) {
     return kTapeSecondsAWeight * points * codeWeight(program.ir, program.distance(), {});
 }
 
-std::vector<NodeEffort> effortByNode(const Ir& ir, std::span<const IrId> roots, const Families& families,
-                                     std::span<const std::string> origins) {
-    const std::vector<bool> sampled = inCode(ir, roots, {}), coded = inCode(ir, roots, families);
-    std::vector<NodeEffort> all(origins.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].node = origins[i];
+std::vector<NodeEffort> effortByNode(const Program& program) {
+    const Ir& ir = program.ir;
+    const std::vector<bool> sampled = inCode(ir, program.surface, {}),
+                            coded = inCode(ir, program.surface, program.families);
+    std::vector<NodeEffort> all(program.origins.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].node = program.origins[i];
     for (IrId id = 0; id < ir.size(); ++id) {
         if ((!sampled[id] && !coded[id]) || opInfo(ir[id].op).arity == 0) continue;
-        NodeEffort& effort = all[ir.origin(id)];
-        effort.operations += sampled[id] ? 1 : 0;
-        effort.sample += sampled[id] ? opInfo(ir[id].op).weight : 0;
-        effort.code += coded[id] ? opInfo(ir[id].op).weight : 0;
+        const double part = 1.0 / double(1 + ir.furtherOrigins(id).size());
+        const auto add = [&](uint32_t origin) {
+            NodeEffort& effort = all[origin];
+            effort.operations += sampled[id] ? part : 0;
+            effort.sample += sampled[id] ? part * opInfo(ir[id].op).weight : 0;
+            effort.code += coded[id] ? part * opInfo(ir[id].op).weight : 0;
+        };
+        add(ir.origin(id));
+        for (const uint32_t origin : ir.furtherOrigins(id)) add(origin);
     }
     std::erase_if(all, [](const NodeEffort& effort) { return effort.operations == 0; });
     std::ranges::stable_sort(all, std::greater(),
                              [](const NodeEffort& effort) { return std::pair(effort.code, effort.sample); });
     return all;
-}
-
-std::vector<NodeEffort> effortByNode(const Program& program) {
-    return effortByNode(program.ir, program.surface, program.families, program.origins);
 }
 
 }  // namespace fw

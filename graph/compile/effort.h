@@ -5,7 +5,6 @@
 // The figures are those of Mesa's software driver on two cores, by which a runtime chooses and check() warns.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -31,16 +30,15 @@ inline constexpr double kMostSecondsToCompile = 1.5;
 
 /// What came from one node.
 struct NodeEffort {
-    std::string node;            ///< as in Program::origins
-    std::size_t operations = 0;  ///< that vary
-    double sample = 0;           ///< weight of all of them: what a sample costs, in additions
-    double code = 0;             ///< as codeWeight()
+    std::string node;       ///< as in Program::origins
+    double operations = 0;  ///< that vary
+    double sample = 0;      ///< weight of all of them: what a sample costs, in additions
+    double code = 0;        ///< as codeWeight()
 };
 
-/// Those of the operations that `roots` need, the heaviest code first. What nodes share is the first one's.
-std::vector<NodeEffort> effortByNode(const Ir& ir, std::span<const IrId> roots, const Families& families,
-                                     std::span<const std::string> origins);
-/// Of distance and material.
+/// Those of the operations that distance and material need, the heaviest code first. Of what nodes share each
+/// has the same part, if the program was compiled with CompileOptions::costByNode; else it is the first
+/// one's.
 std::vector<NodeEffort> effortByNode(const Program& program);
 
 }  // namespace fw

@@ -23,6 +23,7 @@ const Value& inputOf(const std::vector<NodeInput>& inputs, std::string_view name
 GraphLowering::GraphLowering(const Graph& graph_, const CompileOptions& options_)
     : graph(graph_), options(options_) {
     state.graphPath = graph.path;
+    if (options.costByNode) state.ir.keepOriginsApart();
     if (options.live.contains("time")) {
         state.time = state.ir.parameter(0);
         live.push_back({"time", 0, options.time});

@@ -21,7 +21,7 @@ uint64_t mix(uint64_t hash, uint64_t word) {
 std::size_t Ir::KeyHash::operator()(const Key& key) const {
     uint64_t hash = mix(static_cast<uint64_t>(key.op) + 1, key.bits);
     for (IrId operand : key.operands) hash = mix(hash, operand);
-    return hash;
+    return key.origin == 0 ? hash : mix(hash, key.origin);
 }
 
 Ir::Ir() {
@@ -32,7 +32,8 @@ Ir::Ir() {
 }
 
 IrId Ir::intern(const IrNode& node) {
-    const Key key{node.op, node.operands, std::bit_cast<uint64_t>(node.number)};
+    const Key key{node.op, node.operands, std::bit_cast<uint64_t>(node.number),
+                  apart && opInfo(node.op).arity > 0 ? origin_ : 0};
     const auto [entry, isNew] = known.try_emplace(key, static_cast<IrId>(nodes.size()));
     if (isNew) nodes.push_back(node), origins.push_back(origin_);
     return entry->second;
@@ -358,6 +359,8 @@ Ir Ir::compact(std::span<IrId> roots) const {
         for (int i = 0; i < opInfo(node.op).arity; ++i) node.operands[i] = renumbered[node.operands[i]];
         result.setOrigin(origins[id]);
         renumbered[id] = result.intern(node);
+        if (apart && result.origins[renumbered[id]] != origins[id])
+            result.further[renumbered[id]].push_back(origins[id]);
     }
     for (IrId& root : roots) root = renumbered[root];
     return result;

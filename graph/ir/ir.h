@@ -80,6 +80,14 @@ class Ir {
     /// Operations that are new from here on are of this origin; at first 0. Returns the one before.
     uint32_t setOrigin(uint32_t of) { return std::exchange(origin_, of); }
     uint32_t origin(IrId id) const { return origins[id]; }
+    /// Equal operations of different origins are several from here on, until compact() makes one of them: so
+    /// that what alike nodes share is known to be of each.
+    void keepOriginsApart() { apart = true; }
+    /// Of an operation that compact() made of several: their origins beside origin().
+    std::span<const uint32_t> furtherOrigins(IrId id) const {
+        const auto found = further.find(id);
+        return found == further.end() ? std::span<const uint32_t>() : found->second;
+    }
 
     /// The id of op(operands), folded where possible.
     IrId add(Op op, std::span<const IrId> operands);
@@ -123,6 +131,7 @@ class Ir {
         Op op;
         std::array<IrId, kMaxArity> operands;
         uint64_t bits;
+        uint32_t origin = 0;  ///< where origins are kept apart
         bool operator==(const Key&) const = default;
     };
     struct KeyHash {
@@ -139,8 +148,10 @@ class Ir {
     IrId collect(Op op, IrId a, IrId b);
 
     std::vector<IrNode> nodes;
-    std::vector<uint32_t> origins;  ///< of nodes
-    uint32_t origin_ = 0;           ///< of the next one
+    std::vector<uint32_t> origins;                            ///< of nodes
+    uint32_t origin_ = 0;                                     ///< of the next one
+    bool apart = false;                                       ///< keepOriginsApart()
+    std::unordered_map<IrId, std::vector<uint32_t>> further;  ///< furtherOrigins()
     std::vector<FieldImagePtr> pictures;
     std::vector<FieldVolumePtr> grids;
     std::vector<OutlinePtr> polygons;

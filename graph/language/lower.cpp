@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "graph/base/words.h"
 #include "graph/language/resolve.h"
 #include "graph/language/run.h"
 
@@ -236,12 +237,10 @@ void Run::element(const Instruction& i) {
     const double at = ir.number(index.ids[0]);
     const bool isPoints = whole.type == Type::points;
     const std::size_t count = isPoints ? whole.points->size() / 2 : std::size_t(componentCount(whole.type));
-    if (!(at >= 0.0 && at < double(count))) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.15g", at);
-        fail(i.place, "index " + std::string(text) + " is outside 0 to " +
+    if (at != std::trunc(at)) fail(i.place, "an index is a whole number, not " + shortNumber(at));
+    if (!(at >= 0.0 && at < double(count)))
+        fail(i.place, "index " + shortNumber(at) + " is outside 0 to " +
                           std::to_string(static_cast<long long>(count) - 1));
-    }
     const auto k = static_cast<std::size_t>(at);
     if (isPoints)
         stack.push_back(Value{

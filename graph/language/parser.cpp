@@ -371,8 +371,7 @@ class Parser {
         reader.expect("(", "after for");
         made.body.push_back(reader.peek().is(";") ? nothing() : simpleStatement());
         reader.expect(";", "after the loop's start");
-        if (reader.peek().is(";")) fail(reader.peek(), "the loop has no condition: it would not end");
-        made.expression = expression();
+        if (!reader.peek().is(";")) made.expression = expression();
         reader.expect(";", "after the loop's condition");
         made.body.push_back(reader.peek().is(")") ? nothing() : simpleStatement());
         reader.expect(")", "after the loop's step");

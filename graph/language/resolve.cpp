@@ -283,9 +283,13 @@ void Resolver::loop(const Stmt& s) {
     const int begin = emit({.kind = Kind::loop, .place = s.place});
     ++depth, ++loops;
     ends.emplace_back();
-    const Place conditionPlace =
-        s.expression.empty() ? s.place : tree.expressions[std::size_t(s.expression.first)].place;
-    condition(expression(s.expression));
+    Place conditionPlace = s.place;
+    if (s.expression.empty()) {
+        error(s.place, "the loop has no condition: it would not end");
+    } else {
+        conditionPlace = tree.expressions[std::size_t(s.expression.first)].place;
+        condition(expression(s.expression));
+    }
     const int test = emit({.kind = Kind::test, .place = conditionPlace});
     names.open();
     last = kNone;

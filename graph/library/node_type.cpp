@@ -76,6 +76,8 @@ std::string rangeWords(const InputSpec& input) {
 }
 
 std::optional<std::string> rangeProblem(const InputSpec& input, double value) {
+    if (input.type == Type::integer && value != std::trunc(value))
+        return "the value " + shortNumber(value) + " must be a whole number";
     if (!(input.positive && value <= 0) && value >= input.min && value <= input.max) return {};
     return "the value " + shortNumber(value) + " is out of range: it must be " + rangeWords(input);
 }

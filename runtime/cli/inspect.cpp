@@ -106,7 +106,7 @@ void printCost(const Program& program) {
     }
     const auto share = [](double part, double whole) { return whole > 0 ? 100 * part / whole : 0.0; };
     const auto line = [&](const NodeEffort& effort) {
-        std::printf("%10zu %10.0f %4.0f %% %10.0f %4.0f %%  %s\n", effort.operations, effort.sample,
+        std::printf("%10.0f %10.0f %4.0f %% %10.0f %4.0f %%  %s\n", effort.operations, effort.sample,
                     share(effort.sample, all.sample), effort.code, share(effort.code, all.code),
                     effort.node.c_str());
     };
@@ -126,6 +126,7 @@ int runCompile(const CompileCommandOptions& options) {
     OpeningDevice device(std::launch::deferred, {});
     CompileOptions compileOptions;
     compileOptions.bake = meshFieldBaker([&] { return device.orNone(); });
+    compileOptions.costByNode = options.cost;
     compileOptions.live.insert(options.live.begin(), options.live.end());
     const std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return kBadInput;

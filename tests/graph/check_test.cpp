@@ -181,6 +181,19 @@ TEST(Check, RangesHoldForWhatComesByAWire) {
               {"argument 2 of 'prism' is its sides: the value 0 is out of range"});
 }
 
+TEST(Check, NumbersThatNoDeviceHolds) {
+    const auto findings = [](const std::string& code) {
+        return findingsOf(
+            R"({"id": "e", "type": "expression", "code": ")" + code +
+                R"("}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "e"}}})",
+            "", [](const Graph& graph) { return check(graph); });
+    };
+    expectOne(findings("return length(p * 1e20) - 1e20;"),
+              {"warning", "node 'e'", "numbers grow to", "use smaller ones"});
+    EXPECT_TRUE(findings("return (length(p * 1e15) - 1e15) / 1e15;").empty());
+    EXPECT_TRUE(findings("return min(length(p) - 1, 1e30);").empty());
+}
+
 TEST(Check, CodeIsCheckedBesideAStructureThatIsNotSound) {
     const std::vector<std::string> findings = findingsOf(
         std::string(kBall) +

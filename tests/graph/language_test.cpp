@@ -224,7 +224,10 @@ TEST(Language, Diagnostics) {
     expectError("return mod(p, 0);", "division by zero");
     expectError("p /= 0;", "division by zero");
     expectError("float f(float x) { return f(x); } return f(1);", "calls itself");
-    expectError("for (;;) {}", "code 1:7: the loop has no condition");
+    expectError("for (;;) {}", "code 1:1: the loop has no condition");
+    EXPECT_EQ(language::resolve("for (;;) { } return 1;", {}).errors.size(), 1u);
+    expectError("return p[0.5];", "code 1:9: an index is a whole number, not 0.5");
+    expectError("return prism(p, 3.5);", "the value 3.5 must be a whole number");
     expectError("d = 0; for (int i = 0; i < 1; ) d = p.x;", "steps");
     expectError("d = 0; for (int i = 0; i < 1; i = i) d = p.x;", "steps");
     expectError("d = 0; for (int i = 0; i < p.x; i++) d = 1.;", "must be known");
@@ -255,7 +258,7 @@ TEST(Language, Diagnostics) {
     expectError("return pow(1, 2, 3);", "takes 2 arguments");
     expectError("return p[3];", "index 3 is outside 0 to 2");
     expectError("return p[5128 * 1e21];", "index 5.128e+24 is outside 0 to 2");
-    expectError("return p[-1.5];", "index -1.5 is outside 0 to 2");
+    expectError("return p[-1];", "index -1 is outside 0 to 2");
     expectError("break; return 1;", "inside a loop");
     expectError("return /* open", "no end");
 }
