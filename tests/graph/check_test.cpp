@@ -183,10 +183,9 @@ TEST(Check, RangesHoldForWhatComesByAWire) {
 
 TEST(Check, NumbersThatNoDeviceHolds) {
     const auto findings = [](const std::string& code) {
-        return findingsOf(
-            R"({"id": "e", "type": "expression", "code": ")" + code +
-                R"("}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "e"}}})",
-            "", [](const Graph& graph) { return check(graph); });
+        return findingsOf(R"({"id": "e", "type": "expression", "code": ")" + code +
+                              R"("}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "e"}}})",
+                          "", [](const Graph& graph) { return check(graph); });
     };
     expectOne(findings("return length(p * 1e20) - 1e20;"),
               {"warning", "node 'e'", "numbers grow to", "use smaller ones"});
