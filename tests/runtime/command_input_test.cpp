@@ -133,7 +133,7 @@ TEST(CommandInput, CodeWithoutEnd) {
     expectBadGraph(code("while (true) {} return 1;"), {"node 'a', code 1:1", "'while'"});
     expectBadGraph(code("for (int i = 0; i >= 0; i++) {} return 1;"), {"node 'a', code 1:"});
     expectBadGraph(code("for (int i = 0; i < 1; i += 0) p.x += 1; return 1;"), {"node 'a', code 1:"});
-    expectBadGraph(code("for (;;) {} return 1;"), {"node 'a', code 1:7"});
+    expectBadGraph(code("for (;;) {} return 1;"), {"node 'a', code 1:1", "no condition"});
     expectBadGraph(code("float f(float x) { return f(x); } return f(1);"), {"code 1:", "calls itself"});
     expectBadGraph(
         code("float f(float x) { return g(x); } float g(float x) { return f(x) + f(-x); } return f(1);"),
