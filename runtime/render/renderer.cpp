@@ -13,10 +13,10 @@ namespace fw {
 
 namespace {
 
-constexpr uint32_t kShadowSize = 768;  // texels along each side
-constexpr uint32_t kStillShadowSize = 2048;
-constexpr int kRestFrames = 64;       // of the live view, after which it stops
-constexpr double kSlowFrame = 100.0;  // ms; then the next live frame is drawn in parts
+constexpr uint32_t kShadowSize = 768;        // texels along each side
+constexpr uint32_t kStillShadowSize = 2048;  // at most: two texels for each pixel of the picture are enough
+constexpr int kRestFrames = 64;              // of the live view, after which it stops
+constexpr double kSlowFrame = 100.0;         // ms; then the next live frame is drawn in parts
 constexpr int kRaysStill = 16, kRaysResting = 8;
 
 /// What ambient occlusion is to do for this scene.
@@ -121,8 +121,10 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     const VkExtent3D extent = {uint32_t(options.width), uint32_t(options.height), 1};
     const bool still = mean > 0 || options.samples > 1;
     const gpu::RenderFrame before = renderer.described;
-    renderer.described =
-        describeFrame(renderer, scene, options, view, resting, mean, still ? kStillShadowSize : kShadowSize);
+    const uint32_t shadowSize =
+        still ? std::clamp(2 * std::max(extent.width, extent.height), kShadowSize, kStillShadowSize)
+              : kShadowSize;
+    renderer.described = describeFrame(renderer, scene, options, view, resting, mean, shadowSize);
     const gpu::RenderFrame& frame = renderer.described;
     if (scene.draft) renderer.described.ambientStrength = 0, renderer.described.lightCount = 0;
     if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(commands.device);

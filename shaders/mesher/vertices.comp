@@ -39,7 +39,7 @@ void main() {
     vec4 f;  // gradient and value at t
     bool found = false;
     uint steps = 0;
-    do {
+    do {  // as long as any lane: in one that left the loop Mesa 22.3 goes on to write f, from loads that yield nothing
         f = fieldGradient(p + t * edge);
         bool insideAtT = f.w < 0.0;
         a = !found && insideAtT == insideAtA ? t : a;
@@ -50,7 +50,7 @@ void main() {
         root = found ? root : next;
         found = found || abs(f.w) <= kTolerance * abs(slope) || ++steps >= kMostSteps;
         t = found ? t : next;
-    } while (!found);
+    } while (subgroupAny(!found));
     t = clamp(root, push.nudge, 1.0 - push.nudge);
 
     // An edge to the outside layer has its vertex on the region's boundary, a nudge away from the region's edges: the

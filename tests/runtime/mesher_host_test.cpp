@@ -11,6 +11,7 @@
 
 #include "graph/document/json.h"
 #include "graph/emit/glsl.h"
+#include "graph/evaluate/evaluate.h"
 #include "runtime/measure/mesh_report.h"
 #include "runtime/mesher/mesher.h"
 #include "runtime/play/mesh_program.h"
@@ -51,6 +52,21 @@ Program programOf(const std::string& path) {
     return std::move(*program);
 }
 
+/// Share of the vertices whose normal is not the reference's slope: some lie where slopes jump.
+double shareOfWrongNormals(const Program& program, const Mesh& mesh) {
+    std::vector<Point> points;
+    for (const glm::vec3& p : mesh.positions) points.push_back({p.x, p.y, p.z});
+    std::vector<ValueGradient> slopes(points.size());
+    evaluateGradient(program.ir, program.distance(), program.parameters(), points, slopes);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const Point& g = slopes[i].gradient;
+        wrong +=
+            glm::distance(glm::normalize(glm::dvec3(g[0], g[1], g[2])), glm::dvec3(mesh.normals[i])) > 0.05;
+    }
+    return double(wrong) / double(slopes.size());
+}
+
 TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
     int samples = 0;
     for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples")) {
@@ -77,6 +93,8 @@ TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
         // Where a face lies on the grid, single and double precision may take different sides.
         EXPECT_NEAR(double(ours.mesh.positions.size()), double(kernels.mesh.positions.size()),
                     0.1 * double(kernels.mesh.positions.size()));
+        EXPECT_LT(shareOfWrongNormals(program, kernels.mesh), 0.02);
+        EXPECT_LT(shareOfWrongNormals(program, ours.mesh), 0.02);
         ++samples;
     }
     EXPECT_GE(samples, 10);
