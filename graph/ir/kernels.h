@@ -4,7 +4,8 @@
 // What an operation means is written once, as a lambda over any floating-point type (ops.cpp); here it
 // becomes loops over float and double, with operands that are rows or single numbers. Each loop is compiled
 // twice, for every x86-64 processor and for those with AVX2, and the table is chosen when the program runs.
-// No version fuses a product with a sum, so all give the same bits: those of the meaning itself.
+// No version fuses a product with a sum, so all give the same bits: those of the meaning itself. A meaning
+// whose branches forbid vectors has a part most(): its result, or below 0 where the whole must be asked.
 //
 // Included by ops.cpp alone.
 #pragma once
@@ -38,10 +39,20 @@ template <class Value, int numbers, class T, std::size_t... i>
                                              std::index_sequence<i...>) {
     const T* const rows[] = {operands[i]...};
     const T held[] = {*operands[i]...};
+    constexpr bool inParts = requires { Value::most(*rows); };
     for (std::size_t k = 0; k < count; ++k) {
         const T x[] = {((numbers >> i & 1) ? held[i] : rows[i][k])...};
-        results[k] = T(call<Value>(layer, &x[0]));
+        if constexpr (inParts)
+            results[k] = Value::most(&x[0]);
+        else
+            results[k] = T(call<Value>(layer, &x[0]));
     }
+    if constexpr (inParts)
+        for (std::size_t k = 0; k < count; ++k) {
+            if (!(results[k] < T(0))) continue;
+            const T x[] = {((numbers >> i & 1) ? held[i] : rows[i][k])...};
+            results[k] = Value{}(&x[0]);
+        }
 }
 
 template <class Slope, int numbers, class T, std::size_t... i>

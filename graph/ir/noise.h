@@ -1,5 +1,8 @@
-// Lattice noises in double, the reference of shaders/lib/noise.glsl: same lattice, same hash, so that the CPU
-// and the GPU agree up to float rounding.
+// Lattice noises, the reference of shaders/lib/noise.glsl: same lattice, same hash, so that the CPU and the
+// GPU agree up to rounding.
+//
+// The first two are templates without branches or tables, so that the loops of kernels.h over them become
+// vectors; what a caller does not use of a sample is not computed.
 //
 // gradientNoise: Perlin, "Improving Noise" (2002), quintic fade; gradients are twelve edge directions chosen
 // by a
@@ -13,18 +16,19 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace fw {
 
 /// Value and its partial derivatives by x, y, z.
-struct NoiseSample {
-    double value;
-    std::array<double, 3> gradient;
+template <class T>
+struct NoiseOf {
+    T value;
+    std::array<T, 3> gradient;
 };
+using NoiseSample = NoiseOf<double>;
 
-NoiseSample gradientNoise(double x, double y, double z, double seed);
-NoiseSample simplexNoise(double x, double y, double z, double seed);
 NoiseSample worleyNoise(double x, double y, double z, double seed);
 double cellHash(double x, double y, double z, double seed);
 /// The feature point of the unit cell with this least corner.
@@ -36,5 +40,149 @@ std::array<double, 3> worleyPoint(double x, double y, double z, double seed);
 inline constexpr double kGradientNoiseSlope = 3.7, kGradientNoiseRange = 1.1;
 inline constexpr double kSimplexNoiseSlope = 7.2, kSimplexNoiseRange = 1.1;
 inline constexpr double kWorleyNoiseRange = 1.7320508075688773;
+
+namespace noise {
+
+/// Three 32-bit words from a lattice point: PCG3D of Jarzynski & Olano, "Hash Functions for GPU Rendering"
+/// (2020).
+inline std::array<uint32_t, 3> latticeHash(int32_t x, int32_t y, int32_t z, uint32_t seed) {
+    uint32_t a = static_cast<uint32_t>(x) + seed * 0x9E3779B9u, b = static_cast<uint32_t>(y),
+             c = static_cast<uint32_t>(z);
+    a = a * 1664525u + 1013904223u, b = b * 1664525u + 1013904223u, c = c * 1664525u + 1013904223u;
+    a += b * c, b += c * a, c += a * b;
+    a ^= a >> 16, b ^= b >> 16, c ^= c >> 16;
+    a += b * c, b += c * a, c += a * b;
+    return {a, b, c};
+}
+
+template <class T>
+int32_t lattice(T x) {
+    const T least = x < T(-2e9) ? T(-2e9) : x;
+    return static_cast<int32_t>(least > T(2e9) ? T(2e9) : least);
+}
+/// A call, so that it leaves loops over places with one seed, which would not become vectors around it.
+template <class T>
+[[gnu::noinline, gnu::const]] uint32_t seedBits(T seed) {
+    return static_cast<uint32_t>(lattice(std::floor(seed)));
+}
+
+template <class T>
+T unit(uint32_t bits) {
+    return T(int32_t(bits >> 8)) * T(1.0 / 16777216.0);
+}
+
+/// One of the twelve directions from a cube's centre to its edges: (±1, ±1, 0) and its rotations.
+template <class T>
+std::array<T, 3> edgeDirection(uint32_t bits) {
+    const uint32_t word = bits >> 16, axis = word - 3u * (word * 43691u >> 17);  // word % 3
+    const T u = T(int32_t(bits << 1 & 2u) - 1), v = T(int32_t(bits & 2u) - 1);
+    return {axis == 0 ? T(0) : u, axis == 0 ? u : axis == 1 ? T(0) : v, axis == 2 ? T(0) : v};
+}
+
+}  // namespace noise
+
+template <class T>
+[[gnu::always_inline]] inline NoiseOf<T> gradientNoise(T x, T y, T z, T seed) {
+    const T position[3] = {x, y, z};
+    const uint32_t seeded = noise::seedBits(seed);
+    T f[3], fade[3], slope[3];
+    int32_t at[3][2];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+        const T cell = std::floor(position[i]);
+        at[i][0] = noise::lattice(cell), at[i][1] = noise::lattice(cell + T(1));
+        const T t = f[i] = position[i] - cell;
+        fade[i] = t * t * t * (t * (t * T(6) - T(15)) + T(10));
+        slope[i] = T(30) * t * t * (t * (t - T(2)) + T(1));
+    }
+    NoiseOf<T> sum{T(0), {T(0), T(0), T(0)}};
+#pragma GCC unroll 8
+    for (int corner = 0; corner < 8; ++corner) {
+        const int o[3] = {corner & 1, corner >> 1 & 1, corner >> 2};
+        const std::array<T, 3> g =
+            noise::edgeDirection<T>(noise::latticeHash(at[0][o[0]], at[1][o[1]], at[2][o[2]], seeded)[0]);
+        const T ramp = g[0] * (f[0] - T(o[0])) + g[1] * (f[1] - T(o[1])) + g[2] * (f[2] - T(o[2]));
+        T w[3], dw[3];
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+            w[i] = o[i] ? fade[i] : T(1) - fade[i];
+            dw[i] = o[i] ? slope[i] : -slope[i];
+        }
+        const T weight = w[0] * w[1] * w[2];
+        sum.value += weight * ramp;
+        sum.gradient[0] += weight * g[0] + dw[0] * w[1] * w[2] * ramp;
+        sum.gradient[1] += weight * g[1] + w[0] * dw[1] * w[2] * ramp;
+        sum.gradient[2] += weight * g[2] + w[0] * w[1] * dw[2] * ramp;
+    }
+    return sum;
+}
+
+template <class T>
+[[gnu::always_inline]] inline NoiseOf<T> simplexNoise(T x, T y, T z, T seed) {
+    const uint32_t seeded = noise::seedBits(seed);
+    const T skew = (x + y + z) / T(3);
+    const T i = std::floor(x + skew), j = std::floor(y + skew), k = std::floor(z + skew);
+    const T unskew = (i + j + k) / T(6);
+    const T x0 = x - i + unskew, y0 = y - j + unskew, z0 = z - k + unskew;
+    // The second and third corner of the simplex: unit steps in order of falling coordinate.
+    const bool xy = x0 >= y0, yz = y0 >= z0, xz = x0 >= z0;
+    const T steps[4][3] = {{T(0), T(0), T(0)},
+                           {T(xy & xz), T(!xy & yz), T(!xz & !yz)},
+                           {T(xy | xz), T(!xy | yz), T(!xz | !yz)},
+                           {T(1), T(1), T(1)}};
+    NoiseOf<T> sum{T(0), {T(0), T(0), T(0)}};
+#pragma GCC unroll 4
+    for (int corner = 0; corner < 4; ++corner) {
+        const T* const o = steps[corner];
+        const T back = T(corner) / T(6);
+        const T d[3] = {x0 - o[0] + back, y0 - o[1] + back, z0 - o[2] + back};
+        const T inside = T(0.5) - d[0] * d[0] - d[1] * d[1] - d[2] * d[2], t = inside > T(0) ? inside : T(0);
+        const std::array<T, 3> g = noise::edgeDirection<T>(noise::latticeHash(
+            noise::lattice(i + o[0]), noise::lattice(j + o[1]), noise::lattice(k + o[2]), seeded)[0]);
+        const T ramp = g[0] * d[0] + g[1] * d[1] + g[2] * d[2];
+        const T scale = T(72);  // brings the range to about [-1, 1]
+        sum.value += scale * t * t * t * t * ramp;
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; ++axis)
+            sum.gradient[axis] += scale * (t * t * t * t * g[axis] - T(8) * t * t * t * d[axis] * ramp);
+    }
+    // Where coordinates are too large for a place within their cell.
+    const T most = T(kSimplexNoiseRange), raised = sum.value < -most ? -most : sum.value;
+    sum.value = raised > most ? most : raised;
+    return sum;
+}
+
+/// Worley noise where the 27 cells around have the nearest point; -1 where it takes the whole search. Without
+/// branches, as the two above.
+template <class T>
+[[gnu::always_inline]] inline T worleyNearby(T x, T y, T z, T seed) {
+    const T position[3] = {x, y, z};
+    const uint32_t seeded = noise::seedBits(seed);
+    T corner[3][3], clear = T(1);
+    int32_t at[3][3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+        const T cell = std::floor(position[i]), f = position[i] - cell, side = f < T(1) - f ? f : T(1) - f;
+        clear = side < clear ? side : clear;
+#pragma GCC unroll 3
+        for (int o = 0; o < 3; ++o) corner[i][o] = cell + T(o - 1), at[i][o] = noise::lattice(corner[i][o]);
+    }
+    clear += T(1);
+    T nearest = T(1e30);
+#pragma GCC unroll 27
+    for (int c = 0; c < 27; ++c) {
+        const int o[3] = {c % 3, c / 3 % 3, c / 9};
+        const std::array<uint32_t, 3> bits =
+            noise::latticeHash(at[0][o[0]], at[1][o[1]], at[2][o[2]], seeded);
+        T squared = T(0);
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+            const T d = position[i] - corner[i][o[i]] - noise::unit<T>(bits[i]);
+            squared += d * d;
+        }
+        nearest = squared < nearest ? squared : nearest;
+    }
+    return nearest > clear * clear ? T(-1) : std::sqrt(nearest);
+}
 
 }  // namespace fw

@@ -43,6 +43,9 @@ constexpr Rounding roundingOf(Op op, bool boolean) {
         case Op::modulo:
         case Op::truncatedModulo:
         case Op::smoothMinimum: return Rounding::magnitude;
+        case Op::gradientNoise:
+        case Op::simplexNoise:
+        case Op::worleyNoise: return Rounding::noise;
         default: return boolean ? Rounding::none : Rounding::result;
     }
 }
@@ -126,10 +129,22 @@ Interval noiseInterval(I x, NoiseSample (*noise)(double, double, double, double)
     return lipschitzRange(noise(centre[0], centre[1], centre[2], x[3].lo).value, slope,
                           std::sqrt(squared) + rounding, least, most);
 }
-template <class T>
-T noiseSlope(const NoiseSample& sample, const T* d) {
+template <class N, class T>
+T noiseSlope(const NoiseOf<N>& sample, const T* d) {
     return T(sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2]);
 }
+/// A meaning in two parts: what most places need becomes vectors, the others follow (kernels.h).
+struct WorleyNoise {
+    template <class T>
+    static T most(const T* x) {
+        return worleyNearby(x[0], x[1], x[2], x[3]);
+    }
+    template <class T>
+    T operator()(const T* x) const {
+        const T near = most(x);
+        return near < T(0) ? T(worleyNoise(x[0], x[1], x[2], x[3]).value) : near;
+    }
+};
 Interval hashInterval(I x) {
     for (int i = 0; i < 4; ++i)
         if (std::floor(x[i].lo) != std::floor(x[i].hi)) return {0.0, 1.0};
@@ -364,7 +379,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         Op::gradientNoise, "perlin", Arity<4>(), false, false,
         []<class T>(const T* x) { return gradientNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) {
-            return noiseInterval(x, gradientNoise, kGradientNoiseSlope, -kGradientNoiseRange,
+            return noiseInterval(x, gradientNoise<double>, kGradientNoiseSlope, -kGradientNoiseRange,
                                  kGradientNoiseRange);
         },
         []<class T>(const T* x, T, const T* d) {
@@ -377,7 +392,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         Op::simplexNoise, "simplex", Arity<4>(), false, false,
         []<class T>(const T* x) { return simplexNoise(x[0], x[1], x[2], x[3]).value; },
         [](I x) {
-            return noiseInterval(x, simplexNoise, kSimplexNoiseSlope, -kSimplexNoiseRange,
+            return noiseInterval(x, simplexNoise<double>, kSimplexNoiseSlope, -kSimplexNoiseRange,
                                  kSimplexNoiseRange);
         },
         []<class T>(const T* x, T, const T* d) {
@@ -387,8 +402,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "iNoise(simplexNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 7.2, -1.1, 1.1)", kChainRule,
         "simplexNoiseGradient(vec3(%a, %b, %c), %d)", 45),
     row(
-        Op::worleyNoise, "worley", Arity<4>(), false, false,
-        []<class T>(const T* x) { return worleyNoise(x[0], x[1], x[2], x[3]).value; },
+        Op::worleyNoise, "worley", Arity<4>(), false, false, WorleyNoise(),
         [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
         []<class T>(const T* x, T, const T* d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
         "worleyNoise(vec3(%a, %b, %c), %d)",
@@ -499,6 +513,7 @@ Interval singlePrecisionInterval(const OpInfo& info, std::span<const Interval> o
         most = std::max(most, size);
     }
     const Interval range = info.interval(around, layer);
+    if (info.rounding == Rounding::noise) return grown(range, 4 * kPlaces * std::max(most, 1.0));
     return info.op == Op::round ? range : grown(range, kPlaces * std::max(most, absolute(range).hi));
 }
 

@@ -116,6 +116,7 @@ enum class Rounding : uint8_t {
     result,     ///< by some of its own last places
     magnitude,  ///< by some last places of the greatest of result and operands, which may themselves be off
                 ///< by that when whole numbers are taken of them
+    noise,      ///< as magnitude, and of 1: they are sums of such terms
 };
 
 struct OpInfo {

@@ -56,6 +56,19 @@ json waves(int count, double difference) {
     return graphOf(json::array({expression(code + ";")}), "field");
 }
 
+/// A ball under noises of one kind, each of its own scale and place.
+json noises(const char* kind, int count, double difference) {
+    std::mt19937 random(4);
+    const auto upTo = [&](double most) {
+        return std::to_string(most * double(random() >> 8) / double(1 << 24));
+    };
+    std::string code = "return length(p) - 1.0";
+    for (int i = 0; i < count; ++i)
+        code += " + " + std::to_string((0.3 + difference) / count) + " * " + kind + "(p * (2.0 + " + upTo(4) +
+                ") + vec3(" + upTo(9) + ", " + upTo(9) + ", " + upTo(9) + "))";
+    return graphOf(json::array({expression(code + ";")}), "field");
+}
+
 /// A ball warped by three octaves of Perlin noise, alone or repeated with its neighbours.
 json warped(bool repeated, double difference) {
     json nodes = json::array({expression("vec3 q = p + " + std::to_string(0.05 + difference) +
@@ -82,6 +95,10 @@ const Large kLarge[] = {
     {"sum of 400 sines", waves, 400},
     {"sum of 1,000 sines", waves, 1000},
     {"sum of 7,000 sines", waves, 7000},
+    {"sum of 1,000 Perlin noises",
+     [](int count, double difference) { return noises("perlin", count, difference); }, 1000},
+    {"sum of 300 Worley noises",
+     [](int count, double difference) { return noises("worley", count, difference); }, 300},
     {"ball warped by three octaves", [](int, double difference) { return warped(false, difference); }, 0},
     {"the same, repeated with neighbours", [](int, double difference) { return warped(true, difference); },
      0},

@@ -127,6 +127,40 @@ TEST(Tape, EveryOperationMeansTheSameInEveryEvaluator) {
     }
 }
 
+/// Over boxes so small that rounding is all that their intervals can be wide.
+TEST(Tape, SinglePrecisionIsWithinItsIntervalsOfNoises) {
+    std::mt19937 random(9);
+    for (const Op op : {Op::gradientNoise, Op::simplexNoise, Op::worleyNoise}) {
+        Ir ir;
+        const IrId root = ir.add(op, std::array{ir.position(0), ir.position(1), ir.position(2),
+                                                ir.constant(double(random() % 9))});
+        const Tape tape = makeTape(ir, root, {});
+        TapeMachine<float> machine;
+        for (int n = 0; n < 3000; ++n) {
+            Box box;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double size = std::pow(10.0, 6.0 * fraction(random) - 2.0);
+                const double at = n % 3 ? size * (2.0 * fraction(random) - 1.0) : std::round(size);
+                box.lo[axis] = float(at), box.hi[axis] = float(at + 1e-6 * size);
+            }
+            constexpr std::size_t kCount = 24;
+            scatter(machine, box, kCount, random);
+            for (std::size_t i = 0; i < kCount; ++i)
+                for (int axis = 0; axis < 3; ++axis)
+                    machine.position(axis)[i] =
+                        std::clamp(machine.position(axis)[i], float(box.lo[std::size_t(axis)]),
+                                   float(box.hi[std::size_t(axis)]));
+            const float* values = machine.value(tape, kCount);
+            const std::vector<float> found(values, values + kCount);
+            const Interval range = machine.interval(tape, box);
+            for (const float value : found)
+                ASSERT_TRUE(range.contains(double(value)))
+                    << opInfo(op).name << ": " << value << " is not in [" << range.lo << ", " << range.hi
+                    << "] about " << box.lo[0] << ", " << box.lo[1] << ", " << box.lo[2];
+        }
+    }
+}
+
 TEST(Tape, ShortenedTapesKeepEveryValueOfRandomGraphs) {
     std::size_t shorter = 0, fewer = 0, tapes = 0;
     const auto probe = [&]<class T>(TapeMachine<T>& machine, const Program& program, uint32_t seed) {
