@@ -57,7 +57,7 @@ void checkCode(const Graph& graph, const std::vector<Node>& nodes, const std::st
 
 }  // namespace
 
-std::vector<Error> check(const Graph& graph) {
+std::vector<Error> check(const Graph& graph, bool pictures) {
     std::vector<Error> findings = checkStructure(graph);
     if (hasErrors(findings)) {
         checkCode(graph, graph.nodes, "", findings);
@@ -65,7 +65,7 @@ std::vector<Error> check(const Graph& graph) {
         return findings;
     }
     const Result<Timeline> timeline = readTimeline(graph);
-    std::vector<Error> errors = compileErrors(graph);
+    std::vector<Error> errors = compileErrors(graph, {.warnOfPictures = pictures});
     dropPassingZeros(graph, *timeline, errors);
     std::ranges::stable_sort(errors, [](const Error& a, const Error& b) {
         return std::pair(a.line, a.column) < std::pair(b.line, b.column);

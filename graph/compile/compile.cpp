@@ -8,6 +8,7 @@
 #include "graph/compile/effort.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/document/named_parameters.h"
+#include "graph/evaluate/region.h"
 #include "graph/ir/affine_sums.h"
 #include "graph/rules/structure.h"
 
@@ -149,11 +150,12 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
 
 namespace {
 
-/// A warning if the driver would be busy with the field for long, at the node that has most part in that.
-std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance) {
-    if (secondsToCompile(codeWeight(ir, distance, {})) <= kMostSecondsToCompile) return std::nullopt;
-    const double seconds = secondsToCompile(codeWeight(ir, distance, findFamilies(ir, distance)));
-    if (seconds <= kMostSecondsToCompile) return std::nullopt;
+/// Heavier fields are not looked for in space: it would take check() seconds.
+constexpr double kMostWeightToLookFor = 1.5e5;
+
+/// A warning at the node that has most part in it, by code or by the cost of a sample.
+std::optional<Error> warningAtHeaviest(const Graph& graph, double NodeEffort::*cost, const std::string& what,
+                                       const std::string& then) {
     CompileOptions options;
     options.bake = boxInPlace;
     options.costByNode = true;
@@ -163,14 +165,39 @@ std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance) {
     if (!program) return std::nullopt;
     const std::vector<NodeEffort> efforts = effortByNode(*program);
     double all = 0;
-    for (const NodeEffort& effort : efforts) all += effort.code;
-    const NodeEffort& most = efforts.front();
-    const auto rounded = [](double number) { return std::to_string(std::lround(number)); };
-    return warningAt(graph, most.node,
-                     "the driver would be busy with the field's code for about " + rounded(seconds) +
-                         " s, and " + rounded(100 * most.code / std::max(all, 1.0)) +
-                         " % of it comes from here: the host makes meshes where that is sooner, and "
-                         "pictures are drafts ('fieldwright compile --cost' has what each node adds)");
+    for (const NodeEffort& effort : efforts) all += effort.*cost;
+    const NodeEffort& most = *std::ranges::max_element(efforts, {}, cost);
+    const long share = std::lround(100 * most.*cost / std::max(all, 1.0));
+    const std::string part = share > 0 ? std::to_string(share) + " % of it comes from here"
+                                       : "no node has more part in it than this, of many";
+    return warningAt(
+        graph, most.node,
+        what + ", and " + part + ": " + then + " ('fieldwright compile --cost' has what each node adds)");
+}
+
+/// A warning if a software driver would be busy for long with the field's code; or with pictures, if asked
+/// for.
+std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance, bool pictures) {
+    const double weight = codeWeight(ir, distance, {});
+    pictures = pictures && secondsToTrace(weight) > kMostSecondsToTrace && weight < kMostWeightToLookFor;
+    if (secondsToCompile(weight) <= kMostSecondsToCompile && !pictures) return std::nullopt;
+    const Families families = findFamilies(ir, distance);
+    const double compiling = secondsToCompile(codeWeight(ir, distance, families));
+    if (compiling > kMostSecondsToCompile)
+        return warningAtHeaviest(graph, &NodeEffort::code,
+                                 "the driver would be busy with the field's code for about " +
+                                     std::to_string(std::lround(compiling)) + " s",
+                                 "the host makes meshes where that is sooner, and pictures are drafts");
+    if (!pictures) return std::nullopt;
+    const Region region = findRegion(ir, distance, {});
+    if (region.extent != Extent::bounded) return std::nullopt;
+    const double tracing = secondsToTrace(weightAtSurface(ir, distance, families, {}, region.box));
+    if (tracing <= kMostSecondsToTrace) return std::nullopt;
+    return warningAtHeaviest(graph, &NodeEffort::sample,
+                             "light that is traced through the field would take a software device about " +
+                                 std::to_string(std::lround(tracing)) +
+                                 " s for each sample of 640 x 360 pixels",
+                             "there pictures are drafts");
 }
 
 }  // namespace
@@ -194,7 +221,8 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
         if (auto problem =
                 fieldProblem(graph, *output, small ? lowering.state.ir : needed, surface[distanceComponent]))
             lowering.findings.push_back(*problem);
-        else if (auto slow = slowness(graph, lowering.state.ir, surface[distanceComponent]))
+        else if (auto slow =
+                     slowness(graph, lowering.state.ir, surface[distanceComponent], options.warnOfPictures))
             lowering.findings.push_back(*slow);
     }
     return std::move(lowering.findings);

@@ -34,6 +34,9 @@ struct CompileOptions {
     MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
     /// Every node that has part in an operation is known, for effortByNode(); takes longer.
     bool costByNode = false;
+    /// compileErrors() also warns of fields that a software device would trace for long. It must find the
+    /// solid.
+    bool warnOfPictures = false;
 };
 
 /// Compiles the field that the graph's output shows. The Error is the first of check()'s errors, if there are

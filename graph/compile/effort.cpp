@@ -4,6 +4,8 @@
 #include <functional>
 #include <utility>
 
+#include "graph/evaluate/tape.h"
+
 namespace fw {
 
 namespace {
@@ -11,7 +13,10 @@ namespace {
 constexpr double kSecondsAWeight = 1e-3;       // of the mesher's kernels together
 constexpr double kWeightOfTwice = 8000;        // at which an operation costs twice as much as in short code
 constexpr double kTapeSecondsAWeight = 2e-10;  // and point
-constexpr double kPointsASquare = 120;  // evaluated for each square of a cell in a section of the region
+constexpr double kTraceSecondsAWeight = 1e-3;
+constexpr int kHalvedForWeight = 3;          // an eighth of the region's side
+constexpr std::size_t kPartsForWeight = 12;  // looked at, of each size
+constexpr double kPointsASquare = 120;       // evaluated for each square of a cell in a section of the region
 
 /// Which of the operations that `roots` need are in the code: of a family those of one member.
 std::vector<bool> inCode(const Ir& ir, std::span<const IrId> roots, const Families& families) {
@@ -58,6 +63,44 @@ double secondsByTapes(const Program& program, int resolution) {
     const double points = kPointsASquare * double(resolution) * double(resolution);
     return kTapeSecondsAWeight * points * codeWeight(program.ir, program.distance(), {});
 }
+
+double weightAtSurface(const Ir& ir, IrId distance, const Families& families,
+                       std::span<const double> parameters, const Box& region) {
+    const double code = codeWeight(ir, distance, families);
+    if (families.empty()) return code;
+    struct Part {
+        Box box;
+        Tape tape;
+    };
+    TapeMachine<double> machine;
+    std::vector<Part> parts = {{region, makeTape(ir, distance, parameters)}};
+    for (int halved = 0; halved < kHalvedForWeight; ++halved) {
+        std::vector<Part> smaller;
+        for (const Part& part : parts)
+            for (int octant = 0; octant < 8; ++octant) {
+                Box box = part.box;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    (octant >> axis & 1 ? box.lo : box.hi)[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+                if (machine.interval(part.tape, box).contains(0))
+                    smaller.push_back({box, machine.shortened(part.tape)});
+            }
+        if (smaller.empty()) break;
+        // Some of them, from all over the region.
+        parts.clear();
+        const std::size_t step = (smaller.size() + kPartsForWeight - 1) / kPartsForWeight;
+        for (std::size_t i = 0; i < smaller.size(); i += step) parts.push_back(std::move(smaller[i]));
+    }
+    double sum = 0;
+    for (const Part& part : parts)
+        for (const TapeStep& step : part.tape.steps) sum += opInfo(step.op).weight;
+    return code + sum / double(parts.size());
+}
+
+double weightAtSurface(const Program& program, const Box& region) {
+    return weightAtSurface(program.ir, program.distance(), program.families, program.parameters(), region);
+}
+
+double secondsToTrace(double weight) { return kTraceSecondsAWeight * weight; }
 
 std::vector<NodeEffort> effortByNode(const Program& program) {
     const Ir& ir = program.ir;

@@ -5,6 +5,7 @@
 // The figures are those of Mesa's software driver on two cores, by which a runtime chooses and check() warns.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,19 @@ double secondsToCompile(const Program& program);
 /// About how many seconds tapes take for a mesh of so many cells along the longest side, most of whose bricks
 /// need the whole field.
 double secondsByTapes(const Program& program, int resolution);
+
+/// What a sample of the field costs a device where its surface is, in additions: the code, and of families
+/// the members that can matter in parts of the region as large as those that pictures list them for.
+double weightAtSurface(const Ir& ir, IrId distance, const Families& families,
+                       std::span<const double> parameters, const Box& region);
+double weightAtSurface(const Program& program, const Box& region);
+
+/// About how many seconds light that is traced through a field of this weight takes for 640 x 360 pixels, one
+/// sample each: within a factor of three.
+double secondsToTrace(double weightAtSurface);
+
+/// Above this many, pictures are drafts, if nothing else is asked for.
+inline constexpr double kMostSecondsToTrace = 3;
 
 /// Above this many seconds of compiling, tapes are used where they are sooner done.
 inline constexpr double kMostSecondsToCompile = 1.5;

@@ -84,7 +84,7 @@ int runCheck(const std::vector<std::string>& paths) {
         if (!graph) {
             findings.push_back(graph.error());
         } else {
-            for (Error& finding : check(*graph)) findings.push_back(std::move(finding));
+            for (Error& finding : check(*graph, true)) findings.push_back(std::move(finding));
         }
         for (const Error& finding : findings) {
             std::printf("%s\n", format(finding).c_str());
@@ -118,6 +118,10 @@ void printCost(const Program& program) {
         "about %.2g s for a software driver to compile the mesher's kernels, %.2g s for a mesh of %d "
         "cells by tapes\n",
         compiling, secondsByTapes(program, program.resolution), program.resolution);
+    if (const Result<Box> region = meshRegion(program, {}))
+        std::printf(
+            "about %.2g s for it to trace light through the field, for each sample of 640 x 360 pixels\n",
+            secondsToTrace(weightAtSurface(program, *region)));
 }
 
 }  // namespace

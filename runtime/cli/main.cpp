@@ -77,8 +77,7 @@ void addQuality(CLI::App* command, FieldBy& quality) {
         ->add_option_function<std::string>(
             "--quality", [&quality](const std::string& name) { quality = names.at(name); },
             "full: light is traced through the field; draft: of the mesh alone, sooner; auto: full, but a "
-            "draft "
-            "where the driver would take long to compile the field")
+            "draft where the driver would take long to compile the field, or a software device to trace it")
         ->check(oneOf({"auto", "full", "draft"}))
         ->default_str("auto");
 }

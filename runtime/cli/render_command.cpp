@@ -47,12 +47,10 @@ FieldBy renderedBy(const RenderCommandOptions& options) {
 }
 
 void noteDraft(const Player& player, const RenderCommandOptions& options) {
-    if (player.byTapes() && options.quality == FieldBy::sooner)
-        std::fprintf(
-            stderr,
-            "%s: note: a draft, of the mesh alone: the driver would take about %.0f s to compile the "
-            "field; --quality full waits for it\n",
-            options.output.c_str(), 2 * secondsToCompile(player.program()));
+    const std::string why = player.whyDraft();
+    if (!why.empty() && options.quality == FieldBy::sooner)
+        std::fprintf(stderr, "%s: note: a draft, of the mesh alone: %s; --quality full waits for it\n",
+                     options.output.c_str(), why.c_str());
 }
 
 int runRender(const RenderCommandOptions& options) {

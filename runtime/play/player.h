@@ -146,8 +146,8 @@ class Player {
     /// call.
     bool compiling();
 
-    /// Whether pictures are drafts, and stay so: Session::byTapes().
-    bool byTapes() const { return session.byTapes(); }
+    /// Why pictures are drafts, and stay so: Session::whyDraft().
+    std::string whyDraft() const { return session.whyDraft(); }
 
     /// The samples of the particles' fields as they were made last, for the host.
     std::vector<FieldVolumePtr> particleVolumes() const { return session.particleVolumes(); }

@@ -154,6 +154,16 @@ bool Session::beyondDriver() const {
     return by == FieldBy::tapes || (by == FieldBy::sooner && secondsToCompile(current) > kMostSecondsBehind);
 }
 
+std::string Session::whyDraft() const {
+    if (tapes)
+        return "the driver would take about " + std::to_string(std::lround(2 * secondsToCompile(current))) +
+               " s to compile the field";
+    if (secondsTraced > 0)
+        return "light that is traced through the field would take about " +
+               std::to_string(std::lround(secondsTraced)) + " s for each sample of 640 x 360 pixels";
+    return "";
+}
+
 bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     take(std::move(program));
     if (std::exchange(kernelsBehind, false)) renderer.reset();
@@ -290,6 +300,11 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     std::optional<Program> evaluated;
     const bool waits = compiling();
     tapes = !waits && !hasMesherKernels() && (kernelsBehind || tapesAreSooner(resolution));
+    secondsTraced = 0;
+    if (by == FieldBy::sooner && gpu->software)
+        if (const double seconds = secondsToTrace(weightAtSurface(current, *region));
+            seconds > kMostSecondsToTrace)
+            secondsTraced = seconds;
     if (waits || tapes) {
         evaluated = onHost();
         const std::span<const IrId> color(&evaluated->surface[baseColorComponent], 3);
@@ -370,9 +385,9 @@ template <class Draw>
 auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
     -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options)) {
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
-    const bool draft = drafting() || tapes || !current.stages.empty();
-    if (tapes && (showsField(options.show) || options.show == RENDER_AMBIENT))
-        return tooLargeToLookInto(current);
+    const bool looksInto = showsField(options.show) || options.show == RENDER_AMBIENT;
+    if (tapes && looksInto) return tooLargeToLookInto(current);
+    const bool draft = drafting() || tapes || (secondsTraced > 0 && !looksInto) || !current.stages.empty();
     if (!renderer) renderer = createRenderer(*gpu);
     if (!draft && renderer->field.empty())
         setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));

@@ -51,7 +51,8 @@ inline constexpr double kMostSecondsBehind = 20;
 /// Who evaluates a program's field: kernels that the driver compiles, with light that they trace through the
 /// field; or tapes on the host, with pictures that are drafts (runtime/render/draft.h).
 enum class FieldBy {
-    sooner,  ///< kernels, but of a field whose code keeps the driver longer than tapes take for a mesh: tapes
+    sooner,   ///< kernels, but of a field whose code keeps the driver longer than tapes take for a mesh:
+              ///< tapes; and pictures are drafts too of a field that a software device would trace for long
     kernels,  ///< however long the driver takes
     tapes,
 };
@@ -78,8 +79,10 @@ class Session {
     bool compiling();
     /// Whether the next picture would be a draft until the program's kernels are there.
     bool drafting();
-    /// Whether the last mesh came from tapes, and pictures of it stay drafts.
+    /// Whether the last mesh came from tapes.
     bool byTapes() const { return tapes; }
+    /// Why pictures of the last mesh stay drafts, as a clause; "" if they do not.
+    std::string whyDraft() const;
 
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
@@ -142,7 +145,9 @@ class Session {
 
     std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
     FieldBy by;
-    bool tapes = false;
+    bool tapes = false;  // the last mesh came from them
+    double secondsTraced =
+        0;  // for which light would be traced through its field, if that is why pictures are drafts
     Program current;
     uint64_t builtHash = 0;
     bool built = false;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "graph/document/json.h"
 #include "graph/document/sockets.h"
@@ -12,8 +13,9 @@
 namespace fw::check_test {
 
 /// Findings of a document whose nodes (and further top-level keys) are these, as a user sees them.
-std::vector<std::string> findingsOf(const std::string& nodes, const std::string& more = "",
-                                    std::vector<Error> (*find)(const Graph&) = checkStructure) {
+std::vector<std::string> findingsOf(
+    const std::string& nodes, const std::string& more = "",
+    const std::function<std::vector<Error>(const Graph&)>& find = checkStructure) {
     const Result<Graph> graph =
         parseGraph("{\"fieldwright\": 1, \"nodes\": [" + nodes + "]" + more + "}", "a.field.json", nullptr);
     EXPECT_TRUE(graph) << (graph ? "" : format(graph.error()));
@@ -164,7 +166,8 @@ TEST(Check, LinksThatDoNotFit) {
 
 TEST(Check, RangesHoldForWhatComesByAWire) {
     const auto compiled = [](const std::string& nodes) {
-        return findingsOf(std::string(kBall) + ", " + nodes, "", check);
+        return findingsOf(std::string(kBall) + ", " + nodes, "",
+                          [](const Graph& graph) { return check(graph); });
     };
     const std::string zero = R"({"id": "v", "type": "value", "inputs": {"value": 0}}, )";
     const auto scaled = [](const std::string& from) {
@@ -197,7 +200,7 @@ TEST(Check, CodeIsCheckedBesideAStructureThatIsNotSound) {
     const std::vector<std::string> findings = findingsOf(
         std::string(kBall) +
             R"(, {"id": "a", "type": "nothing"}, {"id": "e", "type": "expression", "code": "a = lenght(p); return 1 + (p.x > 0.);", "inputs": {"q": {"from": "a"}}})",
-        "", check);
+        "", [](const Graph& graph) { return check(graph); });
     ASSERT_EQ(findings.size(), 3u) << joined(findings);
     EXPECT_NE(findings[0].find("unknown node type 'nothing'"), std::string::npos);
     EXPECT_NE(findings[1].find("node 'e', code 1:5: unknown function 'lenght'"), std::string::npos);

@@ -75,6 +75,37 @@ TEST(Effort, NodesThatAreAlikeCostAlike) {
     EXPECT_EQ(efforts.at("right").operations, efforts.at("left").operations);
 }
 
+/// A union of so many balls within noises, of one code; or of small ones, each in its place.
+Graph unionOf(int members, bool noises) {
+    std::string code = "d = 1e3;";
+    for (int i = 0; i < members; ++i) {
+        const std::string place = "vec3(" + std::to_string(i % 9 - 4) + ", " + std::to_string(i / 9 % 9 - 4) +
+                                  ", " + std::to_string(i / 81) + ")";
+        code += noises ? " d = min(d, max(length(p) - 1, perlin(p * " + std::to_string(2 + 0.01 * i) + " + " +
+                             place + ") + 0.2));"
+                       : " d = min(d, length(p - " + place + ") - 0.2" + std::to_string(i) + ");";
+    }
+    return graphOf(R"({"id": "all", "type": "expression", "code": ")" + code + R"( return d;"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}})");
+}
+
+TEST(Effort, WhatIsSlowToTraceIsAWarningWhereItIsAskedFor) {
+    const Graph noises = unionOf(120, true), balls = unionOf(500, false);
+    EXPECT_TRUE(check(noises).empty());
+    EXPECT_TRUE(check(balls, true).empty());
+    const std::vector<Error> findings = check(noises, true);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].severity, Error::Severity::warning);
+    EXPECT_EQ(findings[0].node, "all");
+    EXPECT_NE(findings[0].message.find("pictures are drafts"), std::string::npos) << findings[0].message;
+    const Program program = programOf(noises);
+    ASSERT_FALSE(program.families.empty());
+    const Box box{{-1, -1, -1}, {1, 1, 1}};
+    EXPECT_GT(secondsToTrace(weightAtSurface(program, box)), kMostSecondsToTrace);
+    EXPECT_LT(secondsToTrace(weightAtSurface(programOf(balls), {{-5, -5, -1}, {5, 5, 7}})),
+              kMostSecondsToTrace);
+}
+
 TEST(Effort, PartsOfEverySampleMakeUpTheWhole) {
     int samples = 0;
     for (const auto& entry : std::filesystem::directory_iterator(FIELDWRIGHT_SOURCE_DIR "/samples")) {

@@ -12,6 +12,7 @@
 #include "graph/document/json.h"
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/gpu.h"
+#include "tests/support/graph/expression_graph.h"
 
 namespace fw::session_test {
 
@@ -152,6 +153,33 @@ TEST(Session, TapesTakeWhatTheDriverWouldCompileForMinutes) {
     EXPECT_TRUE(waiting.setProgram(sample("tower")));
     expectClosed(meshOf(waiting));
     EXPECT_FALSE(waiting.byTapes());
+}
+
+TEST(Session, WhatWouldBeTracedForLongIsADraft) {
+    std::string code = "d = 1e3;";
+    for (int i = 0; i < 120; ++i)
+        code += " d = min(d, max(length(p) - 1, perlin(p * " + std::to_string(2 + 0.01 * i) + ") + 0.2));";
+    const Result<Program> program = compile(test::expressionGraph(code + " return d;"));
+    ASSERT_TRUE(program) << format(program.error());
+    ASSERT_FALSE(program->families.empty());
+    Session sooner = openSession(), full = openSession(FieldBy::kernels);
+    if (!sooner.device().software) GTEST_SKIP() << "a hardware device traces it at once";
+    sooner.setProgram(*program);
+    full.setProgram(*program);
+    expectClosed(meshOf(sooner));
+    expectClosed(meshOf(full));
+    EXPECT_FALSE(sooner.byTapes());
+    EXPECT_NE(sooner.whyDraft().find("light that is traced"), std::string::npos);
+    EXPECT_EQ(full.whyDraft(), "");
+    const Result<MesherResult> result = sooner.polygonise({std::nullopt, 32});
+    ASSERT_TRUE(result);
+    RenderOptions options{.width = 64, .height = 48, .samples = 2};
+    EXPECT_TRUE(sooner.render(*result, options));
+    options.show = RENDER_SLICE;  // has nothing to show but the field
+    EXPECT_TRUE(sooner.render(*result, options));
+    sooner.setProgram(sample("tower"));
+    meshOf(sooner);
+    EXPECT_EQ(sooner.whyDraft(), "");
 }
 
 TEST(Session, KernelsAreCompiledWhereTapesWouldTakeLonger) {
