@@ -1,4 +1,5 @@
-// What the last picture took: triangles, time by stage, memory.
+// What the last picture took: triangles, time by stage, memory; and what each node adds to the field.
+#include <algorithm>
 #include <cstdio>
 
 #include "editor/editor.h"
@@ -15,6 +16,37 @@ void row(const char* name, const char* format, double value) {
     ImGui::TextUnformatted(name);
     ImGui::TableNextColumn();
     ImGui::Text(format, value);
+}
+
+/// The nodes that a sample of the field spends most on. A click goes there.
+void showCosts(Editor& editor, const std::vector<NodeEffort>& efforts) {
+    constexpr std::size_t kMost = 12;
+    double all = 0.0;
+    for (const NodeEffort& effort : efforts) all += effort.sample;
+    if (all == 0.0) return;
+    ImGui::Spacing();
+    ImGui::TextUnformatted("Cost of the field by node");
+    if (!ImGui::BeginTable("costs", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) return;
+    std::string goTo;
+    for (std::size_t i = 0; i < std::min(efforts.size(), kMost); ++i) {
+        const NodeEffort& effort = efforts[i];
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        if (ImGui::Selectable((effort.node + "##cost").c_str(), false, ImGuiSelectableFlags_SpanAllColumns))
+            goTo = effort.node;
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip(
+                "%.0f operations, as long as %.0f additions for each sample.\n"
+                "What alike nodes share is told of one of them.",
+                effort.operations, effort.sample);
+        ImGui::TableNextColumn();
+        char text[32];
+        std::snprintf(text, sizeof text, "%.0f %%", 100.0 * effort.sample / all);
+        ImGui::ProgressBar(float(effort.sample / all), {-FLT_MIN, 0}, text);
+    }
+    ImGui::EndTable();
+    if (efforts.size() > kMost) ImGui::TextDisabled("and %zu more", efforts.size() - kMost);
+    if (!goTo.empty()) reveal(editor, goTo);
 }
 
 }  // namespace
@@ -46,6 +78,7 @@ void showStatistics(Editor& editor) {
         ImGui::ProgressBar(all > 0.0 ? float(stage.milliseconds / all) : 0.0f, {-FLT_MIN, 0}, text);
     }
     ImGui::EndTable();
+    showCosts(editor, shown.efforts);
 }
 
 }  // namespace fw::editor

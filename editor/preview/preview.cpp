@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -203,6 +204,8 @@ void Maker::load() {
         result.spoiledBy = player->program().spoiledBy;
         result.region = player->region();
         result.exactness = player->program().nodeExactness;
+        result.efforts = effortByNode(player->program());
+        std::ranges::stable_sort(result.efforts, std::greater(), &NodeEffort::sample);
         checked.insert(checked.end(), player->notes().begin(), player->notes().end());
     }
     result.findings = checked;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "graph/compile/compile.h"
+#include "graph/compile/effort.h"
 #include "runtime/play/session.h"
 
 namespace fw::editor {
@@ -56,6 +57,7 @@ struct PreviewResult {
     std::vector<FieldVolumePtr> particles = {};  ///< their samples, once the picture rests; else none
     std::string spoiledBy = {};                  ///< the node since which the field is no exact distance
     std::map<std::string, NodeExactness, std::less<>> exactness = {};  ///< as Program::nodeExactness
+    std::vector<NodeEffort> efforts = {};  ///< effortByNode() of the program, the heaviest sample first
     PreviewStatistics statistics = {};
     std::string failure = {};  ///< the device or the system failed; the next wish begins anew
 };

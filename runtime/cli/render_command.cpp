@@ -46,7 +46,7 @@ FieldBy renderedBy(const RenderCommandOptions& options) {
                                                                            : options.quality;
 }
 
-void noteDraft(const Player& player, const RenderCommandOptions& options) {
+void noteDraft(Player& player, const RenderCommandOptions& options) {
     const std::string why = player.whyDraft();
     if (!why.empty() && options.quality == FieldBy::sooner)
         std::fprintf(stderr, "%s: note: a draft, of the mesh alone: %s; --quality full waits for it\n",

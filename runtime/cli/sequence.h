@@ -57,7 +57,7 @@ RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, 
 /// Who evaluates the field for them: kernels if a view traces it.
 FieldBy renderedBy(const RenderCommandOptions& options);
 /// Says of a picture that is a draft for lack of a quick compiler why it is one.
-void noteDraft(const Player& player, const RenderCommandOptions& options);
+void noteDraft(Player& player, const RenderCommandOptions& options);
 
 /// `render` with --from, --to or --fps.
 int runSequence(const RenderCommandOptions& options, std::pair<int, int> size);

@@ -16,6 +16,7 @@ constexpr double kNear = 1e-6;         // of the way gone, that may be left
 constexpr int kLeastPieces = 4096;     // of the region's longest side: what is shorter is not halved further
 constexpr double kWorthKeeping = 0.8;  // of its steps that a shortened tape may have
 constexpr int kLines = 12'000;
+constexpr uint32_t kTogether = 8;  // lines that have a tape in common
 
 std::vector<Point> positionsOf(std::span<const glm::dvec3> points) {
     std::vector<Point> positions(points.size());
@@ -42,11 +43,16 @@ double jitter(uint32_t a, uint32_t b, uint32_t c) {
 /// Looks along one line after another for places where the field changes its sign.
 class Lines {
   public:
-    Lines(const Tape& tape, double shortest) : whole(tape), least(shortest) {}
+    explicit Lines(double shortest) : least(shortest) {}
 
     std::vector<Point> found;
 
-    void look(int along, const Box& line) { halve(along, line, whole); }
+    void look(int along, const Box& line, const Tape& tape) { halve(along, line, tape); }
+    /// The tape for lines within the box.
+    Tape within(const Box& box, const Tape& tape) {
+        machine.interval(tape, box);
+        return machine.shortens() ? machine.shortenedForSigns(tape) : tape;
+    }
 
   private:
     void halve(int along, const Box& piece, const Tape& tape) {
@@ -88,7 +94,6 @@ class Lines {
     }
 
     TapeMachine<double> machine;
-    const Tape& whole;
     double least;
 };
 
@@ -115,13 +120,23 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
     forBlocks(rows.size(), 1, [&](std::size_t, std::size_t at, std::size_t) {
         const auto [along, i] = rows[at];
         const std::size_t a = std::size_t(along), b = (a + 1) % 3, c = (a + 2) % 3;
-        Lines looking(tape, longest / kLeastPieces);
+        Lines looking(longest / kLeastPieces);
+        Box slab = region;  // that the row's lines are in, and then some of them
+        slab.lo[b] = region.lo[b] + size[b] * i / across(b);
+        slab.hi[b] = region.lo[b] + size[b] * (i + 1) / across(b);
+        const Tape ofRow = looking.within(slab, tape);
+        Tape ofSome;
         for (uint32_t j = 0; j < across(c); ++j) {
+            if (j % kTogether == 0) {
+                slab.lo[c] = region.lo[c] + size[c] * j / across(c);
+                slab.hi[c] = region.lo[c] + size[c] * (j + kTogether) / across(c);
+                ofSome = looking.within(slab, ofRow);
+            }
             Box line = region;
             const uint32_t place = uint32_t(along) << 30;
             line.lo[b] = line.hi[b] = region.lo[b] + size[b] * (i + jitter(i, j, place)) / across(b);
             line.lo[c] = line.hi[c] = region.lo[c] + size[c] * (j + jitter(i, j, place + 1)) / across(c);
-            looking.look(along, line);
+            looking.look(along, line, ofSome);
         }
         parts[at] = std::move(looking.found);
     });

@@ -147,7 +147,7 @@ class Player {
     bool compiling();
 
     /// Why pictures are drafts, and stay so: Session::whyDraft().
-    std::string whyDraft() const { return session.whyDraft(); }
+    std::string whyDraft() { return session.whyDraft(); }
 
     /// The samples of the particles' fields as they were made last, for the host.
     std::vector<FieldVolumePtr> particleVolumes() const { return session.particleVolumes(); }

@@ -154,11 +154,21 @@ bool Session::beyondDriver() const {
     return by == FieldBy::tapes || (by == FieldBy::sooner && secondsToCompile(current) > kMostSecondsBehind);
 }
 
-std::string Session::whyDraft() const {
+bool Session::isTracedForLong() {
+    if (by != FieldBy::sooner || !gpu->software) return false;
+    if (weighedHash != current.structureHash) {
+        const Box region{{grid.lo.x, grid.lo.y, grid.lo.z}, {grid.hi.x, grid.hi.y, grid.hi.z}};
+        secondsTraced = secondsToTrace(weightAtSurface(current, region));
+        weighedHash = current.structureHash;
+    }
+    return secondsTraced > kMostSecondsToTrace;
+}
+
+std::string Session::whyDraft() {
     if (tapes)
         return "the driver would take about " + std::to_string(std::lround(2 * secondsToCompile(current))) +
                " s to compile the field";
-    if (secondsTraced > 0)
+    if (isTracedForLong())
         return "light that is traced through the field would take about " +
                std::to_string(std::lround(secondsTraced)) + " s for each sample of 640 x 360 pixels";
     return "";
@@ -300,11 +310,6 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     std::optional<Program> evaluated;
     const bool waits = compiling();
     tapes = !waits && !hasMesherKernels() && (kernelsBehind || tapesAreSooner(resolution));
-    secondsTraced = 0;
-    if (by == FieldBy::sooner && gpu->software)
-        if (const double seconds = secondsToTrace(weightAtSurface(current, *region));
-            seconds > kMostSecondsToTrace)
-            secondsTraced = seconds;
     if (waits || tapes) {
         evaluated = onHost();
         const std::span<const IrId> color(&evaluated->surface[baseColorComponent], 3);
@@ -387,7 +392,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
     const bool looksInto = showsField(options.show) || options.show == RENDER_AMBIENT;
     if (tapes && looksInto) return tooLargeToLookInto(current);
-    const bool draft = drafting() || tapes || (secondsTraced > 0 && !looksInto) || !current.stages.empty();
+    const bool draft = drafting() || tapes || !current.stages.empty() || (!looksInto && isTracedForLong());
     if (!renderer) renderer = createRenderer(*gpu);
     if (!draft && renderer->field.empty())
         setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));

@@ -82,7 +82,7 @@ class Session {
     /// Whether the last mesh came from tapes.
     bool byTapes() const { return tapes; }
     /// Why pictures of the last mesh stay drafts, as a clause; "" if they do not.
-    std::string whyDraft() const;
+    std::string whyDraft();
 
     /// Changes a live parameter's value: an upload, never a compile.
     void setParameter(std::size_t slot, double value);
@@ -132,6 +132,8 @@ class Session {
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
     bool hasMesherKernels() const { return built && builtHash == current.structureHash; }
     bool tapesAreSooner(int resolution) const;
+    /// Whether a software device would trace light through the field, of which there is a mesh, for long.
+    bool isTracedForLong();
     /// Whether kernels that are wanted behind are not worth their wait.
     bool beyondDriver() const;
     void buildKernels(std::vector<StageTime>* stages);
@@ -145,9 +147,9 @@ class Session {
 
     std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
     FieldBy by;
-    bool tapes = false;  // the last mesh came from them
-    double secondsTraced =
-        0;  // for which light would be traced through its field, if that is why pictures are drafts
+    bool tapes = false;                   // the last mesh came from them
+    double secondsTraced = 0;             // as secondsToTrace(),
+    std::optional<uint64_t> weighedHash;  // of this structure
     Program current;
     uint64_t builtHash = 0;
     bool built = false;

@@ -11,6 +11,7 @@
 #include "editor/panels/side.h"
 #include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
+#include "tests/editor/graphs.h"
 
 namespace fw::editor::test::keyboard_only_test {
 
@@ -150,6 +151,27 @@ TEST(KeyboardOnly, ThePaletteRunsWhatIsChosen) {
     editor.type("undo");
     editor.keys("Down Escape");
     EXPECT_FALSE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+}
+
+TEST(KeyboardOnly, TheStatisticsLeadToTheNodeThatCostsMost) {
+    DrivenEditor editor(test::parsed(R"({"fieldwright": 1, "nodes": [
+        {"id": "box", "type": "box", "at": [0, 0]},
+        {"id": "noise", "type": "noise", "at": [0, 200]},
+        {"id": "bumps", "type": "displace", "at": [250, 0],
+         "inputs": {"surface": {"from": "box"}, "amount": {"from": "noise"}}},
+        {"id": "out", "type": "output", "at": [500, 0], "inputs": {"surface": {"from": "bumps"}, "resolution": 24}}]})"));
+    NEEDS_EDITOR(editor);
+    editor.waitForPicture();
+    const std::vector<NodeEffort>& efforts = editor->viewport.shown.efforts;
+    ASSERT_EQ(efforts.size(), 3u);
+    EXPECT_EQ(efforts.front().node, "noise");
+    EXPECT_TRUE(std::ranges::is_sorted(efforts, std::greater(), &NodeEffort::sample));
+    editor.keys("F3");
+    editor.type("statistics");
+    editor.keys("Return");
+    editor.settle();
+    editor.keys("Down Up space");
+    EXPECT_EQ(editor->canvas.selection, std::set<std::string>{"noise"});
 }
 
 TEST(KeyboardOnly, F1OpensThePageOfTheNode) {

@@ -42,7 +42,7 @@ TEST(FlatMemory, OfPlaying) {
 TEST(FlatMemory, OfASequence) {
     const test::TempDir folder;
     expectFlat([&](int frames) {
-        return peakOf({"render", "--resolution", "32", "--size", "96x72", "--samples", "2", "--fps", "60",
+        return peakOf({"render", "--resolution", "32", "--size", "96x72", "--samples", "1", "--fps", "60",
                        "--to", std::to_string(frames / 60.0), "--overwrite", "-o", folder.path("frames")},
                       "moving_booleans");
     });
