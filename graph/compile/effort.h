@@ -26,8 +26,8 @@ double secondsToCompile(const Program& program);
 /// need the whole field.
 double secondsByTapes(const Program& program, int resolution);
 
-/// What a sample of the field costs a device where its surface is, in additions: the code, and of families
-/// the members that can matter in parts of the region as large as those that pictures list them for.
+/// What a sample of the field costs a device near its surface, in additions: the code, and what of families
+/// can matter in parts of the region.
 double weightAtSurface(const Ir& ir, IrId distance, const Families& families,
                        std::span<const double> parameters, const Box& region);
 double weightAtSurface(const Program& program, const Box& region);
