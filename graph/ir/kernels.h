@@ -5,7 +5,8 @@
 // becomes loops over float and double, with operands that are rows or single numbers. Each loop is compiled
 // twice, for every x86-64 processor and for those with AVX2, and the table is chosen when the program runs.
 // No version fuses a product with a sum, so all give the same bits: those of the meaning itself. A meaning
-// whose branches forbid vectors has a part most(): its result, or below 0 where the whole must be asked.
+// whose branches forbid vectors has a part most(), and needsAll() tells of its value where the whole must be
+// asked.
 //
 // Included by ops.cpp alone.
 #pragma once
@@ -49,9 +50,8 @@ template <class Value, int numbers, class T, std::size_t... i>
     }
     if constexpr (inParts)
         for (std::size_t k = 0; k < count; ++k) {
-            if (!(results[k] < T(0))) continue;
             const T x[] = {((numbers >> i & 1) ? held[i] : rows[i][k])...};
-            results[k] = Value{}(&x[0]);
+            if (Value::needsAll(&x[0], results[k])) results[k] = Value{}(&x[0]);
         }
 }
 
@@ -62,11 +62,22 @@ template <class Slope, int numbers, class T, std::size_t... i>
                                              std::index_sequence<i...>) {
     const T *const rows[] = {operands[i]...}, *const moves[] = {derivatives[i]...};
     const T held[] = {*operands[i]...};
+    constexpr bool inParts = requires { Slope::most(*rows, *rows); };
     for (std::size_t k = 0; k < count; ++k) {
         const T x[] = {((numbers >> i & 1) ? held[i] : rows[i][k])...};
         const T d[] = {((numbers >> i & 1) ? T(0) : moves[i][k])...};
-        slopes[k] = T(call<Slope>(layer, &x[0], results[k], &d[0]));
+        if constexpr (inParts)
+            slopes[k] = Slope::most(&x[0], &d[0]);
+        else
+            slopes[k] = T(call<Slope>(layer, &x[0], results[k], &d[0]));
     }
+    if constexpr (inParts)
+        for (std::size_t k = 0; k < count; ++k) {
+            const T x[] = {((numbers >> i & 1) ? held[i] : rows[i][k])...};
+            if (!Slope::needsAll(&x[0], results[k])) continue;
+            const T d[] = {((numbers >> i & 1) ? T(0) : moves[i][k])...};
+            slopes[k] = Slope{}(&x[0], results[k], &d[0]);
+        }
 }
 
 template <class Value, int arity, int numbers, class T>

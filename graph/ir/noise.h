@@ -152,37 +152,52 @@ template <class T>
     return sum;
 }
 
-/// Worley noise where the 27 cells around have the nearest point; -1 where it takes the whole search. Without
-/// branches, as the two above.
+/// How far a position is at least from what lies beyond the 27 cells around it.
 template <class T>
-[[gnu::always_inline]] inline T worleyNearby(T x, T y, T z, T seed) {
+[[gnu::always_inline]] inline T worleyClear(T x, T y, T z) {
     const T position[3] = {x, y, z};
-    const uint32_t seeded = noise::seedBits(seed);
-    T corner[3][3], clear = T(1);
-    int32_t at[3][3];
+    T clear = T(1);
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
-        const T cell = std::floor(position[i]), f = position[i] - cell, side = f < T(1) - f ? f : T(1) - f;
+        const T f = position[i] - std::floor(position[i]), side = f < T(1) - f ? f : T(1) - f;
         clear = side < clear ? side : clear;
-#pragma GCC unroll 3
-        for (int o = 0; o < 3; ++o) corner[i][o] = cell + T(o - 1), at[i][o] = noise::lattice(corner[i][o]);
     }
-    clear += T(1);
-    T nearest = T(1e30);
+    return clear + T(1);
+}
+
+/// Worley noise of the 27 cells around: what it is where it is no more than worleyClear(); else it takes the
+/// whole search. Without branches, as the two above.
+template <class T>
+[[gnu::always_inline]] inline NoiseOf<T> worleyNearby(T x, T y, T z, T seed) {
+    const T position[3] = {x, y, z};
+    const uint32_t seeded = noise::seedBits(seed);
+    T corner[3][3];
+    int32_t at[3][3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+        for (int o = 0; o < 3; ++o) {
+            corner[i][o] = std::floor(position[i]) + T(o - 1);
+            at[i][o] = noise::lattice(corner[i][o]);
+        }
+    T nearest = T(1e30), offset[3] = {T(0), T(0), T(0)};
 #pragma GCC unroll 27
     for (int c = 0; c < 27; ++c) {
         const int o[3] = {c % 3, c / 3 % 3, c / 9};
         const std::array<uint32_t, 3> bits =
             noise::latticeHash(at[0][o[0]], at[1][o[1]], at[2][o[2]], seeded);
-        T squared = T(0);
+        T squared = T(0), d[3];
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) {
-            const T d = position[i] - corner[i][o[i]] - noise::unit<T>(bits[i]);
-            squared += d * d;
+            d[i] = position[i] - corner[i][o[i]] - noise::unit<T>(bits[i]);
+            squared += d[i] * d[i];
         }
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) offset[i] = squared < nearest ? d[i] : offset[i];
         nearest = squared < nearest ? squared : nearest;
     }
-    return nearest > clear * clear ? T(-1) : std::sqrt(nearest);
+    const T distance = std::sqrt(nearest), inverse = T(1) / (distance > T(0) ? distance : T(1));
+    return {distance, {offset[0] * inverse, offset[1] * inverse, offset[2] * inverse}};
 }
 
 }  // namespace fw

@@ -133,16 +133,34 @@ template <class N, class T>
 T noiseSlope(const NoiseOf<N>& sample, const T* d) {
     return T(sample.gradient[0] * d[0] + sample.gradient[1] * d[1] + sample.gradient[2] * d[2]);
 }
-/// A meaning in two parts: what most places need becomes vectors, the others follow (kernels.h).
+/// Meanings in two parts: what most places need becomes vectors, the others follow (kernels.h).
 struct WorleyNoise {
     template <class T>
     static T most(const T* x) {
-        return worleyNearby(x[0], x[1], x[2], x[3]);
+        return worleyNearby(x[0], x[1], x[2], x[3]).value;
+    }
+    template <class T>
+    static bool needsAll(const T* x, T found) {
+        return !(found <= worleyClear(x[0], x[1], x[2]));
     }
     template <class T>
     T operator()(const T* x) const {
         const T near = most(x);
-        return near < T(0) ? T(worleyNoise(x[0], x[1], x[2], x[3]).value) : near;
+        return needsAll(x, near) ? T(worleyNoise(x[0], x[1], x[2], x[3]).value) : near;
+    }
+};
+struct WorleySlope {
+    template <class T>
+    static T most(const T* x, const T* d) {
+        return noiseSlope(worleyNearby(x[0], x[1], x[2], x[3]), d);
+    }
+    template <class T>
+    static bool needsAll(const T* x, T found) {
+        return WorleyNoise::needsAll(x, found);
+    }
+    template <class T>
+    T operator()(const T* x, T, const T* d) const {
+        return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d);
     }
 };
 Interval hashInterval(I x) {
@@ -403,8 +421,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "simplexNoiseGradient(vec3(%a, %b, %c), %d)", 45),
     row(
         Op::worleyNoise, "worley", Arity<4>(), false, false, WorleyNoise(),
-        [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); },
-        []<class T>(const T* x, T, const T* d) { return noiseSlope(worleyNoise(x[0], x[1], x[2], x[3]), d); },
+        [](I x) { return noiseInterval(x, worleyNoise, 1.0, 0.0, kWorleyNoiseRange); }, WorleySlope(),
         "worleyNoise(vec3(%a, %b, %c), %d)",
         "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)", kChainRule,
         "worleyNoiseGradient(vec3(%a, %b, %c), %d)", 110),
