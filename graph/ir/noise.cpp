@@ -20,10 +20,7 @@ std::array<double, 3> worleyPoint(double x, double y, double z, double seed) {
 NoiseSample worleyNoise(double x, double y, double z, double seed) {
     const double position[3] = {x, y, z};
     const double cell[3] = {std::floor(x), std::floor(y), std::floor(z)};
-    double clear = 1.0;  // how far the position is at least from what lies beyond the 27 cells
-    for (int i = 0; i < 3; ++i)
-        clear = std::min(clear, std::min(position[i] - cell[i], 1.0 - (position[i] - cell[i])));
-    clear += 1.0;
+    const double clear = worleyClear(x, y, z);
     double nearest = 1e30;
     double offset[3] = {0, 0, 0};
     const auto search = [&](int reach) {
