@@ -10,6 +10,7 @@
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/export/outputs.h"
 #include "runtime/play/mesh_program.h"
+#include "runtime/play/tiled_mesh.h"
 #include "runtime/system/clock.h"
 
 namespace fw::editor {
@@ -30,9 +31,19 @@ constexpr Stage kStages[] = {{"check", "checking the graph", 0.0f},
                              {"mesh", "making the mesh", 0.4f},
                              {"download", "reading the mesh", 0.6f},
                              {"report", "measuring the mesh", 0.65f},
-                             {"write", "writing the file", 0.8f}};
+                             {"write", "writing the file", 0.8f},
+                             {"count", "counting the triangles of the tiles", 0.2f},
+                             {"tiles", "writing the tiles", 0.5f},
+                             {"examine", "measuring the file", 0.9f}};
+constexpr float kTiles = 0.3f;  // of the work: to count the tiles, about, and to write them
 
 }  // namespace
+
+struct Opened {
+    Device device;
+    Program program;
+    Box region;
+};
 
 struct ExportJob::Shared {
     ExportWish wish;
@@ -40,6 +51,7 @@ struct ExportJob::Shared {
     std::atomic<bool> cancel = false;
     mutable std::mutex mutex;
     ExportState state;
+    float stageBegan = 0.0f;
     std::thread thread;
 
     void change(const std::function<void(ExportState&)>& how) {
@@ -55,19 +67,29 @@ struct ExportJob::Shared {
         if (cancel) return false;
         for (const Stage& stage : kStages)
             if (name == stage.name)
-                change([&](ExportState& now) { now.stage = stage.words, now.part = stage.part; });
+                change(
+                    [&](ExportState& now) { now.stage = stage.words, now.part = stageBegan = stage.part; });
         return true;
     }
 
+    /// So much of the stage's tiles is done; false if the work is to end.
+    bool advance(float part) {
+        change([&](ExportState& now) { now.part = stageBegan + kTiles * part; });
+        return !cancel;
+    }
+
+    Result<Opened> open();
+    Result<ExportState> atOnce(Opened opened);
+    Result<ExportState> inTiles(Opened opened, int side);
     Result<ExportState> make();
     void run();
     std::vector<Error> findings;  ///< errors of the graph, where they ended it
 };
 
-/// The steps of `fieldwright export`, but that the mesh is measured in memory.
-Result<ExportState> ExportJob::Shared::make() {
-    const Clock::time_point begin = Clock::now();
-    const Error stopped;
+const Error kStopped;
+
+/// Everything that comes before the mesh.
+Result<Opened> ExportJob::Shared::open() {
     if (const Done known = checkExportPath(wish.path, {.manifold = wish.manifold}); !known)
         return known.error();
     if (const Done distinct = checkDistinct(wish.graph->path, exportedPaths(wish.path)); !distinct)
@@ -75,45 +97,117 @@ Result<ExportState> ExportJob::Shared::make() {
     if (const Done kept = checkReplacesNone(filesRead(*wish.graph), exportedPaths(wish.path)); !kept)
         return kept.error();
     OpeningDevice opening(std::launch::async, wish.device);
-    if (!start("check")) return stopped;
+    if (!start("check")) return kStopped;
     findings = check(*wish.graph);
     std::erase_if(findings, [](const Error& each) { return each.severity != Error::Severity::error; });
     if (!findings.empty()) return findings.front();
-    if (!start("compile")) return stopped;
+    if (!start("compile")) return kStopped;
     CompileOptions options;
     options.bake = meshFieldBaker([&] { return opening.orNone(); });
     Result<Program> program = compileAtTime(
         *wish.graph, wish.seconds, std::move(options), [&] { return opening.orNone(); },
         [&](int, int) { return !cancel; });
     if (!program) return program.error();
-    if (!start("region")) return stopped;
+    if (!start("region")) return kStopped;
     const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
     if (!region) return region.error();
     prepareKernels(*program, [&] { return !opening.isOpen(); });
-    if (!start("device")) return stopped;
+    if (!start("device")) return kStopped;
     Result<Device>& device = opening.get();
     if (!device) return device.error();
+    return Opened{std::move(*device), std::move(*program), *region};
+}
+
+/// The steps of `fieldwright export`, but that the mesh is measured in memory.
+Result<ExportState> ExportJob::Shared::atOnce(Opened opened) {
     const Result<MeshedProgram> meshed =
-        meshProgram(std::move(*device), std::move(*program), wish.mesh, *region,
+        meshProgram(std::move(opened.device), std::move(opened.program), wish.mesh, opened.region,
                     [this](const char* stage) { return start(stage); });
     if (!meshed) return meshed.error();
-    if (!start("download")) return stopped;
+    if (!start("download")) return kStopped;
     const Mesh mesh = meshed->session.download(meshed->mesh);
-    if (!start("report")) return stopped;
+    if (!start("report")) return kStopped;
     ExportState made{.phase = Phase::done, .stage = "done", .part = 1.0f};
     made.report = reportOnMesh(mesh.positions, mesh.indices);
     made.report.capped = meshed->mesh.capped;
     made.report.device = meshed->session.device().name();
-    if (!start("write")) return stopped;
+    if (!start("write")) return kStopped;
     Result<ExportedFiles> written = exportMesh(
         mesh, wish.path, {.cellSize = float(meshed->cellSize), .manifold = wish.manifold, .cancel = &cancel});
     if (!written) return written.error();
     made.files = std::move(*written);
-    made.report.totalMs = millisecondsSince(begin);
     return made;
 }
 
+/// The same with tiles of so many cells a side, measured from the file if there is memory for that.
+Result<ExportState> ExportJob::Shared::inTiles(Opened opened, int side) {
+    MeshRequest request = wish.mesh;
+    const bool given = request.region || opened.program.region;
+    request.region = opened.region;
+    if (request.resolution == 0) request.resolution = opened.program.resolution;
+    const Result<CellGrid> grid = cellGrid(opened.region, request.resolution);
+    if (!grid) return grid.error();
+    const TilePlan plan = planTiles(*grid, side);
+    Session session(std::move(opened.device));
+    if (!start("pipelines")) return kStopped;
+    session.setProgram(std::move(opened.program));
+    const auto goesOn = [&](std::size_t tile) { return advance(float(tile) / float(plan.tiles.size())); };
+    if (!start("count")) return kStopped;
+    Result<CountedTiles> tiles = countTiles(session, request, plan, goesOn);
+    if (!tiles) return tiles.error();
+    MeshPieces& mesh = tiles->mesh;
+    if (mesh.triangleCount == 0) return nothingToSee(given, opened.region, request.resolution);
+    ExportState made{.phase = Phase::done, .stage = "done", .part = 1.0f, .tiled = true};
+    made.measured = bool(checkMeasurable(mesh.triangleCount, freeMemoryBytes()));
+    made.report.vertices = mesh.vertexCount;
+    made.report.triangles = mesh.triangleCount;
+    mesh.load = [&goesOn, load = mesh.load](std::size_t tile, MeshPieces::Part part) -> Result<Mesh> {
+        if (!goesOn(tile)) return kStopped;
+        return load(tile, part);
+    };
+    if (!start("tiles")) return kStopped;
+    fw::ExportOptions how{.cancel = &cancel};
+    if (made.measured)
+        how.examine = [&](const StoredMesh& file) -> Done {
+            if (!start("examine")) return kStopped;
+            const Result<WeldedMesh> read = readWelded(file);
+            if (!read) return read.error();
+            made.report = reportOnWelded(*read);
+            return done();
+        };
+    Result<ExportedFiles> written = exportPieces(mesh, wish.path, how);
+    if (!written) return written.error();
+    made.files = std::move(*written);
+    made.report.capped = tiles->capped;
+    made.report.device = session.device().name();
+    return made;
+}
+
+Result<ExportState> ExportJob::Shared::make() {
+    Result<Opened> opened = open();
+    if (!opened) return opened.error();
+    const Program& program = opened->program;
+    if (wish.manifold || !checkPiecesPath(wish.path) || !checkTiles(program, wish.mesh))
+        return atOnce(std::move(*opened));
+    if ((wish.mesh.resolution > 0 ? wish.mesh.resolution : program.resolution) <= kMostUntiled) {
+        try {
+            Result<ExportState> made = atOnce(std::move(*opened));
+            if (made || made.error().code != Error::Code::tooMuchSurface) return made;
+        } catch (const DeviceTooSmall&) {}  // a tile needs less
+        opened = open();
+    }
+    for (int side = kTileCells; opened; side /= 2, opened = open()) {
+        try {
+            return inTiles(std::move(*opened), side);
+        } catch (const DeviceTooSmall&) {
+            if (side / 2 < kLeastTile) throw;
+        }
+    }
+    return opened.error();
+}
+
 void ExportJob::Shared::run() {
+    const Clock::time_point begin = Clock::now();
     const auto attempt = [this]() -> Result<ExportState> {
         try {
             return onceMoreIfLost([this] { return make(); },
@@ -126,6 +220,7 @@ void ExportJob::Shared::run() {
     change([&](ExportState& now) {
         if (made) {
             made->again = now.again;
+            made->report.totalMs = millisecondsSince(begin);
             now = std::move(*made);
         } else if (cancel) {
             now.phase = Phase::cancelled, now.stage = "cancelled";

@@ -1,8 +1,9 @@
 // One export to a mesh file, made beside the interface.
 //
 // A thread of its own with a device of its own does what `fieldwright export` does, with the same functions,
-// so that the file has the same bytes; editing and preview go on meanwhile. The mesh is measured before it is
-// written: until its last moment a cancelled export leaves no file and a file that stood there is as it was.
+// so that the file has the same bytes, in tiles too where that is the way; editing and preview go on
+// meanwhile. The mesh is measured before it is in its place: until its last moment a cancelled export leaves
+// no file and a file that stood there is as it was.
 //
 // Lifetime: a job is one export. Its destructor cancels it and waits for the stage under way to end.
 #pragma once
@@ -38,6 +39,8 @@ struct ExportState {
     std::vector<Error> problems = {};  ///< why it failed
     ExportedFiles files = {};          ///< that were written
     Report report = {};                ///< measured from the mesh; with what it took and the device
+    bool measured = true;              ///< if not, the report has but counts: there was no memory for more
+    bool tiled = false;                ///< it was meshed in tiles
 };
 
 class ExportJob {

@@ -122,8 +122,16 @@ void showDone(const ExportState& state) {
             printed("%s: %.2f MB in %.2f s", name.c_str(), double(state.files.bytes) / kMegabyte,
                     report.totalMs / 1e3));
     wrapped(themeColor(ThemeColor::text),
-            grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices, " +
-                grouped(report.shells) + (report.shells == 1 ? " part" : " parts"));
+            grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices" +
+                (state.measured ? ", " + grouped(report.shells) + (report.shells == 1 ? " part" : " parts")
+                                : std::string()));
+    if (state.tiled) wrapped(themeColor(ThemeColor::text), "It was meshed in tiles.");
+    if (report.capped)
+        wrapped(themeColor(ThemeColor::warning),
+                "The surface leaves the region and was closed at its boundary: give a larger region if that "
+                "is not wanted.");
+    if (!state.measured)
+        return wrapped(themeColor(ThemeColor::warning), "There was not enough memory free to measure it.");
     std::array<double, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = report.boundsMax[axis] - report.boundsMin[axis];
     wrapped(themeColor(ThemeColor::text), printed("%.4g × %.4g × %.4g m, volume %.4g m³, area %.4g m²",
@@ -132,10 +140,6 @@ void showDone(const ExportState& state) {
         wrapped(themeColor(ThemeColor::text), "Watertight: every edge has two triangles.");
     else
         wrapped(themeColor(ThemeColor::warning), "Not watertight: " + wrong + ".");
-    if (report.capped)
-        wrapped(themeColor(ThemeColor::warning),
-                "The surface leaves the region and was closed at its boundary: give a larger region if that "
-                "is not wanted.");
 }
 
 void showJob(Editor& editor, const ExportState& state) {

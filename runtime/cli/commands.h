@@ -52,19 +52,23 @@ struct MeshOptions {
     std::vector<std::string> outputs = {};  ///< files that the command will write
 };
 
-struct ExportOptions {
+/// A mesh file that is written, and what is asked of it.
+struct MeshOutput {
+    std::string output, report = {};         ///< the report's file; empty: none
+    std::vector<Requirement> required = {};  ///< what the mesh must be
+    bool measured() const { return !report.empty() || !required.empty(); }
+};
+
+struct ExportOptions : MeshOutput {
     MeshOptions mesh;
-    std::string output, report;
-    std::vector<Requirement> required;
     bool manifold = false;  ///< as fw::ExportOptions has it
     int tiles = 0;          ///< along the longest side; 0: as many as it takes
     std::string share;      ///< "i/n": only this part of the tiles; empty: all
 };
 int runExport(const ExportOptions& options);
 
-struct MergeOptions {
+struct MergeOptions : MeshOutput {
     std::vector<std::string> parts;
-    std::string output;
 };
 int runMerge(const MergeOptions& options);
 

@@ -1,31 +1,20 @@
 // `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request.
 #include <cstdio>
-#include <future>
 
-#include "runtime/cli/mesh_graph.h"
+#include "runtime/cli/measured.h"
 #include "runtime/cli/tiled_export.h"
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
-#include "runtime/measure/field_measure.h"
 #include "runtime/play/tiled_mesh.h"
-#include "runtime/system/clock.h"
 #include "runtime/system/interruption.h"
-#include "runtime/system/output_file.h"
 
 namespace fw::cli {
 
 namespace {
 
-Done writeText(const std::string& path, const std::string& text) {
-    Result<OutputFile> file = OutputFile::open(path, nullptr);
-    if (!file) return file.error();
-    file->write(text);
-    return file->commit();
-}
-
 constexpr char kOrTiles[] =
-    "; or let it be meshed in tiles: by marching cubes, without stages, --report, --require and --manifold, "
-    "to .ply, .stl, .glb or .gltf";
+    "; or let it be meshed in tiles: by marching cubes, without stages and --manifold, to .ply, .stl, .obj, "
+    ".glb or .gltf";
 
 /// The exit status if nothing was written.
 int notWritten(const ExportOptions& options, const Error& error) {
@@ -94,48 +83,14 @@ void note(const ExportOptions& options, const MesherResult& meshed) {
                      options.output.c_str());
 }
 
-/// Measures the mesh file before it is in its place, so that a command that ends meanwhile leaves nothing.
-Result<Report> measure(const ExportOptions& options, const MeshedProgram& meshed, const StoredMesh& file,
-                       Clock::time_point begin, Progress& progress) {
-    const double total = millisecondsSince(begin);
-    const uint64_t peak = peakMemoryBytes();
-    progress.start("report", 85);
-    std::future<MeasureOptions> compared;
-    if (!options.report.empty() || needField(options.required))
-        compared = std::async(std::launch::async,
-                              [&] { return measureOf(meshed.session.program(), meshed.region); });
-    const Result<WeldedMesh> read = readWelded(file);
-    MeasureOptions measured = compared.valid() ? compared.get() : MeasureOptions{};
-    if (!read) return read.error();
-    measured.selfIntersections = true;
-    Report report = reportOnWelded(*read, measured);
-    progress.finish();
-    report.capped = meshed.mesh.capped;
-    report.stages = progress.stages;
-    for (const StageTime& stage : meshed.mesh.stages)
-        report.stages.emplace_back("mesh." + stage.name, stage.milliseconds);
-    report.totalMs = total;
-    report.peakMemoryBytes = peak;
-    report.device = meshed.session.device().name();
-    return report;
-}
-
-/// Whether the mesh is what it is required to be; says what it is not.
-bool meets(const ExportOptions& options, const Report& report) {
-    const std::vector<std::string> reasons = unmet(options.required, report);
-    for (const std::string& reason : reasons)
-        std::fprintf(stderr, "%s: %s\n", options.output.c_str(), reason.c_str());
-    return reasons.empty();
-}
-
 }  // namespace
 
 int runExport(const ExportOptions& options) {
-    const auto begin = Clock::now();
+    Progress progress;
     const bool tiled = options.tiles > 0 || !options.share.empty();
-    const bool reported = !options.report.empty() || !options.required.empty();
     fw::ExportOptions how{.manifold = options.manifold};
-    if (const Done fine = tiled ? checkTiledExport(options) : checkExportPath(options.output, how, reported);
+    if (const Done fine =
+            tiled ? checkTiledExport(options) : checkExportPath(options.output, how, options.measured());
         !fine)
         return print(fine.error()), kBadUsage;
     MeshOptions wanted = options.mesh;
@@ -143,14 +98,13 @@ int runExport(const ExportOptions& options) {
     if (!options.report.empty()) wanted.outputs.push_back(options.report);
     if (const Done distinct = checkDistinct(options.mesh.graph.path, wanted.outputs); !distinct)
         return print(distinct.error()), kBadUsage;
-    Progress progress;
     int status = kDone;
     std::optional<OpenedGraph> graph = openForMesh(wanted, progress, status);
     if (!graph) return status;
     if (tiled || wantsTiles(options, *graph))
         return tiledExport(options, wanted, std::move(*graph), progress);
     const bool canTile = canBeTiled(options, *graph);
-    const Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, reported);
+    const Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, options.measured());
     if (!whole && canTile && whole.error().code == Error::Code::tooMuchSurface) {
         graph.reset();
         graph = openForMesh(wanted, progress, status);
@@ -161,22 +115,16 @@ int runExport(const ExportOptions& options) {
     progress.start("write", 70);
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
-    if (reported)
-        how.examine = [&](const StoredMesh& file) -> Done {
-            Result<Report> measured = measure(options, meshed, file, begin, progress);
-            if (!measured) return measured.error();
-            report = std::move(*measured);
-            return done();
-        };
+    how.examine = measuring(options, &meshed.session, meshed.region, progress, report);
     const Result<ExportedFiles> written = exportMesh(whole->mesh, options.output, how);
     if (!written) return print(written.error()), kSystemFailure;
     whenEnded({.said = "; the mesh was written"});
     progress.finish();
-    if (!options.report.empty())
-        if (const Done saved = writeText(options.report, writeReport(report)); !saved)
-            return print(saved.error()), kSystemFailure;
     note(options, meshed.mesh);
-    return meets(options, report) ? kDone : kBadInput;
+    report.capped = meshed.mesh.capped;
+    for (const StageTime& stage : meshed.mesh.stages)
+        report.stages.emplace_back("mesh." + stage.name, stage.milliseconds);
+    return tellReport(options, report);
 }
 
 }  // namespace fw::cli

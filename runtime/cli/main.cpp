@@ -70,6 +70,24 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
                         "Index or part of the name of the device (see fieldwright info)");
 }
 
+void addMeasures(CLI::App* command, MeshOutput& output) {
+    command
+        ->add_option("--report", output.report,
+                     "Write what the mesh file holds, measured from it, as JSON to this file")
+        ->check(something());
+    command
+        ->add_option_function<std::string>(
+            "--require",
+            [&output](const std::string& list) {
+                Result<std::vector<Requirement>> required = parseRequirements(list);
+                if (!required) throw CLI::ValidationError("--require", required.error().message);
+                output.required = std::move(*required);
+            },
+            "What the mesh file must be, parted by commas; if it is not, the exit status is 1: " +
+                requirementNames())
+        ->type_name("LIST");
+}
+
 void addQuality(CLI::App* command, FieldBy& quality) {
     static const std::map<std::string, FieldBy> names = {
         {"auto", FieldBy::sooner}, {"full", FieldBy::kernels}, {"draft", FieldBy::tapes}};
@@ -119,22 +137,7 @@ int run(int count, char** arguments) {
     exportCommand->add_flag("--manifold", exportOptions.manifold,
                             "Mark the mesh of a .glb or .gltf as a solid (EXT_mesh_manifold), for programs "
                             "that compute with solids; an error if it is none");
-    exportCommand
-        ->add_option("--report", exportOptions.report,
-                     "Write what the mesh file holds, measured from it, as JSON to this file")
-        ->check(something());
-    exportCommand
-        ->add_option_function<std::string>(
-            "--require",
-            [&exportOptions](const std::string& list) {
-                Result<std::vector<Requirement>> required = parseRequirements(list);
-                if (!required) throw CLI::ValidationError("--require", required.error().message);
-                exportOptions.required = std::move(*required);
-            },
-            "What the mesh file must be, parted by commas; if it is not, the exit status is 1: " +
-                requirementNames())
-        ->type_name("LIST");
-
+    addMeasures(exportCommand, exportOptions);
     exportCommand
         ->add_option("--tiles", exportOptions.tiles,
                      "Mesh in tiles, about this many along the longest side, each by itself: memory is "
@@ -155,8 +158,9 @@ int run(int count, char** arguments) {
         ->required();
     mergeCommand
         ->add_option("-o,--output", mergeOptions.output,
-                     "The mesh file; its ending says the format: .glb .gltf .stl .ply")
+                     "The mesh file; its ending says the format: .glb .gltf .stl .ply .obj")
         ->required();
+    addMeasures(mergeCommand, mergeOptions);
 
     RenderCommandOptions renderOptions;
     CLI::App* renderCommand = app.add_subcommand(

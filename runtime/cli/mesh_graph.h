@@ -27,6 +27,7 @@ class Progress {
     void show(int percent) const;
     void finish();
 
+    const Clock::time_point begun = Clock::now();
     std::vector<std::pair<std::string, double>> stages;  ///< name and ms of those that have ended
 
   private:

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "runtime/cli/measured.h"
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
 #include "runtime/play/tiled_mesh.h"
@@ -21,7 +22,6 @@
 namespace fw::cli {
 namespace {
 
-constexpr int kMostUntiled = 1024;  // cells along the longest side, unless the option asks for tiles
 constexpr char kPartEnding[] = ".part";
 
 struct Share {
@@ -116,6 +116,29 @@ int notMeshed(const ExportOptions& options, const Error& error) {
     return print(error), error.file.empty() ? kBadInput : kSystemFailure;
 }
 
+/// Writes the mesh, and measures it where that is asked, against the program that was meshed in `region` if
+/// there is one; the exit status. Of the progress it takes what is behind `begin` %.
+int writePieces(const MeshOutput& options, MeshPieces& mesh, const Session* session, const Box& region,
+                bool capped, int begin, Progress& progress) {
+    if (options.measured())
+        if (const Done fits = checkMeasurable(mesh.triangleCount, freeMemoryBytes()); !fits) {
+            Error error = fits.error();
+            error.file = options.output;
+            return progress.finish(), print(error), kSystemFailure;
+        }
+    progress.start("write", begin);
+    showLoading(mesh, progress, begin);
+    Report report;
+    fw::ExportOptions how;
+    how.examine = measuring(options, session, region, progress, report);
+    const Result<ExportedFiles> written = exportPieces(mesh, options.output, how);
+    progress.finish();
+    if (!written) return print(written.error()), kSystemFailure;
+    whenEnded({.said = "; the mesh was written"});
+    report.capped = capped;
+    return tellReport(options, report);
+}
+
 /// All tiles straight into the mesh file.
 int exportWhole(const ExportOptions& options, Session& session, const MeshRequest& request,
                 const TilePlan& plan, bool givenRegion, Progress& progress) {
@@ -127,18 +150,15 @@ int exportWhole(const ExportOptions& options, Session& session, const MeshReques
         const std::string words =
             "tile " + std::to_string(tile + 1) + " of " + std::to_string(plan.tiles.size());
         progress.start("count", int(20 + 30 * tile / plan.tiles.size()), words.c_str());
+        return true;
     });
     if (!tiles) return progress.finish(), notMeshed(options, tiles.error());
     if (tiles->mesh.triangleCount == 0)
         return badInput(options.mesh, nothingToSee(givenRegion, *request.region, request.resolution));
-    progress.start("write", 50);
-    showLoading(tiles->mesh, progress, 50);
-    const Result<ExportedFiles> written = exportPieces(tiles->mesh, options.output);
-    if (!written) return progress.finish(), print(written.error()), kSystemFailure;
-    whenEnded({.said = "; the mesh was written"});
-    progress.finish();
-    if (tiles->capped) noteCapped(options);
-    return kDone;
+    const int status =
+        writePieces(options, tiles->mesh, &session, *request.region, tiles->capped, 50, progress);
+    if (tiles->capped && status != kSystemFailure) noteCapped(options);
+    return status;
 }
 
 /// The tiles of a share, one after another into a folder, then into the part.
@@ -180,15 +200,12 @@ Done checkTiledExport(const ExportOptions& options) {
     const auto refuse = [&](std::string message) {
         return Error{.message = std::move(message), .file = options.output};
     };
-    if (!options.report.empty() || !options.required.empty())
-        return refuse(
-            "--report and --require hold the whole mesh in memory, which tiles are there to avoid: leave "
-            "them out, "
-            "or --tiles and --tile");
     if (options.manifold)
         return refuse(
             "--manifold holds the whole mesh in memory, which tiles are there to avoid: leave it out");
     if (options.share.empty()) return checkPiecesPath(options.output);
+    if (options.measured())
+        return refuse("a part is no mesh to measure: give --report and --require to fieldwright merge");
     if (!readShare(options.share))
         return refuse("--tile " + inQuotes(options.share) + ": write part i of n as i/n, from 1/n to n/n");
     if (!options.output.ends_with(kPartEnding))
@@ -197,8 +214,7 @@ Done checkTiledExport(const ExportOptions& options) {
 }
 
 bool canBeTiled(const ExportOptions& options, const OpenedGraph& opened) {
-    return opened.request.method != MeshMethod::dualContouring && opened.program.stages.empty() &&
-           checkTiledExport(options);
+    return checkTiles(opened.program, opened.request) && checkTiledExport(options);
 }
 
 bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened) {
@@ -207,13 +223,9 @@ bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened) {
 
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress) {
     if (const Done fine = checkTiledExport(options); !fine) return print(fine.error()), kBadUsage;
-    if (opened.request.method == MeshMethod::dualContouring)
-        return badInput(options.mesh, {.message = "dual contouring is not meshed in tiles: take --method "
-                                                  "marching-cubes, or leave out --tiles and --tile"});
-    if (!opened.program.stages.empty())
+    if (const Done fine = checkTiles(opened.program, opened.request); !fine)
         return badInput(options.mesh,
-                        {.message = "a mesh in tiles cannot be smoothed, subdivided or decimated: leave "
-                                    "out --tiles and --tile, or connect the output to polygonize"});
+                        {.message = fine.error().message + ", or leave out --tiles and --tile"});
     const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);
     if (!grid) return badInput(options.mesh, grid.error());
     const bool given = opened.request.region || opened.program.region;
@@ -236,24 +248,30 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
 
 int runMerge(const MergeOptions& options) {
     if (const Done known = checkPiecesPath(options.output); !known) return print(known.error()), kBadUsage;
-    if (const Done kept = checkReplacesNone(options.parts, exportedPaths(options.output)); !kept)
+    if (needField(options.required))
+        return print({.message = "error= is measured against the field, which parts do not hold: give it to "
+                                 "fieldwright export",
+                      .file = options.output}),
+               kBadUsage;
+    std::vector<std::string> outputs = exportedPaths(options.output);
+    if (!options.report.empty()) outputs.push_back(options.report);
+    if (const Done kept = checkReplacesNone(options.parts, outputs); !kept)
         return print(kept.error()), kBadUsage;
+    if (const Done distinct = checkDistinct(options.parts.front(), outputs); !distinct)
+        return print(distinct.error()), kBadUsage;
     Progress progress;
     progress.start("read", 0);
     Result<std::vector<TileRecord>> tiles = readParts(options.parts);
     if (!tiles) return print(tiles.error()), kBadInput;
+    const bool capped =
+        std::ranges::any_of(*tiles, [](const TileRecord& tile) { return tile.header.capped != 0; });
     Result<MeshPieces> mesh = joinTiles(std::move(*tiles));
     if (!mesh) return print(mesh.error()), kBadInput;
     if (mesh->triangleCount == 0)
         return print({.message = "the parts hold no triangle: the surface does not pass through the region",
                       .file = options.parts[0]}),
                kBadInput;
-    progress.start("write", 80);
-    showLoading(*mesh, progress, 80);
-    const Result<ExportedFiles> written = exportPieces(*mesh, options.output);
-    if (!written) return print(written.error()), kSystemFailure;
-    progress.finish();
-    return kDone;
+    return writePieces(options, *mesh, nullptr, {}, capped, 80, progress);
 }
 
 }  // namespace fw::cli

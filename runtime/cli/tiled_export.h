@@ -6,10 +6,6 @@
 
 namespace fw::cli {
 
-/// A tile's side unless the option says otherwise, in cells: the fastest here of 256, 512 and 1,024
-/// (docs/benchmarks.md), and too few bricks for what the mesher can number.
-inline constexpr int kTileCells = 256;
-
 /// Where the tiles of a mesh lie until it is there.
 inline std::string tilesFolder(const std::string& output) { return output + ".tiles"; }
 

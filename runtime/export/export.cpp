@@ -335,10 +335,10 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
 Done checkPiecesPath(const std::string& path) {
     if (Done known = checkExportPath(path); !known) return known;
     const std::optional<Format> format = formatOf(path);
-    if (format != Format::obj && format != Format::threeMf && format != Format::vdb) return done();
-    return Error{
-        .message = lowerExtension(path) + " cannot be written from tiles: choose .ply, .stl, .glb or .gltf",
-        .file = path};
+    if (format != Format::threeMf && format != Format::vdb) return done();
+    return Error{.message = lowerExtension(path) +
+                            " cannot be written from tiles: choose .ply, .stl, .obj, .glb or .gltf",
+                 .file = path};
 }
 
 Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& path,
@@ -365,14 +365,23 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
     const Bounds bounds{mesh.least, mesh.greatest};
     Done written = done();
     std::optional<OutputFile> beside;
-    if (format == Format::gltf) {
-        const std::string besidePath = exportedPaths(path).back();
+    std::string besideName;
+    if (const std::string besidePath = exportedPaths(path).back(); besidePath != path) {
         Result<OutputFile> opened = OutputFile::open(besidePath, options.cancel);
         if (!opened) return opened.error();
         beside.emplace(std::move(*opened));
-        file->write(gltfJson(mesh.material, layout, bounds, name,
-                             percentEncoded(std::filesystem::path(besidePath).filename().string())));
+        besideName = std::filesystem::path(besidePath).filename().string();
+    }
+    if (format == Format::gltf) {
+        file->write(gltfJson(mesh.material, layout, bounds, name, percentEncoded(besideName)));
         written = writeGltfPieces(mesh, layout, *beside);
+    } else if (format == Format::obj) {
+        writeObjHead(mesh.material, mesh.colors, name, besideName, *file, *beside);
+        writeObjMaterial(name, *file);
+        written = forPieces(mesh, MeshPieces::numbered, *file, [&](const Mesh& m) {
+            writeObjVertices(m, *file);
+            writeObjFaces(m, *file);
+        });
     } else if (format == Format::glb) {
         if (!writeGlbHead(mesh.material, layout, bounds, name, *file))
             return refuse(

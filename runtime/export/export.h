@@ -68,7 +68,7 @@ struct MeshPieces {
 };
 
 /// As exportMesh, with two pieces in memory at a time: each is loaded once, in order, while the one before is
-/// written to its places in the file. Errors also: a format that cannot be written so (OBJ), what load()
+/// written to its places in the file. Errors also: a format that cannot be written so (3MF), what load()
 /// says, more triangles than the format can count, pieces that are not as large together as was said.
 Result<ExportedFiles> exportPieces(const MeshPieces& pieces, const std::string& path,
                                    const ExportOptions& options = {});

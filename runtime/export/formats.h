@@ -61,6 +61,13 @@ void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, 
 /// `libraryName` is the name of the material file beside the OBJ.
 void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
               OutputFile& library);
+/// Its parts, for meshes that come in pieces, each of whose faces have vertices of it or of one before: the
+/// material and the head, then what names the material, vertices, and faces, which are numbered in the whole.
+void writeObjHead(const Mesh& material, bool colors, const std::string& name, const std::string& libraryName,
+                  OutputFile& file, OutputFile& library);
+void writeObjMaterial(const std::string& name, OutputFile& file);
+void writeObjVertices(const Mesh& mesh, OutputFile& file);
+void writeObjFaces(const Mesh& mesh, OutputFile& file);
 void writePly(const Mesh& mesh, OutputFile& file);
 void writeStl(const Mesh& mesh, OutputFile& file);
 /// Of a vertex with its normal, and of a face.

@@ -43,7 +43,7 @@ char* putColor(char* out, glm::vec3 color) {
     return out;
 }
 
-void writeMaterial(const Mesh& mesh, const std::string& name, OutputFile& library) {
+void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, OutputFile& library) {
     const auto linear = [](glm::vec3 v) {
         std::array<char, kLongestLine> text{};
         return std::string(text.data(), putVector(text.data(), "", v));
@@ -52,7 +52,7 @@ void writeMaterial(const Mesh& mesh, const std::string& name, OutputFile& librar
         std::array<char, kLongestLine> text{};
         return std::string(text.data(), putColor(text.data(), v));
     };
-    const glm::vec3 base = mesh.colors.empty() ? mesh.baseColor : glm::vec3(1.0f);
+    const glm::vec3 base = colors ? glm::vec3(1.0f) : mesh.baseColor;
     library.write("# " + generatorName() + "\nnewmtl " + name + "\n");
     library.write("Kd" + encoded(base) + "\nPr " + std::to_string(mesh.roughness) + "\nPm " +
                   std::to_string(mesh.metallic) + "\n");
@@ -61,10 +61,15 @@ void writeMaterial(const Mesh& mesh, const std::string& name, OutputFile& librar
 
 }  // namespace
 
-void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
-              OutputFile& library) {
-    writeMaterial(mesh, name, library);
+void writeObjHead(const Mesh& material, bool colors, const std::string& name, const std::string& libraryName,
+                  OutputFile& file, OutputFile& library) {
+    writeLibrary(material, colors, name, library);
     file.write("# " + generatorName() + ", metres, +Y up\nmtllib " + libraryName + "\no " + name + "\n");
+}
+
+void writeObjMaterial(const std::string& name, OutputFile& file) { file.write("usemtl " + name + "\n"); }
+
+void writeObjVertices(const Mesh& mesh, OutputFile& file) {
     writeBlocks(
         mesh.positions.size(), kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
@@ -86,7 +91,9 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
             return out;
         },
         file);
-    file.write("usemtl " + name + "\n");
+}
+
+void writeObjFaces(const Mesh& mesh, OutputFile& file) {
     const bool normals = !mesh.normals.empty();
     writeBlocks(
         mesh.triangleCount(), kLongestLine,
@@ -108,6 +115,14 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
             return out;
         },
         file);
+}
+
+void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
+              OutputFile& library) {
+    writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, file, library);
+    writeObjVertices(mesh, file);
+    writeObjMaterial(name, file);
+    writeObjFaces(mesh, file);
 }
 
 }  // namespace fw

@@ -47,15 +47,13 @@ class Lines {
 
     std::vector<Point> found;
 
-    void look(int along, const Box& line, const Tape& tape) { halve(along, line, tape); }
     /// The tape for lines within the box.
     Tape within(const Box& box, const Tape& tape) {
         machine.interval(tape, box);
         return machine.shortens() ? machine.shortenedForSigns(tape) : tape;
     }
-
-  private:
-    void halve(int along, const Box& piece, const Tape& tape) {
+    /// Looks at the line, or at a piece of it, which extends along one axis alone.
+    void look(int along, const Box& piece, const Tape& tape) {
         const Interval f = machine.interval(tape, piece);
         if (f.lo >= 0.0 || f.hi < 0.0) return;
         const auto axis = std::size_t(along);
@@ -66,12 +64,13 @@ class Lines {
         const double middle = 0.5 * (piece.lo[axis] + piece.hi[axis]);
         Box half = piece;
         half.hi[axis] = middle;
-        halve(along, half, worth ? shorter : tape);
+        look(along, half, worth ? shorter : tape);
         half = piece;
         half.lo[axis] = middle;
-        halve(along, half, worth ? shorter : tape);
+        look(along, half, worth ? shorter : tape);
     }
 
+  private:
     /// Twice a batch of points within the piece: then the root is known to 1e-4 of its length.
     void close(int along, Box piece, const Tape& tape) {
         const auto axis = std::size_t(along);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -426,6 +427,26 @@ std::string writeReport(const Report& report) {
     out["peakMemoryBytes"] = report.peakMemoryBytes;
     out["device"] = report.device;
     return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Done checkMeasurable(uint64_t triangles, uint64_t freeBytes) {
+    constexpr uint64_t kBytesOfATriangle = 105;  // measured, of 15 million
+    const uint64_t needed = triangles * kBytesOfATriangle;
+    if (needed <= freeBytes) return done();
+    const auto gigabytes = [](uint64_t bytes) {
+        return std::to_string((bytes + 500'000'000) / 1'000'000'000);
+    };
+    return Error{.message = "to measure " + std::to_string(triangles) + " triangles takes about " +
+                            gigabytes(needed) + " GB of memory, and " + gigabytes(freeBytes) +
+                            " GB are free: leave out --report and --require, or lower the resolution"};
+}
+
+uint64_t freeMemoryBytes() {
+    std::ifstream file("/proc/meminfo");
+    std::string name;
+    for (uint64_t kilobytes = 0; file >> name >> kilobytes; file.ignore(256, '\n'))
+        if (name == "MemAvailable:") return kilobytes * 1024;
+    return std::numeric_limits<uint64_t>::max();
 }
 
 uint64_t peakMemoryBytes() {

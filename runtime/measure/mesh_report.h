@@ -102,7 +102,13 @@ Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32
 /// newline.
 std::string writeReport(const Report& report);
 
+/// Refuses to measure a file of so many triangles with `freeBytes` of memory: what is read of it is held as a
+/// whole.
+Done checkMeasurable(uint64_t triangles, uint64_t freeBytes);
+
 /// Largest resident set of this process so far, in bytes.
 uint64_t peakMemoryBytes();
+/// What the system could still give to it, in bytes, without swapping.
+uint64_t freeMemoryBytes();
 
 }  // namespace fw

@@ -392,7 +392,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
     const bool looksInto = showsField(options.show) || options.show == RENDER_AMBIENT;
     if (tapes && looksInto) return tooLargeToLookInto(current);
-    const bool draft = drafting() || tapes || !current.stages.empty() || (!looksInto && isTracedForLong());
+    const bool draft = drafting() || !current.stages.empty() || (!looksInto && !whyDraft().empty());
     if (!renderer) renderer = createRenderer(*gpu);
     if (!draft && renderer->field.empty())
         setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));

@@ -102,6 +102,16 @@ Result<TileContent> contentOf(Session& session, const MeshRequest& request, cons
 
 }  // namespace
 
+Done checkTiles(const Program& program, const MeshRequest& request) {
+    if (request.method.value_or(program.method) == MeshMethod::dualContouring)
+        return Error{.message = "dual contouring is not meshed in tiles: take marching cubes"};
+    if (!program.stages.empty())
+        return Error{.message =
+                         "a mesh in tiles cannot be smoothed, subdivided or decimated: connect the "
+                         "output to polygonize"};
+    return done();
+}
+
 TilePlan planTiles(const CellGrid& grid, int tileCells) {
     tileCells = std::max(1, (tileCells + kBlock / 2) / kBlock) * kBlock;
     TilePlan plan{grid, tileCells, {}};
@@ -165,13 +175,13 @@ Result<TileRecord> meshTile(Session& session, const MeshRequest& request, const 
 }
 
 Result<CountedTiles> countTiles(Session& session, const MeshRequest& request, const TilePlan& plan,
-                                const std::function<void(std::size_t tile)>& counting) {
+                                const std::function<bool(std::size_t tile)>& counting) {
     TileJoin join;
     std::vector<TileNumbers> numbers;
     std::vector<bool> empty;
     bool capped = false;
     for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
-        if (counting) counting(i);
+        if (counting && !counting(i)) return Error{.message = "cancelled; nothing was written"};
         const Result<TileContent> tile = contentOf(session, request, plan, i, false);
         if (!tile) return tile.error();
         capped = capped || tile->header.capped != 0;

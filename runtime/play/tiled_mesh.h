@@ -18,6 +18,14 @@
 namespace fw {
 
 inline constexpr int kLeastTile = 64;  ///< cells a side
+/// A tile's side unless it is asked otherwise: the fastest of 256, 512 and 1,024 (docs/benchmarks.md), and
+/// too few bricks for what the mesher can number.
+inline constexpr int kTileCells = 256;
+/// Cells along the longest side above which tiles are the way, where they can be had.
+inline constexpr int kMostUntiled = 1024;
+
+/// Refuses what cannot be meshed in tiles: dual contouring, and stages.
+Done checkTiles(const Program& program, const MeshRequest& request);
 
 struct TilePlan {
     CellGrid grid;
@@ -40,14 +48,14 @@ std::optional<TileRecord> doneTile(const std::string& folder, const TilePlan& pl
                                    std::size_t index);
 
 /// The whole mesh, whose pieces are the tiles, meshed anew at each load. `session` and what it meshes must
-/// stay as they are. `counting` is called before each tile is counted. Errors: as Session::polygonise, as
-/// TileJoin, a vertex that is not finite.
+/// stay as they are. `counting` is called before each tile is counted; false ends the work. Errors: as
+/// Session::polygonise, as TileJoin, a vertex that is not finite, the end by `counting`.
 struct CountedTiles {
     MeshPieces mesh;
     bool capped = false;
 };
 Result<CountedTiles> countTiles(Session& session, const MeshRequest& request, const TilePlan& plan,
-                                const std::function<void(std::size_t tile)>& counting = {});
+                                const std::function<bool(std::size_t tile)>& counting = {});
 
 /// Meshes tile `index` and writes its file. `request` is that of the whole. Errors: as Session::polygonise, a
 /// vertex that is not finite, what writing meets.

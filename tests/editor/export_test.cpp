@@ -10,6 +10,7 @@
 #include "editor/panels/export_dialog.h"
 #include "graph/document/json.h"
 #include "tests/support/command.h"
+#include "tests/support/faults.h"
 #include "tests/support/graph/temp_dir.h"
 
 namespace fw::editor::export_test {
@@ -96,6 +97,44 @@ TEST(Export, GivesTheBytesOfTheCommand) {
         EXPECT_EQ(state.report.triangles, measured->triangles);
         EXPECT_NEAR(state.report.volume, measured->volume, 1e-5 * std::abs(measured->volume));
     }
+}
+
+TEST(Export, GoesInTilesWhereTheDeviceHasNoRoomOrTheCellsAreMany) {
+    const TempDir folder;
+    const std::string mesh = folder.path("a.ply");
+    const auto made = [&](MeshRequest request, const std::string& path) {
+        ExportJob job({.graph = read(sample("tower")), .path = path, .mesh = request}, {});
+        ExportState state = finish(job);
+        EXPECT_EQ(state.phase, Phase::done) << (state.problems.empty() ? "" : format(state.problems[0]));
+        return state;
+    };
+    const ExportState whole = made({{}, 200}, mesh);
+    EXPECT_FALSE(whole.tiled);
+    {
+        // Nor is there room for tiles of the usual side.
+        const fw::test::Faults small{{.memory = 20 << 20}};
+        const ExportState tiled = made({{}, 200}, mesh);
+        EXPECT_TRUE(tiled.tiled && tiled.measured);
+        EXPECT_EQ(tiled.report.triangles, whole.report.triangles);
+        EXPECT_EQ(tiled.report.vertices, whole.report.vertices);
+        EXPECT_EQ(tiled.report.shells, 1u);
+        EXPECT_TRUE(tiled.report.closedManifold());
+        EXPECT_NEAR(tiled.report.volume, whole.report.volume, 1e-9);
+        ExportJob job({.graph = read(sample("tower")), .path = folder.path("a.3mf"), .mesh = {{}, 200}}, {});
+        const ExportState refused = finish(job);
+        EXPECT_EQ(refused.phase, Phase::failed);
+        ASSERT_FALSE(refused.problems.empty());
+        EXPECT_NE(format(refused.problems[0]).find("out of memory"), std::string::npos);
+    }
+    const MeshRequest slice{Box{{-1, -1.9, -1}, {1, -1.85, -0.9}}, 1100};
+    EXPECT_TRUE(made(slice, mesh).tiled);
+    const std::string other = folder.path("b.ply");
+    const fw::test::CommandResult command =
+        fw::test::runCommand({"export", sample("tower"), "-o", other, "--resolution", "1100", "--region",
+                              "-1", "-1.9", "-1", "1", "-1.85", "-0.9"});
+    EXPECT_EQ(command.status, 0) << command.errors;
+    EXPECT_TRUE(readText(mesh) == readText(other));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.ply", "b.ply"}));
 }
 
 TEST(Export, SaysWhyItCannotBeDone) {

@@ -46,11 +46,13 @@ TEST(FullDevice, AnExportIsMeshedInTilesAndSaysSo) {
     const CommandResult asked =
         run({"export", "--resolution", "256", "--tiles", "2", "-o", mesh}, {.memory = 4 << 20});
     test::expectRefusal(asked, 3, {"is out of memory", "take more --tiles"});
-    const CommandResult reported =
-        run({"export", "--resolution", "256", "--report", folder.path("r.json"), "-o", mesh},
-            {.memory = 12 << 20});
-    test::expectRefusal(reported, 3, {"is out of memory", "or let it be meshed in tiles"});
-    EXPECT_FALSE(std::filesystem::exists(mesh) || std::filesystem::exists(folder.path("r.json")));
+    const std::string whole3mf = folder.path("a.3mf");
+    test::expectRefusal(run({"export", "--resolution", "256", "-o", whole3mf}, {.memory = 12 << 20}), 3,
+                        {"is out of memory", "or let it be meshed in tiles"});
+    EXPECT_FALSE(std::filesystem::exists(mesh) || std::filesystem::exists(whole3mf));
+    const CommandResult measured = run(
+        {"export", "--resolution", "256", "--require", "closed,manifold", "-o", mesh}, {.memory = 24 << 20});
+    EXPECT_EQ(measured.status, 0) << measured.errors;
 }
 
 TEST(FullDevice, APictureHasHalfOfTheCellsAndSaysSo) {

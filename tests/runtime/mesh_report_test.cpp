@@ -246,6 +246,16 @@ TEST(MeshReport, JsonHasTheDocumentedKeysInOrder) {
     EXPECT_EQ(json["peakMemoryBytes"], 123);
 }
 
+TEST(MeshReport, IsRefusedWhereThereIsNoMemoryForIt) {
+    EXPECT_TRUE(checkMeasurable(10'000'000, 2'000'000'000));
+    const Done refused = checkMeasurable(240'000'000, 8'000'000'000);
+    ASSERT_FALSE(refused);
+    for (const char* words : {"240000000 triangles", "25 GB", "8 GB are free", "--require"})
+        EXPECT_NE(refused.error().message.find(words), std::string::npos) << refused.error().message;
+    EXPECT_GT(freeMemoryBytes(), 1u << 20);
+    EXPECT_LT(freeMemoryBytes(), uint64_t(1) << 50);  // known, on this system
+}
+
 TEST(MeshReport, MeasuresTheWrittenFile) {
     const TempDir folder;
     Mesh mesh = test::torus(60, 30);

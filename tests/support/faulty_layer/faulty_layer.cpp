@@ -23,6 +23,7 @@ namespace {
 struct InstanceCalls {
     VkInstance handle = VK_NULL_HANDLE;
     PFN_vkGetInstanceProcAddr get = nullptr;
+    PFN_vkDestroyInstance destroy = nullptr;
     bool hasLost = false;  // a device: its others are not counted any more
     template <class Function>
     Function next(const char* name) const {
@@ -108,14 +109,16 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info,
     const VkResult result = create(info, callbacks, instance);
     if (result != VK_SUCCESS) return result;
     std::lock_guard lock(use);
-    instances[key(*instance)] = {*instance, get};
+    // Asked for later, the loader may name the layer before this one.
+    const auto destroy = reinterpret_cast<PFN_vkDestroyInstance>(get(*instance, "vkDestroyInstance"));
+    instances[key(*instance)] = {*instance, get, destroy};
     return result;
 }
 
 VKAPI_ATTR void VKAPI_CALL destroyInstance(VkInstance instance, const VkAllocationCallbacks* callbacks) {
     if (!instance) return;
     void* const which = key(instance);
-    NEXT(of(instances, instance), vkDestroyInstance)(instance, callbacks);
+    of(instances, instance).destroy(instance, callbacks);
     std::lock_guard lock(use);
     instances.erase(which);
 }

@@ -1,0 +1,60 @@
+#include "runtime/cli/measured.h"
+
+#include <cstdio>
+#include <future>
+
+#include "runtime/measure/field_measure.h"
+#include "runtime/system/output_file.h"
+
+namespace fw::cli {
+
+namespace {
+
+Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const Session* session,
+                       const Box& region, Progress& progress) {
+    const double total = millisecondsSince(progress.begun);
+    const uint64_t peak = peakMemoryBytes();
+    progress.start("report", 85);
+    std::future<MeasureOptions> compared;
+    if (session && (!options.report.empty() || needField(options.required)))
+        compared = std::async(std::launch::async, [&] { return measureOf(session->program(), region); });
+    const Result<WeldedMesh> read = readWelded(file);
+    MeasureOptions measured = compared.valid() ? compared.get() : MeasureOptions{};
+    if (!read) return read.error();
+    measured.selfIntersections = true;
+    Report report = reportOnWelded(*read, measured);
+    progress.finish();
+    report.stages = progress.stages;
+    report.totalMs = total;
+    report.peakMemoryBytes = peak;
+    if (session) report.device = session->device().name();
+    return report;
+}
+
+}  // namespace
+
+std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const Session* session,
+                                                 const Box& region, Progress& progress, Report& report) {
+    if (!options.measured()) return {};
+    return [&, session](const StoredMesh& file) -> Done {
+        Result<Report> measured = measure(options, file, session, region, progress);
+        if (!measured) return measured.error();
+        report = std::move(*measured);
+        return done();
+    };
+}
+
+int tellReport(const MeshOutput& options, const Report& report) {
+    if (!options.report.empty()) {
+        Result<OutputFile> file = OutputFile::open(options.report, nullptr);
+        if (!file) return print(file.error()), kSystemFailure;
+        file->write(writeReport(report));
+        if (const Done saved = file->commit(); !saved) return print(saved.error()), kSystemFailure;
+    }
+    const std::vector<std::string> reasons = unmet(options.required, report);
+    for (const std::string& reason : reasons)
+        std::fprintf(stderr, "%s: %s\n", options.output.c_str(), reason.c_str());
+    return reasons.empty() ? kDone : kBadInput;
+}
+
+}  // namespace fw::cli
