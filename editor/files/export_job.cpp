@@ -187,7 +187,7 @@ Result<ExportState> ExportJob::Shared::make() {
     Result<Opened> opened = open();
     if (!opened) return opened.error();
     const Program& program = opened->program;
-    if (wish.manifold || !checkPiecesPath(wish.path) || !checkTiles(program, wish.mesh))
+    if (wish.manifold || !checkPiecesPath(wish.path) || !checkTiles(program))
         return atOnce(std::move(*opened));
     if ((wish.mesh.resolution > 0 ? wish.mesh.resolution : program.resolution) <= kMostUntiled) {
         try {

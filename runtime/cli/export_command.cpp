@@ -13,8 +13,7 @@ namespace fw::cli {
 namespace {
 
 constexpr char kOrTiles[] =
-    "; or let it be meshed in tiles: by marching cubes, without stages and --manifold, to .ply, .stl, .obj, "
-    ".glb or .gltf";
+    "; or let it be meshed in tiles: without stages and --manifold, to .ply, .stl, .obj, .glb or .gltf";
 
 /// The exit status if nothing was written.
 int notWritten(const ExportOptions& options, const Error& error) {

@@ -168,7 +168,7 @@ int exportPart(const ExportOptions& options, Session& session, const MeshRequest
     whenEnded({"; no mesh was written", folder, whatIsKept(folder)});
     const Result<TileFolder> held = TileFolder::open(folder);
     if (!held) return print(held.error()), kSystemFailure;
-    const uint64_t key = tileKey(session, plan);
+    const uint64_t key = tileKey(session, request, plan);
     const Result<std::vector<TileRecord>> tiles =
         meshTiles(session, request, plan, key, tilesOfShare(plan.tiles.size(), share.share, share.shares),
                   folder, progress);
@@ -214,7 +214,7 @@ Done checkTiledExport(const ExportOptions& options) {
 }
 
 bool canBeTiled(const ExportOptions& options, const OpenedGraph& opened) {
-    return checkTiles(opened.program, opened.request) && checkTiledExport(options);
+    return checkTiles(opened.program) && checkTiledExport(options);
 }
 
 bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened) {
@@ -223,7 +223,7 @@ bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened) {
 
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress) {
     if (const Done fine = checkTiledExport(options); !fine) return print(fine.error()), kBadUsage;
-    if (const Done fine = checkTiles(opened.program, opened.request); !fine)
+    if (const Done fine = checkTiles(opened.program); !fine)
         return badInput(options.mesh,
                         {.message = fine.error().message + ", or leave out --tiles and --tile"});
     const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);

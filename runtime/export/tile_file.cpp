@@ -16,7 +16,7 @@
 namespace fw {
 namespace {
 
-static_assert(sizeof(TileHeader) == 120 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 20);
+static_assert(sizeof(TileHeader) == 120 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 24);
 static_assert(sizeof(gpu::MeshVertex) == 16 && std::is_trivially_copyable_v<TileHeader>);
 
 Error damaged(const std::string& path, const char* what) {
@@ -235,14 +235,15 @@ Result<std::vector<TileRecord>> readParts(const std::vector<std::string>& paths)
     return tiles;
 }
 
-std::size_t TileJoin::PositionHash::operator()(const glm::vec3& p) const {
-    uint64_t hash = bits(p.x);
+std::size_t TileJoin::PlaceHash::operator()(const Place& place) const {
+    const glm::vec3 p = place.position;
+    uint64_t hash = bits(p.x) ^ uint64_t(place.copy) << 32;
     for (const uint64_t word : {bits(p.y), bits(p.z)})
         hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + word;
     return (hash ^ hash >> 32) * 0xBF58476D1CE4E5B9u;
 }
 
-bool TileJoin::SameBits::operator()(const glm::vec3& a, const glm::vec3& b) const {
+bool TileJoin::SameBits::operator()(const Place& a, const Place& b) const {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
@@ -256,8 +257,9 @@ Result<TileNumbers> TileJoin::add(const TileHeader& header, std::span<const Shar
     for (const SharedVertex& vertex : shared) {
         if (vertex.vertex >= header.vertices || vertex.holders < 2)
             return damaged(path, "the file is damaged");
-        const auto [at, isNew] = open.try_emplace(
-            vertex.position, Known{numbers.firstVertex + vertex.vertex - known, vertex.holders});
+        const auto [at, isNew] =
+            open.try_emplace(Place{vertex.position, vertex.copy},
+                             Known{numbers.firstVertex + vertex.vertex - known, vertex.holders});
         known += isNew ? 0 : 1;
         numbers.shared.push_back(at->second.number);
         if (--at->second.left == 0) open.erase(at);

@@ -1,14 +1,15 @@
 // Tiles of a mesh on disk, and how they become one mesh again.
 //
-// A tile is a record: a TileHeader, its vertices on faces between tiles, all its vertices, their colours, its
-// triangles. A tile's file holds one record; a part, which shares out the work on one mesh, is a PartHeader
-// and the records of consecutive tiles. Numbers are as in memory, little-endian.
+// A tile is a record: a TileHeader, its vertices that other tiles have too, all its vertices, their colours,
+// its triangles. A tile's file holds one record; a part, which shares out the work on one mesh, is a
+// PartHeader and the records of consecutive tiles. Numbers are as in memory, little-endian.
 //
 // Joining, of tiles from files and of those that are counted first and meshed again (play/tiled_mesh.h):
-// neighbours hold a vertex on their common face each, with equal bits. The first tile in order keeps
-// it. Only those vertices are numbered through a table of positions, and one is dropped from it with the last
-// tile that holds it; what is kept is four bytes for each time a tile has one. A table that is not empty in
-// the end means a hole: tiles that do not belong together, or a field whose bounds are wrong.
+// neighbours hold a vertex on their common face, or by dual contouring beside it, each, with equal bits. The
+// first tile in order keeps it. Only those vertices are numbered through a table of positions, and one is
+// dropped from it with the last tile that holds it; what is kept is four bytes for each time a tile has one.
+// A table that is not empty in the end means a hole: tiles that do not belong together, or a field whose
+// bounds are wrong.
 //
 // Nothing read is trusted: sizes are checked against the file's, indices against the sizes, bytes against the
 // record's checksum.
@@ -25,7 +26,7 @@
 namespace fw {
 
 struct TileHeader {
-    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '2', 0};
+    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '3', 0};
     uint64_t key = 0;       ///< equal for tiles of one mesh
     uint64_t checksum = 0;  ///< of the whole record, this taken for 0
     uint32_t tile = 0, tiles = 0;
@@ -36,11 +37,12 @@ struct TileHeader {
     float roughness = 0, metallic = 0;
 };
 
-/// A vertex on a face between tiles.
+/// A vertex that several tiles have.
 struct SharedVertex {
     uint32_t vertex = 0;   ///< of the tile; ascending
     uint32_t holders = 0;  ///< tiles that have it
     glm::vec3 position{0};
+    uint32_t copy = 0;  ///< which of those at this place: those on creases are several
 };
 
 struct TileContent {
@@ -70,13 +72,17 @@ class TileJoin {
     struct Known {
         uint32_t number, left;
     };
-    struct PositionHash {
-        std::size_t operator()(const glm::vec3& p) const;
+    struct Place {
+        glm::vec3 position;
+        uint32_t copy;
+    };
+    struct PlaceHash {
+        std::size_t operator()(const Place& place) const;
     };
     struct SameBits {
-        bool operator()(const glm::vec3& a, const glm::vec3& b) const;
+        bool operator()(const Place& a, const Place& b) const;
     };
-    std::unordered_map<glm::vec3, Known, PositionHash, SameBits> open;
+    std::unordered_map<Place, Known, PlaceHash, SameBits> open;
     MeshPieces pieces;
 };
 

@@ -149,20 +149,23 @@ namespace {
 /// sibling. With `Compile::behind` all run on it, and the device's own queue is left alone.
 class FirstRuns {
   public:
-    FirstRuns(const Device& device, Compile when) : behind(when == Compile::behind), own(device) {
-        if (behind) useSibling();
+    FirstRuns(const Device& device_, Compile when) : device(device_), behind(when == Compile::behind) {
+        if (behind)
+            useSibling();
+        else
+            own.emplace(device);
     }
 
     /// One call at a time. `pipeline` must stay where it is. `before`: an earlier process compiled it.
     void start(const Pipeline& pipeline, const ShaderOptions& options, const Spirv& spirv, bool before) {
         for (const ShaderBinding& binding : pipeline.shader.bindings)
             if (!isBuffer(binding) && !(behind && binding.format != VK_FORMAT_UNDEFINED)) return;
-        if (before && !behind) return run(own, pipeline);
+        if (before && !behind) return run(*own, pipeline);
         if (!triedSibling) useSibling();
-        const bool toSibling = behind || (sibling && sibling->words < own.words);
-        Lane& lane = toSibling ? *sibling : own;
+        const bool toSibling = behind || (sibling && sibling->words < own->words);
+        Lane& lane = toSibling ? *sibling : *own;
         lane.words += spirv.size();
-        if (!toSibling) return run(own, pipeline);
+        if (!toSibling) return run(*own, pipeline);
         translated.push_back(build(sibling->device, options, spirv));
         run(*sibling, translated.back());
         later.push_back(&pipeline);
@@ -173,9 +176,9 @@ class FirstRuns {
         for (std::size_t i = 0; i < later.size(); ++i) {
             check(vkWaitForFences(sibling->device.handle, 1, &sibling->fences[i], VK_TRUE, UINT64_MAX),
                   "waiting for a first run");
-            if (!behind) run(own, *later[i]);
+            if (own) run(*own, *later[i]);
         }
-        if (!behind) wait(own);
+        if (own) wait(*own);
     }
 
   private:
@@ -196,7 +199,7 @@ class FirstRuns {
     /// One at a time may use the sibling; who must not wait does without.
     void useSibling() {
         triedSibling = true;
-        const Device& other = siblingOf(own.device);
+        const Device& other = siblingOf(device);
         siblingUse = std::unique_lock(other.record->mutex, std::defer_lock);
         if (behind)
             siblingUse.lock();
@@ -245,12 +248,15 @@ class FirstRuns {
         check(vkQueueSubmit2(lane.device.queue, 1, &info, lane.fences.back()), "submitting a first run");
     }
 
+    const Device& device;
     const bool behind;
     bool triedSibling = false;
     std::unique_lock<std::mutex> siblingUse;
     std::deque<Pipeline> translated;  // on the sibling
     std::vector<const Pipeline*> later;
-    Lane own;  // after the pipelines, as the sibling's: their work ends before those do
+    // After the pipelines, as the sibling's: their work ends before those do. None where another thread has
+    // the device's queue, which even the end of a buffer waits for.
+    std::optional<Lane> own;
     std::optional<Lane> sibling;
 };
 

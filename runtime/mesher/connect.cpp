@@ -267,7 +267,7 @@ void Connection::countBrick(uint32_t slot) {
     // Faces that must have a brick beyond them if surface crosses them: classify.comp has the rule.
     uint32_t checked = 0;
     for (int axis = 0; axis < 3; ++axis)
-        if (isBeyond ? beyond[axis] : brick[axis] == push.begin[axis]) checked |= 8u << axis;
+        if (isBeyond ? beyond[axis] : brick[axis] == push.first[axis]) checked |= 8u << axis;
     if (!isBeyond) checked = 63 - checked;
     bool cap = false;
     uint32_t crossedAll = 0;

@@ -67,8 +67,10 @@ void MesherHost::parallel(std::size_t count, const std::function<void(Machine&, 
 
 void MesherHost::descend(Machine& machine, const MesherPush& push, uvec3 first, uint32_t size,
                          const SharedTape& tape, Block& block) {
-    if (glm::any(glm::greaterThanEqual(first, glm::min(push.cells + 2u, push.end * 8u + 8u)))) return;
     const uvec3 last = first + size;
+    if (glm::any(glm::greaterThanEqual(first, glm::min(push.cells + 2u, push.end * 8u + 8u))) ||
+        glm::any(glm::lessThanEqual(last, push.first * 8u)))
+        return;
     Box box;
     bool atRim = false;
     for (int axis = 0; axis < 3; ++axis) {

@@ -87,16 +87,23 @@ Result<float> nudgeOf(const MesherConfig& config) {
     return nudge;
 }
 
-/// Bricks of the tile, in blocks of 64^3 cells, and its cells.
+/// Bricks of the tile, blocks of 64^3 cells in which they and those beyond are, and the tile's cells.
 struct Extent {
-    glm::uvec3 first, end, blocks, cells;
+    glm::uvec3 firstBlock, blocks, first, end, cells;
 };
 Extent extentOf(const MesherConfig& config) {
-    const glm::uvec3 cells(config.cells), gridBlocks = (cells + 2u + 63u) / 64u, first(config.tile.begin);
-    glm::uvec3 end(config.tile.end);
-    for (int axis = 0; axis < 3; ++axis) end[axis] = end[axis] == 0 ? gridBlocks[axis] : end[axis];
-    assert(config.method != MeshMethod::dualContouring || (first == glm::uvec3(0) && end == gridBlocks));
-    return {first, end, glm::min(end + 1u, gridBlocks) - first, glm::min(cells, (end - first) * 64u)};
+    const uint32_t around = config.method == MeshMethod::dualContouring ? 1 : 0;
+    const glm::uvec3 cells(config.cells), gridBlocks = (cells + 2u + 63u) / 64u;
+    Extent extent{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto begin = uint32_t(config.tile.begin[axis]), end = uint32_t(config.tile.end[axis]);
+        extent.first[axis] = begin > 0 ? begin * 8 - around : 0;
+        extent.end[axis] = end > 0 ? end * 8 + around : gridBlocks[axis] * 8;
+        extent.firstBlock[axis] = extent.first[axis] / 8;
+        extent.blocks[axis] = std::min(extent.end[axis] / 8 + 1, gridBlocks[axis]) - extent.firstBlock[axis];
+    }
+    extent.cells = glm::min(cells, (extent.end - extent.first) * 8u);
+    return extent;
 }
 
 /// Makes sure of the kernels, and tells what they are told but for the capacities.
@@ -111,8 +118,9 @@ MesherPush prepare(const Device& device, MesherPipelines& pipelines, const Meshe
     push.blocks = extent.blocks;
     push.nudge = nudge;
     push.margin = config.sparse ? 0 : std::numeric_limits<float>::infinity();
-    push.begin = extent.first * 8u;
-    push.end = extent.end * 8u;
+    push.begin = extent.firstBlock * 8u;
+    push.first = extent.first;
+    push.end = extent.end;
     if (config.host) build(device, pipelines, {topBricks, compact});
     if (dual) build(device, pipelines, {quads});
     if (connectsOnHost(device, config)) {
@@ -197,11 +205,13 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
             push.margin = widerMargin(push.margin, config);
             continue;
         }
+        result.quads = dual ? counts.edges : 0;
         if (counts.pinched > 0) {
-            const Addition added = partPinches(device, buffers, counts);
-            result.pinches = added.vertices;
-            counts.vertices += added.vertices;
-            counts.triangles += added.triangles;
+            Parting parted = partPinches(device, buffers, counts);
+            result.pinches = parted.vertices;
+            result.addedTo = std::move(parted.quads);
+            counts.vertices += parted.vertices;
+            counts.triangles += uint32_t(result.addedTo.size());
             counts.draw[0] = 3 * counts.triangles;
             uploadBytes(device, buffers.counts, &counts, sizeof counts);
         }

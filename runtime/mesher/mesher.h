@@ -31,7 +31,8 @@
 // A region can be meshed in tiles of whole blocks, each by a run of its own. Bricks and samples are numbered
 // and placed as in the whole, so that the tiles' triangles are the whole's, to the bit. A tile has vertices
 // on all its faces; on its far ones they come from one layer of bricks of the tiles beyond. Nothing is closed
-// between tiles.
+// between tiles. Of dual contouring a tile is a brick larger all round, so that all is there about what is
+// its own (quad_tiles.h).
 //
 // Lifetime: pipelines belong to a structure (a field's text), buffers to a resolution (they grow when a mesh
 // needs more and hold the last mesh), the configuration to one run.
@@ -67,7 +68,7 @@ struct MesherConfig {
     const Families* families = nullptr;  ///< of the field, where it has some
     bool sparse = true;    ///< bricks that intervals show to be empty are not sampled; the same mesh, sooner
     bool pruned = true;    ///< a brick evaluates only the members that can matter in it; likewise
-    MesherTile tile = {};  ///< of the region, the whole by default; only marching cubes takes another
+    MesherTile tile = {};  ///< of the region, the whole by default
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;  ///< also the base colour at each vertex
     /// Software devices make triangles of signs on the host (connect.h); the same bytes, sooner.
@@ -111,9 +112,11 @@ struct MesherBuffers {
 
 struct MesherResult {
     uint32_t vertices = 0, triangles = 0;
+    uint32_t quads = 0;    ///< of dual contouring: the first triangles are these, two and two
     uint32_t pinches = 0;  ///< of dual contouring: places where two patches met twice, and were parted
-    uint32_t bricks = 0;   ///< that were sampled
-    bool capped = false;   ///< the surface was closed at the region's boundary
+    std::vector<uint32_t> addedTo = {};  ///< of each triangle behind these: the quad that it is a part of
+    uint32_t bricks = 0;                 ///< that were sampled
+    bool capped = false;                 ///< the surface was closed at the region's boundary
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;       ///< there is one at each vertex
     bool creases = false;      ///< vertices on creases are to be doubled (creases.h)

@@ -58,7 +58,7 @@ Edge readEdge(const Device& device, const MesherBuffers& buffers, uint32_t index
 
 Addition mostOfPinches(uint32_t quads) { return {2 * quads, 4 * quads}; }
 
-Addition partPinches(const Device& device, MesherBuffers& buffers, const gpu::MesherCounts& counts) {
+Parting partPinches(const Device& device, MesherBuffers& buffers, const gpu::MesherCounts& counts) {
     std::vector<uint32_t> list = download<uint32_t>(device, buffers.pinched, counts.pinched);
     std::ranges::sort(list);
     using Triangle = std::array<uint32_t, 3>;
@@ -68,6 +68,7 @@ Addition partPinches(const Device& device, MesherBuffers& buffers, const gpu::Me
     };
     std::map<Segment, Middle> middles;
     std::vector<Triangle> more;
+    Parting parting;
     for (const uint32_t index : list) {
         const Edge edge = readEdge(device, buffers, index);
         std::vector<Triangle> triangles = {at<Triangle>(device, buffers.triangles, 2 * index),
@@ -100,10 +101,12 @@ Addition partPinches(const Device& device, MesherBuffers& buffers, const gpu::Me
         uploadBytes(device, buffers.triangles, triangles.data(), 2 * sizeof(Triangle),
                     2 * index * sizeof(Triangle));
         more.insert(more.end(), triangles.begin() + 2, triangles.end());
+        parting.quads.resize(more.size(), index);
     }
     uploadBytes(device, buffers.triangles, more.data(), more.size() * sizeof(Triangle),
                 counts.triangles * sizeof(Triangle));
-    return {uint32_t(middles.size()), uint32_t(more.size())};
+    parting.vertices = uint32_t(middles.size());
+    return parting;
 }
 
 }  // namespace fw

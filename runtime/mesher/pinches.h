@@ -15,11 +15,16 @@ struct Addition {
     uint32_t vertices = 0, triangles = 0;
 };
 
+struct Parting {
+    uint32_t vertices = 0;        ///< that were added
+    std::vector<uint32_t> quads;  ///< of each triangle that was added: the quad that it was a part of
+};
+
 /// The most that parting adds, if so many quads are listed.
 Addition mostOfPinches(uint32_t quads);
 
 /// Parts them, behind the vertices and triangles that `counts` tells; the buffers have room for that. The
-/// result does not depend on the order in which they were listed. Returns what was added.
-Addition partPinches(const Device& device, MesherBuffers& buffers, const gpu::MesherCounts& counts);
+/// result does not depend on the order in which they were listed.
+Parting partPinches(const Device& device, MesherBuffers& buffers, const gpu::MesherCounts& counts);
 
 }  // namespace fw

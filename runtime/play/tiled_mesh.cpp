@@ -1,6 +1,7 @@
 #include "runtime/play/tiled_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,9 @@
 #include <limits>
 
 #include "graph/emit/glsl.h"
+#include "runtime/mesh/creases.h"
+#include "runtime/mesh/octahedral.h"
+#include "runtime/mesher/quad_tiles.h"
 #include "runtime/system/cache_file.h"
 
 namespace fw {
@@ -54,20 +58,79 @@ Faces facesOf(const TilePlan& plan, std::size_t index) {
     return faces;
 }
 
-/// The numbers in the header, and the shared vertices.
-Done lookAtVertices(TileContent& tile, std::span<const gpu::MeshVertex> vertices, const Faces& faces) {
+/// The numbers in the header.
+Done lookAtVertices(TileContent& tile, std::span<const gpu::MeshVertex> vertices) {
     if (!vertices.empty()) tile.header.least = tile.header.greatest = vertices[0].position;
     glm::vec3 poison(0.0f);
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        const glm::vec3 p = vertices[v].position;
+    for (const auto& [p, normal] : vertices) {
         tile.header.least = glm::min(tile.header.least, p);
         tile.header.greatest = glm::max(tile.header.greatest, p);
         poison += p * 0.0f;  // NaN if it is not finite
-        if (const uint32_t count = faces.count(p)) tile.shared.push_back({uint32_t(v), 1u << count, p});
     }
     if (poison == glm::vec3(0.0f)) return done();
     return Error{.message =
                      "the mesh has a vertex that is not finite; the field is infinite or undefined there"};
+}
+
+/// Which of the vertices at its place this one is: splitCreases() puts copies behind all, place by place.
+uint32_t copyOf(const MesherResult& meshed, const Mesh& mesh, std::size_t v) {
+    if (v < meshed.vertices) return 0;
+    std::size_t first = v;
+    while (first > meshed.vertices && mesh.positions[first - 1] == mesh.positions[v]) --first;
+    return uint32_t(v - first) + 1;
+}
+
+/// The whole of what was meshed: by marching cubes that is the tile's own.
+Done takeAll(const Session& session, const MesherResult& meshed, const TilePlan& plan, TileContent& tile,
+             bool arrays) {
+    const MesherBuffers& buffers = session.meshBuffers();
+    const auto vertices = look(session.device(), buffers.vertices, meshed.vertices, tile.vertices);
+    if (arrays && tile.vertices.empty()) tile.vertices.assign(vertices.begin(), vertices.end());
+    if (arrays) tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed.triangles * 3);
+    if (arrays && tile.header.colors)
+        tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed.vertices);
+    tile.header.vertices = meshed.vertices;
+    tile.header.triangles = meshed.triangles;
+    const Faces faces = facesOf(plan, tile.header.tile);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        if (const uint32_t count = faces.count(vertices[v].position))
+            tile.shared.push_back({uint32_t(v), 1u << count, vertices[v].position});
+    return lookAtVertices(tile, vertices);
+}
+
+/// Of what was meshed by dual contouring the tile's own, with its creases.
+Done takeOwn(const Session& session, const MesherResult& meshed, const TilePlan& plan, TileContent& tile,
+             bool arrays) {
+    Mesh mesh = downloadMesh(session.device(), session.meshBuffers(), meshed);
+    std::vector<uint8_t> tiles = tilesOfTriangles(session.device(), session.meshBuffers(), meshed,
+                                                  plan.tiles[tile.header.tile], plan.grid.cells);
+    std::size_t whole = 0;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        if (tiles[t] == kNoTile) continue;
+        std::copy_n(&mesh.indices[3 * t], 3, &mesh.indices[3 * whole]);
+        tiles[whole++] = tiles[t];
+    }
+    mesh.indices.resize(3 * whole);
+    splitCreases(mesh);
+
+    std::vector<uint32_t> holders(mesh.positions.size());  // tiles that have a vertex, a bit each
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) holders[mesh.indices[i]] |= 1u << tiles[i / 3];
+    std::vector<uint32_t> numbers(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if ((holders[v] >> kOwnTile & 1) == 0) continue;
+        numbers[v] = uint32_t(tile.vertices.size());
+        if (const auto count = uint32_t(std::popcount(holders[v])); count > 1)
+            tile.shared.push_back({numbers[v], count, mesh.positions[v], copyOf(meshed, mesh, v)});
+        tile.vertices.push_back({mesh.positions[v], packOctahedral(mesh.normals[v])});
+        if (tile.header.colors) tile.colors.push_back(mesh.colors[v]);
+    }
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        if (tiles[i / 3] == kOwnTile) tile.indices.push_back(numbers[mesh.indices[i]]);
+    tile.header.vertices = tile.vertices.size();
+    tile.header.triangles = tile.indices.size() / 3;
+    const Done fine = lookAtVertices(tile, tile.vertices);
+    if (!arrays) tile.vertices.clear(), tile.colors.clear(), tile.indices.clear();
+    return fine;
 }
 
 /// Meshes the tile; without `arrays` its vertices, colours and triangles are only counted.
@@ -82,29 +145,23 @@ Result<TileContent> contentOf(Session& session, const MeshRequest& request, cons
     tile.header.tile = uint32_t(index);
     tile.header.tiles = uint32_t(plan.tiles.size());
     tile.header.capped = meshed->capped ? 1 : 0;
-    tile.header.colors = session.program().hasMaterial() && meshed->vertices > 0 ? 1 : 0;
-    tile.header.vertices = meshed->vertices;
-    tile.header.triangles = meshed->triangles;
+    tile.header.colors = meshed->colors ? 1 : 0;
     tile.header.roughness = material.roughness;
     tile.header.metallic = material.metallic;
     tile.header.baseColor = material.base;
     tile.header.emission = material.emission;
 
-    const MesherBuffers& buffers = session.meshBuffers();
-    const auto vertices = look(session.device(), buffers.vertices, meshed->vertices, tile.vertices);
-    if (arrays && tile.vertices.empty()) tile.vertices.assign(vertices.begin(), vertices.end());
-    if (arrays) tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed->triangles * 3);
-    if (arrays && tile.header.colors)
-        tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed->vertices);
-    if (const Done fine = lookAtVertices(tile, vertices, facesOf(plan, index)); !fine) return fine.error();
+    const Done fine = meshed->method == MeshMethod::dualContouring
+                          ? takeOwn(session, *meshed, plan, tile, arrays)
+                          : takeAll(session, *meshed, plan, tile, arrays);
+    if (!fine) return fine.error();
+    if (tile.header.vertices == 0) tile.header.colors = 0;
     return tile;
 }
 
 }  // namespace
 
-Done checkTiles(const Program& program, const MeshRequest& request) {
-    if (request.method.value_or(program.method) == MeshMethod::dualContouring)
-        return Error{.message = "dual contouring is not meshed in tiles: take marching cubes"};
+Done checkTiles(const Program& program) {
     if (!program.stages.empty())
         return Error{.message =
                          "a mesh in tiles cannot be smoothed, subdivided or decimated: connect the "
@@ -131,7 +188,7 @@ TilePlan planTiles(const CellGrid& grid, int tileCells) {
     return plan;
 }
 
-uint64_t tileKey(const Session& session, const TilePlan& plan) {
+uint64_t tileKey(const Session& session, const MeshRequest& request, const TilePlan& plan) {
     const Program& program = session.program();
     Hash hash;
     hash.add(std::string(FIELDWRIGHT_VERSION));
@@ -144,6 +201,8 @@ uint64_t tileKey(const Session& session, const TilePlan& plan) {
     for (const Family& family : program.families.all) hash.add(family.table);
     const gpu::DraftMaterial material = session.material();
     hash.add(&material, sizeof material);
+    const MeshMethod method = request.method.value_or(program.method);
+    hash.add(&method, sizeof method);
     hash.add(&plan.grid, sizeof plan.grid);
     hash.add(&plan.tileCells, sizeof plan.tileCells);
     return hash.value;

@@ -24,8 +24,8 @@ inline constexpr int kTileCells = 256;
 /// Cells along the longest side above which tiles are the way, where they can be had.
 inline constexpr int kMostUntiled = 1024;
 
-/// Refuses what cannot be meshed in tiles: dual contouring, and stages.
-Done checkTiles(const Program& program, const MeshRequest& request);
+/// Refuses what cannot be meshed in tiles: stages.
+Done checkTiles(const Program& program);
 
 struct TilePlan {
     CellGrid grid;
@@ -37,8 +37,8 @@ struct TilePlan {
 /// fewer where the grid has fewer.
 TilePlan planTiles(const CellGrid& grid, int tileCells);
 
-/// Equal where a tile of the session's program has the same bytes.
-uint64_t tileKey(const Session& session, const TilePlan& plan);
+/// Equal where a tile of the session's program, meshed as `request` has it, has the same bytes.
+uint64_t tileKey(const Session& session, const MeshRequest& request, const TilePlan& plan);
 
 /// Where tile `index` goes in the folder of the tiles' files.
 std::string tilePath(const std::string& folder, const TilePlan& plan, std::size_t index);

@@ -7,8 +7,9 @@ bool mayHoldSurface(uvec3 first, uint size, vec2 f) {
     bool atRim = any(equal(first, uvec3(0))) || any(greaterThan(first + size, push.cells + 1));
     bool outside = f.x >= push.margin;
     bool inside = f.y < -push.margin && !atRim;
-    bool inGrid = all(lessThan(first, min(push.cells + 2, push.end * 8 + 8)));
-    return inGrid && !outside && !inside;
+    bool inTile = all(lessThan(first, min(push.cells + 2, push.end * 8 + 8))) &&
+                  all(greaterThan(first + size, push.first * 8));
+    return inTile && !outside && !inside;
 }
 
 vec3 lowOf(uvec3 first) { return samplePosition(max(first, uvec3(1))); }

@@ -55,7 +55,7 @@ uvec3 edgesOfTile(uvec3 crossed, bvec3 beyond, uint z, uint side) {
 /// Faces of a brick that must have a brick beyond them if surface crosses them. Those between tiles are looked at by the
 /// tile that is before them, once in each of the two bricks.
 uint checkedFaces(uvec3 brick, bvec3 beyond) {
-    uvec3 low = mix(uvec3(0), uvec3(8, 16, 32), any(beyond) ? beyond : equal(brick, push.begin));
+    uvec3 low = mix(uvec3(0), uvec3(8, 16, 32), any(beyond) ? beyond : equal(brick, push.first));
     uint faces = low.x | low.y | low.z;
     return any(beyond) ? faces : 63 - faces;
 }

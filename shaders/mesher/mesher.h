@@ -56,7 +56,8 @@ struct MesherPush {
     uint triangleCapacity;
     uint chunk;      // of vertices or triangles, for kernels that run once a chunk
     uint listStart;  // where lists of members begin (field.glsl); 0: all places have the whole list
-    uvec3 begin;     // first brick of the tile, at a corner of a block; 0 where the region is one tile
+    uvec3 begin;     // brick from which bricks are numbered, at a corner of a block
+    uvec3 first;     // first brick of the tile; 0 where the region is one tile
     uvec3 end;  // bricks from here on along an axis are the next tile's: they lend the edges on the far face
 };
 

@@ -213,6 +213,22 @@ TEST(Commands, DispatchComputesAndStagesAreTimed) {
     }
 }
 
+TEST(Commands, PipelinesMadeBehindLeaveTheQueueAlone) {
+    Device& device = test::device();
+    finish(device);
+    const Buffer buffer = createBuffer(device, 64);
+    Commands commands(device);
+    fill(commands, buffer, 7);
+    send(commands);
+    // Were it the thread of another's frame, that would have been its queue.
+    const std::vector<Pipeline> made =
+        createComputePipelines(device, std::array{ShaderOptions{.name = "squares.comp", .text = kSquares}},
+                               nullptr, Compile::behind);
+    EXPECT_EQ(made.size(), 1u);
+    EXPECT_EQ(device.record->sent.size(), 1u);
+    finish(device);
+}
+
 TEST(Resources, ImagesCanBeWrittenByAShaderAndRead) {
     Device& device = test::device();
     Image image =

@@ -464,8 +464,8 @@ TEST_P(EachMethod, NotANumberIsOutside) {
     for (glm::vec3 n : meshed.mesh.normals) EXPECT_NEAR(glm::length(n), 1.0f, 1e-3f);
 }
 
-TEST(Mesher, TilesAreTheSameByHostAndKernels) {
-    MesherConfig config = cube(-2.5f, 2.5f, 150);
+TEST_P(EachMethod, TilesAreTheSameByHostAndKernels) {
+    MesherConfig config = cube(-2.5f, 2.5f, 150, GetParam());
     uint32_t triangles = 0;
     for (int x = 0; x < 3; ++x)
         for (int y = 0; y < 3; ++y) {

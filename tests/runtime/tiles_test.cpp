@@ -14,6 +14,7 @@
 
 #include "graph/document/json.h"
 #include "runtime/measure/mesh_report.h"
+#include "runtime/mesh/octahedral.h"
 #include "runtime/play/tiled_mesh.h"
 #include "tests/support/command.h"
 #include "tests/support/gpu.h"
@@ -76,7 +77,7 @@ Tiled tiledMesh(Session& session, const MeshRequest& request, int tileCells) {
     const Result<Box> region = meshRegion(session.program(), request);
     const Result<CellGrid> grid = cellGrid(*region, request.resolution);
     const TilePlan plan = planTiles(*grid, tileCells);
-    const uint64_t key = tileKey(session, plan);
+    const uint64_t key = tileKey(session, request, plan);
     Tiled result{{}, plan.tiles.size()};
     std::vector<TileRecord> tiles;
     for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
@@ -109,7 +110,9 @@ bool expectTilesMakeUpTheWhole(Session& session, const MeshRequest& request, int
     const Result<MesherResult> result = session.polygonise(request);
     if (!result) throw SystemError(format(result.error()));
     if (result->triangles == 0) return false;
-    const Mesh whole = session.download(*result);
+    Mesh whole = session.download(*result);
+    if (result->creases)  // whose normals tiles keep as the mesher packs them
+        for (glm::vec3& normal : whole.normals) normal = unpackOctahedral(packOctahedral(normal));
     const Tiled tiled = tiledMesh(session, request, tileCells);
     EXPECT_GE(tiled.tiles, 2u);
     EXPECT_EQ(tiled.mesh.positions.size(), whole.positions.size());
@@ -168,8 +171,10 @@ TEST(Tiles, OfRandomGraphsMakeUpTheWholeMesh) {
         if (!program) continue;
         SCOPED_TRACE("seed " + std::to_string(seed));
         Session session = sessionOf(std::move(*program));
-        const MeshRequest request{Box{{-2.03, -1.98, -2.01}, {1.97, 2.02, 1.99}}, 97};
+        MeshRequest request{Box{{-2.03, -1.98, -2.01}, {1.97, 2.02, 1.99}}, 97};
         if (!expectTilesMakeUpTheWhole(session, request)) continue;
+        request.method = MeshMethod::dualContouring;
+        EXPECT_TRUE(expectTilesMakeUpTheWhole(session, request));
         ++meshed;
         capped += session.polygonise(request)->capped ? 1 : 0;
     }
@@ -185,8 +190,24 @@ TEST(Tiles, ByTapesMakeUpTheWholeMesh) {
         program.method = MeshMethod::marchingCubes;
         program.stages.clear();
         Session session = sessionOf(std::move(program), FieldBy::tapes);
-        EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {{}, 135}));
+        for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring})
+            EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {{}, 135, method}));
         EXPECT_TRUE(session.byTapes());
+    }
+}
+
+TEST(Tiles, OfDualContouringMakeUpTheWholeMesh) {
+    for (const char* name : {"tower", "csg_part", "menger", "gyroid_sphere", "dusk_city", "island"}) {
+        SCOPED_TRACE(name);
+        const Result<Graph> graph = readGraph(samplePath(name), nullptr);
+        ASSERT_TRUE(graph);
+        Session session = sessionOf(programOf(*graph));
+        EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {{}, 135, MeshMethod::dualContouring}));
+        const Box box = *meshRegion(session.program(), {{}, 96});
+        Box part = box;
+        for (int axis = 0; axis < 3; ++axis) part.hi[axis] -= 0.32 * (box.hi[axis] - box.lo[axis]);
+        EXPECT_TRUE(expectTilesMakeUpTheWhole(session, {part, 129, MeshMethod::dualContouring}));
+        EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
     }
 }
 
@@ -284,7 +305,7 @@ TEST_F(TilesCommand, FilesHoldTheSameMeshAsWithoutTiles) {
         }
     }
     expectRefusal(runCommand(to("a.3mf")), 2, {"a.3mf: error", ".ply, .stl, .obj, .glb or .gltf"});
-    expectRefusal(runCommand(to("b.ply", {"--method", "dual-contouring"})), 1, {"marching cubes", "--tiles"});
+    expectDone(to("b.ply", {"--method", "dual-contouring", "--require", "closed,manifold"}));
     EXPECT_FALSE(fs::exists(folder.path("b.ply.tiles")));
 }
 
