@@ -153,6 +153,7 @@ class Bake {
         stage("prepare", start);
 
         Commands commands(device, options.timed);
+        commands.parted = !options.timed;
         gpu::BakePush all = push();
         all.items = uint32_t(list.size());
         const Descriptor bound[] = {{0, corners}, {1, items}, {2, nearest}, {3, nearest},
@@ -161,16 +162,15 @@ class Bake {
         fill(commands, nearest, ~0u);
         fill(commands, counts, 0);
         barrier(commands);
-        dispatch(commands, kernels.scatter, spread(device, groupsFor(list.size(), BAKE_GROUP)), all, bound);
+        dispatchGroups(commands, kernels.scatter, groupsFor(list.size(), BAKE_GROUP), all, bound);
         barrier(commands);
         beginStage(commands, "list");
-        dispatch(commands, kernels.list, spread(device, groupsFor(mesh.grid.samples(), BAKE_GROUP)), all,
-                 bound);
+        dispatchGroups(commands, kernels.list, groupsFor(mesh.grid.samples(), BAKE_GROUP), all, bound);
         barrier(commands);
         flush(commands);
         const uint32_t listed = counts.as<gpu::BakeCounts>()[0].listed;
         beginStage(commands, "sign");
-        dispatch(commands, kernels.sign, spread(device, groupsFor(listed, BAKE_GROUP)), all, bound);
+        dispatchGroups(commands, kernels.sign, groupsFor(listed, BAKE_GROUP), all, bound);
         submit(commands);
         finishStages(commands);
     }
@@ -210,6 +210,7 @@ class Bake {
             colorWords = createBuffer(device, 4 * mesh.grid.samples(), Memory::readback);
         }
         Commands commands(device, options.timed);
+        commands.parted = !options.timed;
         gpu::BakePush all = push();
         std::vector<Descriptor> bound = {{0, corners}, {4, state}, {6, counts}, {8, words}};
         if (colored) bound.push_back({10, colors}), bound.push_back({11, colorWords});
@@ -218,8 +219,8 @@ class Bake {
         beginStage(commands, "pack");
         fill(commands, counts, 0);
         barrier(commands);
-        dispatch(commands, colored ? kernels.packColors : kernels.pack,
-                 spread(device, groupsFor(mesh.grid.samples(), BAKE_GROUP)), all, bound);
+        dispatchGroups(commands, colored ? kernels.packColors : kernels.pack,
+                       groupsFor(mesh.grid.samples(), BAKE_GROUP), all, bound);
         submit(commands);
         finishStages(commands);
         progress(0.9);

@@ -298,6 +298,14 @@ void dispatchRows(Commands& commands, const Pipeline& pipeline, glm::uvec3 group
     }
 }
 
+void dispatchGroups(Commands& commands, const Pipeline& pipeline, uint64_t groups, const void* push,
+                    std::size_t pushSize, std::span<const Descriptor> descriptors) {
+    if (!commands.parted || groups <= kPartedRow)
+        return dispatch(commands, pipeline, spread(commands.device, groups), push, pushSize, descriptors);
+    const uint32_t row = std::max(kPartedRow, groupsFor(groups, commands.device.limits.groups));
+    dispatchRows(commands, pipeline, {row, groupsFor(groups, row), 1}, push, pushSize, descriptors);
+}
+
 void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,
                       VkDeviceSize offset, const void* push, std::size_t pushSize,
                       std::span<const Descriptor> descriptors) {

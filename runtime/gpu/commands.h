@@ -40,7 +40,7 @@ struct Commands {
     VkQueryPool queries = VK_NULL_HANDLE;  ///< GPU only
     bool stageOpen = false;
     const std::atomic<bool>* cancel = nullptr;  ///< if given, long work looks at it between its parts
-    bool parted = false;                        ///< dispatchRows(), and who asks for it, work in parts
+    bool parted = false;  ///< dispatchRows(), and who asks for it, work in parts; not where it is timed
     std::vector<VkDescriptorPool> pools;  ///< of its sets, the last with room; none where sets are pushed
 };
 
@@ -100,6 +100,12 @@ void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer
 void dispatchRows(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
                   std::size_t pushSize, std::span<const Descriptor> descriptors);
 
+/// The same for a kernel that takes its groups one after the other (linearGroup() in lib/groups.glsl) and
+/// lets those that are too many run to no effect: fewer than a row.
+inline constexpr uint32_t kPartedRow = 64;
+void dispatchGroups(Commands& commands, const Pipeline& pipeline, uint64_t groups, const void* push,
+                    std::size_t pushSize, std::span<const Descriptor> descriptors);
+
 /// Runs what is recorded so far, `done` of the things that a long pass is made of, and returns how many to do
 /// next for that to take about a tenth of a second: as many, twice or half as many.
 uint32_t flushPart(Commands& commands, uint32_t done);
@@ -109,6 +115,11 @@ template <class Push>
 void dispatch(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const Push& push,
               std::span<const Descriptor> descriptors) {
     dispatch(commands, pipeline, groups, &push, sizeof(Push), descriptors);
+}
+template <class Push>
+void dispatchGroups(Commands& commands, const Pipeline& pipeline, uint64_t groups, const Push& push,
+                    std::span<const Descriptor> descriptors) {
+    dispatchGroups(commands, pipeline, groups, &push, sizeof(Push), descriptors);
 }
 template <class Push>
 void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer& arguments,

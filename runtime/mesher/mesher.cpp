@@ -191,6 +191,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         push.triangleCapacity = buffers.triangleCapacity;
         if (isChunked(push, dual)) build(device, pipelines, {topGroupsChunked});
         Commands commands(device, config.timed);
+        commands.parted = config.parted && !config.timed;
         record(commands, pipelines, buffers, config, push);
         // Where the host has made the triangles it knows the counts, and nobody waits for the vertices yet.
         const bool counted = connectsOnHost(device, config) && !dual && !config.host;

@@ -74,7 +74,8 @@ struct MesherConfig {
     /// Software devices make triangles of signs on the host (connect.h); the same bytes, sooner.
     bool connectOnHost = true;
     MesherHost* host = nullptr;  ///< evaluates the field instead of kernels, which then need not be built
-    bool timed = false;          ///< fill MesherResult::stages (see commands.h for what that costs)
+    bool parted = false;  ///< long passes go in parts (commands.h), the host asking for counts in between
+    bool timed = false;   ///< fill MesherResult::stages (see commands.h for what that costs)
 };
 
 inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits

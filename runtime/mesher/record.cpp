@@ -38,12 +38,17 @@ struct Recording {
     std::vector<uint32_t> brickList = {};  // with a host for the field
 
     void indirect(Kernel kernel, uint32_t arguments, const std::vector<Descriptor>& more) {
+        if (commands.parted) {  // then the host asks how much there is to do
+            flush(commands);
+            const gpu::DispatchArguments groups = counts().groups[arguments];
+            return direct(kernel, uint64_t(groups.x) * groups.y, more);
+        }
         VkDeviceSize offset = offsetof(MesherCounts, groups) + arguments * sizeof(gpu::DispatchArguments);
         dispatchIndirect(commands, *pipelines.all[kernel], b.counts, offset, push, with(more));
         barrier(commands);
     }
-    void direct(Kernel kernel, uint32_t groups, const std::vector<Descriptor>& more) {
-        dispatch(commands, *pipelines.all[kernel], spread(device, groups), push, with(more));
+    void direct(Kernel kernel, uint64_t groups, const std::vector<Descriptor>& more) {
+        dispatchGroups(commands, *pipelines.all[kernel], groups, push, with(more));
         barrier(commands);
     }
     std::vector<Descriptor> with(const std::vector<Descriptor>& more) const {

@@ -35,9 +35,9 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     reserve(device, buffers.blockSums, all * 16);
     reserve(device, buffers.rows, all * 64 * 8);
     uint64_t bricks = buffers.brickCapacity;
-    // Groups of bricks, and as many more as spreading them over two axes may add.
-    uint64_t groups = uint64_t(spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS)).x) *
-                      spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS)).y;
+    // Groups of bricks, and as many more as spreading them over two axes or parting them may add.
+    const glm::uvec3 spreadGroups = spread(device, chunksOf(bricks, MESHER_GROUP_BRICKS));
+    const uint64_t groups = uint64_t(spreadGroups.x) * spreadGroups.y + kPartedRow;
     reserve(device, buffers.brickList, bricks * 4);
     reserve(device, buffers.links, bricks * 32);
     reserve(device, buffers.planes, bricks * 9 * 12);

@@ -154,6 +154,19 @@ bool Session::beyondDriver() const {
     return by == FieldBy::tapes || (by == FieldBy::sooner && secondsToCompile(current) > kMostSecondsBehind);
 }
 
+/// Whether a pass over the surface of so many cells may take a tenth of a second, or more, on a weak device.
+bool Session::isMeshedForLong(glm::ivec3 cells) {
+    constexpr double kSamples = 137.0;  // evaluated for each square of cells: bricks about a surface that
+                                        // is folded twice, and edges
+    constexpr double kMostAdditions = 2e9;
+    if (codedHash != current.structureHash) {
+        weightOfCode = codeWeight(current.ir, current.distance(), current.families);
+        codedHash = current.structureHash;
+    }
+    const double longest = std::max({cells.x, cells.y, cells.z});
+    return kSamples * longest * longest * weightOfCode > kMostAdditions;
+}
+
 bool Session::isTracedForLong() {
     if (by != FieldBy::sooner || !gpu->software) return false;
     if (weighedHash != current.structureHash) {
@@ -306,6 +319,13 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.tile = request.tile;
     config.method = request.method.value_or(current.method);
     config.timed = timed;
+    glm::ivec3 extent = config.cells;  // of the tile
+    for (int axis = 0; axis < 3; ++axis)
+        if (request.tile.end[axis] > 0)
+            extent[axis] = 64 * (request.tile.end[axis] - request.tile.begin[axis]);
+        else
+            extent[axis] -= 64 * request.tile.begin[axis];
+    config.parted = isMeshedForLong(extent);
     std::optional<MesherHost> host;
     std::optional<Program> evaluated;
     const bool waits = compiling();

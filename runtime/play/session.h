@@ -132,6 +132,7 @@ class Session {
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
     bool hasMesherKernels() const { return built && builtHash == current.structureHash; }
     bool tapesAreSooner(int resolution) const;
+    bool isMeshedForLong(glm::ivec3 cells);
     /// Whether a software device would trace light through the field, of which there is a mesh, for long.
     bool isTracedForLong();
     /// Whether kernels that are wanted behind are not worth their wait.
@@ -150,6 +151,8 @@ class Session {
     bool tapes = false;                   // the last mesh came from them
     double secondsTraced = 0;             // as secondsToTrace(),
     std::optional<uint64_t> weighedHash;  // of this structure
+    double weightOfCode = 0;              // as codeWeight(),
+    std::optional<uint64_t> codedHash;    // of this structure
     Program current;
     uint64_t builtHash = 0;
     bool built = false;

@@ -464,6 +464,20 @@ TEST_P(EachMethod, NotANumberIsOutside) {
     for (glm::vec3 n : meshed.mesh.normals) EXPECT_NEAR(glm::length(n), 1.0f, 1e-3f);
 }
 
+TEST_P(EachMethod, PartsGiveTheSameBytes) {
+    MesherConfig config = cube(-2.5f, 2.5f, 200, GetParam());
+    const std::atomic<uint64_t>& submissions = test::device().record->submissions;
+    const uint64_t begin = submissions;
+    const Meshed whole = polygonise({}, config);
+    const uint64_t ofWhole = submissions - begin;
+    config.parted = true;
+    const Meshed parted = polygonise({}, config);
+    EXPECT_GT(submissions - begin - ofWhole, ofWhole + 8);
+    EXPECT_EQ(parted.mesh.positions, whole.mesh.positions);
+    EXPECT_EQ(parted.mesh.normals, whole.mesh.normals);
+    EXPECT_EQ(parted.mesh.indices, whole.mesh.indices);
+}
+
 TEST_P(EachMethod, TilesAreTheSameByHostAndKernels) {
     MesherConfig config = cube(-2.5f, 2.5f, 150, GetParam());
     uint32_t triangles = 0;
