@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "graph/base/parallel.h"
 #include "runtime/mesh/corners.h"
 
 namespace fw {
@@ -36,18 +37,22 @@ void splitCreases(Mesh& mesh, float degrees) {
     const float least = std::cos(degrees * std::numbers::pi_v<float> / 180.0f);
     const std::size_t vertices = mesh.positions.size();
     const Corners corners = cornersOf(mesh.indices, vertices);
+    std::vector<char> smooth(vertices);
+    constexpr std::size_t kVertices = 16384;
+    forBlocks(vertices, kVertices, [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v)
+            // Written so that a triangle without area is no reason to split.
+            smooth[v] = std::ranges::none_of(corners.at(v), [&](uint32_t corner) {
+                return glm::dot(normalOf(mesh, corner), mesh.normals[v]) < least;
+            });
+    });
     std::vector<glm::vec3> normals;
     std::vector<uint32_t> side;
     for (std::size_t v = 0; v < vertices; ++v) {
+        if (smooth[v]) continue;
         const std::span<const uint32_t> around = corners.at(v);
         normals.clear();
-        bool smooth = true;
-        for (const uint32_t corner : around) {
-            normals.push_back(normalOf(mesh, corner));
-            // Written so that a triangle without area is no reason to split.
-            smooth = smooth && !(glm::dot(normals.back(), mesh.normals[v]) < least);
-        }
-        if (smooth) continue;
+        for (const uint32_t corner : around) normals.push_back(normalOf(mesh, corner));
         side.resize(around.size());
         std::iota(side.begin(), side.end(), 0u);
         for (std::size_t i = 0; i < around.size(); ++i)

@@ -341,6 +341,9 @@ void Connection::sumUp() {
     setUp(MESHER_QUADS, counts.edges, MESHER_QUAD_CHUNK);
     counts.draw[0] = fits ? 3 * counts.triangles : 0;
     counts.draw[1] = 1;
+    const bool isTile = push.first != uvec3(0) || glm::any(glm::lessThan(push.end * 8u, push.cells + 2u));
+    if (dual && fits && isTile)  // record.cpp has the reason
+        std::ranges::fill(b.corners.as<uint32_t>().first(4 * std::size_t(counts.edges)), 0u);
 }
 
 /// Numbers the brick's own edges, by strip, axis and bit, and lists them as list_edges.glsl does.

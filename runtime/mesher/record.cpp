@@ -83,7 +83,8 @@ void recordCull(Recording& r) {
     }
     if (r.push.blocksListed) fill(r.commands, b.rows, 0);
     // At a tile's rim quads are not whole: what they lack must be vertices all the same.
-    if (r.dual && r.config.tile.begin + r.config.tile.end != glm::ivec3(0)) fill(r.commands, b.corners, 0);
+    if (r.dual && !r.byHost && r.config.tile.begin + r.config.tile.end != glm::ivec3(0))
+        fill(r.commands, b.corners, 0);
     barrier(r.commands);
     if (r.pruned) {
         const uint64_t all = uint64_t(r.push.blocks.x) * r.push.blocks.y * r.push.blocks.z;
