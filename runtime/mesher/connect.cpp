@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <thread>
 
+#include "runtime/mesher/grid_edge.h"
 #include "runtime/mesher/marching_cubes_table.h"
 #include "runtime/mesher/sizes.h"
 
@@ -220,10 +221,7 @@ class Connection {
         uint32_t uses = 0;              // of edges by patches
     };
 
-    uvec3 brickAt(uint32_t slot) const {
-        const uint32_t word = brickList[slot];
-        return {word & 1023, word >> 10 & 1023, word >> 20};
-    }
+    uvec3 brickAt(uint32_t slot) const { return unpackBrick(brickList[slot]); }
     uint32_t slotOf(uvec3 brick) const;
     void countBrick(uint32_t slot);
     void sumUp();

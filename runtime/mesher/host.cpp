@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "runtime/mesh/octahedral.h"
+#include "runtime/mesher/grid_edge.h"
 
 namespace fw {
 
@@ -30,8 +31,6 @@ constexpr int64_t kMostSteps = (256 << 20) / sizeof(TapeStep);
 float samplePosition(const MesherPush& push, int axis, uint32_t i) {
     return push.origin[axis] + float(int(i) - 1) * push.cellSize[axis];
 }
-
-uvec3 unpackBrick(uint32_t word) { return {word & 1023, word >> 10 & 1023, word >> 20}; }
 
 /// One edge's search for its root: t from a to b, as in vertices.comp.
 struct Search {
@@ -172,10 +171,7 @@ std::vector<uvec3> MesherHost::sample(const MesherPush& push, std::span<const ui
 void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 brick,
                                std::span<const uint32_t> vertexList, std::span<const uint32_t> indices,
                                std::span<MeshVertex> result) const {
-    struct Edge {
-        uvec3 begin;
-        uint32_t axis;
-        bool insideAtA;
+    struct Edge : GridEdge {
         glm::dvec3 p;
         double length;
     };
@@ -186,13 +182,9 @@ void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 b
     std::array<glm::dvec3, kBatch> gradients;
     std::array<uint8_t, kBatch> sought;  // those whose root is not found
     for (std::size_t i = 0; i < count; ++i) {
-        const uint32_t word = vertexList[indices[i]], bit = word & 31;
-        Edge& edge = edges[i];
-        edge.axis = word >> 5 & 3;
-        edge.insideAtA = word >> 31;
-        edge.begin = brick * 8u + uvec3((word >> 7 & 1) * 4 + (bit >> 3), bit & 7, word >> 8 & 7);
-        for (int axis = 0; axis < 3; ++axis) edge.p[axis] = samplePosition(push, axis, edge.begin[axis]);
-        edge.length = samplePosition(push, int(edge.axis), edge.begin[edge.axis] + 1) - edge.p[edge.axis];
+        Edge& edge = edges[i] = {unpackEdge(vertexList[indices[i]], brick), {}, 0.0};
+        for (int axis = 0; axis < 3; ++axis) edge.p[axis] = samplePosition(push, axis, edge.start[axis]);
+        edge.length = samplePosition(push, int(edge.axis), edge.start[edge.axis] + 1) - edge.p[edge.axis];
         sought[i] = uint8_t(i);
     }
     std::size_t left = count;
@@ -208,7 +200,8 @@ void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 b
         for (std::size_t k = 0; k < left; ++k) {
             const std::size_t i = sought[k];
             const Edge& edge = edges[i];
-            searches[i].step(f[k], g[edge.axis][k] * edge.length, edge.insideAtA, step == kMostNewtonSteps);
+            searches[i].step(f[k], g[edge.axis][k] * edge.length, edge.insideAtStart,
+                             step == kMostNewtonSteps);
             if (searches[i].found)
                 gradients[i] = {g[0][k], g[1][k], g[2][k]};
             else
@@ -221,7 +214,7 @@ void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 b
         const Edge& edge = edges[i];
         const uint32_t axis = edge.axis;
         // On the region's boundary as vertices.comp places it.
-        const bool atLow = edge.begin[axis] == 0, atHigh = edge.begin[axis] == push.cells[axis] + 1;
+        const bool atLow = edge.start[axis] == 0, atHigh = edge.start[axis] == push.cells[axis] + 1;
         glm::dvec3 position = edge.p, normal(0);
         if (atLow || atHigh) {
             for (int other = 0; other < 3; ++other)
@@ -246,12 +239,11 @@ void MesherHost::placeVertices(Machine& machine, const MesherPush& push, uvec3 b
 std::vector<MeshVertex> MesherHost::vertices(const MesherPush& push, std::span<const uint32_t> brickList,
                                              std::span<const uint32_t> vertexList) {
     // Sorted by brick, so that a batch has one tape.
-    const auto slotOf = [](uint32_t word) { return word >> 11 & 0xfffff; };
     std::vector<uint32_t> starts(brickList.size() + 1), order(vertexList.size());
-    for (uint32_t word : vertexList) ++starts[slotOf(word) + 1];
+    for (uint32_t word : vertexList) ++starts[slotOfEdge(word) + 1];
     for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
     std::vector<uint32_t> place(starts.begin(), starts.end() - 1);
-    for (uint32_t i = 0; i < vertexList.size(); ++i) order[place[slotOf(vertexList[i])]++] = i;
+    for (uint32_t i = 0; i < vertexList.size(); ++i) order[place[slotOfEdge(vertexList[i])]++] = i;
 
     std::vector<MeshVertex> result(vertexList.size());
     parallel(brickList.size(), [&](Machine& machine, std::size_t slot) {

@@ -5,6 +5,8 @@
 #include <compare>
 #include <map>
 
+#include "runtime/mesher/grid_edge.h"
+
 namespace fw {
 
 namespace {
@@ -44,12 +46,10 @@ Edge readEdge(const Device& device, const MesherBuffers& buffers, uint32_t index
         edge.ring[i] = around[i] & 0x3fffffffu;
         edge.twice[i] = (around[i] & around[(i + 1) % 4] & (i % 2 == 0 ? 1u << 30 : 1u << 31)) != 0;
     }
-    // As list_edges.glsl packs it.
-    const uint32_t bit = word & 31, axis = word >> 5 & 3, side = word >> 7 & 1, z = word >> 8 & 7;
-    const auto brick = at<uint32_t>(device, buffers.brickList, word >> 11 & 0xfffff);
-    edge.inside = {(brick & 1023) * 8 + side * 4 + (bit >> 3), (brick >> 10 & 1023) * 8 + (bit & 7),
-                   (brick >> 20) * 8 + z};
-    if (word >> 31 == 0) ++edge.inside[axis];
+    const GridEdge grid =
+        unpackEdge(word, unpackBrick(at<uint32_t>(device, buffers.brickList, slotOfEdge(word))));
+    edge.inside = {grid.start.x, grid.start.y, grid.start.z};
+    if (!grid.insideAtStart) ++edge.inside[grid.axis];
     edge.point = at<MeshVertex>(device, buffers.points, index);
     return edge;
 }

@@ -1,28 +1,20 @@
 #include "runtime/mesher/quad_tiles.h"
 
+#include "runtime/mesher/grid_edge.h"
+
 namespace fw {
 
 namespace {
 
 constexpr int kBlock = 64, kBrick = 8;  // cells a side
 
-/// An edge that a quad stands about, as list_edges.glsl packs it: where it starts, and its axis.
-struct GridEdge {
-    glm::ivec3 start;
-    int axis;
-};
-GridEdge unpackEdge(uint32_t word, std::span<const uint32_t> bricks) {
-    const uint32_t brick = bricks[word >> 11 & 0xfffff], side = word >> 7 & 1, z = word >> 8 & 7;
-    const glm::ivec3 first(brick & 1023, brick >> 10 & 1023, brick >> 20);
-    return {first * kBrick + glm::ivec3(side * 4 + (word >> 3 & 3), word & 7, z), int(word >> 5 & 3)};
-}
-
 uint8_t tileOf(const GridEdge& edge, const MesherTile& tile, glm::ivec3 cells) {
     int which = 0;
     for (int axis = 2; axis >= 0; --axis) {
         const int begin = tile.begin[axis] * kBlock,
-                  end = tile.end[axis] > 0 ? tile.end[axis] * kBlock : cells[axis] + 3, at = edge.start[axis];
-        const int least = at - (axis == edge.axis ? 0 : 1);  // of the cells about it
+                  end = tile.end[axis] > 0 ? tile.end[axis] * kBlock : cells[axis] + 3,
+                  at = int(edge.start[axis]);
+        const int least = at - (axis == int(edge.axis) ? 0 : 1);  // of the cells about it
         if ((begin > 0 && least < begin - kBrick) || at >= end + kBrick) return kNoTile;
         which = 3 * which + (at < begin ? 0 : at < end ? 1 : 2);
     }
@@ -38,7 +30,8 @@ std::vector<uint8_t> tilesOfTriangles(const Device& device, const MesherBuffers&
     std::vector<uint8_t> tiles;
     tiles.reserve(result.triangles);
     for (const uint32_t word : words)
-        tiles.insert(tiles.end(), 2, tileOf(unpackEdge(word, bricks), tile, cells));
+        tiles.insert(tiles.end(), 2,
+                     tileOf(unpackEdge(word, unpackBrick(bricks[slotOfEdge(word)])), tile, cells));
     for (const uint32_t quad : result.addedTo) tiles.push_back(tiles[2 * std::size_t(quad)]);
     return tiles;
 }
