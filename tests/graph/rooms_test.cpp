@@ -30,7 +30,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
 
     {"runtime/system", "graph"},
     {"runtime/gpu", "graph system"},
-    {"runtime/mesh", ""},
+    {"runtime/mesh", "graph"},
     {"runtime/measure", "graph system mesh"},
     {"runtime/bake", "graph system gpu"},
     {"runtime/mesher", "graph system gpu mesh"},

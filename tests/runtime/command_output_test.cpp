@@ -193,7 +193,7 @@ TEST_F(CommandOutput, NothingThatTheGraphReadsIsReplaced) {
           {{"export", all, "-o", folder.path("twin.ply")}, "'p.xyz'"},
           {{"export", all, "-o", other, "--tiles", "2", "--region", "0", "0", "0", "1", "1", "1", "--report",
             image},
-           "--report"},
+           "'i.png'"},
           {{"render", all, "-o", image}, "'i.png'"},
           {{"render", all, "-o", folder.path("link.png")}, "'i.png'"}}) {
         SCOPED_TRACE(arguments[3]);
