@@ -116,7 +116,9 @@ std::optional<Type> compiledType(const Graph& graph, std::string_view group, con
     return {};
 }
 
-Result<Program> compile(const Graph& graph, const CompileOptions& options) {
+namespace {
+
+Result<Program> compileGraph(const Graph& graph, const CompileOptions& options) {
     for (const Error& error : checkStructure(graph))
         if (error.severity == Error::Severity::error) return error;
     const Node* output = outputNode(graph);
@@ -148,6 +150,18 @@ Result<Program> compile(const Graph& graph, const CompileOptions& options) {
     return program;
 }
 
+}  // namespace
+
+Result<Program> compile(const Graph& graph, const CompileOptions& options) {
+    if (options.costByNode) {  // kept apart there may be too many operations
+        CompileOptions together = options;
+        together.costByNode = false;
+        Result<Program> program = compileGraph(graph, options);
+        return program ? std::move(program) : compileGraph(graph, together);
+    }
+    return compileGraph(graph, options);
+}
+
 namespace {
 
 /// Heavier fields are not looked for in space: it would take check() seconds.
@@ -159,9 +173,7 @@ std::optional<Error> warningAtHeaviest(const Graph& graph, double NodeEffort::*c
     CompileOptions options;
     options.bake = boxInPlace;
     options.costByNode = true;
-    Result<Program> program = compile(graph, options);
-    options.costByNode = false;  // kept apart there may be too many operations
-    if (!program) program = compile(graph, options);
+    const Result<Program> program = compile(graph, options);
     if (!program) return std::nullopt;
     const std::vector<NodeEffort> efforts = effortByNode(*program);
     double all = 0;
@@ -178,9 +190,16 @@ std::optional<Error> warningAtHeaviest(const Graph& graph, double NodeEffort::*c
 /// A warning if a software driver would be busy for long with the field's code; or with pictures, if asked
 /// for.
 std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance, bool pictures) {
-    const double weight = codeWeight(ir, distance, {});
+    double weight = codeWeight(ir, distance, {});
+    const auto isSlow = [&] {
+        return secondsToCompile(weight) > kMostSecondsToCompile ||
+               (pictures && secondsToTrace(weight) > kMostSecondsToTrace);
+    };
+    if (!isSlow()) return std::nullopt;
+    writeOutAffine(ir, std::span(&distance, 1));  // as compile() does
+    weight = codeWeight(ir, distance, {});
+    if (!isSlow()) return std::nullopt;
     pictures = pictures && secondsToTrace(weight) > kMostSecondsToTrace && weight < kMostWeightToLookFor;
-    if (secondsToCompile(weight) <= kMostSecondsToCompile && !pictures) return std::nullopt;
     const Families families = findFamilies(ir, distance);
     const double compiling = secondsToCompile(codeWeight(ir, distance, families));
     if (compiling > kMostSecondsToCompile)

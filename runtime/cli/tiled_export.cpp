@@ -239,7 +239,9 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     const TilePlan plan = planTiles(*grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
     if (share.shares > plan.tiles.size())
         return print({.message = "too few tiles, " + std::to_string(plan.tiles.size()) + ", for " +
-                                 std::to_string(share.shares) + " parts: ask for fewer parts or more --tiles",
+                                 std::to_string(share.shares) +
+                                 " parts: ask for fewer parts, more --tiles, or a higher --resolution (a "
+                                 "tile has 64 cells a side, or more)",
                       .file = options.output}),
                kBadUsage;
     if (options.share.empty()) return exportWhole(options, session, opened.request, plan, given, progress);

@@ -226,7 +226,7 @@ Result<std::vector<TileRecord>> readParts(const std::vector<std::string>& paths)
     if (missingCount > 20) missing += ", …";
     if (missingCount > 0)
         return Error{.message = std::to_string(missingCount) + " of the " + std::to_string(ofShare.size()) +
-                                " parts are missing: " + missing};
+                                " parts " + (missingCount == 1 ? "is" : "are") + " missing: " + missing};
     std::sort(tiles.begin(), tiles.end(),
               [](const TileRecord& a, const TileRecord& b) { return a.header.tile < b.header.tile; });
     for (std::size_t i = 0; i < tiles.size(); ++i)

@@ -138,6 +138,25 @@ TEST(Effort, PartsOfEverySampleMakeUpTheWhole) {
     EXPECT_GE(samples, 30);
 }
 
+TEST(Effort, TurnsOfTurnsAreOne) {
+    std::string nodes = R"({"id": "turn0", "type": "box"})", last = "turn0";
+    for (int i = 1; i <= 300; ++i) {
+        const std::string id = "turn" + std::to_string(i);
+        nodes += R"(, {"id": ")" + id + R"(", "type": "rotate", "inputs": {"surface": {"from": ")" + last +
+                 R"("}, "angles": [1, 2, 3]}})";
+        last = id;
+    }
+    const Graph graph = graphOf(
+        nodes + R"(, {"id": "out", "type": "output", "inputs": {"surface": {"from": ")" + last + R"("}}})");
+    EXPECT_TRUE(check(graph, true).empty());
+    // Kept apart there are too many operations for a program.
+    CompileOptions byNode;
+    byNode.costByNode = true;
+    const Result<Program> program = compile(graph, byNode);
+    ASSERT_TRUE(program) << format(program.error());
+    EXPECT_LT(program->ir.size(), 100u);
+}
+
 TEST(Effort, CheckNamesTheNodeThatKeepsTheDriverBusy) {
     std::string waves = "return length(p) - 1.0";
     for (int i = 0; i < 400; ++i)
