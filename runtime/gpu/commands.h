@@ -100,9 +100,9 @@ void dispatchIndirect(Commands& commands, const Pipeline& pipeline, const Buffer
 void dispatchRows(Commands& commands, const Pipeline& pipeline, glm::uvec3 groups, const void* push,
                   std::size_t pushSize, std::span<const Descriptor> descriptors);
 
+inline constexpr uint32_t kPartedRow = 64;  ///< groups of a row, or more where they would be too many rows
 /// The same for a kernel that takes its groups one after the other (linearGroup() in lib/groups.glsl) and
 /// lets those that are too many run to no effect: fewer than a row.
-inline constexpr uint32_t kPartedRow = 64;
 void dispatchGroups(Commands& commands, const Pipeline& pipeline, uint64_t groups, const void* push,
                     std::size_t pushSize, std::span<const Descriptor> descriptors);
 
