@@ -16,7 +16,13 @@ constexpr double kNear = 1e-6;         // of the way gone, that may be left
 constexpr int kLeastPieces = 4096;     // of the region's longest side: what is shorter is not halved further
 constexpr double kWorthKeeping = 0.8;  // of its steps that a shortened tape may have
 constexpr int kLines = 12'000;
-constexpr uint32_t kTogether = 8;  // lines that have a tape in common
+constexpr uint32_t kTogether = 8;            // lines that have a tape in common
+constexpr std::size_t kMostIntervals = 400;  // of a line; they say little where it takes more
+// Work in steps of a tape at a point, of which a thread makes about a billion a second.
+constexpr double kStepOnInterval = 16.0;
+constexpr double kMostWork = 2e9;  // of all lines, and of all points of the mesh
+constexpr int kFirstLines = 48;
+constexpr double kStepsToSurface = 40.0;  // a step for values and gradients, two or three times
 
 std::vector<Point> positionsOf(std::span<const glm::dvec3> points) {
     std::vector<Point> positions(points.size());
@@ -47,13 +53,22 @@ class Lines {
 
     std::vector<Point> found;
 
+    double work() const { return double(machine.intervalSteps()) * kStepOnInterval + stepsAtPoints; }
+
     /// The tape for lines within the box.
     Tape within(const Box& box, const Tape& tape) {
         machine.interval(tape, box);
         return machine.shortens() ? machine.shortenedForSigns(tape) : tape;
     }
-    /// Looks at the line, or at a piece of it, which extends along one axis alone.
-    void look(int along, const Box& piece, const Tape& tape) {
+    /// Looks at the line, which extends along one axis alone.
+    void look(int along, const Box& line, const Tape& tape) {
+        intervals = 0;
+        halve(along, line, tape);
+    }
+
+  private:
+    void halve(int along, const Box& piece, const Tape& tape) {
+        if (++intervals > kMostIntervals) return sample(along, piece, tape);
         const Interval f = machine.interval(tape, piece);
         if (f.lo >= 0.0 || f.hi < 0.0) return;
         const auto axis = std::size_t(along);
@@ -64,23 +79,53 @@ class Lines {
         const double middle = 0.5 * (piece.lo[axis] + piece.hi[axis]);
         Box half = piece;
         half.hi[axis] = middle;
-        look(along, half, worth ? shorter : tape);
+        halve(along, half, worth ? shorter : tape);
         half = piece;
         half.lo[axis] = middle;
-        look(along, half, worth ? shorter : tape);
+        halve(along, half, worth ? shorter : tape);
     }
 
-  private:
+    static constexpr int kCount = int(TapeMachine<double>::kPoints);
+    /// The values at that many points of the piece, its ends among them.
+    const double* valuesAlong(int along, const Box& piece, const Tape& tape) {
+        const auto axis = std::size_t(along);
+        const double from = piece.lo[axis], step = (piece.hi[axis] - from) / (kCount - 1);
+        for (int i = 0; i < kCount; ++i)
+            for (int a = 0; a < 3; ++a)
+                machine.position(a)[i] = a == along ? from + step * i : piece.lo[std::size_t(a)];
+        stepsAtPoints += double(tape.steps.size()) * kCount;
+        return machine.value(tape, std::size_t(kCount));
+    }
+
+    /// In place of halving: closes in on the least pieces at whose ends the signs differ.
+    void sample(int along, const Box& piece, const Tape& tape) {
+        const auto axis = std::size_t(along);
+        const double length = piece.hi[axis] - piece.lo[axis];
+        const int batches = std::max(1, int(std::ceil(length / (least * (kCount - 1)))));
+        for (int batch = 0; batch < batches; ++batch) {
+            Box some = piece;
+            some.lo[axis] = piece.lo[axis] + length * batch / batches;
+            some.hi[axis] = piece.lo[axis] + length * (batch + 1) / batches;
+            bool inside[kCount];
+            const double* values = valuesAlong(along, some, tape);
+            for (int i = 0; i < kCount; ++i) inside[i] = values[i] < 0.0;
+            const double step = (some.hi[axis] - some.lo[axis]) / (kCount - 1);
+            for (int i = 0; i + 1 < kCount; ++i) {
+                if (inside[i] == inside[i + 1]) continue;
+                Box between = some;
+                between.lo[axis] = some.lo[axis] + step * i;
+                between.hi[axis] = some.lo[axis] + step * (i + 1);
+                close(along, between, tape);
+            }
+        }
+    }
+
     /// Twice a batch of points within the piece: then the root is known to 1e-4 of its length.
     void close(int along, Box piece, const Tape& tape) {
         const auto axis = std::size_t(along);
-        constexpr int kCount = int(TapeMachine<double>::kPoints);
         for (int round = 0; round < 2; ++round) {
             const double from = piece.lo[axis], step = (piece.hi[axis] - from) / (kCount - 1);
-            for (int i = 0; i < kCount; ++i)
-                for (int a = 0; a < 3; ++a)
-                    machine.position(a)[i] = a == along ? from + step * i : piece.lo[std::size_t(a)];
-            const double* values = machine.value(tape, std::size_t(kCount));
+            const double* values = valuesAlong(along, piece, tape);
             int at = 0;
             while (at + 1 < kCount && (values[at] < 0.0) == (values[at + 1] < 0.0)) ++at;
             if (at + 1 == kCount) return;
@@ -94,11 +139,17 @@ class Lines {
 
     TapeMachine<double> machine;
     double least;
+    std::size_t intervals = 0;  ///< of this line
+    double stepsAtPoints = 0;
 };
 
-}  // namespace
+struct Found {
+    std::vector<Point> points;
+    double work = 0;
+};
 
-std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines) {
+/// Looks along some `lines` lines of the region.
+Found lookAlong(const Tape& tape, const Box& region, int lines) {
     double size[3], longest = 0.0, faces = 0.0;
     for (std::size_t a = 0; a < 3; ++a) longest = std::max(longest, size[a] = region.hi[a] - region.lo[a]);
     for (std::size_t a = 0; a < 3; ++a) faces += size[(a + 1) % 3] * size[(a + 2) % 3];
@@ -114,8 +165,7 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
     for (int along = 0; along < 3; ++along)
         for (uint32_t i = 0; i < across(std::size_t(along + 1) % 3); ++i) rows.push_back({along, i});
 
-    const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
-    std::vector<std::vector<Point>> parts(rows.size());
+    std::vector<Found> parts(rows.size());
     forBlocks(rows.size(), 1, [&](std::size_t, std::size_t at, std::size_t) {
         const auto [along, i] = rows[at];
         const std::size_t a = std::size_t(along), b = (a + 1) % 3, c = (a + 2) % 3;
@@ -137,11 +187,25 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
             line.lo[c] = line.hi[c] = region.lo[c] + size[c] * (j + jitter(i, j, place + 1)) / across(c);
             looking.look(along, line, ofSome);
         }
-        parts[at] = std::move(looking.found);
+        parts[at] = {std::move(looking.found), looking.work()};
     });
+    Found all;
+    for (const Found& part : parts) {
+        all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+        all.work += part.work;
+    }
+    return all;
+}
 
-    std::vector<Point> points;
-    for (const std::vector<Point>& part : parts) points.insert(points.end(), part.begin(), part.end());
+}  // namespace
+
+std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines) {
+    const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
+    Found found = lookAlong(tape, region, std::min(lines, kFirstLines));
+    const double affordable = kFirstLines * kMostWork / std::max(found.work, 1.0);
+    if (lines > kFirstLines && affordable > kFirstLines)
+        found = lookAlong(tape, region, int(std::min(affordable, double(lines))));
+    const std::vector<Point>& points = found.points;
     std::vector<ValueGradient> fields(points.size());
     constexpr std::size_t kPoints = 4096;
     forBlocks(points.size(), kPoints, [&](std::size_t, std::size_t first, std::size_t last) {
@@ -165,8 +229,8 @@ MeasureOptions measureOf(const Program& program, const Box& region) {
     if (!program.exactness.exact())
         measure.errorNote = "estimates: the field is no distance since node " + inQuotes(program.spoiledBy) +
                             "; meshToSurfaceMax is measured";
-    const auto at = [tape = makeTape(program.ir, program.distance(), program.parameters())](
-                        std::span<const Point> positions) {
+    const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
+    const auto at = [tape](std::span<const Point> positions) {
         std::vector<ValueGradient> results(positions.size());
         TapeMachine<double> machine;
         evaluateGradient(machine, tape, positions, results);
@@ -221,6 +285,8 @@ MeasureOptions measureOf(const Program& program, const Box& region) {
             if (inside[i]) distances[i] = std::min(distances[i], std::abs(beyond(region, starts[i])));
         }
     };
+    const double work = kStepsToSurface * double(tape.steps.size() + 1);
+    measure.samples = std::min(measure.samples, std::size_t(kMostWork / work) + 1);
     measure.surface = surfacePoints(program, region, kLines);
     return measure;
 }

@@ -4,9 +4,11 @@
 // on the surface; how far it went bounds its distance from above. From the surface to the mesh, points are
 // found without regard to the mesh: straight lines along the axes, a jittered grid of them across the region,
 // are halved until interval arithmetic rules each piece out or a sign change is bracketed and closed in on.
-// So parts that the mesh has missed count too, down to the pieces' least length. Lines along one axis cross a
-// surface as often as it is seen from there, so a point of normal n stands for 1 / (|nx| + |ny| + |nz|) of
-// the area that lines along all three find it for.
+// So parts that the mesh has missed count too, down to the pieces' least length. Where intervals say nothing,
+// as of a fine noise, the rest of a line is sampled at that length instead; and of a field that takes long,
+// fewer lines are looked along and fewer points of the mesh are led, for about a second of each. Lines along
+// one axis cross a surface as often as it is seen from there, so a point of normal n stands for 1 / (|nx| +
+// |ny| + |nz|) of the area that lines along all three find it for.
 #pragma once
 
 #include "graph/compile/compile.h"

@@ -287,14 +287,13 @@ std::vector<glm::dvec3> pointsOn(const WeldedMesh& mesh, double area, std::size_
     return points;
 }
 
-void measureToSurface(const WeldedMesh& mesh, const FieldError& distance, Report& report) {
-    constexpr std::size_t kSamples = 32768;
-    const std::vector<glm::dvec3> points = pointsOn(mesh, report.area, kSamples);
+void measureToSurface(const WeldedMesh& mesh, const MeasureOptions& options, Report& report) {
+    const std::vector<glm::dvec3> points = pointsOn(mesh, report.area, options.samples);
     ErrorSum total;
     const auto same = [&](std::size_t first, std::size_t last, std::vector<glm::dvec3>& some) {
         some.assign(points.begin() + std::ptrdiff_t(first), points.begin() + std::ptrdiff_t(last));
     };
-    measureError(points.size(), distance, same, total);
+    measureError(points.size(), options.distance, same, total);
     if (total.count > 0)
         report.meshToSurface = {total.greatest, total.sum / double(total.count), total.count};
 }
@@ -349,7 +348,7 @@ Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
         if (options.selfIntersections) report.selfIntersections = selfIntersectionsOf(tree);
         if (!tree.empty()) measureFromSurface(tree, options.surface, report);
     }
-    if (options.distance && report.area > 0.0) measureToSurface(mesh, options.distance, report);
+    if (options.distance && report.area > 0.0) measureToSurface(mesh, options, report);
     if (!options.error) return report;
     ErrorSum total;
     const auto vertices = [&](std::size_t first, std::size_t last, std::vector<glm::dvec3>& points) {

@@ -40,8 +40,9 @@ struct SurfacePoint {
 struct MeasureOptions {
     bool selfIntersections = false;
     FieldError error = {};
-    std::string errorNote = {};  ///< of the report
-    FieldError distance = {};    ///< the same, but metres to a point of the surface nearby
+    std::string errorNote = {};   ///< of the report
+    FieldError distance = {};     ///< the same, but metres to a point of the surface nearby,
+    std::size_t samples = 32768;  ///< asked of so many points of the mesh
     std::vector<SurfacePoint> surface = {};
 };
 

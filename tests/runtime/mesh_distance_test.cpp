@@ -105,6 +105,26 @@ TEST(SurfacePoints, LieOnTheSurfaceAndSpreadEvenly) {
     EXPECT_NEAR(upper / weights, 0.5, 0.02);
 }
 
+TEST(SurfacePoints, AreFoundWhereIntervalsSayNothing) {
+    const Program ball = programOf(
+        "float one = cos(p.x) * cos(p.x) + sin(p.x) * sin(p.x); return length(p) - 1 + 300 * (one - 1);");
+    const std::vector<SurfacePoint> points = surfacePoints(ball, cube(1.3), 6000);
+    EXPECT_NEAR(double(points.size()), 6000 * 2 * std::numbers::pi / (2.6 * 2.6), 300);
+    for (const SurfacePoint& point : points) EXPECT_NEAR(glm::length(point.position), 1.0, 1e-7);
+}
+
+TEST(SurfacePoints, AreFewerOfAFieldThatTakesLong) {
+    const Program slow = programOf(
+        "float s = 0; for (int i = 1; i < 1000; ++i) s += sin(p.x * float(i) + p.y); "
+        "return length(p) - 1 + 1e-9 * s;");
+    const std::vector<SurfacePoint> points = surfacePoints(slow, cube(1.3), 12000);
+    EXPECT_GT(points.size(), 30u);
+    EXPECT_LT(points.size(), 3000u);
+    EXPECT_LT(measureOf(slow, cube(1.3)).samples,
+              measureOf(programOf("return length(p) - 1;"), cube(1.3)).samples);
+    for (const SurfacePoint& point : points) EXPECT_NEAR(glm::length(point.position), 1.0, 1e-5);
+}
+
 TEST(SurfacePoints, FindWhatIsThinnerThanAnyCell) {
     // A sheet of a tenth of a millimetre in a region of two metres: lines across it meet both sides.
     const Program sheet = programOf("return max(abs(p.y) - 0.00005, max(abs(p.x), abs(p.z)) - 0.5);");
