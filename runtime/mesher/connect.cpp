@@ -22,11 +22,19 @@ using gpu::uvec4;
 
 namespace {
 
+// The two functions that do the work are compiled for newer processors too, with all that they call.
+#define FW_WITHIN [[gnu::always_inline]] inline
+#if defined(__x86_64__) && !defined(__clang__)
+#define FW_FOR_PROCESSORS [[gnu::target_clones("default", "arch=x86-64-v3")]]
+#else
+#define FW_FOR_PROCESSORS
+#endif
+
 constexpr uint64_t kRow = 0x0101010101010101;  // y = 0 of every column
 constexpr uint32_t kSome = 32;                 // bricks that a thread takes at a time
 
 /// Bits that are set. Not every processor of this architecture has an instruction for it.
-int bitCount(uint64_t bits) {
+FW_WITHIN int bitCount(uint64_t bits) {
     bits -= bits >> 1 & 0x5555555555555555;
     bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
     return int(((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * kRow >> 56);
@@ -39,11 +47,11 @@ struct PlaneSigns {
 };
 
 /// Puts bit i of the low eight bits into bit 7 of byte i.
-uint64_t spreadToTop(uint64_t bits) {
+FW_WITHIN uint64_t spreadToTop(uint64_t bits) {
     return ((((bits & 127) * 0x0002040810204081) & kRow) | (bits >> 7 & 1) << 56) << 7;
 }
 
-PlaneSigns signsOf(uvec3 plane) {
+FW_WITHIN PlaneSigns signsOf(uvec3 plane) {
     PlaneSigns s;
     s.at = plane.x | uint64_t(plane.y) << 32;
     s.x = s.at >> 8 | uint64_t(plane.z & 255) << 56;
@@ -52,14 +60,14 @@ PlaneSigns signsOf(uvec3 plane) {
     return s;
 }
 
-uint64_t activeCells(const PlaneSigns& a, const PlaneSigns& b) {
+FW_WITHIN uint64_t activeCells(const PlaneSigns& a, const PlaneSigns& b) {
     return (a.at | a.x | a.y | a.xy | b.at | b.x | b.y | b.xy) &
            ~(a.at & a.x & a.y & a.xy & b.at & b.x & b.y & b.xy);
 }
 
 /// Two edges across a cell from each other, both ends of each inside and the other four corners outside.
-uint64_t opposite(uint64_t p, uint64_t q, uint64_t r, uint64_t s, uint64_t t, uint64_t u, uint64_t v,
-                  uint64_t w) {
+FW_WITHIN uint64_t opposite(uint64_t p, uint64_t q, uint64_t r, uint64_t s, uint64_t t, uint64_t u,
+                            uint64_t v, uint64_t w) {
     return (p & q & r & s & ~(t | u | v | w)) | (t & u & v & w & ~(p | q | r | s));
 }
 
@@ -67,13 +75,13 @@ uint64_t opposite(uint64_t p, uint64_t q, uint64_t r, uint64_t s, uint64_t t, ui
 struct Sum {
     uint64_t low, high;
 };
-Sum add(uint64_t a, uint64_t b, uint64_t c) {
+FW_WITHIN Sum add(uint64_t a, uint64_t b, uint64_t c) {
     const uint64_t either = a ^ b;
     return {either ^ c, (a & b) | (either & c)};
 }
 
 /// Closed loops in which the edges of the cells cross the surface: strips.glsl has the reasons.
-uint32_t loopCount(const PlaneSigns& a, const PlaneSigns& b) {
+FW_WITHIN uint32_t loopCount(const PlaneSigns& a, const PlaneSigns& b) {
     const uint64_t lonely0 = a.at & ~(a.x | a.y | b.at), lonely1 = a.x & ~(a.at | a.xy | b.x),
                    lonely2 = a.y & ~(a.at | a.xy | b.y), lonely3 = a.xy & ~(a.x | a.y | b.xy),
                    lonely4 = b.at & ~(b.x | b.y | a.at), lonely5 = b.x & ~(b.at | b.xy | a.x),
@@ -97,7 +105,7 @@ uint32_t loopCount(const PlaneSigns& a, const PlaneSigns& b) {
 }
 
 /// Edges of the cells that cross the surface, each counted for every cell that it is an edge of.
-uint32_t useCount(const PlaneSigns& a, const PlaneSigns& b) {
+FW_WITHIN uint32_t useCount(const PlaneSigns& a, const PlaneSigns& b) {
     const Sum e0 = add(a.at ^ a.x, a.y ^ a.xy, b.at ^ b.x), e1 = add(b.y ^ b.xy, a.at ^ a.y, a.x ^ a.xy),
               e2 = add(b.at ^ b.y, b.x ^ b.xy, a.at ^ b.at), e3 = add(a.x ^ b.x, a.y ^ b.y, a.xy ^ b.xy),
               e4 = add(e0.low, e1.low, e2.low), e5 = add(e4.low, e3.low, 0),
@@ -107,7 +115,7 @@ uint32_t useCount(const PlaneSigns& a, const PlaneSigns& b) {
 }
 
 /// Which corners of one cell are inside: marching_cubes_table.h numbers them.
-uint32_t cornerPattern(const PlaneSigns& a, const PlaneSigns& b, int bit) {
+FW_WITHIN uint32_t cornerPattern(const PlaneSigns& a, const PlaneSigns& b, int bit) {
     return uint32_t((a.at >> bit & 1) | (a.x >> bit & 1) << 1 | (a.y >> bit & 1) << 2 |
                     (a.xy >> bit & 1) << 3 | (b.at >> bit & 1) << 4 | (b.x >> bit & 1) << 5 |
                     (b.y >> bit & 1) << 6 | (b.xy >> bit & 1) << 7);
@@ -116,7 +124,7 @@ uint32_t cornerPattern(const PlaneSigns& a, const PlaneSigns& b, int bit) {
 using Crossed = std::array<uint64_t, 3>;  // edges from a plane's samples along each axis
 
 /// Whether an edge that starts or ends in the outside layer is active: there the surface was closed.
-bool hasCap(uvec3 first, uint32_t z, const Crossed& edges, uvec3 cells) {
+FW_WITHIN bool hasCap(uvec3 first, uint32_t z, const Crossed& edges, uvec3 cells) {
     const uvec3 last = cells + 1u - first;  // the last sample of the region, huge if it lies before
     const uint64_t x = (first.x == 0 ? 255 : 0) | (last.x < 8 ? uint64_t(255) << last.x * 8 : 0),
                    y = (first.y == 0 ? kRow : 0) | (last.y < 8 ? kRow << last.y : 0);
@@ -126,7 +134,7 @@ bool hasCap(uvec3 first, uint32_t z, const Crossed& edges, uvec3 cells) {
 
 /// Faces of the brick (bits as in links.glsl) on which an edge of the plane of cells between a and b is
 /// active.
-uint32_t crossedFaces(uint32_t z, uvec3 a, uvec3 b, const Crossed& edges, const PlaneSigns& top) {
+FW_WITHIN uint32_t crossedFaces(uint32_t z, uvec3 a, uvec3 b, const Crossed& edges, const PlaneSigns& top) {
     const uint32_t column = a.z & 511, topColumn = b.z & 511, row = a.z >> 9, topRow = b.z >> 9;
     const uint32_t columnEdges = (column ^ column >> 1) & 255, rowEdges = (row ^ row >> 1) & 255;
     const uint64_t topEdges = (top.at ^ top.x) | (top.at ^ top.y) | ((topRow ^ topRow >> 1) & 255) |
@@ -222,13 +230,15 @@ class Connection {
     };
 
     uvec3 brickAt(uint32_t slot) const { return unpackBrick(brickList[slot]); }
-    uint32_t slotOf(uvec3 brick) const;
-    void countBrick(uint32_t slot);
+    FW_WITHIN uint32_t slotOf(uvec3 brick) const;
+    FW_WITHIN void countBrick(uint32_t slot);
+    FW_FOR_PROCESSORS void countBricks(uint32_t from, uint32_t to);
+    FW_FOR_PROCESSORS void writeBricks(uint32_t from, uint32_t to, uint32_t* vertexAt);
     void sumUp();
-    void numberEdges(uint32_t slot, uint32_t* vertexAt);
-    void borrowEdges(uint32_t slot, uint32_t* vertexAt) const;
-    void writeTriangles(uint32_t slot, const uint32_t* vertexAt);
-    void writePatches(uint32_t slot, const uint32_t* vertexAt);
+    FW_WITHIN void numberEdges(uint32_t slot, uint32_t* vertexAt);
+    FW_WITHIN void borrowEdges(uint32_t slot, uint32_t* vertexAt) const;
+    FW_WITHIN void writeTriangles(uint32_t slot, const uint32_t* vertexAt);
+    FW_WITHIN void writePatches(uint32_t slot, const uint32_t* vertexAt);
 
     const Device& device;
     const MesherBuffers& b;
@@ -368,19 +378,6 @@ void Connection::numberEdges(uint32_t slot, uint32_t* vertexAt) {
 /// Brings the numbers of the edges on the brick's far faces from the bricks there.
 void Connection::borrowEdges(uint32_t slot, uint32_t* vertexAt) const {
     const uvec3 brick = brickAt(slot);
-    // Those edges of a strip that are in `mask`; a strip's edges are numbered by axis, then by bit.
-    const auto take = [&](uint32_t from, uint32_t s, uint32_t axis, uint32_t mask, uint32_t* to) {
-        const uvec4 strip = strips[from * 16 + s];
-        uint32_t bits = strip[int(axis)] & mask;
-        if (bits == 0) return;
-        uint32_t base = totals[from].edges + strip.w;
-        for (uint32_t before = 0; before < axis; ++before) base += uint32_t(bitCount(strip[int(before)]));
-        for (; bits != 0; bits &= bits - 1) {
-            const auto bit = uint32_t(std::countr_zero(bits));
-            to[(bit >> 3) * kAlongX + (bit & 7)] =
-                base + uint32_t(bitCount(strip[int(axis)] & ((1u << bit) - 1)));
-        }
-    };
     for (uint32_t n = 1; n < 7; ++n) {
         const uvec3 offset(n & 1, n >> 1 & 1, n >> 2);
         const uint32_t from = slotOf(brick + offset);
@@ -389,18 +386,30 @@ void Connection::borrowEdges(uint32_t slot, uint32_t* vertexAt) const {
             vertexAt + offset.x * 8 * kAlongX + offset.y * 8 * kAlongY + offset.z * 8 * kAlongZ;
         // Its edges on the face, or on the line, that is shared; none along an axis that leads away from it.
         const uint32_t mask = (offset.x ? 255u : ~0u) & (offset.y ? uint32_t(kRow) : ~0u);
-        for (uint32_t s = 0; s < (offset.z ? 2u : 16u); s += offset.x ? 2 : 1)
-            for (uint32_t axis = 0; axis < 3; ++axis)
-                if (offset[int(axis)] == 0)
-                    take(from, s, axis, mask,
-                         corner + axis * kOfAxis + s / 2 * kAlongZ + (s & 1) * 4 * kAlongX);
+        const uvec3 masks(offset.x ? 0 : mask, offset.y ? 0 : mask, offset.z ? 0 : mask);
+        for (uint32_t s = 0; s < (offset.z ? 2u : 16u); s += offset.x ? 2 : 1) {
+            const uvec4 strip = strips[from * 16 + s];
+            if (((strip.x & masks.x) | (strip.y & masks.y) | (strip.z & masks.z)) == 0) continue;
+            uint32_t* to = corner + s / 2 * kAlongZ + (s & 1) * 4 * kAlongX;
+            uint32_t base =
+                totals[from].edges + strip.w;  // a strip's edges are numbered by axis, then by bit
+            for (int axis = 0; axis < 3; ++axis) {
+                for (uint32_t bits = strip[axis] & masks[axis]; bits != 0; bits &= bits - 1) {
+                    const auto bit = uint32_t(std::countr_zero(bits));
+                    to[(bit >> 3) * kAlongX + (bit & 7)] =
+                        base + uint32_t(bitCount(strip[axis] & ((1u << bit) - 1)));
+                }
+                base += uint32_t(bitCount(strip[axis]));
+                to += kOfAxis;
+            }
+        }
     }
 }
 
 /// Calls `use` with the pattern of each active cell, its number in the brick and its place in the array of
 /// edges.
 template <class Use>
-void forEachCell(const uvec3* planes, Use&& use) {
+FW_WITHIN void forEachCell(const uvec3* planes, Use&& use) {
     PlaneSigns low = signsOf(planes[0]);
     for (uint32_t z = 0; z < 8; ++z) {
         const PlaneSigns high = signsOf(planes[z + 1]);
@@ -414,12 +423,25 @@ void forEachCell(const uvec3* planes, Use&& use) {
 }
 
 void Connection::writeTriangles(uint32_t slot, const uint32_t* vertexAt) {
-    uint32_t* out = b.triangles.as<uint32_t>().data() + 3 * std::size_t(totals[slot].parts);
+    uint32_t* const triangles = b.triangles.as<uint32_t>().data();
+    uint32_t* out = triangles + 3 * std::size_t(totals[slot].parts);
+    // As far as nothing of the next brick lies there, some are written that the next cell overwrites: their
+    // number is no branch then that the processor has to guess.
+    const uint32_t* const safe =
+        triangles + 3 * std::size_t(slot + 1 < bricks ? totals[slot + 1].parts : counts.triangles) - 15;
     const std::array<Fans, 256>& table = fans();
     forEachCell(&planes[slot * 9], [&](uint32_t pattern, uint32_t, uint32_t place) {
         const Fans& cell = table[pattern];
         const uint32_t* at = vertexAt + place;
-        for (uint32_t i = 0; i < cell.corners; ++i) out[i] = at[cell.places[i]];
+        const auto write = [&](uint32_t from, uint32_t to) {
+            for (uint32_t i = from; i < to; ++i) out[i] = at[cell.places[i]];
+        };
+        if (out <= safe) {
+            write(0, 6);
+            if (cell.corners > 6) write(6, 15);
+        } else {
+            write(0, cell.corners);
+        }
         out += cell.corners;
     });
 }
@@ -444,6 +466,22 @@ void Connection::writePatches(uint32_t slot, const uint32_t* vertexAt) {
     });
 }
 
+void Connection::countBricks(uint32_t from, uint32_t to) {
+    for (uint32_t slot = from; slot < to; ++slot) countBrick(slot);
+}
+
+void Connection::writeBricks(uint32_t from, uint32_t to, uint32_t* vertexAt) {
+    for (uint32_t slot = from; slot < to; ++slot) {
+        numberEdges(slot, vertexAt);
+        if (glm::any(glm::greaterThanEqual(brickAt(slot), push.end))) continue;
+        borrowEdges(slot, vertexAt);
+        if (dual)
+            writePatches(slot, vertexAt);
+        else
+            writeTriangles(slot, vertexAt);
+    }
+}
+
 void Connection::run() {
     const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
     std::atomic<uint32_t> next = 0;
@@ -452,23 +490,13 @@ void Connection::run() {
         next = 0;
     });
     const auto work = [&] {
-        const auto forEachBrick = [&](auto&& use) {
-            for (uint32_t from; (from = next.fetch_add(kSome)) < bricks;)
-                for (uint32_t slot = from; slot < std::min(from + kSome, bricks); ++slot) use(slot);
-        };
-        forEachBrick([&](uint32_t slot) { countBrick(slot); });
+        for (uint32_t from; (from = next.fetch_add(kSome)) < bricks;)
+            countBricks(from, std::min(from + kSome, bricks));
         counted.arrive_and_wait();
         if (!fits) return;
         std::vector<uint32_t> vertexAt(3 * kOfAxis);
-        forEachBrick([&](uint32_t slot) {
-            numberEdges(slot, vertexAt.data());
-            if (glm::any(glm::greaterThanEqual(brickAt(slot), push.end))) return;
-            borrowEdges(slot, vertexAt.data());
-            if (dual)
-                writePatches(slot, vertexAt.data());
-            else
-                writeTriangles(slot, vertexAt.data());
-        });
+        for (uint32_t from; (from = next.fetch_add(kSome)) < bricks;)
+            writeBricks(from, std::min(from + kSome, bricks), vertexAt.data());
     };
     std::vector<std::jthread> others;
     for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
