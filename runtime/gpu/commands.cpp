@@ -346,6 +346,15 @@ void send(Commands& commands) {
         {std::exchange(commands.handle, VK_NULL_HANDLE), std::exchange(commands.pools, {})});
 }
 
+void sendOn(Commands& commands) {
+    if (commands.timed) return;
+    send(commands);
+    if (commands.handle)
+        vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
+    release(commands.device, commands.pools);
+    allocate(commands);
+}
+
 void finish(const Device& device) {
     if (device.record->sent.empty()) return;
     check(vkQueueSubmit2(device.queue, 0, nullptr, device.fence), "submitting work to the device");

@@ -144,6 +144,9 @@ void submit(Commands& commands);
 /// pipeline calls it himself. Timed recordings are awaited, and so is one behind eight others.
 void send(Commands& commands);
 
+/// send() of what is recorded so far; recording goes on. For work that would take too long as one.
+void sendOn(Commands& commands);
+
 /// Waits for what was sent, if anything was.
 void finish(const Device& device);
 

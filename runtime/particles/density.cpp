@@ -145,7 +145,7 @@ struct Run {
     uint32_t samples;  ///< rows padded
 
     void dispatchOver(uint32_t items, const Pipeline& kernel, std::span<const Descriptor> bound) const {
-        dispatch(commands, kernel, spread(commands.device, groupsFor(items, DENSITY_GROUP)), push, bound);
+        dispatchGroups(commands, kernel, groupsFor(items, DENSITY_GROUP), push, bound);
         barrier(commands);
     }
 };

@@ -140,9 +140,13 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4ull * b.count);
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
     reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
+    const bool many = b.count > kParticlesSentTogether;
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
         dispatch(commands, kernel, spread(device, groups), push, bound);
         barrier(commands);
+    };
+    const auto sendIfMany = [&] {
+        if (many) sendOn(commands);
     };
     beginStage(commands, "predict");
     std::vector<Descriptor> predicted = {
@@ -155,10 +159,12 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     run(kernels.reorder, std::array{Descriptor{0, b.order}, Descriptor{1, b.places}, Descriptor{2, b.guesses},
                                     Descriptor{3, b.planes}, Descriptor{4, b.sortedPlaces},
                                     Descriptor{5, b.sortedGuesses}, Descriptor{6, b.sortedPlanes}});
+    sendIfMany();
     beginStage(commands, "neighbours");
     // Written as words, of which not all may be bound at once; read as texels, which may.
     const uint64_t listBytes = 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP;  // of a group
-    const auto most = uint32_t(device.limits.storageRange / listBytes);
+    const auto most = uint32_t(
+        std::min<uint64_t>(device.limits.storageRange / listBytes, 2 * kParticlesSentTogether / FLUID_GROUP));
     for (uint32_t group = 0; group < groups; group += most) {
         const uint32_t some = std::min(most, groups - group);
         push.from = group * FLUID_GROUP;
@@ -167,6 +173,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
                  std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.cells.starts},
                             Descriptor{2, b.lists, group * listBytes, some * listBytes},
                             Descriptor{3, b.counts}, Descriptor{4, b.far}});
+        sendIfMany();
     }
     barrier(commands);
     beginStage(commands, "density");
@@ -183,6 +190,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     for (int i = 0; i < config.iterations; ++i) {
         run(kernels.densityError, weighs);
         run(kernels.giveWay, moves);
+        sendIfMany();
     }
     beginStage(commands, "velocity");
     // The old guesses' memory is free by now.
@@ -195,18 +203,40 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     return done();
 }
 
+namespace {
+
+/// `behind` records what follows each step.
+template <class Behind>
+Done recordSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                 const FluidConfig& config, float step, int count, Behind behind) {
+    uint64_t recorded = 0;
+    for (int i = 0; i < count; ++i) {
+        if (const Done stepped = recordFluidStep(commands, kernels, fluid, config, step); !stepped)
+            return stepped;
+        behind();
+        if ((recorded += fluid.count) < kParticlesSentTogether) continue;
+        sendOn(commands);
+        recorded = 0;
+    }
+    return done();
+}
+
+}  // namespace
+
+Done recordFluidSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                      const FluidConfig& config, float step, int count) {
+    return recordSteps(commands, kernels, fluid, config, step, count, [] {});
+}
+
 Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
                     FluidConfig config) {
     constexpr int kTurns = 30;
     constexpr float kStep = 1.0f / 240;
     config.gravity = glm::vec3(0.0f);
-    for (int turn = 0; turn < kTurns; ++turn) {
-        if (const Done recorded = recordFluidStep(commands, kernels, fluid, config, kStep); !recorded)
-            return recorded;
+    return recordSteps(commands, kernels, fluid, config, kStep, kTurns, [&] {
         fill(commands, fluid.velocities, 0);
         barrier(commands);
-    }
-    return done();
+    });
 }
 
 }  // namespace fw

@@ -66,6 +66,9 @@ struct FluidParticles {
     CountingSortBuffers cells;
 };
 
+/// Whose step one submission is at most, or whose steps: a tenth of a second on two cores.
+inline constexpr uint64_t kParticlesSentTogether = 200'000;
+
 /// The support of the kernel, in spacings: some 33 neighbours.
 inline constexpr float kFluidSupport = 2.0f;
 /// Share of the support within which neighbours are listed: three of four. With less, deep columns gain
@@ -92,10 +95,14 @@ std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, floa
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities);
 
-/// Records one step of so many seconds. Errors: sizes or a step that are not greater than 0; more cells or
-/// particles than the device can bind what belongs to.
+/// Records one step of so many seconds; of many particles it is sent in parts. Errors: sizes or a step that
+/// are not greater than 0; more cells or particles than the device can bind what belongs to.
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
                      const FluidConfig& config, float step);
+
+/// Records so many steps, sent some at a time. Errors as above.
+Done recordFluidSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                      const FluidConfig& config, float step, int count);
 
 /// Records how particles that were just set settle, without weight, and come to rest: a lattice that fills a
 /// corner is too dense by 5 % beside each wall, and would spring apart. Errors as recordFluidStep().

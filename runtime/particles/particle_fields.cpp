@@ -41,6 +41,18 @@ std::vector<glm::mat4> placesOf(const Program& program, std::size_t volume) {
 
 }  // namespace
 
+namespace {
+
+/// Whether to make these samples takes more than a fraction of a second on some devices.
+bool takesLong(const ParticleVolumeConfig& config) {
+    constexpr std::size_t kSomeSamples = 1u << 20, kManySamples = 1u << 24;
+    const bool exact = config.method == DensityMethod::exact || config.trueDistance;
+    return config.method == DensityMethod::proxies ||
+           config.grid.samples() > (exact ? kSomeSamples : kManySamples);
+}
+
+}  // namespace
+
 uint32_t firstTexel(const Program& program, std::size_t volume) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < volume; ++i) first += texelCount(*program.ir.volumes()[i]);
@@ -125,6 +137,7 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
                                           .method = field.method,
                                           .trueDistance = field.trueDistance};
         Commands commands(*device);
+        commands.parted = takesLong(config);
         if (const Done recorded = recordParticleVolume(
                 commands, *kernels, buffers, config, part.simulation.places(),
                 surfaces ? part.simulation.slots() : 0, volumes, firstTexel(program, part.volume));

@@ -62,7 +62,7 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
     reserve(device, b.least, 4ull * blocks);
     for (Buffer& each : b.reach) reserve(device, each, 4ull * coarse);
     const auto run = [&](const Pipeline& kernel, uint32_t items, std::span<const Descriptor> bound) {
-        dispatch(commands, kernel, spread(device, groupsFor(items, VOLUME_GROUP)), push, bound);
+        dispatchGroups(commands, kernel, groupsFor(items, VOLUME_GROUP), push, bound);
         barrier(commands);
     };
     beginStage(commands, "distance");

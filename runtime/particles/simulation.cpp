@@ -270,11 +270,10 @@ Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
         parts =
             int(std::min(std::max(1.0, std::ceil(speed * kSimulationStep / (0.5 * config.spacing))), 8.0));
     }
-    for (int part = 0; part < parts; ++part)
-        if (const Done recorded = recordFluidStep(commands, fluid->kernels, fluid->particles, config,
-                                                  float(kSimulationStep / parts));
-            !recorded)
-            return Error{.message = recorded.error().message, .node = source().node};
+    if (const Done recorded = recordFluidSteps(commands, fluid->kernels, fluid->particles, config,
+                                               float(kSimulationStep / parts), parts);
+        !recorded)
+        return Error{.message = recorded.error().message, .node = source().node};
     return done();
 }
 

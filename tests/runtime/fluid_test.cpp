@@ -187,6 +187,37 @@ TEST_F(Fluid, ListsNeedNotBeBoundAtOnce) {
     EXPECT_EQ(stepped(*tight, kernels), stepped(device(), kernelsFor()));
 }
 
+TEST_F(Fluid, ManyParticlesGoInPartsToTheSameBytes) {
+    // A timed recording is not sent on.
+    const FluidConfig config{.spacing = 0.02f};
+    const std::vector<glm::vec3> places = fluidBlock(glm::vec3(-0.6f), glm::vec3(0.6f), config.spacing);
+    ASSERT_GT(places.size(), kParticlesSentTogether);
+    const auto stepped = [&](bool timed, uint64_t& submissions) {
+        FluidParticles fluid;
+        setFluid(device(), fluid, places, {});
+        const uint64_t before = device().record->submissions;
+        Commands commands(device(), timed);
+        EXPECT_TRUE(recordFluidSteps(commands, kernelsFor(), fluid, config, 0.01f, 2));
+        submit(commands);
+        submissions = device().record->submissions - before;
+        return download<float>(device(), fluid.places, 4 * places.size());
+    };
+    uint64_t stages = 0, parts = 0;
+    const bool same = stepped(true, stages) == stepped(false, parts);
+    EXPECT_TRUE(same);
+    EXPECT_GE(parts, 12u);
+}
+
+TEST_F(Fluid, FewParticlesGoTogether) {
+    FluidParticles fluid;
+    setFluid(device(), fluid, randomPlaces(3000, 0.6f, 8), {});
+    const uint64_t before = device().record->submissions;
+    Commands commands(device());
+    ASSERT_TRUE(recordFluidSteps(commands, kernelsFor(), fluid, {.spacing = 0.06f}, 0.01f, 8));
+    submit(commands);
+    EXPECT_EQ(device().record->submissions - before, 1u);
+}
+
 TEST_F(Fluid, GoesOnFromWhatWasRead) {
     const FluidConfig config{.spacing = 0.06f};
     FluidParticles fluid, again;
