@@ -61,8 +61,9 @@ struct Run {
         push.unit = 2.0f * powerAbove(std::max({reach.x, reach.y, reach.z}));
         return push;
     }
-    glm::uvec3 groups(uint64_t items) const { return spread(device, groupsFor(items, MESH_GROUP)); }
 };
+
+uint32_t groupsOf(uint64_t items) { return groupsFor(items, MESH_GROUP); }
 
 /// The counting sort of corners by vertex.
 void sortCorners(Commands& commands, Run& run) {
@@ -81,7 +82,7 @@ void sortCorners(Commands& commands, Run& run) {
                                     {2, b.corners.ranks},
                                     {3, b.next},
                                     {4, b.previous}};
-    dispatch(commands, run.config.pipelines->scatter, run.groups(push.triangles), push, scattered);
+    dispatchGroups(commands, run.config.pipelines->scatter, groupsOf(push.triangles), push, scattered);
     barrier(commands);
 }
 
@@ -97,7 +98,7 @@ void smooth(Commands& commands, Run& run, int iterations) {
                                     {2, b.corners.starts},
                                     {3, b.next},
                                     {5, b.vertices, 0, sizeof(gpu::MeshVertex) * uint64_t(push.vertices)}};
-        dispatch(commands, run.config.pipelines->smooth, run.groups(push.vertices), push, bound);
+        dispatchGroups(commands, run.config.pipelines->smooth, groupsOf(push.vertices), push, bound);
         barrier(commands);
         std::swap(run.mesh.vertices, b.vertices);
     }
@@ -117,7 +118,7 @@ void findNormals(Commands& commands, Run& run) {
                                 {3, run.buffers.next},
                                 {4, run.buffers.previous},
                                 {5, run.mesh.vertices, 0, sizeof(gpu::MeshVertex) * uint64_t(push.vertices)}};
-    dispatch(commands, run.config.pipelines->normals, run.groups(push.vertices), push, bound);
+    dispatchGroups(commands, run.config.pipelines->normals, groupsOf(push.vertices), push, bound);
     barrier(commands);
 }
 
@@ -143,7 +144,7 @@ void splitEdges(Commands& commands, Run& run, bool project) {
     const VkDeviceSize bytes = sizeof(gpu::MeshVertex) * vertices;
     std::vector<Descriptor> bound = {
         {1, b.corners.counts}, {2, b.corners.starts}, {3, b.next}, {5, b.edgeCounts}};
-    dispatch(commands, pipelines.edges, run.groups(push.vertices), push, bound);
+    dispatchGroups(commands, pipelines.edges, groupsOf(push.vertices), push, bound);
     barrier(commands);
     sumCounts(commands, pipelines.counting, b.corners.sums, b.edgeCounts, b.edgeStarts, push.vertices);
     bound = {{0, run.mesh.vertices},
@@ -158,8 +159,8 @@ void splitEdges(Commands& commands, Run& run, bool project) {
         bound.push_back({8, run.mesh.colors, 0, 12ull * push.vertices});
         bound.push_back({9, b.colors, 0, 12 * vertices});
     }
-    dispatch(commands, run.result.colors ? pipelines.splitColored : pipelines.split,
-             run.groups(push.triangles), push, bound);
+    dispatchGroups(commands, run.result.colors ? pipelines.splitColored : pipelines.split,
+                   groupsOf(push.triangles), push, bound);
     barrier(commands);
     if (project) {
         beginStage(commands, "project");
@@ -175,7 +176,7 @@ void splitEdges(Commands& commands, Run& run, bool project) {
         } else {
             bound = {{5, b.vertices, 0, bytes}};
             addField(bound, run.config.field);
-            dispatch(commands, pipelines.project, run.groups(edges), push, bound);
+            dispatchGroups(commands, pipelines.project, groupsOf(edges), push, bound);
             barrier(commands);
         }
     }
@@ -189,17 +190,19 @@ void splitEdges(Commands& commands, Run& run, bool project) {
     run.stale = run.stale || !project;
 }
 
-/// One or more stages' work, submitted and awaited; its times are added to those of the same names.
+/// A stage's work, done `times` times, submitted and awaited; what it took is added to that of the same name.
 template <class Record>
-void runNow(Run& run, Record&& record) {
+void runNow(Run& run, int times, Record&& record) {
+    constexpr uint64_t kMany = 1u << 20;  // that a device passes over in a fraction of a second
     Commands commands(run.device, run.config.timed);
+    commands.parted = !commands.timed && uint64_t(times) * run.result.triangles > kMany;
     record(commands);
     submit(commands);
-    std::vector<StageTime>& times = run.result.stages;
+    std::vector<StageTime>& all = run.result.stages;
     for (const StageTime& stage : commands.stages) {
-        const auto same = std::ranges::find(times, stage.name, &StageTime::name);
-        if (same == times.end())
-            times.push_back(stage);
+        const auto same = std::ranges::find(all, stage.name, &StageTime::name);
+        if (same == all.end())
+            all.push_back(stage);
         else
             same->milliseconds += stage.milliseconds;
     }
@@ -285,7 +288,7 @@ Done runMeshStages(const Device& device, MeshStageBuffers& buffers, MesherBuffer
     Run run{.device = device, .buffers = buffers, .mesh = mesh, .result = result, .config = config};
     const auto refreshNormals = [&]() -> Done {
         const Done fit = fits(run, "finding normals", result.vertices, result.triangles);
-        if (fit && run.stale) runNow(run, [&](Commands& commands) { findNormals(commands, run); });
+        if (fit && run.stale) runNow(run, 1, [&](Commands& commands) { findNormals(commands, run); });
         return fit;
     };
     for (std::size_t i = 0; i < stages.size(); ++i) {
@@ -297,13 +300,14 @@ Done runMeshStages(const Device& device, MeshStageBuffers& buffers, MesherBuffer
         }
         if (stage.kind == MeshStage::Kind::smooth && stage.times > 0) {
             fit = fits(run, "smooth", result.vertices, result.triangles);
-            if (fit) runNow(run, [&](Commands& commands) { smooth(commands, run, stage.times); });
+            if (fit)
+                runNow(run, stage.times, [&](Commands& commands) { smooth(commands, run, stage.times); });
         }
         for (int level = 1; fit && stage.kind == MeshStage::Kind::subdivide && level <= stage.times;
              ++level) {
             fit = fits(run, "level " + std::to_string(level) + " of subdivide",
                        result.vertices + 3ull * (result.triangles / 2), 4ull * result.triangles);
-            if (fit) runNow(run, [&](Commands& commands) { splitEdges(commands, run, stage.project); });
+            if (fit) runNow(run, 4, [&](Commands& commands) { splitEdges(commands, run, stage.project); });
         }
         if (!fit) return fit.error();
     }

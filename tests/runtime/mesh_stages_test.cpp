@@ -189,6 +189,18 @@ TEST(MeshStages, EachRunGivesTheSameBytes) {
     }
 }
 
+TEST(MeshStages, LongWorkGoesInPartsToTheSameBytes) {
+    const Mesh mesh = unevenTorus();
+    const std::atomic<uint64_t>& submissions = test::device().record->submissions;
+    const uint64_t begin = submissions;
+    const Mesh stepwise = changed(mesh, {subdivide(3, false), smooth(3), smooth(3), smooth(3), smooth(3)});
+    const uint64_t between = submissions;
+    const Mesh atOnce = changed(mesh, {subdivide(3, false), smooth(12)});
+    EXPECT_GT(submissions - between, between - begin);
+    EXPECT_EQ(atOnce.positions, stepwise.positions);
+    EXPECT_EQ(atOnce.normals, stepwise.normals);
+}
+
 TEST(MeshStages, ABoxKeepsItsTopologyWhateverIsDone) {
     const Mesh mesh = changed(
         [] {
