@@ -19,6 +19,7 @@ void gather(const Device& device, DrawLists& lists, const ImDrawData& data) {
         // With a reserve, so that a growing interface does not allocate in every frame.
         if (bytes > buffer.size) reserve(device, buffer, bytes + bytes / 2, Memory::upload);
     };
+    finish(device);  // the last frame has read them
     room(lists.vertices, VkDeviceSize(data.TotalVtxCount) * sizeof(ImDrawVert));
     room(lists.indices, VkDeviceSize(data.TotalIdxCount) * sizeof(ImDrawIdx));
     auto* vertex = static_cast<ImDrawVert*>(lists.vertices.mapped);

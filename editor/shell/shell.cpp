@@ -207,7 +207,7 @@ void Shell::frame(const std::function<void()>& show) {
          themeColor(ThemeColor::canvas));
     imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                  VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-    submit(commands);
+    send(commands, target.drawn);
     if (!state->swapchain->present(target)) state->unsettled = std::max(state->unsettled, 1);
 }
 

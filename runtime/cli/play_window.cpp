@@ -128,7 +128,7 @@ class Stage {
         const Clock::time_point start = Clock::now();
         player.seek(viewer.seconds);
         const double aspect = double(render.width) / render.height;
-        const Result<bool> made = player.show(render, picture);
+        const Result<bool> made = player.show(render);
         if (made) {
             if (!failed.empty() && message == failed) message.clear();
             failed.clear();
@@ -140,10 +140,11 @@ class Stage {
         refined = !made || !*made;
         if (refined && made) return false;
         if (side < 1.0 || level == 0) adapt(secondsSince(start));
-        if (picture.pixels.empty()) return false;
-        Picture decorated = scaled(picture, viewer.width, viewer.height);
-        drawOverlay(decorated, viewer, message);
-        return window.show(decorated);
+        if (!player.picture()) return false;
+        Picture overlay{viewer.width, viewer.height, {}};
+        overlay.pixels.resize(4 * std::size_t(viewer.width) * std::size_t(viewer.height));
+        drawOverlay(overlay, viewer, message);
+        return window.show(*player.picture(), overlay);
     }
 
     void sayIfCoarser() {
@@ -179,8 +180,7 @@ class Stage {
     Window& window;
     Viewer& viewer;
     std::map<std::string, FileWatch> watches;  ///< of what the graph shown was read from
-    Picture picture;                           ///< the last good one
-    std::string message;                       ///< shown over it
+    std::string message;                       ///< shown over the picture
     std::string failed;                        ///< why there is no picture of this time
     std::string coarser;                       ///< why the mesh is coarser than it should be
     std::size_t level = 1;                     ///< of kSides

@@ -16,7 +16,7 @@ void begin(Commands& commands) {
 }
 
 /// Ends what is recorded, so that the host can read what it wrote, and submits it.
-void launch(Commands& commands, VkFence fence) {
+void launch(Commands& commands, VkFence fence, VkSemaphore done) {
     barrier(commands);
     check(vkEndCommandBuffer(commands.handle), "recording commands");
     auto buffer = zeroed<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
@@ -24,6 +24,11 @@ void launch(Commands& commands, VkFence fence) {
     auto info = zeroed<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
+    auto signal = zeroed<VkSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO);
+    signal.semaphore = done;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    info.signalSemaphoreInfoCount = done ? 1 : 0;
+    info.pSignalSemaphoreInfos = &signal;
     check(vkQueueSubmit2(commands.device.queue, 1, &info, fence), "submitting work to the device");
     ++commands.device.record->submissions;
 }
@@ -44,9 +49,9 @@ void await(const Device& device) {
 }
 
 /// Runs and awaits what is recorded; the wall clock time of that in ms.
-double run(Commands& commands) {
+double run(Commands& commands, VkSemaphore done = VK_NULL_HANDLE) {
     const Clock::time_point before = Clock::now();
-    launch(commands, commands.device.fence);
+    launch(commands, commands.device.fence, done);
     await(commands.device);
     return millisecondsSince(before);
 }
@@ -319,9 +324,11 @@ bool cancelled(Commands& commands) {
     return *commands.cancel;
 }
 
-void submit(Commands& commands) {
+namespace {
+
+void submitTelling(Commands& commands, VkSemaphore done) {
     if (commands.queries) writeTimestamp(commands);
-    double elapsed = run(commands);
+    double elapsed = run(commands, done);
     if (!commands.stageOpen) return;
     if (!commands.queries) {
         commands.stages.back().milliseconds += elapsed;
@@ -337,11 +344,16 @@ void submit(Commands& commands) {
             double(ticks[i + 1] - ticks[i]) * commands.device.properties.limits.timestampPeriod * 1e-6;
 }
 
-void send(Commands& commands) {
+}  // namespace
+
+void submit(Commands& commands) { submitTelling(commands, VK_NULL_HANDLE); }
+
+void send(Commands& commands, VkSemaphore done) {
     // Long work is told of and ended between its parts: the device is not to be far behind.
     constexpr std::size_t kMostSent = 8;
-    if (commands.timed || commands.device.record->sent.size() >= kMostSent) return submit(commands);
-    launch(commands, VK_NULL_HANDLE);
+    if (commands.timed || commands.device.record->sent.size() >= kMostSent)
+        return submitTelling(commands, done);
+    launch(commands, VK_NULL_HANDLE, done);
     commands.device.record->sent.push_back(
         {std::exchange(commands.handle, VK_NULL_HANDLE), std::exchange(commands.pools, {})});
 }

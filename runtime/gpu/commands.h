@@ -141,8 +141,9 @@ void submit(Commands& commands);
 
 /// Ends the recording and lets it run. What uses it is waited for: by the next submit() or finish(), which
 /// uploadBytes(), downloadBytes(), look(), reserve() and the ends of buffers and images call; who ends a
-/// pipeline calls it himself. Timed recordings are awaited, and so is one behind eight others.
-void send(Commands& commands);
+/// pipeline calls it himself. Timed recordings are awaited, and so is one behind eight others. The semaphore,
+/// if there is one, tells of its end.
+void send(Commands& commands, VkSemaphore done = VK_NULL_HANDLE);
 
 /// send() of what is recorded so far; recording goes on. For work that would take too long as one.
 void sendOn(Commands& commands);

@@ -406,10 +406,10 @@ Result<Picture> Player::frame(const RenderOptions& options_) {
     });
 }
 
-Result<bool> Player::show(const RenderOptions& options_, Picture& picture) {
+Result<bool> Player::showTo(const RenderOptions& asked, Picture* onHost) {
     return halvedIfFull([&] {
-        return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
-            return session.renderLive(mesh, wishes, picture);
+        return look(asked, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+            return session.renderLive(mesh, wishes, onHost);
         });
     });
 }

@@ -122,7 +122,10 @@ class Player {
 
     /// The live view's next frame, into `picture`, which goes on from the last one; false if it would be the
     /// same or was cancelled (runtime/render/renderer.h). Errors as frame().
-    Result<bool> show(const RenderOptions& options, Picture& picture);
+    Result<bool> show(const RenderOptions& wishes, Picture& picture) { return showTo(wishes, &picture); }
+    /// The same, left on the device for a window: picture(), none before the first.
+    Result<bool> show(const RenderOptions& wishes) { return showTo(wishes, nullptr); }
+    const Image* picture() const { return session.picture(); }
 
     /// The scene now. Errors as readScene.
     Result<Scene> scene() const;
@@ -179,6 +182,7 @@ class Player {
     auto halvedIfFull(Work work) -> decltype(work());
     /// meshOnDevice(), or the mesh without the program's stages: an outline needs none.
     Result<MesherResult> makeMesh(bool stages, uint32_t show = RENDER_PICTURE);
+    Result<bool> showTo(const RenderOptions& wishes, Picture* onHost);
     /// Calls draw(mesh, options) with all that a picture of now needs.
     template <class Draw>
     auto look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes));

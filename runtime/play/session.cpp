@@ -445,9 +445,9 @@ Result<Picture> Session::render(const MesherResult& result, const RenderOptions&
     });
 }
 
-Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture) {
+Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost) {
     return draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
-        return fw::renderLive(with, scene, wishes, picture);
+        return fw::renderLive(with, scene, wishes, onHost);
     });
 }
 

@@ -116,9 +116,11 @@ class Session {
     /// A still picture of the last mesh, whose points are framed unless the options say otherwise. Errors as
     /// renderPicture.
     Result<Picture> render(const MesherResult& result, const RenderOptions& options);
-    /// The live view's next frame, into `picture`; false if it would be the same as the last. Errors as
-    /// renderLive.
-    Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture& picture);
+    /// The live view's next frame, into picture() and, if one is given, the host's. False if it would be the
+    /// same as the last. Errors as renderLive.
+    Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost);
+    /// The last picture on the device, R32_UINT; none before the first.
+    const Image* picture() const { return renderer && renderer->pixels ? &renderer->pixels : nullptr; }
 
     ~Session();
     Session(Session&&) = default;

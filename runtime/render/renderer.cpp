@@ -204,7 +204,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
 }
 
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& wishes,
-                        Picture& picture) {
+                        Picture* picture) {
     if (const Done fits = checkPictureSize(wishes.width, wishes.height); !fits) return fits.error();
     RenderOptions options = wishes;
     options.samples = 1;
@@ -253,11 +253,11 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
             renderer.shown.reset(), forgetHistory(renderer.ambient);
         return false;
     }
-    recordReading(commands, renderer.pixels, renderer.readback);
+    if (picture) recordReading(commands, renderer.pixels, renderer.readback);
     submit(commands);
     renderer.slow = millisecondsSince(start) > kSlowFrame;
     renderer.shown = shows;
-    picture = readPicture(renderer);
+    if (picture) *picture = readPicture(renderer);
     return true;
 }
 

@@ -158,10 +158,10 @@ void setField(Renderer& renderer, FieldKernels kernels);
 /// A still picture. Errors: as checkPictureSize, samples out of range, cancelled.
 Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options);
 
-/// The live view's next frame, into `picture`; false if it would be the same as the last, or if it was
-/// cancelled. Errors: as checkPictureSize.
+/// The live view's next frame, into Renderer::pixels and, if one is given, `picture`; false if it would be
+/// the same as the last, or if it was cancelled. Errors: as checkPictureSize.
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
-                        Picture& picture);
+                        Picture* picture);
 
 /// One frame of either, for the benchmarks: what its stages take. `view.pixel` is set here. False if the
 /// commands were cancelled, before the picture was touched.

@@ -38,6 +38,7 @@ void fillRectangle(Picture& picture, int left, int top, int right, int bottom, c
             uint8_t* pixel =
                 picture.pixels.data() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
             blend(pixel[0], tint.red), blend(pixel[1], tint.green), blend(pixel[2], tint.blue);
+            blend(pixel[3], 255);
         }
 }
 
@@ -65,41 +66,6 @@ std::pair<int, int> sizeOf(std::string_view text, int scale) {
 }
 
 }  // namespace
-
-Picture scaled(const Picture& picture, int width, int height) {
-    if (picture.width == width && picture.height == height) return picture;
-    Picture result{width, height, std::vector<uint8_t>(4 * std::size_t(width) * std::size_t(height))};
-    /// For each pixel along an axis the two that it lies between, and how far (of 256) it is from the first.
-    struct Tap {
-        int first, second, part;
-    };
-    const auto taps = [](int from, int to) {
-        std::vector<Tap> list(static_cast<std::size_t>(to));
-        for (int i = 0; i < to; ++i) {
-            const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
-            const int first = static_cast<int>(at);
-            list[std::size_t(i)] = {first, std::min(first + 1, from - 1),
-                                    static_cast<int>(256.0 * (at - first))};
-        }
-        return list;
-    };
-    const std::vector<Tap> across = taps(picture.width, width), down = taps(picture.height, height);
-    uint8_t* to = result.pixels.data();
-    for (const Tap& row : down) {
-        const uint8_t* upper =
-            picture.pixels.data() + 4 * std::size_t(row.first) * std::size_t(picture.width);
-        const uint8_t* lower =
-            picture.pixels.data() + 4 * std::size_t(row.second) * std::size_t(picture.width);
-        for (const Tap& column : across)
-            for (int c = 0; c < 4; ++c) {
-                const int i = 4 * column.first + c, j = 4 * column.second + c;
-                const int high = 256 * upper[i] + column.part * (upper[j] - upper[i]);
-                const int low = 256 * lower[i] + column.part * (lower[j] - lower[i]);
-                *to++ = static_cast<uint8_t>((256 * high + row.part * (low - high)) >> 16);
-            }
-    }
-    return result;
-}
 
 int drawPanel(Picture& picture, int x, int y, const std::vector<std::string>& columns) {
     int width = kMargin, height = 0;

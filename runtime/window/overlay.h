@@ -1,5 +1,6 @@
-// Text and the scrub bar, drawn into a picture by the processor: legible on any background, and the same
-// without a window.
+// Text and the scrub bar, drawn over a picture by the processor: legible on any background, and the same
+// without a window. Over one of no colour and no alpha they make colours times their alpha, to be put over
+// another.
 #pragma once
 
 #include <string>
@@ -10,9 +11,6 @@
 #include "runtime/window/viewer.h"
 
 namespace fw {
-
-/// The picture at another size, interpolated linearly.
-Picture scaled(const Picture& picture, int width, int height);
 
 /// Draws columns of lines of ASCII text side by side on a dark panel whose top left corner is at (x, y)
 /// pixels; returns the y of its lower edge.

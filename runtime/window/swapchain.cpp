@@ -47,7 +47,8 @@ Swapchain::~Swapchain() {
 
 void Swapchain::destroy() {
     for (VkImageView view : views) vkDestroyImageView(device.handle, view, nullptr);
-    views.clear();
+    for (VkSemaphore semaphore : drawn) vkDestroySemaphore(device.handle, semaphore, nullptr);
+    views.clear(), drawn.clear();
     images.clear();
     if (handle) vkDestroySwapchainKHR(device.handle, handle, nullptr);
     handle = VK_NULL_HANDLE;
@@ -98,6 +99,9 @@ void Swapchain::make() {
         view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
         check(vkCreateImageView(device.handle, &view, nullptr, &views.emplace_back()),
               "making a view of the swapchain");
+        const auto semaphore = zeroed<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
+        check(vkCreateSemaphore(device.handle, &semaphore, nullptr, &drawn.emplace_back()),
+              "making a semaphore");
     }
 }
 
@@ -117,11 +121,13 @@ SwapchainImage Swapchain::acquire() {
     if (got != VK_SUBOPTIMAL_KHR) check(got, "taking an image of the swapchain");
     check(vkWaitForFences(device.handle, 1, &acquired, VK_TRUE, UINT64_MAX), "waiting for the window");
     check(vkResetFences(device.handle, 1, &acquired), "resetting a fence");
-    return {images[index], views[index], extent, index};
+    return {images[index], views[index], extent, drawn[index], index};
 }
 
 bool Swapchain::present(const SwapchainImage& image) {
     auto info = zeroed<VkPresentInfoKHR>(VK_STRUCTURE_TYPE_PRESENT_INFO_KHR);
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &image.drawn;
     info.swapchainCount = 1;
     info.pSwapchains = &handle;
     info.pImageIndices = &image.index;

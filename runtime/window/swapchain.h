@@ -18,6 +18,7 @@ struct SwapchainImage {
     VkImage image = VK_NULL_HANDLE;  ///< its content and layout are undefined
     VkImageView view = VK_NULL_HANDLE;
     VkExtent2D extent = {};
+    VkSemaphore drawn = VK_NULL_HANDLE;  ///< for send(), with the recording that draws it
     uint32_t index = 0;
     bool changed = false;  ///< without an image: the window changed meanwhile, ask again
     explicit operator bool() const { return image != VK_NULL_HANDLE; }
@@ -35,8 +36,8 @@ class Swapchain {
     VkFormat format() const { return chosen.format; }
     /// An image to draw into now, or none: while the window has no area.
     SwapchainImage acquire();
-    /// Shows the image, which is in VK_IMAGE_LAYOUT_PRESENT_SRC_KHR and whose work was awaited. False if the
-    /// window changed meanwhile: draw again.
+    /// Shows the image, which is in VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, once it is drawn. False if the window
+    /// changed meanwhile: draw again.
     bool present(const SwapchainImage& image);
 
   private:
@@ -52,6 +53,7 @@ class Swapchain {
     VkExtent2D extent = {};
     std::vector<VkImage> images;
     std::vector<VkImageView> views;
+    std::vector<VkSemaphore> drawn;
 };
 
 /// What GLFW last had to say.

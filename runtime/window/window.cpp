@@ -4,6 +4,9 @@
 #include <GLFW/glfw3.h>
 
 #include "runtime/gpu/commands.h"
+#include "shaders/shared.h"
+
+#include "shaders/window/window.h"
 
 namespace fw {
 
@@ -110,13 +113,15 @@ Window::~Window() {
 
 void Window::leaveDevice() {
     swapchain.reset();
-    staging = Buffer();
+    over = Buffer(), composed = Buffer();
     shown = Image();
+    compose = Pipeline();
 }
 
 void Window::useDevice(const Device& device_) {
     device = &device_;
     swapchain.emplace(*device, handle);
+    compose = createComputePipeline(*device, {.name = "window/compose.comp"});
 }
 
 std::pair<int, int> Window::size() const {
@@ -156,43 +161,46 @@ void Window::setFullScreen(bool wanted) {
     }
 }
 
-bool Window::show(const Picture& picture) {
-    if (picture.pixels.empty()) return false;
+bool Window::show(const Image& picture, const Picture& overlay) {
+    if (!picture) return false;
     const SwapchainImage target = swapchain->acquire();
     if (!target) {
         viewer.dirty = viewer.dirty || target.changed;
         return false;
     }
-    const VkExtent3D drawn = {uint32_t(picture.width), uint32_t(picture.height), 1};
-    if (!shown || shown.extent.width != drawn.width || shown.extent.height != drawn.height)
+    const VkExtent3D extent = {uint32_t(overlay.width), uint32_t(overlay.height), 1};
+    if (!shown || shown.extent.width != extent.width || shown.extent.height != extent.height)
         shown = createImage(*device,
-                            {.extent = drawn,
+                            {.extent = extent,
                              .format = VK_FORMAT_R8G8B8A8_UNORM,
                              .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    reserve(*device, staging, picture.pixels.size(), Memory::upload);
-    upload(*device, staging, picture.pixels);
-    {
-        Commands commands(*device);
-        imageBarrier(commands, shown, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        VkBufferImageCopy copy{};
-        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        copy.imageExtent = drawn;
-        vkCmdCopyBufferToImage(commands.handle, staging.handle, shown.handle,
-                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-        imageBarrier(commands, shown, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        VkImageBlit blit{};
-        blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        blit.srcOffsets[1] = {picture.width, picture.height, 1};
-        blit.dstOffsets[1] = {int32_t(target.extent.width), int32_t(target.extent.height), 1};
-        vkCmdBlitImage(commands.handle, shown.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
-        imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                     VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-        submit(commands);
-    }
+    reserve(*device, over, overlay.pixels.size());
+    reserve(*device, composed, overlay.pixels.size());
+    upload(*device, over, overlay.pixels);
+    Commands commands(*device);
+    const gpu::WindowPush push{{picture.extent.width, picture.extent.height}, {extent.width, extent.height}};
+    const Descriptor bound[] = {{0, picture.view, VK_IMAGE_LAYOUT_GENERAL}, {1, over}, {2, composed}};
+    dispatch(commands, compose,
+             {groupsFor(extent.width, WINDOW_GROUP), groupsFor(extent.height, WINDOW_GROUP), 1}, push, bound);
+    barrier(commands);
+    imageBarrier(commands, shown, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = extent;
+    vkCmdCopyBufferToImage(commands.handle, composed.handle, shown.handle,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    imageBarrier(commands, shown, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkImageBlit blit{};  // from one order of colours to another
+    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    blit.srcOffsets[1] = {overlay.width, overlay.height, 1};
+    blit.dstOffsets[1] = {int32_t(target.extent.width), int32_t(target.extent.height), 1};
+    vkCmdBlitImage(commands.handle, shown.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
+    imageBarrier(commands, target.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                 VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    send(commands, target.drawn);
     const bool presented = swapchain->present(target);
     viewer.dirty = viewer.dirty || !presented;
     return presented;

@@ -1,8 +1,8 @@
 // A window that shows pictures: GLFW, and the swapchain of the window.
 //
-// A picture is copied to an image of the device and blitted to the swapchain, scaled where their sizes
-// differ, so a renderer may work at another resolution than the window's. Each picture is awaited before it
-// is presented: on a software device nothing would run beside it, and a player shows one picture at a time.
+// A picture stays on the device: a kernel scales it to the window's size and puts the overlay over it, so a
+// renderer may work at another resolution than the window's. Nothing is awaited but the image of the
+// swapchain and, by the next picture, the last.
 // A window without area (minimised) shows nothing and is no error; a swapchain that went out of date is made
 // anew.
 //
@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "runtime/gpu/resources.h"
+#include "runtime/gpu/shader.h"
 #include "runtime/render/picture.h"
 #include "runtime/window/swapchain.h"
 #include "runtime/window/viewer.h"
@@ -56,8 +57,10 @@ class Window {
     std::pair<int, int> size() const;
     /// Handles what has happened; waits for something to happen, but at most so many seconds.
     void poll(double wait);
-    /// Shows the picture; whether it could. It cannot while the window has no area.
-    bool show(const Picture& picture);
+    /// Shows the picture, R32_UINT with red in the lowest byte and in VK_IMAGE_LAYOUT_GENERAL, at the
+    /// window's size under the overlay, which is of that size and whose colours are times their alpha;
+    /// whether it could. It cannot while the window has no area.
+    bool show(const Image& picture, const Picture& overlay);
     void setTitle(const std::string& title);
     void resize(int width, int height);
     void setFullScreen(bool full);
@@ -67,7 +70,8 @@ class Window {
     Viewer& viewer;
     GLFWwindow* handle = nullptr;
     std::optional<Swapchain> swapchain;
-    Buffer staging;
+    Pipeline compose;
+    Buffer over, composed;
     Image shown;
     bool full = false;
     std::array<int, 4> windowed = {};  ///< place and size before full screen

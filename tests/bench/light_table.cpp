@@ -187,7 +187,7 @@ void bakedTable(Bench& bench, Stage& stage_, const Program& program) {
         stage_.renderer.shown.reset();
         stage_.renderer.number = 0;
         Picture picture;
-        if (!renderLive(stage_.renderer, scene, options, picture)) return;
+        if (!renderLive(stage_.renderer, scene, options, &picture)) return;
         if (!side) exact = picture, code = figure.median();
         table.rows.push_back({side ? "volume of " + std::to_string(side) + " cubed" : "code", text(figure),
                               number(figure.median() / code), number(difference(exact, picture))});

@@ -331,7 +331,7 @@ TEST(Render, StepsThatAreTooLongEndAtTheSurface) {
     renderer.tracing = true;
     renderer.trust = 1.0f;
     Picture live;
-    while (*renderLive(renderer, scene, options, live)) {}
+    while (*renderLive(renderer, scene, options, &live)) {}
     double sum = 0;
     int unlike = 0;
     for (std::size_t i = 0; i < live.pixels.size(); i += 4) {
@@ -404,7 +404,7 @@ TEST(Render, InPartsItLooksTheSame) {
     ASSERT_TRUE(mesh);
     const auto frame = [&](Picture& picture, int wide) {
         const uint64_t before = record->waits;
-        const Result<bool> drawn = session.renderLive(*mesh, {.width = wide, .height = 200}, picture);
+        const Result<bool> drawn = session.renderLive(*mesh, {.width = wide, .height = 200}, &picture);
         EXPECT_TRUE(drawn && *drawn);
         return record->waits - before;
     };

@@ -144,9 +144,9 @@ TEST(Session, TapesTakeWhatTheDriverWouldCompileForMinutes) {
     ASSERT_TRUE(result);
     Picture picture;
     RenderOptions options{.width = 64, .height = 48};
-    EXPECT_TRUE(behind.renderLive(*result, options, picture));
+    EXPECT_TRUE(behind.renderLive(*result, options, &picture));
     options.show = RENDER_SLICE;
-    const Result<bool> slice = behind.renderLive(*result, options, picture);
+    const Result<bool> slice = behind.renderLive(*result, options, &picture);
     ASSERT_FALSE(slice);
     EXPECT_NE(slice.error().message.find("keep the driver busy"), std::string::npos);
     // A field of another size is the kernels' again.

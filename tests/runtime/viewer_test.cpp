@@ -164,16 +164,18 @@ TEST(Overlay, FitsEverySizeAndShowsWhatItShould) {
     EXPECT_LT(red(790), 160);
 }
 
-TEST(Overlay, ScalingKeepsFlatPicturesAndCorners) {
-    const Picture flat = scaled(grey(7, 5), 64, 33);
-    EXPECT_EQ(flat.width, 64);
-    EXPECT_EQ(flat.pixels, grey(64, 33).pixels);
-    Picture two{2, 1, {0, 0, 0, 255, 255, 255, 255, 255}};
-    const Picture wide = scaled(two, 8, 1);
-    EXPECT_EQ(wide.pixels[0], 0);
-    EXPECT_EQ(wide.pixels[28], 255);
-    for (std::size_t x = 0; x + 1 < 8; ++x) EXPECT_LE(wide.pixels[4 * x], wide.pixels[4 * x + 4]);
-    EXPECT_EQ(scaled(wide, 8, 1).pixels, wide.pixels);
+TEST(Overlay, OverNothingItMayBeLaidOverAnything) {
+    Viewer viewer = viewerOf(800, 600);
+    viewer.help = true;
+    Picture at = grey(800, 600), alone{800, 600, std::vector<uint8_t>(4 * 800 * 600)};
+    const Picture below = at;
+    drawOverlay(at, viewer, "a message");
+    drawOverlay(alone, viewer, "a message");
+    for (std::size_t i = 0; i < at.pixels.size(); i += 4)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double part = alone.pixels[i + 3] / 255.0;
+            ASSERT_NEAR(at.pixels[i + c], alone.pixels[i + c] + (1.0 - part) * below.pixels[i + c], 2.0);
+        }
 }
 
 }  // namespace fw::viewer_test

@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include "runtime/gpu/commands.h"
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/virtual_display.h"
 
@@ -18,11 +20,38 @@ using test::rest;
 using test::TempDir;
 using test::VirtualDisplay;
 
-Picture filled(int width, int height, glm::ivec3 color) {
+/// Waits until something is as it should be; whether it became so within a minute.
+template <class Condition>
+bool eventually(Condition holds) {
+    for (int i = 0; i < 600; ++i, rest(0.1))
+        if (holds()) return true;
+    return false;
+}
+
+/// Of one colour and alpha.
+Picture filled(int width, int height, glm::ivec4 color) {
     Picture picture{width, height, {}};
     for (int i = 0; i < width * height; ++i)
-        for (const int c : {color.r, color.g, color.b, 255}) picture.pixels.push_back(uint8_t(c));
+        for (const int c : {color.r, color.g, color.b, color.a}) picture.pixels.push_back(uint8_t(c));
     return picture;
+}
+
+/// As the renderer leaves it.
+Image onDevice(const Device& device, const Picture& picture) {
+    Image image = createImage(device, {.extent = {uint32_t(picture.width), uint32_t(picture.height), 1},
+                                       .format = VK_FORMAT_R32_UINT});
+    Buffer staging = createBuffer(device, picture.pixels.size(), Memory::upload);
+    upload(device, staging, picture.pixels);
+    Commands commands(device);
+    imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = image.extent;
+    vkCmdCopyBufferToImage(commands.handle, staging.handle, image.handle,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    imageBarrier(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
+    submit(commands);
+    return image;
 }
 
 TEST(Window, ShowsPicturesAtEverySize) {
@@ -39,17 +68,32 @@ TEST(Window, ShowsPicturesAtEverySize) {
         Window window(*device, "test", 320, 200, viewer);
         EXPECT_EQ(window.size(), std::pair(320, 200));
         EXPECT_EQ(viewer.width, 320);
+        const auto shows = [&](int x, int y, glm::ivec3 color) {
+            return eventually([&] { return display.pixel(x, y) == color; });
+        };
+        const Image large = onDevice(*device, filled(320, 200, {200, 30, 60, 255})),
+                    small = onDevice(*device, filled(16, 16, {10, 220, 40, 255}));
+        const Picture nothing = filled(320, 200, glm::ivec4(0));
         for (int i = 0; i < 3; ++i) {
             window.poll(0.05);
-            EXPECT_TRUE(window.show(filled(320, 200, {200, 30, 60})));
+            EXPECT_TRUE(window.show(large, nothing));
         }
-        rest(0.2);
-        EXPECT_EQ(display.pixel(160, 100), glm::ivec3(200, 30, 60));
-        // A small picture fills the window too.
-        for (int i = 0; i < 3; ++i) EXPECT_TRUE(window.show(filled(16, 16, {10, 220, 40})));
-        rest(0.2);
-        EXPECT_EQ(display.pixel(300, 190), glm::ivec3(10, 220, 40));
-        EXPECT_FALSE(window.show(Picture{}));
+        EXPECT_TRUE(shows(160, 100, {200, 30, 60}));
+        // A small picture fills the window too, and is seen through what lies over it.
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(window.show(small, nothing));
+        EXPECT_TRUE(shows(300, 190, {10, 220, 40}));
+        EXPECT_TRUE(window.show(small, filled(320, 200, {100, 0, 51, 102})));
+        EXPECT_TRUE(shows(5, 5, {106, 132, 75}));
+        EXPECT_FALSE(window.show(Image(), nothing));
+        // Between two colours lie those between.
+        Picture two = filled(2, 1, {0, 0, 0, 255});
+        for (std::size_t c = 4; c < 7; ++c) two.pixels[c] = 255;
+        const Image halves = onDevice(*device, two);
+        EXPECT_TRUE(window.show(halves, nothing));
+        EXPECT_TRUE(shows(10, 100, {0, 0, 0}));
+        EXPECT_EQ(display.pixel(310, 100), glm::ivec3(255));
+        for (int x = 80; x < 230; x += 10)
+            EXPECT_LT(display.pixel(x, 50).g, display.pixel(x + 10, 50).g) << x;
 
         for (const auto& [width, height] : {std::pair{1, 1}, {2, 300}, {640, 480}, {1, 1}, {200, 100}}) {
             window.resize(width, height);
@@ -58,7 +102,7 @@ TEST(Window, ShowsPicturesAtEverySize) {
             bool shown = false;
             for (int i = 0; i < 5; ++i) {
                 window.poll(0.02);
-                shown = window.show(filled(64, 48, {90, 90, 200})) || shown;
+                shown = window.show(small, filled(width, height, glm::ivec4(0))) || shown;
             }
             EXPECT_TRUE(shown) << width << " x " << height;
         }
@@ -66,7 +110,8 @@ TEST(Window, ShowsPicturesAtEverySize) {
         window.poll(0.1);
         window.poll(0.1);
         EXPECT_EQ(window.size(), std::pair(640, 480));
-        EXPECT_TRUE(window.show(filled(64, 48, {90, 90, 200})) || window.show(filled(64, 48, {90, 90, 200})));
+        const Picture over = filled(640, 480, glm::ivec4(0));
+        EXPECT_TRUE(window.show(small, over) || window.show(small, over));
         viewer.fullScreen = false;
         window.poll(0.1);
         window.poll(0.1);
@@ -107,14 +152,6 @@ class Playing {
     std::string errors = folder.path("errors");
     pid_t process = -1;
 };
-
-/// Waits until something is as it should be; whether it became so within a minute.
-template <class Condition>
-bool eventually(Condition holds) {
-    for (int i = 0; i < 600; ++i, rest(0.1))
-        if (holds()) return true;
-    return false;
-}
 
 std::string ball(const std::string& color, const std::string& type = "sphere") {
     return R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": ")" + type + R"("},
