@@ -39,13 +39,13 @@ constexpr float kTiles = 0.3f;  // of the work: to count the tiles, about, and t
 
 }  // namespace
 
-struct Opened {
-    Device device;
-    Program program;
-    Box region;
-};
-
 struct ExportJob::Shared {
+    struct Opened {
+        Device device;
+        Program program;
+        Box region;
+    };
+
     ExportWish wish;
     std::function<void()> changed;
     std::atomic<bool> cancel = false;
@@ -84,12 +84,12 @@ struct ExportJob::Shared {
     Result<ExportState> make();
     void run();
     std::vector<Error> findings;  ///< errors of the graph, where they ended it
+
+    inline static const Error kStopped;
 };
 
-const Error kStopped;
-
 /// Everything that comes before the mesh.
-Result<Opened> ExportJob::Shared::open() {
+Result<ExportJob::Shared::Opened> ExportJob::Shared::open() {
     if (const Done known = checkExportPath(wish.path, {.manifold = wish.manifold}); !known)
         return known.error();
     if (const Done distinct = checkDistinct(wish.graph->path, exportedPaths(wish.path)); !distinct)

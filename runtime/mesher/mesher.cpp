@@ -26,6 +26,7 @@ namespace {
 
 /// From here on (cells along the longest side) whole blocks of 64^3 cells are culled before bricks.
 constexpr uint32_t kCellsForBlocks = 512;
+constexpr uint32_t kBlockBricks = kMesherBlock / kMesherBrick;  // along each side
 
 constexpr float kLeastNudge = 1e-4f;  // cells
 constexpr float kNudgeUlps = 8.0f;    // of the largest coordinate
@@ -87,22 +88,24 @@ Result<float> nudgeOf(const MesherConfig& config) {
     return nudge;
 }
 
-/// Bricks of the tile, blocks of 64^3 cells in which they and those beyond are, and the tile's cells.
+/// Bricks of the tile, blocks in which they and those beyond are, and the tile's cells.
 struct Extent {
     glm::uvec3 firstBlock, blocks, first, end, cells;
 };
 Extent extentOf(const MesherConfig& config) {
     const uint32_t around = config.method == MeshMethod::dualContouring ? 1 : 0;
-    const glm::uvec3 cells(config.cells), gridBlocks = (cells + 2u + 63u) / 64u;
+    const glm::uvec3 cells(config.cells),
+        gridBlocks = (cells + (2u + kMesherBlock - 1u)) / uint32_t(kMesherBlock);
     Extent extent{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto begin = uint32_t(config.tile.begin[axis]), end = uint32_t(config.tile.end[axis]);
-        extent.first[axis] = begin > 0 ? begin * 8 - around : 0;
-        extent.end[axis] = end > 0 ? end * 8 + around : gridBlocks[axis] * 8;
-        extent.firstBlock[axis] = extent.first[axis] / 8;
-        extent.blocks[axis] = std::min(extent.end[axis] / 8 + 1, gridBlocks[axis]) - extent.firstBlock[axis];
+        extent.first[axis] = begin > 0 ? begin * kBlockBricks - around : 0;
+        extent.end[axis] = end > 0 ? end * kBlockBricks + around : gridBlocks[axis] * kBlockBricks;
+        extent.firstBlock[axis] = extent.first[axis] / kBlockBricks;
+        extent.blocks[axis] =
+            std::min(extent.end[axis] / kBlockBricks + 1, gridBlocks[axis]) - extent.firstBlock[axis];
     }
-    extent.cells = glm::min(cells, (extent.end - extent.first) * 8u);
+    extent.cells = glm::min(cells, (extent.end - extent.first) * uint32_t(kMesherBrick));
     return extent;
 }
 
@@ -118,7 +121,7 @@ MesherPush prepare(const Device& device, MesherPipelines& pipelines, const Meshe
     push.blocks = extent.blocks;
     push.nudge = nudge;
     push.margin = config.sparse ? 0 : std::numeric_limits<float>::infinity();
-    push.begin = extent.firstBlock * 8u;
+    push.begin = extent.firstBlock * kBlockBricks;
     push.first = extent.first;
     push.end = extent.end;
     if (config.host) build(device, pipelines, {topBricks, compact});
@@ -162,6 +165,15 @@ bool madeRoom(MesherBuffers& buffers, const MesherCounts& counts, const Limits& 
     return false;
 }
 
+/// Whether a pass over the surface in so many cells may take a tenth of a second, or more, on a weak device.
+bool isLong(const MesherConfig& config, glm::uvec3 cells) {
+    constexpr double kSamples = 137.0;  // evaluated for each square of cells: bricks about a surface that
+                                        // is folded twice, and edges
+    constexpr double kMostAdditions = 2e9;
+    const double longest = std::max({cells.x, cells.y, cells.z});
+    return kSamples * longest * longest * config.weight > kMostAdditions;
+}
+
 /// The interval of some brick missed surface that is there (rounding, or a field at fault). The mesh has a
 /// hole, so cull less: each time with a wider margin, in the end not at all.
 float widerMargin(float margin, const MesherConfig& config) {
@@ -191,7 +203,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         push.triangleCapacity = buffers.triangleCapacity;
         if (isChunked(push, dual)) build(device, pipelines, {topGroupsChunked});
         Commands commands(device, config.timed);
-        commands.parted = config.parted && !config.timed;
+        commands.parted = !config.timed && isLong(config, extentOf(config).cells);
         record(commands, pipelines, buffers, config, push);
         // Where the host has made the triangles it knows the counts, and nobody waits for the vertices yet.
         const bool counted = connectsOnHost(device, config) && !dual && !config.host;

@@ -54,7 +54,9 @@ namespace fw {
 
 class MesherHost;
 
-/// Blocks of 64^3 cells of a region's grid, in which samples are numbered from 0, outside the region, to
+inline constexpr int kMesherBlock = 64, kMesherBrick = 8;  ///< cells along each side
+
+/// Blocks of a region's grid, in which samples are numbered from 0, outside the region, to
 /// cells + 2.
 struct MesherTile {
     glm::ivec3 begin{0}, end{0};  ///< the end is not of it; 0 where it reaches the grid's end
@@ -74,8 +76,10 @@ struct MesherConfig {
     /// Software devices make triangles of signs on the host (connect.h); the same bytes, sooner.
     bool connectOnHost = true;
     MesherHost* host = nullptr;  ///< evaluates the field instead of kernels, which then need not be built
-    bool parted = false;  ///< long passes go in parts (commands.h), the host asking for counts in between
-    bool timed = false;   ///< fill MesherResult::stages (see commands.h for what that costs)
+    /// Of the field's code at a point, in additions (effort.h): passes over so much that they would take long
+    /// go in parts (commands.h), the host asking for counts in between.
+    double weight = 0;
+    bool timed = false;  ///< fill MesherResult::stages (see commands.h for what that costs)
 };
 
 inline constexpr int kMostMesherCells = 8000;  ///< along one axis: bricks are numbered with ten bits

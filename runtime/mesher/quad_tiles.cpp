@@ -6,16 +6,14 @@ namespace fw {
 
 namespace {
 
-constexpr int kBlock = 64, kBrick = 8;  // cells a side
-
 uint8_t tileOf(const GridEdge& edge, const MesherTile& tile, glm::ivec3 cells) {
     int which = 0;
     for (int axis = 2; axis >= 0; --axis) {
-        const int begin = tile.begin[axis] * kBlock,
-                  end = tile.end[axis] > 0 ? tile.end[axis] * kBlock : cells[axis] + 3,
+        const int begin = tile.begin[axis] * kMesherBlock,
+                  end = tile.end[axis] > 0 ? tile.end[axis] * kMesherBlock : cells[axis] + 3,
                   at = int(edge.start[axis]);
         const int least = at - (axis == int(edge.axis) ? 0 : 1);  // of the cells about it
-        if ((begin > 0 && least < begin - kBrick) || at >= end + kBrick) return kNoTile;
+        if ((begin > 0 && least < begin - kMesherBrick) || at >= end + kMesherBrick) return kNoTile;
         which = 3 * which + (at < begin ? 0 : at < end ? 1 : 2);
     }
     return uint8_t(which);

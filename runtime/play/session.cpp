@@ -154,17 +154,12 @@ bool Session::beyondDriver() const {
     return by == FieldBy::tapes || (by == FieldBy::sooner && secondsToCompile(current) > kMostSecondsBehind);
 }
 
-/// Whether a pass over the surface of so many cells may take a tenth of a second, or more, on a weak device.
-bool Session::isMeshedForLong(glm::ivec3 cells) {
-    constexpr double kSamples = 137.0;  // evaluated for each square of cells: bricks about a surface that
-                                        // is folded twice, and edges
-    constexpr double kMostAdditions = 2e9;
+double Session::weightOfCode() {
     if (codedHash != current.structureHash) {
-        weightOfCode = codeWeight(current.ir, current.distance(), current.families);
+        codeAdditions = codeWeight(current.ir, current.distance(), current.families);
         codedHash = current.structureHash;
     }
-    const double longest = std::max({cells.x, cells.y, cells.z});
-    return kSamples * longest * longest * weightOfCode > kMostAdditions;
+    return codeAdditions;
 }
 
 bool Session::isTracedForLong() {
@@ -319,13 +314,7 @@ Result<MesherResult> Session::polygonise(const MeshRequest& request, bool timed)
     config.tile = request.tile;
     config.method = request.method.value_or(current.method);
     config.timed = timed;
-    glm::ivec3 extent = config.cells;  // of the tile
-    for (int axis = 0; axis < 3; ++axis)
-        if (request.tile.end[axis] > 0)
-            extent[axis] = 64 * (request.tile.end[axis] - request.tile.begin[axis]);
-        else
-            extent[axis] -= 64 * request.tile.begin[axis];
-    config.parted = isMeshedForLong(extent);
+    config.weight = weightOfCode();
     std::optional<MesherHost> host;
     std::optional<Program> evaluated;
     const bool waits = compiling();
@@ -412,7 +401,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
     const bool looksInto = showsField(options.show) || options.show == RENDER_AMBIENT;
     if (tapes && looksInto) return tooLargeToLookInto(current);
-    const bool draft = drafting() || !current.stages.empty() || (!looksInto && !whyDraft().empty());
+    const bool draft = drafting() || !current.stages.empty() || (!looksInto && (tapes || isTracedForLong()));
     if (!renderer) renderer = createRenderer(*gpu);
     if (!draft && renderer->field.empty())
         setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));

@@ -134,7 +134,8 @@ class Session {
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
     bool hasMesherKernels() const { return built && builtHash == current.structureHash; }
     bool tapesAreSooner(int resolution) const;
-    bool isMeshedForLong(glm::ivec3 cells);
+    /// Of its field at a point, in additions.
+    double weightOfCode();
     /// Whether a software device would trace light through the field, of which there is a mesh, for long.
     bool isTracedForLong();
     /// Whether kernels that are wanted behind are not worth their wait.
@@ -153,7 +154,7 @@ class Session {
     bool tapes = false;                   // the last mesh came from them
     double secondsTraced = 0;             // as secondsToTrace(),
     std::optional<uint64_t> weighedHash;  // of this structure
-    double weightOfCode = 0;              // as codeWeight(),
+    double codeAdditions = 0;             // as codeWeight(),
     std::optional<uint64_t> codedHash;    // of this structure
     Program current;
     uint64_t builtHash = 0;

@@ -17,8 +17,6 @@
 namespace fw {
 namespace {
 
-constexpr int kBlock = 64;
-
 struct Hash {
     uint64_t value = hashBytes(nullptr, 0);
     void add(const void* data, std::size_t size) { value = hashBytes(data, size, value); }
@@ -54,7 +52,8 @@ Faces facesOf(const TilePlan& plan, std::size_t index) {
     for (int axis = 0; axis < 3; ++axis)
         for (const int block : {tile.begin[axis], tile.end[axis]})
             if (block > 0)
-                faces.at[axis].push_back(low[axis] + float(block * kBlock - 1) * plan.grid.cellSize[axis]);
+                faces.at[axis].push_back(low[axis] +
+                                         float(block * kMesherBlock - 1) * plan.grid.cellSize[axis]);
     return faces;
 }
 
@@ -170,12 +169,12 @@ Done checkTiles(const Program& program) {
 }
 
 TilePlan planTiles(const CellGrid& grid, int tileCells) {
-    tileCells = std::max(1, (tileCells + kBlock / 2) / kBlock) * kBlock;
+    tileCells = std::max(1, (tileCells + kMesherBlock / 2) / kMesherBlock) * kMesherBlock;
     TilePlan plan{grid, tileCells, {}};
     glm::ivec3 count;
     for (int axis = 0; axis < 3; ++axis)
         count[axis] = std::max(1, (grid.cells[axis] + tileCells / 2) / tileCells);
-    const int step = tileCells / kBlock;
+    const int step = tileCells / kMesherBlock;
     for (int z = 0; z < count.z; ++z)
         for (int y = 0; y < count.y; ++y)
             for (int x = 0; x < count.x; ++x) {

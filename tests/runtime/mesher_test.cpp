@@ -470,7 +470,7 @@ TEST_P(EachMethod, PartsGiveTheSameBytes) {
     const uint64_t begin = submissions;
     const Meshed whole = polygonise({}, config);
     const uint64_t ofWhole = submissions - begin;
-    config.parted = true;
+    config.weight = 1e9;
     const Meshed parted = polygonise({}, config);
     EXPECT_GT(submissions - begin - ofWhole, ofWhole + 8);
     EXPECT_EQ(parted.mesh.positions, whole.mesh.positions);
