@@ -1,4 +1,5 @@
 #include "graph/base/words.h"
+#include "graph/document/named_parameters.h"
 #include "graph/rules/findings.h"
 
 namespace fw {
@@ -41,6 +42,24 @@ void checkParameter(const ExposedParameter& parameter, const Scope& top, Finding
                                         " is outside of the parameter's range");
 }
 
+/// A parameter node, which is a constant as well.
+void checkParameter(const Node& node, Findings& findings) {
+    const Place place{node.place, node.id, {}};
+    const std::string name(parameterName(node));
+    if (node.input("name") && (name.empty() || name.find('=') != std::string::npos))
+        findings.warning(place, "nobody can change it: " +
+                                    std::string(name.empty() ? "it has no name" : "its name has a '='") +
+                                    ": give it one by its input 'name'");
+    const auto isLinked = [&](const char* input) {
+        const InputValue* value = node.input(input);
+        return value && std::holds_alternative<Link>(value->value);
+    };
+    const std::vector<double> min = inputNumbers(node, "min"), max = inputNumbers(node, "max");
+    if (!isLinked("min") && !isLinked("max") && min.size() == 1 && max.size() == 1 && min[0] > max[0])
+        findings.warning(place, "its min " + shortNumber(min[0]) + " is above its max " +
+                                    shortNumber(max[0]) + ": exchange them");
+}
+
 }  // namespace
 
 void checkParameters(const Graph& graph, const Scope& top, Findings& findings) {
@@ -52,6 +71,20 @@ void checkParameters(const Graph& graph, const Scope& top, Findings& findings) {
                            "two parameters are named " + inQuotes(parameter.name) +
                                firstInLine(present->second->place) + ": rename one");
         checkParameter(parameter, top, findings);
+    }
+    std::unordered_map<std::string_view, const Node*> nodesByName;
+    for (const Node& node : graph.nodes) {
+        if (roleOf(node.type) != NodeRole::parameter) continue;
+        checkParameter(node, findings);
+        const std::string_view name = parameterName(node);
+        if (name.empty()) continue;
+        const bool exposed = byName.contains(name);
+        if (const auto [first, added] = nodesByName.try_emplace(name, &node); exposed || !added)
+            findings.warning(
+                {node.place, node.id, {}},
+                "nobody can change it: " +
+                    std::string(exposed ? "a parameter" : "node " + inQuotes(first->second->id)) +
+                    " has the name " + inQuotes(name) + " as well: rename one");
     }
 }
 

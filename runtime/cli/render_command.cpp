@@ -56,6 +56,13 @@ void noteDraft(Player& player, const RenderCommandOptions& options) {
 int runRender(const RenderCommandOptions& options) {
     const auto size = pictureSize("render", options.size);
     if (!size) return kBadUsage;
+    if (options.quality == FieldBy::tapes && renderedBy(options) != options.quality) {
+        std::fprintf(stderr,
+                     "fieldwright render: %s traces the field, and --quality draft is a picture of the mesh "
+                     "alone: leave one of them out\n",
+                     options.reference ? "--reference" : ("--view " + options.view).c_str());
+        return kBadUsage;
+    }
     if (options.from || options.to || options.framesPerSecond) return runSequence(options, *size);
     if (!isPng(options.output)) {
         std::fprintf(stderr,

@@ -392,6 +392,20 @@ TEST(Check, GroupsThatMultiply) {
               {"groups are nested deeper than 64 levels"});
 }
 
+TEST(Check, ParameterNodes) {
+    const auto node = [](const std::string& inputs, const std::string& list = "") {
+        return besideBall(R"({"id": "k", "type": "parameter", "inputs": {)" + inputs + "}}",
+                          ", \"parameters\": [" + list + "]");
+    };
+    EXPECT_TRUE(node(R"("name": "K", "min": 0, "max": 2)").empty());
+    EXPECT_TRUE(node("").empty());
+    expectOne(node(R"("name": "")"), {"warning: ", "node 'k': nobody can change it: it has no name"});
+    expectOne(node(R"("name": "a=b")"), {"warning: ", "its name has a '='"});
+    expectOne(node(R"("name": "K", "min": 3)"), {"warning: ", "its min 3 is above its max 1"});
+    expectOne(node(R"("name": "K")", R"({"name": "K", "node": "ball", "input": "radius"})"),
+              {"warning: ", "a parameter has the name 'K' as well"});
+}
+
 TEST(Check, Parameters) {
     const auto parameters = [](const std::string& list) {
         return besideBall("", ", \"parameters\": [" + list + "]");

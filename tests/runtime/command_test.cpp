@@ -69,6 +69,12 @@ TEST_F(Command, MissingArgumentsAndUnknownOptionsAreUsage) {
                    {"there is no option '--units': lengths are metres, in .3mf millimetres"});
     expectBadUsage({"--region", "3.2mm", "0", "0", "1", "1", "1"},
                    {"'3.2mm' is not a finite number", "0.0032"});
+    for (const std::vector<std::string>& traced :
+         {std::vector<std::string>{"--reference"}, {"--view", "ao"}}) {
+        std::vector<std::string> words = {"render", graph, "-o", "a.png", "--quality", "draft"};
+        words.insert(words.end(), traced.begin(), traced.end());
+        expectRefusal(runCommand(words), 2, {"traces the field", "leave one of them out"});
+    }
     expectRefusal(runCommand({"render", graph, "-o", "a.png", "--view", "normal"}), 2,
                   {"'normal' is none of picture, ao, normals", "did you mean 'normals'?"});
     expectBadUsage({"extra"}, {"not expected: extra"});
