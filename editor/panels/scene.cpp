@@ -1,4 +1,4 @@
-// The document's scene: camera, sun, sky, lamps, ambient occlusion, ground, fog, exposure.
+// The document's scene: camera, sun, sky, lamps, ambient occlusion, ground, fog, exposure and tone.
 //
 // What is shown is the scene as readScene() has it, defaults included; what is changed is one value of the
 // JSON, so that everything else in it stays as it was written. A value that the scene would refuse is not
@@ -261,6 +261,13 @@ void showScene(Editor& editor) {
     if (beginProperties("exposure")) {
         number(editor, "exposure", "Exposure", "Stops: one more is twice as bright.", scene->exposure,
                {.min = -kMostExposure, .max = kMostExposure, .speed = 0.01});
+        propertyRow(
+            "Tone",
+            "How light is mapped to the screen: a filmic curve, or one that keeps colours as they are.");
+        static const std::vector<std::string> tones(kToneNames.begin(), kToneNames.end());
+        auto chosen = std::size_t(scene->tone);
+        if (chooseName("##tone", tones, chosen))
+            set(editor, "Tone", setSceneValue(editor.document.graph(), "tone", tones[chosen]));
         endProperties();
     }
     showCamera(editor, *scene);

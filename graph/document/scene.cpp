@@ -175,6 +175,12 @@ struct SceneReader {
                fail(value, "the scene's " + name + " stands on its target: move one of them");
     }
 
+    bool tone(const PlacedJson& value, Scene& scene) {
+        for (std::size_t i = 0; i < kToneNames.size(); ++i)
+            if (value.value() == kToneNames[i]) return scene.tone = Tone(i), true;
+        return fail(value, R"(the scene's tone must be "aces" or "neutral")");
+    }
+
     bool lights(const PlacedJson& value, Scene& scene) {
         if (!value.value().is_array() || value.value().size() > kMostLights)
             return fail(value, "the scene's lights must be a list of at most " + std::to_string(kMostLights) +
@@ -205,6 +211,7 @@ Result<Scene> readScene(const Json& json, const TextPlaces& places) {
         if (key == "ground") return reader.ground(value, scene);
         if (key == "fog") return reader.fog(value, scene);
         if (key == "lights") return reader.lights(value, scene);
+        if (key == "tone") return reader.tone(value, scene);
         return key != "exposure" ||
                reader.number(value, "exposure", scene.exposure, -kMostExposure, kMostExposure);
     });

@@ -5,7 +5,8 @@
 //       "sun": {"azimuth": 250, "elevation": 9, "color": [1, 0.55, 0.3], "strength": 5, "size": 1},
 //       "sky": {"zenith": [0.1, 0.15, 0.35], "horizon": [0.9, 0.45, 0.3]},
 //       "lights": [{"type": "spot", "position": [2, 4, 0], "target": [0, 0, 0], "color": [1, 0.8, 0.6],
-//       "strength": 40}], "ao": {"radius": 0.5}, "fog": {"density": 0.1}, "ground": false, "exposure": 0.5
+//       "strength": 40}], "ao": {"radius": 0.5}, "fog": {"density": 0.1}, "ground": false, "exposure": 0.5,
+//       "tone": "neutral"
 //     }
 //
 // Every key may be absent. Without a camera the whole solid is framed from three quarters; without a sky it
@@ -87,6 +88,14 @@ struct Ground {
     bool operator==(const Ground&) const = default;
 };
 
+/// How light is mapped to what a screen can show.
+enum class Tone : unsigned char {
+    aces,     ///< a filmic curve for each colour by itself: bright colours bleach early, and shift towards
+              ///< yellow
+    neutral,  ///< Khronos' PBR Neutral: colours stay what they are until they are very bright, then bleach
+};
+inline constexpr std::array<const char*, 2> kToneNames = {"aces", "neutral"};
+
 struct Scene {
     std::optional<Camera> camera;
     std::optional<Sun> sun = Sun{};
@@ -96,6 +105,7 @@ struct Scene {
     std::optional<Fog> fog;
     std::vector<Lamp> lights;
     double exposure = 0.0;  ///< stops
+    Tone tone = Tone::aces;
     bool operator==(const Scene&) const = default;
 };
 

@@ -264,7 +264,9 @@ Json sceneSchema() {
                    {{"density", sceneNumber("At the height of the ground, 1 / metre.", fog.density)},
                     {"height", sceneNumber("Metres in which it thins to 1 / e; 0: it does not.", fog.height)},
                     {"color", sceneColor("Linear.", fog.color)}})},
-         {"exposure", sceneNumber("Stops.", Scene{}.exposure, -kMostExposure, kMostExposure)}},
+         {"exposure", sceneNumber("Stops.", Scene{}.exposure, -kMostExposure, kMostExposure)},
+         {"tone", described("How light is mapped to the screen.",
+                            {{"enum", kToneNames}, {"default", kToneNames[std::size_t(Scene{}.tone)]}})}},
         {});
 }
 

@@ -67,7 +67,8 @@ Result<Box> meshRegion(const Program& program, const MeshRequest& request, const
             const std::string endless = graph ? endlessNode(*graph) : std::string();
             return problem(
                 "the solid has no bounds within 16 km of the origin" +
-                (endless.empty() ? "" : ": node " + endless + " goes on without end") +
+                (endless.empty() ? ""
+                                 : ": node " + endless + " goes on without end, or as far as can be told") +
                 "; give a region (region_min and region_max of a polygonize node, or --region x0 y0 "
                 "z0 x1 y1 z1), or intersect it with a box");
         }

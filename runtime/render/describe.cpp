@@ -116,6 +116,7 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
     frame.groundColor = vector(sky.ground) * float(sky.strength);
     frame.studio = !look.sky;
     frame.exposure = kExposure * std::exp2(float(look.exposure));
+    frame.neutral = look.tone == Tone::neutral;
     frame.mean = uint32_t(mean);
     frame.show = options.show;
     frame.sliceAxis = options.slice.axis < 0 ? 3 : uint32_t(options.slice.axis);

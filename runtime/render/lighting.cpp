@@ -9,9 +9,10 @@ namespace {
 constexpr uint32_t kRaysReference = 64;  // of a frame
 
 /// The pipeline that lights one kind of tiles, made at its first use.
-const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, bool fog, bool mean) {
+const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, bool fog, bool mean,
+                              bool neutral) {
     const bool sky = !renderer.described.studio;
-    Pipeline& light = renderer.light[list][lamps + 2 * fog + 4 * mean + 8 * sky];
+    Pipeline& light = renderer.light[list][lamps + 2 * fog + 4 * mean + 8 * sky + 16 * neutral];
     if (light) return light;
     ShaderOptions options{.name = "render/light.comp"};
     options.defines.push_back("LIST " + std::to_string(list));
@@ -19,6 +20,7 @@ const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, boo
     if (fog) options.defines.push_back("FOG");
     if (sky) options.defines.push_back("SKY");
     if (mean) options.defines.push_back("MEAN");
+    if (neutral) options.defines.push_back("NEUTRAL");
     light = createComputePipeline(*renderer.device, options);
     return light;
 }
@@ -93,7 +95,7 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     }
     beginStage(commands, "light");
     for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK})
-        overTiles(lightPipeline(renderer, list, lamps, fog, mean), list);
+        overTiles(lightPipeline(renderer, list, lamps, fog, mean, frame.neutral != 0), list);
     barrier(commands);
     return true;
 }

@@ -128,7 +128,7 @@ struct Renderer {
     Places places;
     GBuffer gbuffer;
     Ambient ambient;
-    Pipeline light[3][16];  ///< by list of tiles and what light.comp defines; made when needed
+    Pipeline light[3][32];  ///< by list of tiles and what light.comp defines; made when needed
     Pipeline lamps, fog, reference, show, wireframe;  ///< ditto
 
     DepthTarget seen, shadow;

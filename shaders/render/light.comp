@@ -1,9 +1,10 @@
 // From the G-buffer to the finished picture, one listed tile a work group: sun with its shadow, sky with the ambient occlusion,
 // lamps, fog; tone map, mean over frames, sRGB. It samples no field, so its pipelines serve all graphs.
 // Where no surface is there is the sky, or a studio's wall, on which the ground, not drawn itself, catches the solid's shadow.
-// Tone map: ACES, as fitted by Narkowicz ("ACES filmic tone mapping curve", 2015).
+// Tone map: ACES, as fitted by Narkowicz ("ACES filmic tone mapping curve", 2015); or Khronos' PBR Neutral (its specification,
+// 2024), which takes 4 % off, for a highlight's, leaves colours below 0.8 as they are, and lets brighter ones bleach as a whole.
 // Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; MEAN where the picture is the
-// mean of frames.
+// mean of frames; NEUTRAL.
 #define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
@@ -46,6 +47,15 @@ float sunSeen(vec3 p, vec3 n, uvec2 pixel) {
 
 vec3 toneMap(vec3 x) {
     x = min(x * frame.exposure, 1e4);  // far beyond white, and its square is finite
+#ifdef NEUTRAL
+    const float kHighlight = 0.04, kKept = 0.8 - kHighlight, kLeft = 1.0 - kKept, kBleaching = 0.15;
+    float least = min(x.r, min(x.g, x.b));
+    x -= least < 2.0 * kHighlight ? least - least * least / (4.0 * kHighlight) : kHighlight;
+    float most = max(x.r, max(x.g, x.b));
+    float pressed = most < kKept ? most : 1.0 - kLeft * kLeft / (most + kLeft - kKept);
+    float bleached = 1.0 - 1.0 / (kBleaching * (most - pressed) + 1.0);
+    return mix(x * (pressed / max(most, 1e-6)), vec3(pressed), bleached);
+#endif
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 

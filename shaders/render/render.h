@@ -99,6 +99,7 @@ struct RenderFrame {
     vec3 zenith, horizon, groundColor;
     uint studio;     // 1: behind the solid is a wall; 0: the sky
     float exposure;  // factor
+    uint neutral;    // 1: Khronos' tone map; 0: ACES
     uint show;
     uint sliceAxis;  // that the plane of the slice stands across; 3: x or z, whichever the view is along
     float sliceAt;   // from the centre, metres

@@ -75,7 +75,7 @@ TEST(Scene, ReadsEveryKey) {
         {"type": "spot", "position": [1, 0, 0], "target": [0, 1, 0], "color": [0, 0, 1], "strength": 2,
          "angle": 20, "blend": 0.5, "size": 0.4},
         {"type": "directional"}, {"type": "point"}, {}],
-      "exposure": -1.5})");
+      "exposure": -1.5, "tone": "neutral"})");
     Scene wanted;
     wanted.camera = Camera{{1, 2, 3}, {4, 5, 6}, 50};
     wanted.sun = Sun{-400, -90, {0.1, 0.2, 0.3}, 7, 0.5};
@@ -86,6 +86,7 @@ TEST(Scene, ReadsEveryKey) {
     wanted.lights = {Lamp{Lamp::Type::spot, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2, 20, 0.5, 0.4},
                      Lamp{.type = Lamp::Type::directional}, Lamp{}, Lamp{}};
     wanted.exposure = -1.5;
+    wanted.tone = Tone::neutral;
     EXPECT_EQ(scene, wanted);
 }
 
@@ -188,7 +189,7 @@ TEST(Scene, TheSchemaKnowsWhatIsRead) {
             expectRefused(written(limit + outward * 1e-6));
         }
     });
-    EXPECT_EQ(values, 3 + 5 + 4 + 2 + 1 + 3 + 8 + 1);
+    EXPECT_EQ(values, 3 + 5 + 4 + 2 + 1 + 3 + 8 + 2);
 }
 
 TEST(Scene, NothingStandsOnItsTarget) {
@@ -225,6 +226,8 @@ TEST(Scene, ErrorsTellThePlace) {
     expectFinding(
         "{\"fog\":\n{\"color\": [1, -1, 1]}}", "",
         {"a.field.json:5:11: error: ", "fog.color must be three numbers from 0 to 1000000000: [red"});
+    expectFinding("{\"tone\":\n \"filmic\"}", "",
+                  {"a.field.json:5:2: error: ", "tone must be \"aces\" or \"neutral\""});
     expectFinding("{\"exposure\":\n 21}", "",
                   {"a.field.json:5:2: error: ", "exposure must be a number from -20 to 20"});
     expectFinding(

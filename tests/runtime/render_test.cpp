@@ -200,6 +200,42 @@ TEST(Render, FromBelowThereIsNoGround) {
     }
 }
 
+/// What is seen of a sky of one colour, beside the solid.
+glm::ivec3 skyOf(const Triple& color, Tone tone) {
+    RenderOptions options{.width = kWidth, .height = kHeight, .samples = 1};
+    Scene& scene = options.scene;
+    scene.camera = Camera{.position = {0, 0, 9}, .target = {0, 0, 0}, .fov = 40};
+    scene.ground.reset();
+    scene.sky = Sky{color, color, color, 1.0};
+    scene.exposure = -std::log2(0.66);  // a factor of 1
+    scene.tone = tone;
+    const Result<Picture> picture = draw(kBall, {{}, 16}, options);
+    return picture ? pixel(*picture, 3, 3) : glm::ivec3(-1);
+}
+
+TEST(Render, NeutralToneIsItsFormulaAndKeepsHues) {
+    // Below 0.8 what is chosen less a highlight's 4 %; of what is darker, as its least colour tells.
+    const auto expectBytes = [](const glm::ivec3& seen, const glm::dvec3& linear) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 255.0 * encodeSrgb(linear[c]), 1.5) << c;
+    };
+    expectBytes(skyOf({0.5, 0.3, 0.1}, Tone::neutral), {0.46, 0.26, 0.06});
+    expectBytes(skyOf({0.5, 0.3, 0.04}, Tone::neutral), {0.47, 0.27, 0.01});
+    // Of a bright one what is left is 1 - 0.24^2 / (1.96 + 0.24 - 0.76) = 0.96, and 0.13043 of it bleaches.
+    const double left = 0.96, white = 1.0 - 1.0 / (0.15 * (1.96 - left) + 1.0);
+    expectBytes(skyOf({2.0, 1.0, 0.1}, Tone::neutral),
+                glm::mix(glm::dvec3(1.96, 0.96, 0.06) * (left / 1.96), glm::dvec3(left), white));
+    // Hue: how far green stands between blue and red.
+    const auto hue = [](const glm::ivec3& seen) {
+        const glm::dvec3 linear(decodeSrgb(seen.r / 255.0), decodeSrgb(seen.g / 255.0),
+                                decodeSrgb(seen.b / 255.0));
+        return (linear.g - linear.b) / (linear.r - linear.b);
+    };
+    const Triple orange = {16.0, 4.0, 0.4};
+    const double wanted = (4.0 - 0.4) / (16.0 - 0.4);
+    EXPECT_NEAR(hue(skyOf(orange, Tone::neutral)), wanted, 0.03);
+    EXPECT_GT(hue(skyOf(orange, Tone::aces)), wanted + 0.3);
+}
+
 TEST(Render, LightBeyondAllMeasureIsWhite) {
     RenderOptions options{.width = kWidth, .height = kHeight, .samples = 2};
     Scene& scene = options.scene;
