@@ -123,6 +123,11 @@ void showCamera(Editor& editor, const Scene& scene) {
     place(editor, "camera.target", "Target", "What is in the middle of the picture.", scene.camera->target);
     number(editor, "camera.fov", "Field of view", "Degrees, from the bottom of the picture to its top.",
            scene.camera->fov, {.min = kLeastFov, .max = kMostFov, .speed = 0.2});
+    number(editor, "camera.aperture", "Aperture",
+           "Metres across the lens: stills are blurred where they are out of focus; 0: nowhere.",
+           scene.camera->aperture, {.min = 0.0, .max = kMostSceneNumber, .speed = 0.002});
+    number(editor, "camera.focus", "Focus", "Metres to what is sharp; 0: as far as the target.",
+           scene.camera->focus, {.min = 0.0, .max = kMostSceneNumber, .speed = 0.02});
     endProperties();
 }
 

@@ -87,6 +87,8 @@ struct SceneReader {
         const auto member = [&](Camera& to, const std::string& key, const PlacedJson& entry) {
             if (key == "position") return triple(entry, "camera.position", to.position);
             if (key == "target") return triple(entry, "camera.target", to.target);
+            if (key == "aperture") return number(entry, "camera.aperture", to.aperture, 0.0);
+            if (key == "focus") return number(entry, "camera.focus", to.focus, 0.0);
             if (key != "fov") return true;
             const Json& json = entry.value();
             to.fov = json.is_number() ? json.get<double>() : 0.0;

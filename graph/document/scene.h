@@ -39,6 +39,8 @@ struct Camera {
     Triple position{4.0, 3.0, 5.0};  ///< metres
     Triple target{0.0, 0.0, 0.0};    ///< what is in the middle of the picture
     double fov = 30.0;               ///< degrees, from the bottom of the picture to its top
+    double aperture = 0.0;  ///< metres across the lens: what is not in focus is blurred; 0: nothing is
+    double focus = 0.0;     ///< metres to the plane that is in focus; 0: to the target
     bool operator==(const Camera&) const = default;
 };
 

@@ -232,12 +232,16 @@ Json sceneSchema() {
     const double up = kMostElevation;
     return object(
         {{"camera",
-          described("Where from and how the solid is seen; the whole of it if absent.",
-                    object({{"position", scenePoint("Metres.", camera.position)},
-                            {"target", scenePoint("What is in the middle of the picture.", camera.target)},
-                            {"fov", sceneNumber("Degrees from the bottom of the picture to its top.",
-                                                camera.fov, kLeastFov, kMostFov)}},
-                           {}))},
+          described(
+              "Where from and how the solid is seen; the whole of it if absent.",
+              object(
+                  {{"position", scenePoint("Metres.", camera.position)},
+                   {"target", scenePoint("What is in the middle of the picture.", camera.target)},
+                   {"fov", sceneNumber("Degrees from the bottom of the picture to its top.", camera.fov,
+                                       kLeastFov, kMostFov)},
+                   {"aperture", sceneNumber("Metres across the lens; 0: all is sharp.", camera.aperture)},
+                   {"focus", sceneNumber("Metres to what is sharp; 0: as far as the target.", camera.focus)}},
+                  {}))},
          {"sun",
           switched("A light from afar, with shadows.",
                    {{"azimuth", sceneNumber("Degrees from +z towards +x.", sun.azimuth, -kMostSceneNumber)},

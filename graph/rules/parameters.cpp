@@ -77,7 +77,10 @@ void checkParameters(const Graph& graph, const Scope& top, Findings& findings) {
         if (roleOf(node.type) != NodeRole::parameter) continue;
         checkParameter(node, findings);
         const std::string_view name = parameterName(node);
-        if (name.empty()) continue;
+        const bool reached = std::ranges::any_of(graph.parameters, [&](const ExposedParameter& each) {
+            return each.node == node.id && each.input == "value";
+        });
+        if (name.empty() || reached) continue;
         const bool exposed = byName.contains(name);
         if (const auto [first, added] = nodesByName.try_emplace(name, &node); exposed || !added)
             findings.warning(

@@ -17,7 +17,10 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
     progress.start("report", 85);
     std::future<MeasureOptions> compared;
     if (session && (!options.report.empty() || needField(options.required)))
-        compared = std::async(std::launch::async, [&] { return measureOf(session->program(), region); });
+        compared = std::async(std::launch::async, [&] {
+            return measureOf(session->program(), region,
+                             needField(options.required) ? Points::all : Points::affordable);
+        });
     const Result<WeldedMesh> read = readWelded(file);
     MeasureOptions measured = compared.valid() ? compared.get() : MeasureOptions{};
     if (!read) return read.error();

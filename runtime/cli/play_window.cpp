@@ -52,6 +52,7 @@ class Stage {
             if (viewer.dirty) {
                 viewer.dirty = false;
                 refined = false;
+                overlaid = false;
                 changed = before;
                 shown += drawOnceMoreIfLost(kSides[level]);
             } else if (!refined && secondsSince(changed) > kRest) {
@@ -138,7 +139,7 @@ class Stage {
             complain(failed = format(made.error()));
         }
         refined = !made || !*made;
-        if (refined && made) return false;
+        if (refined && made && std::exchange(overlaid, true)) return false;
         if (side < 1.0 || level == 0) adapt(secondsSince(start));
         if (!player.picture()) return false;
         Picture overlay{viewer.width, viewer.height, {}};
@@ -186,6 +187,7 @@ class Stage {
     std::size_t level = 1;                     ///< of kSides
     int slow = 0, quick = 0;                   ///< pictures in a row
     bool refined = false;                      ///< nothing is left to refine
+    bool overlaid = false;                     ///< what lies over the picture is as it should be
 };
 
 }  // namespace

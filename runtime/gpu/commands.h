@@ -1,9 +1,10 @@
 // Recording work, submitting it, and the time of each of its named stages.
 //
-// One command buffer, recorded and submitted once. `dispatch` checks what it is given against what the shader
-// declares. Stage times: on a GPU timestamp queries around each stage; on a software device, whose timestamps
-// lie, a timed recording is submitted and awaited stage by stage and the wall clock is read, which costs some
-// 50 microseconds a stage. An untimed recording is one submission.
+// A command buffer, recorded and submitted; long work goes on in another. `dispatch` checks what it is given
+// against what the shader declares. Stage times: on a GPU timestamp queries around each stage; on a software
+// device, whose timestamps lie, a timed recording is submitted and awaited stage by stage and the wall clock
+// is read, which costs some 50 microseconds a stage. An untimed recording is one submission, unless it asks
+// for more.
 //
 // Nothing waits for a recording that is sent but what needs it: the next submit(), or the host when it reads,
 // writes or frees a buffer. The device does all in the order in which it was given.

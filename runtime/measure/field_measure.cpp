@@ -199,12 +199,14 @@ Found lookAlong(const Tape& tape, const Box& region, int lines) {
 
 }  // namespace
 
-std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines) {
+std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines, Points asked) {
     const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
-    Found found = lookAlong(tape, region, std::min(lines, kFirstLines));
-    const double affordable = kFirstLines * kMostWork / std::max(found.work, 1.0);
-    if (lines > kFirstLines && affordable > kFirstLines)
-        found = lookAlong(tape, region, int(std::min(affordable, double(lines))));
+    Found found;
+    if (asked == Points::affordable && lines > kFirstLines) {
+        found = lookAlong(tape, region, kFirstLines);
+        lines = int(std::min(kFirstLines * kMostWork / std::max(found.work, 1.0), double(lines)));
+    }
+    if (asked == Points::all || lines > kFirstLines) found = lookAlong(tape, region, lines);
     const std::vector<Point>& points = found.points;
     std::vector<ValueGradient> fields(points.size());
     constexpr std::size_t kPoints = 4096;
@@ -224,7 +226,7 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
     return surface;
 }
 
-MeasureOptions measureOf(const Program& program, const Box& region) {
+MeasureOptions measureOf(const Program& program, const Box& region, Points wanted) {
     MeasureOptions measure;
     if (!program.exactness.exact())
         measure.errorNote = "estimates: the field is no distance since node " + inQuotes(program.spoiledBy) +
@@ -286,8 +288,9 @@ MeasureOptions measureOf(const Program& program, const Box& region) {
         }
     };
     const double work = kStepsToSurface * double(tape.steps.size() + 1);
-    measure.samples = std::min(measure.samples, std::size_t(kMostWork / work) + 1);
-    measure.surface = surfacePoints(program, region, kLines);
+    if (wanted == Points::affordable)
+        measure.samples = std::min(measure.samples, std::size_t(kMostWork / work) + 1);
+    measure.surface = surfacePoints(program, region, kLines, wanted);
     return measure;
 }
 

@@ -5,8 +5,7 @@
 // found without regard to the mesh: straight lines along the axes, a jittered grid of them across the region,
 // are halved until interval arithmetic rules each piece out or a sign change is bracketed and closed in on.
 // So parts that the mesh has missed count too, down to the pieces' least length. Where intervals say nothing,
-// as of a fine noise, the rest of a line is sampled at that length instead; and of a field that takes long,
-// fewer lines are looked along and fewer points of the mesh are led, for about a second of each. Lines along
+// as of a fine noise, the rest of a line is sampled at that length instead. Lines along
 // one axis cross a surface as often as it is seen from there, so a point of normal n stands for 1 / (|nx| +
 // |ny| + |nz|) of the area that lines along all three find it for.
 #pragma once
@@ -16,12 +15,17 @@
 
 namespace fw {
 
+/// How many points a field is asked for: all, where something relies on them; or, of a field that takes long,
+/// as many as some seconds allow, down to some hundred.
+enum class Points { all, affordable };
+
 /// The measures of the program's field, on the CPU in double. The faces of `region`, where a solid that
 /// leaves it was closed, count as surface for points of the mesh. Refers to `program`.
-MeasureOptions measureOf(const Program& program, const Box& region);
+MeasureOptions measureOf(const Program& program, const Box& region, Points points = Points::all);
 
 /// Points of the surface f = 0 within the region: some `lines` lines are looked along. The same input gives
 /// the same points.
-std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines);
+std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& region, int lines,
+                                        Points points = Points::all);
 
 }  // namespace fw

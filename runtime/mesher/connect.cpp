@@ -24,7 +24,7 @@ namespace {
 
 // The two functions that do the work are compiled for newer processors too, with all that they call.
 #define FW_WITHIN [[gnu::always_inline]] inline
-#if defined(__x86_64__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
 #define FW_FOR_PROCESSORS [[gnu::target_clones("default", "arch=x86-64-v3")]]
 #else
 #define FW_FOR_PROCESSORS

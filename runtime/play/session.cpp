@@ -183,9 +183,19 @@ std::string Session::whyDraft() {
     return "";
 }
 
+void Session::dropRenderer() {
+    if (renderer && renderer->pixels) lastPicture = std::move(renderer->pixels);
+    renderer.reset();
+}
+
+const Image* Session::picture() const {
+    if (renderer && renderer->pixels) return &renderer->pixels;
+    return lastPicture ? &lastPicture : nullptr;
+}
+
 bool Session::setProgram(Program program, std::vector<StageTime>* stages) {
     take(std::move(program));
-    if (std::exchange(kernelsBehind, false)) renderer.reset();
+    if (std::exchange(kernelsBehind, false)) dropRenderer();
     if (hasMesherKernels() || tapesAreSooner(current.resolution)) return false;
     buildKernels(stages);
     return true;
@@ -197,7 +207,7 @@ void Session::buildKernels(std::vector<StageTime>* stages) {
     if (stages) stages->push_back({"emit", millisecondsSince(start)});
     const auto compiling = Clock::now();
     pipelines = createMesherPipelines(*gpu, field, current.hasMaterial(), pipelines);
-    renderer.reset();
+    dropRenderer();
     if (stages) stages->push_back({"pipelines", millisecondsSince(compiling)});
     builtHash = current.structureHash;
     built = true;
@@ -205,7 +215,7 @@ void Session::buildKernels(std::vector<StageTime>* stages) {
 
 void Session::replaceProgram(Program program, const FieldKernelOptions& kernels) {
     take(std::move(program));
-    if (!std::exchange(kernelsBehind, true)) renderer.reset(), hasKernels = false;
+    if (!std::exchange(kernelsBehind, true)) dropRenderer(), hasKernels = false;
     kernelOptions = kernels;
     kernelOptions.when = Compile::behind;
     drafting();
@@ -217,7 +227,7 @@ bool Session::compiling() {
         finish(*gpu);
         if (nextHash == current.structureHash && !hasMesherKernels()) {
             pipelines = std::move(made);
-            if (!kernelsBehind) renderer.reset();
+            if (!kernelsBehind) dropRenderer();
             builtHash = nextHash;
             built = true;
         }

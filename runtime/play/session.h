@@ -120,7 +120,7 @@ class Session {
     /// same as the last. Errors as renderLive.
     Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost);
     /// The last picture on the device, R32_UINT; none before the first.
-    const Image* picture() const { return renderer && renderer->pixels ? &renderer->pixels : nullptr; }
+    const Image* picture() const;
 
     ~Session();
     Session(Session&&) = default;
@@ -129,6 +129,7 @@ class Session {
 
   private:
     void take(Program program);
+    void dropRenderer();
     /// The program with the samples of its particles, for the host to evaluate.
     Program onHost() const;
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
@@ -166,6 +167,7 @@ class Session {
     MeshStageBuffers stageBuffers;
     MeshGrid grid;
     std::optional<Renderer> renderer;  ///< made by the first picture
+    Image lastPicture;                 ///< of the renderer before, which had another field
     uint64_t content = 0;              ///< counts changes of mesh and parameters
     Buffer parameters, images, volumes;
     std::optional<ParticleFields> particles;  ///< of a program that has some

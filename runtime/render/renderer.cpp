@@ -41,6 +41,13 @@ glm::vec2 jitterOf(int number, const RenderOptions& options) {
     return (evenly(number) - 0.5f) * 2.0f / glm::vec2(options.width, options.height);
 }
 
+/// Places on the unit disc, spread evenly: a sunflower's (Vogel 1979).
+glm::vec2 onDisc(int number, int count) {
+    const float radius = std::sqrt((float(number) + 0.5f) / float(count)),
+                angle = 2.39996323f * float(number);
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 Picture readPicture(const Renderer& renderer) {
@@ -180,7 +187,8 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     if (options.samples < 1 || options.samples > kMostSamples)
         return Error{.message =
                          "a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel"};
-    gpu::View view = viewOf(scene, options);
+    const gpu::View middle = viewOf(scene, options);
+    const bool lens = options.scene.camera && options.scene.camera->aperture > 0.0;
     renderer.ambient.options = ambientOptions(scene, options);
     renderer.ambient.options.raysResting = kRaysStill;
     renderer.ambient.options.samplesMoving = renderer.ambient.options.samples;
@@ -190,12 +198,17 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     renderer.shown.reset();
     for (int i = 0; i < options.samples; ++i) {
         if (options.progress) options.progress(100 * i / options.samples);
+        gpu::View view = middle;
         view.jitter = jitterOf(i, options);
+        if (lens) {
+            view = throughLens(view, *options.scene.camera, onDisc(i, options.samples));
+            forgetHistory(renderer.ambient);  // each frame sees other places
+        }
         renderer.shadowStands = false;
         Commands commands(*renderer.device);
         commands.parted = true;
         commands.cancel = options.cancel;
-        if (!drawFrame(commands, renderer, scene, options, view, i > 0, i))
+        if (!drawFrame(commands, renderer, scene, options, view, i > 0 && !lens, i))
             return Error{.message = "cancelled"};
         if (i + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);

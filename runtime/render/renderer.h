@@ -7,10 +7,10 @@
 // Stages that nothing in the scene asks for are neither run nor compiled.
 //
 // A still picture is the mean of frames that differ in where in its pixels the picture is sampled, where on
-// the sun's disc its light comes from and how the ambient rays are turned: so edges, penumbras and ambient
-// occlusion converge together. The same input gives the same bytes on the same device. The live view draws
-// one frame at a time with what the last one knew (ambient.h), goes on to the same mean while nothing
-// changes, and then stops.
+// the sun's disc its light comes from, where on the lens it is seen from and how the ambient rays are turned:
+// so edges, penumbras, what is out of focus and ambient occlusion converge together. The same input gives the
+// same bytes on the same device. The live view draws one frame at a time with what the last one knew
+// (ambient.h), goes on to the same mean while nothing changes, and then stops.
 //
 // Until the kernels of a field are compiled, and of meshes that no longer are the field's, the renderer draws
 // drafts (draft.h).

@@ -32,6 +32,10 @@ gpu::View lookFrom(glm::vec3 eye, glm::vec3 target, float fov, float aspect, flo
 /// The camera's view; `near` suits what is within the bounds.
 gpu::View cameraView(const Camera& camera, const SeenBounds& bounds, float aspect);
 
+/// The view from a place on the camera's lens (`place`: of the unit disc), which sees what is in focus where
+/// the view does.
+gpu::View throughLens(gpu::View view, const Camera& camera, glm::vec2 place);
+
 /// The view from three quarters that has all points in the picture. There is at least one.
 gpu::View framingView(std::span<const gpu::MeshVertex> points, float aspect);
 

@@ -39,13 +39,13 @@ Swapchain::Swapchain(const Device& device_, GLFWwindow* window_) : device(device
 }
 
 Swapchain::~Swapchain() {
-    vkDeviceWaitIdle(device.handle);
     destroy();
     vkDestroyFence(device.handle, acquired, nullptr);
     vkDestroySurfaceKHR(device.instance, surface, nullptr);
 }
 
 void Swapchain::destroy() {
+    vkDeviceWaitIdle(device.handle);  // the last picture was only sent
     for (VkImageView view : views) vkDestroyImageView(device.handle, view, nullptr);
     for (VkSemaphore semaphore : drawn) vkDestroySemaphore(device.handle, semaphore, nullptr);
     views.clear(), drawn.clear();
@@ -55,7 +55,6 @@ void Swapchain::destroy() {
 }
 
 void Swapchain::make() {
-    vkDeviceWaitIdle(device.handle);
     destroy();
     VkSurfaceCapabilitiesKHR can{};
     check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical, surface, &can),
@@ -133,7 +132,6 @@ bool Swapchain::present(const SwapchainImage& image) {
     info.pImageIndices = &image.index;
     const VkResult presented = vkQueuePresentKHR(device.queue, &info);
     if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR) {
-        vkDeviceWaitIdle(device.handle);
         destroy();
         return presented == VK_SUBOPTIMAL_KHR;
     }

@@ -404,6 +404,9 @@ TEST(Check, ParameterNodes) {
     expectOne(node(R"("name": "K", "min": 3)"), {"warning: ", "its min 3 is above its max 1"});
     expectOne(node(R"("name": "K")", R"({"name": "K", "node": "ball", "input": "radius"})"),
               {"warning: ", "a parameter has the name 'K' as well"});
+    EXPECT_TRUE(node(R"("name": "K")", R"({"name": "K", "node": "k", "input": "value"})").empty());
+    expectOne(node(R"("name": "K"}}, {"id": "l", "type": "parameter", "inputs": {"name": "K")"),
+              {"warning: ", "node 'l': nobody can change it: node 'k' has the name 'K' as well"});
 }
 
 TEST(Check, Parameters) {

@@ -65,7 +65,7 @@ TEST(Scene, NothingIsTheDefault) {
 
 TEST(Scene, ReadsEveryKey) {
     const Scene scene = sceneOf(R"({
-      "camera": {"position": [1, 2, 3], "target": [4, 5, 6], "fov": 50},
+      "camera": {"position": [1, 2, 3], "target": [4, 5, 6], "fov": 50, "aperture": 0.1, "focus": 3},
       "sun": {"azimuth": -400, "elevation": -90, "color": [0.1, 0.2, 0.3], "strength": 7, "size": 0.5},
       "sky": {"zenith": [1, 2, 3], "horizon": [4, 5, 6], "ground": [7, 8, 9], "strength": 0.5},
       "ao": {"radius": 0.25, "strength": 0.75},
@@ -77,7 +77,7 @@ TEST(Scene, ReadsEveryKey) {
         {"type": "directional"}, {"type": "point"}, {}],
       "exposure": -1.5, "tone": "neutral"})");
     Scene wanted;
-    wanted.camera = Camera{{1, 2, 3}, {4, 5, 6}, 50};
+    wanted.camera = Camera{{1, 2, 3}, {4, 5, 6}, 50, 0.1, 3};
     wanted.sun = Sun{-400, -90, {0.1, 0.2, 0.3}, 7, 0.5};
     wanted.sky = Sky{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 0.5};
     wanted.ao = AmbientOcclusion{0.25, 0.75};
@@ -189,7 +189,7 @@ TEST(Scene, TheSchemaKnowsWhatIsRead) {
             expectRefused(written(limit + outward * 1e-6));
         }
     });
-    EXPECT_EQ(values, 3 + 5 + 4 + 2 + 1 + 3 + 8 + 2);
+    EXPECT_EQ(values, 5 + 5 + 4 + 2 + 1 + 3 + 8 + 2);
 }
 
 TEST(Scene, NothingStandsOnItsTarget) {

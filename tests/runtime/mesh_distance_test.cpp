@@ -117,11 +117,14 @@ TEST(SurfacePoints, AreFewerOfAFieldThatTakesLong) {
     const Program slow = programOf(
         "float s = 0; for (int i = 1; i < 1000; ++i) s += sin(p.x * float(i) + p.y); "
         "return length(p) - 1 + 1e-9 * s;");
-    const std::vector<SurfacePoint> points = surfacePoints(slow, cube(1.3), 12000);
+    const std::vector<SurfacePoint> points = surfacePoints(slow, cube(1.3), 12000, Points::affordable);
     EXPECT_GT(points.size(), 30u);
     EXPECT_LT(points.size(), 3000u);
-    EXPECT_LT(measureOf(slow, cube(1.3)).samples,
-              measureOf(programOf("return length(p) - 1;"), cube(1.3)).samples);
+    // But not where something relies on them.
+    EXPECT_NEAR(double(surfacePoints(slow, cube(1.3), 300).size()), 300 * 2 * std::numbers::pi / (2.6 * 2.6),
+                60);
+    EXPECT_LT(measureOf(slow, cube(1.3), Points::affordable).samples,
+              measureOf(programOf("return length(p) - 1;"), cube(1.3), Points::affordable).samples);
     for (const SurfacePoint& point : points) EXPECT_NEAR(glm::length(point.position), 1.0, 1e-5);
 }
 

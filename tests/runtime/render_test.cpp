@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "graph/assets/image.h"
 #include "graph/document/json.h"
@@ -198,6 +199,36 @@ TEST(Render, FromBelowThereIsNoGround) {
         ASSERT_TRUE(with && without);
         EXPECT_EQ(with->pixels == without->pixels, height < 0) << height;
     }
+}
+
+TEST(Render, WhatIsOutOfFocusIsBlurredAsTheLensSays) {
+    // The edge of a plate four metres away. Of a disc's blur, half as wide as the disc is far from the focus,
+    // nine tenths less a tenth of the change lie within 0.687 of its width.
+    RenderOptions options{.width = 320, .height = 40, .samples = 256, .show = RENDER_BASE};
+    Scene& scene = options.scene;
+    scene.ao.reset(), scene.sun.reset(), scene.ground.reset();
+    const auto width = [&](double aperture, double focus) {
+        scene.camera = Camera{
+            .position = {0, 0, 4}, .target = {0, 0, 0}, .fov = 8, .aperture = aperture, .focus = focus};
+        const Result<Picture> picture = draw(R"({"fieldwright": 1, "nodes": [
+          {"id": "box", "type": "box", "inputs": {"half_extents": [3, 1, 0.4]}},
+          {"id": "half", "type": "translate", "inputs": {"surface": {"from": "box"}, "offset": [3, 0, -0.4]}},
+          {"id": "red", "type": "material", "inputs": {"surface": {"from": "half"}, "base_color": [0.9, 0, 0]}},
+          {"id": "out", "type": "output", "inputs": {"surface": {"from": "red"}}}]})",
+                                             {{}, 32}, options);
+        EXPECT_TRUE(picture) << format(picture.error());
+        int within = 0;
+        for (int x = 0; picture && x < options.width; ++x) {
+            const double share = (decodeSrgb(pixel(*picture, x, 20).r / 255.0) - 0.1) / 0.8;
+            within += share > 0.1 && share < 0.9;
+        }
+        return within * (2.0 * 4.0 * std::tan(4.0 * std::numbers::pi / 180.0) / options.height);  // metres
+    };
+    EXPECT_LT(width(0.4, 0.0), 0.03);  // in focus, as far as the target
+    EXPECT_LT(width(0.0, 2.0), 0.03);
+    EXPECT_NEAR(width(0.4, 2.0), 0.687 * 0.4, 0.05);
+    EXPECT_NEAR(width(0.4, 8.0), 0.687 * 0.2, 0.04);
+    EXPECT_NEAR(width(0.8, 8.0), 0.687 * 0.4, 0.05);
 }
 
 /// What is seen of a sky of one colour, beside the solid.

@@ -204,6 +204,16 @@ TEST(PlayWindow, KeysMouseSizesAndAChangingFile) {
     EXPECT_TRUE(isGreen());
     test::writeText(graph, ball(kRed, "box"));
     EXPECT_TRUE(eventually(isRed));
+    // Another structure, and nothing to see of it: what is wrong is said over the last picture.
+    EXPECT_TRUE(eventually([&] { return display.pixel(12, 12).r > 90; }));
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [
+      {"id": "a", "type": "expression", "code": "return length(p) + 1;"},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})");
+    EXPECT_TRUE(eventually([&] { return display.pixel(12, 12).r < 90; })) << playing.said();
+    EXPECT_TRUE(isRed());
+    test::writeText(graph, ball(kRed, "box"));
+    EXPECT_TRUE(eventually([&] { return display.pixel(12, 12).r > 90; }));
+    EXPECT_TRUE(eventually(isRed));
 
     const std::string window = "$(xdotool search --name Fieldwright | head -n 1) ";
     for (const char* size : {"1 1", "400 3", "3 400", "1 1", "320 200"}) {
