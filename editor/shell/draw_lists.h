@@ -1,8 +1,7 @@
 // Dear ImGui's draw lists on the runtime's Vulkan layer.
 //
 // One pipeline, one vertex and one index buffer that stay mapped and grow, a push descriptor a texture. The
-// next are drawn once the last have been. Colours are blended as they are, in sRGB, as ImGui
-// means them.
+// next are drawn once the last have been. Colours are blended as they are, in sRGB, as ImGui means them.
 //
 // Lifetime: the pipeline is of one colour format; a Texture is of the picture last put into it.
 #pragma once

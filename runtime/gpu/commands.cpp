@@ -113,13 +113,18 @@ void release(const Device& device, std::vector<VkDescriptorPool>& pools) {
     pools.clear();
 }
 
+/// In place of a recording that is done, or was handed on with its pools.
+void beginAnew(Commands& commands) {
+    vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
+    release(commands.device, commands.pools);
+    allocate(commands);
+}
+
 /// flush(), and the wall clock time in ms.
 double runOn(Commands& commands) {
     const double elapsed = run(commands);
     if (commands.stageOpen && !commands.queries) commands.stages.back().milliseconds += elapsed;
-    vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
-    release(commands.device, commands.pools);
-    allocate(commands);
+    beginAnew(commands);
     return elapsed;
 }
 
@@ -361,10 +366,7 @@ void send(Commands& commands, VkSemaphore done) {
 void sendOn(Commands& commands) {
     if (commands.timed) return;
     send(commands);
-    if (commands.handle)
-        vkFreeCommandBuffers(commands.device.handle, commands.device.commandPool, 1, &commands.handle);
-    release(commands.device, commands.pools);
-    allocate(commands);
+    beginAnew(commands);
 }
 
 void finish(const Device& device) {

@@ -174,7 +174,7 @@ bool Window::show(const Image& picture, const Picture& overlay) {
                             {.extent = extent,
                              .format = VK_FORMAT_R8G8B8A8_UNORM,
                              .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    reserve(*device, over, overlay.pixels.size());
+    reserve(*device, over, overlay.pixels.size(), Memory::upload);
     reserve(*device, composed, overlay.pixels.size());
     upload(*device, over, overlay.pixels);
     Commands commands(*device);
