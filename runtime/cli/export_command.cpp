@@ -115,9 +115,9 @@ int runExport(const ExportOptions& options) {
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
     how.examine = measuring(options, &meshed.session, meshed.region, progress, report);
+    how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportMesh(whole->mesh, options.output, how);
     if (!written) return print(written.error()), kSystemFailure;
-    whenEnded({.said = "; the mesh was written"});
     progress.finish();
     note(options, meshed.mesh);
     report.capped = meshed.mesh.capped;

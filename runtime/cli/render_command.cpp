@@ -8,6 +8,7 @@
 #include "runtime/cli/sequence.h"
 #include "runtime/export/outputs.h"
 #include "runtime/render/renderer.h"
+#include "runtime/system/interruption.h"
 
 namespace fw::cli {
 
@@ -97,7 +98,9 @@ int runRender(const RenderCommandOptions& options) {
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     const Result<Picture> picture = player->frame(render);
     if (!picture) return badInput(options.mesh, picture.error());
-    if (const Done written = savePicture(*picture, options.output); !written)
+    if (const Done written =
+            savePicture(*picture, options.output, [] { whenEnded({.said = "; the picture was written"}); });
+        !written)
         return print(written.error()), kSystemFailure;
     progress.finish();
     noteDraft(*player, options);

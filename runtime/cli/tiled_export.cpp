@@ -131,10 +131,10 @@ int writePieces(const MeshOutput& options, MeshPieces& mesh, const Session* sess
     Report report;
     fw::ExportOptions how;
     how.examine = measuring(options, session, region, progress, report);
+    how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportPieces(mesh, options.output, how);
     progress.finish();
     if (!written) return print(written.error()), kSystemFailure;
-    whenEnded({.said = "; the mesh was written"});
     report.capped = capped;
     return tellReport(options, report);
 }

@@ -151,7 +151,7 @@ Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& op
     // The file asked for goes last: when it is there, all of the export is.
     const Uninterrupted now;
     if (Done committed = beside ? beside->commit() : done(); !committed) return committed.error();
-    if (Done committed = file.commit(); !committed) return committed.error();
+    if (Done committed = file.commit(options.kept); !committed) return committed.error();
     return files;
 }
 

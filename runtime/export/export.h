@@ -36,6 +36,8 @@ struct ExportOptions {
         nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
     /// Called with the files, whole, before they replace what has their names; an Error ends the export.
     std::function<Done(const StoredMesh&)> examine = {};
+    std::function<void()> kept =
+        {};  ///< called once all files have their names, as OutputFile::commit() does
 };
 
 /// What an export left on disk.

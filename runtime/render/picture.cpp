@@ -18,8 +18,8 @@ Done checkPictureSize(int width, int height) {
                             std::to_string(kMostPicturePixels) + " in all"};
 }
 
-Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel) {
-    Result<OutputFile> file = OutputFile::open(path, cancel);
+Done savePicture(const Picture& picture, const std::string& path, const std::function<void()>& kept) {
+    Result<OutputFile> file = OutputFile::open(path, nullptr);
     if (!file) return file.error();
     std::vector<uint8_t> rgb;
     rgb.reserve(picture.pixels.size() / 4 * 3);
@@ -32,7 +32,7 @@ Done savePicture(const Picture& picture, const std::string& path, const std::ato
     if (!stbi_write_png_to_func(append, &*file, picture.width, picture.height, 3, rgb.data(),
                                 3 * picture.width))
         throw std::bad_alloc();
-    return file->commit();
+    return file->commit(kept);
 }
 
 }  // namespace fw

@@ -1,8 +1,8 @@
 // A finished picture on the host, and its PNG file.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,7 +22,7 @@ struct Picture {
 /// An Error where no picture of this size can be made.
 Done checkPictureSize(int width, int height);
 
-/// Writes the picture as PNG without alpha. Errors: as OutputFile.
-Done savePicture(const Picture& picture, const std::string& path, const std::atomic<bool>* cancel = nullptr);
+/// Writes the picture as PNG without alpha; `kept` as in OutputFile::commit(). Errors: as OutputFile.
+Done savePicture(const Picture& picture, const std::string& path, const std::function<void()>& kept = {});
 
 }  // namespace fw

@@ -223,7 +223,7 @@ Done OutputFile::finish() {
     return failed(shownPath, failure);
 }
 
-Done OutputFile::commit() {
+Done OutputFile::commit(const std::function<void()>& kept) {
     if (Done whole = finish(); !whole) return whole;
     const Uninterrupted now;
     if (::rename(temporary.c_str(), target.c_str()) != 0) {
@@ -233,6 +233,7 @@ Done OutputFile::commit() {
     }
     temporary.clear();
     discard();
+    if (kept) kept();
     return done();
 }
 

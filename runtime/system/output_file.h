@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -58,8 +59,9 @@ class OutputFile {
     Done finish();
     /// The file that holds the bytes until commit().
     const std::string& place() const { return temporary; }
-    /// Finishes if that is not done, then renames to the final name.
-    Done commit();
+    /// Finishes if that is not done, then renames to the final name and calls `kept`; no signal ends the
+    /// process between them, so that what it says of the file there (whenEnded()) is true.
+    Done commit(const std::function<void()>& kept = {});
 
     /// Removes the temporary files of all that are open, for a process that ends at once: safe in a signal's
     /// handler.

@@ -133,4 +133,18 @@ TEST_F(Interruption, ASignalWaitsForWhatMustNotBeParted) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{"after"});
 }
 
+TEST_F(Interruption, ASignalBehindARenameSaysThatTheFileIsThere) {
+    const auto ended = [&] {
+        endOnSignals({.said = "; nothing was written"});
+        Result<OutputFile> file = OutputFile::open(folder.path("a"), nullptr);
+        (void)file->commit([&] {
+            raise(SIGINT);
+            whenEnded({.said = "; it was written"});
+        });
+        _exit(0);
+    };
+    EXPECT_EXIT(ended(), testing::ExitedWithCode(130), "fieldwright: interrupted; it was written");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a"});
+}
+
 }  // namespace fw::interruption_test
