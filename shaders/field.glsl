@@ -14,6 +14,10 @@
 //                   place's lists, out of those chosen; the shader declares uint fieldAllocate(uint entries) and
 //                   bool fieldMayHold(vec2 f), whether an interval lets the place hold surface, before
 //   FIELD_MATERIAL  FieldMaterial fieldMaterial(vec3 p)
+//   FIELD_OPAQUE    with FIELD_MATERIAL: float fieldOpaque(vec3 p), vec4 fieldOpaqueGradient(vec3 p) and FieldMaterial
+//                   fieldOpaqueMaterial(vec3 p), the same of the part through which no light passes; only if FIELD_TRANSMITS
+//                   is defined then, for else all of it is opaque; and FIELD_MEDIA, if what it passes through is not the
+//                   same everywhere
 // If the field has families, FIELD_FAMILIES is their number, and rows are FieldColumn fieldColumn(FieldRow row, float at[9]);
 // float fieldAt(FieldRow row, FieldColumn column, uint k, float at), where at is at[k].
 // A shader, with any of them, calls fieldBegin() first in main: it loads the live parameters once per invocation.
@@ -26,6 +30,9 @@ struct FieldMaterial {
     float roughness;
     float metallic;
     vec3 emission;
+    float transmission;
+    float ior;
+    vec3 absorption;  // 1/m
 };
 
 void fieldBegin() {}
@@ -110,5 +117,5 @@ float fieldAt(FieldRow row, float y) {
 #endif
 
 #ifdef FIELD_MATERIAL
-FieldMaterial fieldMaterial(vec3 p) { return FieldMaterial(vec3(0.8), 0.5, 0.0, vec3(0.0)); }
+FieldMaterial fieldMaterial(vec3 p) { return FieldMaterial(vec3(0.8), 0.5, 0.0, vec3(0.0), 0.0, 1.5, vec3(0.0)); }
 #endif

@@ -108,7 +108,7 @@ std::optional<Type> compiledType(const Graph& graph, std::string_view group, con
     options.bake = boxInPlace;
     GraphLowering lowering(graph, options);
     const Lowered inputs = inside ? defaultsOf(lowering, *inside) : Lowered{};
-    const LoweredNodes lowered = lowering.lowerAll(nodes, "", inside ? &inputs : nullptr, {node});
+    const LoweredNodes& lowered = lowering.lowerAll(nodes, "", inside ? &inputs : nullptr, {node});
     const Lowered& made = lowered.at(node->id);
     if (made.failed) return {};
     for (const NodeOutput& output : made.outputs)
@@ -126,19 +126,23 @@ Result<Program> compileGraph(const Graph& graph, const CompileOptions& options) 
         return errorAt(graph, nullptr, "the graph has no output node: add one and connect the surface to it");
 
     GraphLowering lowering(graph, options);
-    LoweredNodes lowered = lowering.lowerAll(graph.nodes, "", nullptr, {output});
+    const Lowered lowered = lowering.lowerAll(graph.nodes, "", nullptr, {output}).at(output->id);
+    Lowered opaque = lowered.transmits ? lowering.lowerOpaque(*output) : lowered;
     for (const Error& finding : lowering.findings)
         if (finding.severity == Error::Severity::error) return finding;
 
-    const NodeOutput& result = lowered.at(output->id).outputs[0];
+    const NodeOutput& result = lowered.outputs[0];
     Program program;
-    std::copy_n(result.value.ids.begin(), 9, program.surface.begin());
-    writeOutAffine(lowering.state.ir, program.surface);
-    program.ir = lowering.state.ir.compact(program.surface);
+    std::array<IrId, 2 * kSurfaceComponents> roots;
+    std::ranges::copy(opaque.outputs[0].value.ids, std::ranges::copy(result.value.ids, roots.begin()).out);
+    writeOutAffine(lowering.state.ir, roots);
+    program.ir = lowering.state.ir.compact(roots);
+    std::copy_n(roots.begin(), kSurfaceComponents, program.surface.begin());
+    std::copy_n(roots.begin() + kSurfaceComponents, kSurfaceComponents, program.opaque.begin());
     program.live = std::move(lowering.live);
     program.origins = std::move(lowering.origins);
     if (auto problem = fieldProblem(graph, *output, program.ir, program.distance())) return *problem;
-    program.structureHash = program.ir.hash(program.surface);
+    program.structureHash = program.ir.hash(roots);
     program.families = findFamilies(program.ir, program.distance());
     program.exactness = result.exactness;
     program.spoiledBy = result.spoiledBy;
@@ -227,11 +231,11 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
     GraphLowering lowering(graph, unmeasured);
     std::vector<const Node*> all;
     for (const Node& node : graph.nodes) all.push_back(&node);
-    const LoweredNodes lowered = lowering.lowerAll(graph.nodes, "", nullptr, all);
+    const LoweredNodes& lowered = lowering.lowerAll(graph.nodes, "", nullptr, all);
     const Node* output = outputNode(graph);
     if (!hasErrors(lowering.findings) && output) {
         // Only what the output needs counts.
-        std::array<IrId, 9> surface = lowered.at(output->id).outputs[0].value.ids;
+        std::array<IrId, kSurfaceComponents> surface = lowered.at(output->id).outputs[0].value.ids;
         const bool small = lowering.state.ir.size() <= kMaxIrOperations;
         if (small)
             if (auto note = overflow(graph, lowering.state.ir, surface, lowering.live, lowering.origins))

@@ -32,11 +32,13 @@ GraphLowering::GraphLowering(const Graph& graph_, const CompileOptions& options_
     }
 }
 
-LoweredNodes GraphLowering::lowerAll(const std::vector<Node>& nodes, const std::string& prefix,
-                                     const Lowered* groupInput, const std::vector<const Node*>& targets) {
+const LoweredNodes& GraphLowering::lowerAll(const std::vector<Node>& nodes, const std::string& prefix,
+                                            const Lowered* groupInput,
+                                            const std::vector<const Node*>& targets) {
     std::unordered_map<std::string_view, const Node*> byId;
     for (const Node& node : nodes) byId[node.id] = &node;
-    LoweredNodes done;
+    LoweredNodes& done = lowered[prefix];
+    done.clear();
     std::vector<const Node*> pending(targets);
     while (!pending.empty()) {
         const Node* node = pending.back();
@@ -51,23 +53,52 @@ LoweredNodes GraphLowering::lowerAll(const std::vector<Node>& nodes, const std::
         pending.pop_back();
         if (done.contains(node->id)) continue;
         const NodeType* type = findNodeType(node->type);
-        Lowered lowered = type ? lower({*node, *type, prefix, done, groupInput}) : failure({});
-        const auto surface = std::ranges::find(lowered.outputs, Type::surface, &NodeOutput::type);
-        if (surface != lowered.outputs.end())
+        Lowered made = type ? lower({*node, *type, prefix, done, groupInput}) : failure({});
+        const auto surface = std::ranges::find(made.outputs, Type::surface, &NodeOutput::type);
+        if (surface != made.outputs.end() && !state.opaquePart)
             exactness[prefix + node->id] = {surface->exactness, surface->spoiledBy};
-        done.emplace(node->id, std::move(lowered));
+        done.emplace(node->id, std::move(made));
     }
     return done;
 }
 
+Lowered GraphLowering::lowerOpaque(const Node& target) {
+    whole = std::move(lowered);
+    lowered.clear();
+    state.opaquePart = true;
+    const std::vector<Error> known = findings;  // they would be found again
+    Lowered made = lowerAll(graph.nodes, "", nullptr, {&target}).at(target.id);
+    if (!made.failed) findings = known;
+    state.opaquePart = false;
+    return made;
+}
+
 Lowered GraphLowering::lower(const NodeAt& at) {
     if (state.ir.size() > 2 * kMaxIrOperations) return failure({});
-    if (at.node.muted && !at.type.open && !at.type.outputs.empty()) return passOn(at, &at.type.outputs);
+    if (state.opaquePart) {
+        const auto beside = whole.find(at.prefix);
+        if (beside != whole.end())
+            if (const auto same = beside->second.find(at.node.id);
+                same != beside->second.end() && !same->second.transmits)
+                return same->second;
+    }
+    const std::size_t transmissions = state.transmissions;
     const uint32_t outer = state.ir.setOrigin(uint32_t(origins.size()));
     origins.push_back(at.path());
-    Lowered lowered = at.type.lower ? at.type.lower(*this, at) : lowerBody(at);
+    Lowered made = at.node.muted && !at.type.open && !at.type.outputs.empty() ? passOn(at, &at.type.outputs)
+                   : at.type.lower                                            ? at.type.lower(*this, at)
+                                                                              : lowerBody(at);
     state.ir.setOrigin(outer);
-    return lowered;
+    made.transmits = made.transmits || state.transmissions != transmissions || receivesTransmission(at);
+    return made;
+}
+
+bool GraphLowering::receivesTransmission(const NodeAt& at) {
+    return std::ranges::any_of(at.node.inputs, [&](const auto& input) {
+        const Link* link = std::get_if<Link>(&input.second.value);
+        const auto source = link ? at.done.find(link->node) : at.done.end();
+        return source != at.done.end() && source->second.transmits;
+    });
 }
 
 Lowered GraphLowering::lowerBody(const NodeAt& at) {
@@ -239,7 +270,10 @@ std::optional<std::vector<NodeInput>> GraphLowering::inputs(const NodeAt& at) {
         const InputValue* given = at.node.input(spec.name);
         const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
         bool failed = false;
-        const NodeOutput* from = link ? linked(at, *link, failed) : nullptr;
+        const bool asWhole = spec.whole && state.opaquePart && whole.contains(at.prefix);
+        const NodeAt source{at.node, at.type, at.prefix, asWhole ? whole.at(at.prefix) : at.done,
+                            at.groupInput};
+        const NodeOutput* from = link ? linked(source, *link, failed) : nullptr;
         const bool shape = flowsAs(spec.type) == Type::surface;
         NodeInput& input = all.emplace_back(NodeInput{&spec, {}, from});
         input.value = shape ? language::emptySurface(state) : language::defaultValue(state, spec);

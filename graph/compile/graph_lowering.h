@@ -5,6 +5,9 @@
 // what they make. Groups are expanded in place: their fields are values like any other. A muted node passes
 // on its first input of its output's type.
 //
+// Where light passes through some of the surfaces, the nodes that such went into are lowered a second time
+// without them (lowerOpaque): what is left is the solid part of the whole, which rays of light need apart.
+//
 // Lifetime: one GraphLowering for one compilation.
 #pragma once
 
@@ -34,6 +37,7 @@ struct NodeOutput {
 struct Lowered {
     std::vector<NodeOutput> outputs = {};
     bool failed = false;
+    bool transmits = false;  ///< light passes through something that went into it
 };
 using LoweredNodes = std::unordered_map<std::string, Lowered>;
 
@@ -61,8 +65,10 @@ class GraphLowering {
     GraphLowering(const Graph& graph, const CompileOptions& options);
 
     /// Lowers `targets` and what they need among `nodes`.
-    LoweredNodes lowerAll(const std::vector<Node>& nodes, const std::string& prefix,
-                          const Lowered* groupInput, const std::vector<const Node*>& targets);
+    const LoweredNodes& lowerAll(const std::vector<Node>& nodes, const std::string& prefix,
+                                 const Lowered* groupInput, const std::vector<const Node*>& targets);
+    /// What the target, a node of the document that was lowered, gives without what light passes through.
+    Lowered lowerOpaque(const Node& target);
 
     // ---- for hooks
 
@@ -72,6 +78,8 @@ class GraphLowering {
     /// What stands for the outputs of a node that failed.
     Lowered failure(const std::vector<OutputSpec>& outputs);
 
+    /// Whether light passes through something that is linked to the node.
+    static bool receivesTransmission(const NodeAt& at);
     /// What a link leads to; nullptr where that is nothing. `failed` is set where its node failed.
     const NodeOutput* linked(const NodeAt& at, const Link& link, bool& failed) const;
     /// The value that the file or the library gives for an input that is not linked. `folded`: may not be
@@ -104,7 +112,11 @@ class GraphLowering {
     std::set<std::string, std::less<>> nearFields = {};  ///< particles_to_field without true distances
 
   private:
+    /// Those of each group's instance, by its prefix; and, while the opaque part is made, those of the whole.
+    std::map<std::string, LoweredNodes> lowered, whole;
+
     Lowered lower(const NodeAt& at);
+
     IrId liveComponent(const std::string& name, int component, double value);
     std::string liveName(const NodeAt& at, const std::string& input) const;
     std::optional<language::Value> linkedValue(const NodeAt& at, const InputSpec& spec,

@@ -35,6 +35,7 @@ namespace {
 /// What the group's nodes receive from this instance; none if something of it failed.
 std::optional<Lowered> instanceInputs(GraphLowering& lowering, const NodeAt& at, const Group& group) {
     Lowered inputs = defaultsOf(lowering, group);
+    inputs.transmits = GraphLowering::receivesTransmission(at);
     for (std::size_t i = 0; i < group.inputs.size(); ++i) {
         const GroupInput& input = group.inputs[i];
         NodeOutput& output = inputs.outputs[i];
@@ -77,7 +78,7 @@ Lowered lowerGroup(GraphLowering& lowering, const NodeAt& at) {
     const std::string inner = at.path() + "/";
     if (!inputs || end == group->nodes.end() || std::ranges::count(inner, '/') > kMaxNesting)
         return lowering.failure(outputs);
-    const LoweredNodes nodes = lowering.lowerAll(group->nodes, inner, &*inputs, {&*end});
+    const LoweredNodes& nodes = lowering.lowerAll(group->nodes, inner, &*inputs, {&*end});
     const Lowered& last = nodes.at(end->id);
 
     Lowered result{.failed = last.failed};

@@ -28,6 +28,7 @@ std::shared_ptr<const Program> fieldOf(GraphLowering& lowering, const Value& sur
     field->surface = language::emptySurface(lowering.state).ids;
     field->surface[distanceComponent] = surface.ids[distanceComponent];
     field->ir = lowering.state.ir.compact(field->surface);
+    field->opaque = field->surface;
     field->live = lowering.live;
     field->families = findFamilies(field->ir, field->distance());
     field->structureHash = field->ir.hash(field->surface);

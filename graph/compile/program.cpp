@@ -5,7 +5,7 @@
 namespace fw {
 
 bool Program::hasMaterial() const {
-    for (int i = 0; i < 8; ++i)
+    for (std::size_t i = 0; i < kDefaultMaterial.size(); ++i)
         if (!ir.isConstant(surface[i + 1], kDefaultMaterial[i])) return true;
     return false;
 }

@@ -33,7 +33,9 @@ struct NodeExactness {
 
 struct Program {
     Ir ir;
-    std::array<IrId, 9> surface{};  ///< roots, in the order of SurfaceComponent
+    std::array<IrId, kSurfaceComponents> surface{};  ///< roots, in the order of SurfaceComponent
+    /// The same of the part through which no light passes; the same roots, where light passes nowhere.
+    std::array<IrId, kSurfaceComponents> opaque{};
     std::vector<LiveParameter> live;
     Families families;           ///< of the distance
     uint64_t structureHash = 0;  ///< equal for equal code, whatever the live values
@@ -54,6 +56,8 @@ struct Program {
     std::vector<Error> notes;       ///< warnings: what its user should know
 
     IrId distance() const { return surface[distanceComponent]; }
+    /// Light passes through some part of it.
+    bool transmits() const { return opaque != surface; }
     /// Some point's material differs from another's or from the default.
     bool hasMaterial() const;
     /// The live values in their slots.

@@ -32,20 +32,23 @@ class Emitter : GlslStatements {
             "float fieldArcTangent2(float y, float x) { return y == 0.0 && x == 0.0 ? 0.0 : atan(y, x); }\n";
         if (program.families.empty()) {
             text += "#ifdef FIELD_PRUNED\nbool fieldChoose(uint place) { return true; }\n#endif\n";
-            valueFunction();
-            gradientFunction();
+            valueFunction("FIELD_VALUE", "fieldValue", program.distance());
+            gradientFunction("FIELD_GRADIENT", "fieldGradient", program.distance());
             intervalFunction();
             rows();
         } else {
             text += emitFamilies(program);
         }
-        material();
+        material("FIELD_MATERIAL", "fieldMaterial", program.surface);
+        opaque();
         return std::move(text);
     }
 
   private:
     void parameters() {
-        text += "struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };\n";
+        text +=
+            "struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; float "
+            "transmission; float ior; vec3 absorption; };\n";
         const bool listsAlone = program.live.empty() && program.families.listed > 0;
         if (listsAlone) text += "#ifndef FIELD_PRUNED\n";
         if (!program.families.empty() || !program.live.empty())
@@ -176,18 +179,16 @@ class Emitter : GlslStatements {
         return sampled;
     }
 
-    void valueFunction() {
-        const IrId root = program.distance();
-        text += "#ifdef FIELD_VALUE\nfloat fieldValue(vec3 p) {\n";
+    void valueFunction(std::string_view section, std::string_view name, IrId root) {
+        text += "#ifdef " + std::string(section) + "\nfloat " + std::string(name) + "(vec3 p) {\n";
         valueStatements(neededBy(std::span(&root, 1)));
         text += "    return " + value(root) + ";\n}\n#endif\n";
     }
 
-    void gradientFunction() {
-        const IrId root = program.distance();
+    void gradientFunction(std::string_view section, std::string_view name, IrId root) {
         const std::vector<bool> needed = neededBy(std::span(&root, 1));
         Derivatives known = noDerivatives();
-        text += "#ifdef FIELD_GRADIENT\nvec4 fieldGradient(vec3 p) {\n";
+        text += "#ifdef " + std::string(section) + "\nvec4 " + std::string(name) + "(vec3 p) {\n";
         for (IrId id = 0; id < ir.size(); ++id)
             if (needed[id] && !isInline(ir[id])) gradientStatement(id, known);
         text += "    return vec4(";
@@ -220,13 +221,31 @@ class Emitter : GlslStatements {
         text += "    return " + value(program.distance()) + ";\n}\n#endif\n";
     }
 
-    void material() {
-        const std::span<const IrId> roots(program.surface.data() + 1, 8);
-        text += "#ifdef FIELD_MATERIAL\nFieldMaterial fieldMaterial(vec3 p) {\n";
+    void material(std::string_view section, std::string_view name,
+                  const std::array<IrId, kSurfaceComponents>& surface) {
+        const std::span<const IrId> roots(surface.data() + 1, kSurfaceComponents - 1);
+        text += "#ifdef " + std::string(section) + "\nFieldMaterial " + std::string(name) + "(vec3 p) {\n";
         valueStatements(neededBy(roots));
-        text += "    return FieldMaterial(vec3(" + value(roots[0]) + ", " + value(roots[1]) + ", " +
-                value(roots[2]) + "), " + value(roots[3]) + ", " + value(roots[4]) + ", vec3(" +
-                value(roots[5]) + ", " + value(roots[6]) + ", " + value(roots[7]) + "));\n}\n#endif\n";
+        const auto scalar = [&](int component) { return value(surface[std::size_t(component)]); };
+        const auto vector = [&](int first) {
+            return "vec3(" + scalar(first) + ", " + scalar(first + 1) + ", " + scalar(first + 2) + ")";
+        };
+        text += "    return FieldMaterial(" + vector(baseColorComponent) + ", " + scalar(roughnessComponent) +
+                ", " + scalar(metallicComponent) + ", " + vector(emissionComponent) + ", " +
+                scalar(transmissionComponent) + ", " + scalar(iorComponent) + ", " +
+                vector(absorptionComponent) + ");\n}\n#endif\n";
+    }
+
+    /// The part through which no light passes, where there is another.
+    void opaque() {
+        if (!program.transmits()) return;
+        text += "#define FIELD_TRANSMITS\n";
+        const std::span<const IrId> medium(program.surface.data() + iorComponent, 4);
+        if (!std::ranges::all_of(medium, [&](IrId id) { return ir[id].op == Op::constant; }))
+            text += "#define FIELD_MEDIA\n";
+        valueFunction("FIELD_OPAQUE", "fieldOpaque", program.opaque[distanceComponent]);
+        gradientFunction("FIELD_OPAQUE", "fieldOpaqueGradient", program.opaque[distanceComponent]);
+        material("FIELD_OPAQUE", "fieldOpaqueMaterial", program.opaque);
     }
 
     const Program& program;

@@ -115,8 +115,11 @@ TypeResult vectorType(Types types) {
 }
 TypeResult withMaterialType(Types types) {
     if (!isNumber(types[0])) return expected(0, "a surface", types[0]);
-    const auto rest =
-        fixed<Type::surface, Type::vec3, Type::scalar, Type::scalar, Type::vec3>(types.subspan(1));
+    TypeResult rest =
+        fixed<Type::surface, Type::vec3, Type::scalar, Type::scalar, Type::vec3>(types.subspan(1, 4));
+    for (std::size_t i = 5; i < types.size() && std::holds_alternative<Type>(rest); ++i)
+        if (!isNumber(types[i]) && !(i == 7 && types[i] == Type::vec3))
+            return expected(int(i), i == 7 ? "a vec3" : "a number", types[i]);
     const auto* problem = std::get_if<TypeProblem>(&rest);
     return problem ? TypeResult(TypeProblem{problem->argument + 1, problem->message}) : rest;
 }
@@ -200,7 +203,7 @@ Result<Value> extreme(Lowering& s, Arguments arguments, Op op) {
             const IrId mine = op == Op::minimum ? s.ir.add(Op::lessEqual, result.ids[0], other.ids[0])
                                                 : s.ir.add(Op::lessEqual, other.ids[0], result.ids[0]);
             result.ids[0] = s.ir.add(op, result.ids[0], other.ids[0]);
-            for (int i = 1; i < 9; ++i)
+            for (int i = 1; i < kSurfaceComponents; ++i)
                 result.ids[i] = s.ir.add(Op::select, mine, result.ids[i], other.ids[i]);
         }
         return result;
@@ -226,7 +229,8 @@ IrId mixed(Lowering& s, IrId a, IrId b, IrId t) {
 Result<Value> mix(Lowering& s, Arguments a) {
     if (a[0].type == Type::surface && a[1].type == Type::surface) {
         Value result{Type::surface};
-        for (int i = 0; i < 9; ++i) result.ids[i] = mixed(s, a[0].ids[i], a[1].ids[i], a[2].ids[0]);
+        for (int i = 0; i < kSurfaceComponents; ++i)
+            result.ids[i] = mixed(s, a[0].ids[i], a[1].ids[i], a[2].ids[0]);
         return result;
     }
     return componentwise(a, [&](const auto& x) { return mixed(s, x[0], x[1], x[2]); });
@@ -360,6 +364,12 @@ Result<Value> withMaterial(Lowering& s, Arguments a) {
     }
     result.ids[roughnessComponent] = a[2].ids[0];
     result.ids[metallicComponent] = a[3].ids[0];
+    if (a.size() > 5) result.ids[transmissionComponent] = a[5].ids[0];
+    if (a.size() > 6) result.ids[iorComponent] = a[6].ids[0];
+    if (a.size() > 7)
+        std::ranges::copy_n(convert(s, a[7], Type::vec3)->ids.begin(), 3,
+                            result.ids.begin() + absorptionComponent);
+    giveTransmission(s, result);
     return result;
 }
 Result<Value> countOf(Lowering& s, Arguments a) {
@@ -467,7 +477,7 @@ const std::vector<Builtin>& table() {
         {"vec3", 1, 3, vectorType<Type::vec3>, toVector<Type::vec3>}, {"float3", 1, 3, vectorType<Type::vec3>, toVector<Type::vec3>},
         {"perlin", 1, 2, noiseType<Type::scalar>, noise<Op::gradientNoise>}, {"simplex", 1, 2, noiseType<Type::scalar>, noise<Op::simplexNoise>}, {"worley", 1, 2, noiseType<Type::scalar>, noise<Op::worleyNoise>},
         {"hash", 1, 2, noiseType<Type::scalar>, noise<Op::cellHash>}, {"hash3", 1, 2, noiseType<Type::vec3>, hash3},
-        {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 5, withMaterialType, withMaterial},
+        {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 8, withMaterialType, withMaterial},
         {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf}, {"outline", 2, 2, fixed<Type::scalar, Type::vec2, Type::points>, outlineAt},
         {"image_color", 2, 3, imageType<Type::vec3, true>, imageColor}, {"image_grey", 2, 3, imageType<Type::scalar, true>, imageGrey}, {"image_size", 1, 1, imageType<Type::vec2, false>, imageSize},
         {"image_range", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, false); }},

@@ -432,8 +432,7 @@ void Resolver::partialStore(int slot, const Stmt& s) {
     if (*own == Type::surface) {
         const auto member_ = surfaceMember(s.swizzle);
         if (!member_)
-            return error(s.place, "a surface has no " + inQuotes(s.swizzle) +
-                                      ": it has distance, base_color, roughness, metallic and emission");
+            return error(s.place, "a surface has no " + inQuotes(s.swizzle) + ": it has " + kSurfaceMembers);
         part = member_->second;
         emit({.kind = Kind::storePart,
               .count = uint8_t(componentCount(part)),

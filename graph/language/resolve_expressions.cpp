@@ -9,12 +9,18 @@ namespace fw::language {
 
 using Kind = Instruction::Kind;
 
+const std::string kSurfaceMembers =
+    "distance, base_color, roughness, metallic, emission, transmission, ior and absorption";
+
 std::optional<std::pair<int, Type>> surfaceMember(std::string_view name) {
     if (name == "distance") return std::pair(int(distanceComponent), Type::scalar);
     if (name == "base_color") return std::pair(int(baseColorComponent), Type::vec3);
     if (name == "roughness") return std::pair(int(roughnessComponent), Type::scalar);
     if (name == "metallic") return std::pair(int(metallicComponent), Type::scalar);
     if (name == "emission") return std::pair(int(emissionComponent), Type::vec3);
+    if (name == "transmission") return std::pair(int(transmissionComponent), Type::scalar);
+    if (name == "ior") return std::pair(int(iorComponent), Type::scalar);
+    if (name == "absorption") return std::pair(int(absorptionComponent), Type::vec3);
     return std::nullopt;
 }
 
@@ -153,8 +159,7 @@ void Resolver::member(const Expr& e) {
     if (*whole.type == Type::surface) {
         const auto part = surfaceMember(e.text);
         if (!part) {
-            error(e.place, "a surface has no " + inQuotes(e.text) +
-                               ": it has distance, base_color, roughness, metallic and emission");
+            error(e.place, "a surface has no " + inQuotes(e.text) + ": it has " + kSurfaceMembers);
             return push(std::nullopt, e.place);
         }
         emit({.kind = Kind::part,

@@ -130,6 +130,7 @@ class Resolver {
     bool ended = false;  ///< a return was passed on every path
 };
 
+extern const std::string kSurfaceMembers;  ///< listed for messages
 /// The slot's place in a member list of surfaces: first scalar and type; none if surfaces have none of that
 /// name.
 std::optional<std::pair<int, Type>> surfaceMember(std::string_view name);

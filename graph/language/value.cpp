@@ -14,8 +14,22 @@ Value constantValue(Lowering& state, Type type, std::span<const double> numbers)
 Value emptySurface(Lowering& state) {
     Value value{Type::surface};
     value.ids[0] = state.ir.constant(kEmptyDistance);
-    for (int i = 0; i < 8; ++i) value.ids[i + 1] = state.ir.constant(kDefaultMaterial[i]);
+    for (std::size_t i = 0; i < kDefaultMaterial.size(); ++i)
+        value.ids[i + 1] = state.ir.constant(kDefaultMaterial[i]);
     return value;
+}
+
+void giveTransmission(Lowering& state, Value& surface) {
+    const IrId transmission = surface.ids[transmissionComponent];
+    if (state.ir.isConstant(transmission, 0.0)) return;
+    ++state.transmissions;
+    if (!state.opaquePart) return;
+    const IrId nothing = state.ir.constant(kEmptyDistance);
+    IrId& distance = surface.ids[distanceComponent];
+    distance = state.ir.isConstant(transmission)
+                   ? nothing
+                   : state.ir.add(Op::select, state.ir.add(Op::less, state.ir.constant(0.0), transmission),
+                                  nothing, distance);
 }
 
 Value defaultValue(Lowering& state, const InputSpec& input) {

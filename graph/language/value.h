@@ -23,7 +23,7 @@ namespace fw::language {
 /// A typed value: componentCount(type) ids, or a text, points or an image known at compile time.
 struct Value {
     Type type = Type::scalar;
-    std::array<IrId, 9> ids{};
+    std::array<IrId, kSurfaceComponents> ids{};
     std::string text{};
     std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
     uint32_t image = 0;                                   ///< number among Ir::images()
@@ -41,6 +41,9 @@ struct Lowering {
     std::size_t steps = 0;                          ///< instructions run so far, bounded by kMaxSteps
     std::string graphPath{};                        ///< the file that paths of images are relative to
     std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
+    /// Surfaces through which light passes are nothing: what is made is the opaque part of the whole.
+    bool opaquePart = false;
+    std::size_t transmissions = 0;  ///< surfaces that were given a transmission other than 0
 };
 
 /// The value of an input that is neither given nor linked.
@@ -56,6 +59,8 @@ Result<Value> convert(Lowering& state, const Value& value, Type type);
 bool standsFor(Type from, Type to);
 
 Value constantValue(Lowering& state, Type type, std::span<const double> numbers);
+/// To be called when a surface was given its transmission: as Lowering::opaquePart has it.
+void giveTransmission(Lowering& state, Value& surface);
 /// The surface of nothing: far away everywhere.
 Value emptySurface(Lowering& state);
 inline constexpr double kEmptyDistance = 1e9;

@@ -16,7 +16,7 @@ enum class Type : unsigned char {
     scalar,  ///< "float" in files and code
     vec2,
     vec3,
-    surface,    ///< distance and material: nine scalars, in the order of `SurfaceComponent`
+    surface,    ///< distance and material: fourteen scalars, in the order of `SurfaceComponent`
     string,     ///< an enum choice, a path or a text; known when the graph is compiled
     points,     ///< a list of vec2, known when the graph is compiled
     image,      ///< the path of a picture; read when the graph is compiled (image.h)
@@ -24,6 +24,9 @@ enum class Type : unsigned char {
     particles,  ///< places that move: what a simulation makes
 };
 inline constexpr int kTypes = int(Type::particles) + 1;
+
+/// Scalars of a surface.
+inline constexpr int kSurfaceComponents = 14;
 
 /// Number of scalars that represent a value of this type in the IR; 0 for all that is no function of
 /// position.
@@ -34,7 +37,7 @@ constexpr int componentCount(Type type) {
         case Type::scalar: return 1;
         case Type::vec2: return 2;
         case Type::vec3: return 3;
-        case Type::surface: return 9;
+        case Type::surface: return kSurfaceComponents;
         default: return 0;
     }
 }
@@ -54,11 +57,16 @@ enum SurfaceComponent {
     baseColorComponent = 1,
     roughnessComponent = 4,
     metallicComponent = 5,
-    emissionComponent = 6
+    emissionComponent = 6,
+    transmissionComponent = 9,
+    iorComponent = 10,
+    absorptionComponent = 11
 };
 
-/// The material of a surface that no material node touched: base colour, roughness, metallic, emission.
-inline constexpr std::array<double, 8> kDefaultMaterial = {0.8, 0.8, 0.8, 0.5, 0.0, 0.0, 0.0, 0.0};
+/// The material of a surface that no material node touched: base colour, roughness, metallic, emission,
+/// transmission, index of refraction, absorption (1/m).
+inline constexpr std::array<double, kSurfaceComponents - 1> kDefaultMaterial = {
+    0.8, 0.8, 0.8, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0};
 
 /// How a field's value relates to the distance to its zero set (definitions: sdf.md's "exact", "bound",
 /// "distorted").

@@ -50,6 +50,12 @@ NodeType blendNode(std::string id, std::string label, std::string doc, Exactness
             .aliases = std::move(aliases)};
 }
 
+/// Whose second surface only cuts, so that it is what it is, though light may pass through it.
+NodeType cutting(NodeType type) {
+    type.inputs[1].whole = true;
+    return type;
+}
+
 }  // namespace
 
 std::vector<NodeType> combineNodes() {
@@ -61,7 +67,8 @@ std::vector<NodeType> combineNodes() {
                       "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (a.distance - b.distance) / "
                       "max(radius, 1e-9), 0.0, 1.0)), d);",
                   {"join"}),
-        blendNode("intersect", "Intersect", "What lies inside both surfaces.",
+        blendNode("intersect", "Intersect",
+                  "What lies inside both surfaces. Light passes through it unless both are opaque.",
                   blendRule([](Exactness a, Exactness b) {
                       return Exactness{false, a.inside && b.inside, 1};
                   }),
@@ -69,14 +76,15 @@ std::vector<NodeType> combineNodes() {
                       "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (b.distance - a.distance) / "
                       "max(radius, 1e-9), 0.0, 1.0)), -d);",
                   {"intersection"}),
-        blendNode("subtract", "Subtract",
-                  "The first surface with the second cut out of it; the cut keeps the material of the first.",
-                  blendRule([](Exactness a, Exactness b) {
-                      return Exactness{false, a.inside && b.outside, 1};
-                  }),
-                  "if (radius <= 0.0) return with_distance(a, max(a.distance, -b.distance));\n" +
-                      blendedMin("-a.distance", "b.distance") + "return with_distance(a, -d);",
-                  {"difference", "cut"}),
+        cutting(blendNode(
+            "subtract", "Subtract",
+            "The first surface with the second cut out of it; the cut keeps the material of the first.",
+            blendRule([](Exactness a, Exactness b) {
+                return Exactness{false, a.inside && b.outside, 1};
+            }),
+            "if (radius <= 0.0) return with_distance(a, max(a.distance, -b.distance));\n" +
+                blendedMin("-a.distance", "b.distance") + "return with_distance(a, -d);",
+            {"difference", "cut"})),
         // Rounds the creases where the two meet: union blended, minus intersection blended.
         blendNode(
             "xor", "Exclusive or", "What lies inside exactly one of the two surfaces.",

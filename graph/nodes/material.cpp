@@ -13,10 +13,27 @@ std::vector<NodeType> materialNodes() {
                     color("base_color", {0.8, 0.8, 0.8}, "Colour of the surface."),
                     share("roughness", 0.5, "0 is a mirror, 1 is chalk."),
                     share("metallic", 0, "0 is plastic, stone or wood; 1 is metal."),
-                    color("emission", {0, 0, 0}, "Light that the surface gives off by itself.")},
+                    color("emission", {0, 0, 0}, "Light that the surface gives off by itself."),
+                    share("transmission", 0,
+                          "How much light goes through: 0 is opaque, 1 is water or glass. Then the base "
+                          "colour tints what enters: white for clear glass."),
+                    {.name = "ior",
+                     .type = Type::scalar,
+                     .value = numbers({1.5}),
+                     .min = 0.1,
+                     .max = 10,
+                     .doc = "Index of refraction, by which light bends: water 1.33, glass 1.5, diamond 2.4."},
+                    {.name = "absorption",
+                     .type = Type::vec3,
+                     .value = numbers({0, 0, 0}),
+                     .min = 0,
+                     .unit = "1/m",
+                     .doc =
+                         "What is lost of red, green and blue within: exp(-absorption * length) remains."}},
          .outputs = {{"surface", Type::surface}},
          .exactness = sameAs("surface"),
-         .body = "return with_material(surface, base_color, roughness, metallic, emission);"},
+         .body = "return with_material(surface, base_color, roughness, metallic, emission, transmission, "
+                 "ior, absorption);"},
         // Each of the three pictures stands upright and unmirrored for who looks at its side from outside;
         // from above -z is up, from below z is. The normal comes from four samples on the corners of a
         // tetrahedron. They lie a two hundredth of the scale away, so that at a sharp edge the pictures meet

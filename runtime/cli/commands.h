@@ -78,6 +78,7 @@ struct RenderCommandOptions {
     int samples = 16;
     FieldBy quality = FieldBy::sooner;
     bool reference = false;
+    int bounces = 0;                                  ///< of paths of light; 0: as many as the solid needs
     std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
     bool overwrite = false;
 };

@@ -207,7 +207,13 @@ int run(int count, char** arguments) {
     renderCommand->add_flag(
         "--reference", renderOptions.reference,
         "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
-        "occlusion a sample (1,024 a pixel), each traced to its end");
+        "occlusion a sample (1,024 a pixel), each traced to its end; or, with --bounces, and where light "
+        "passes "
+        "through something, whole paths of light, one a sample");
+    renderCommand
+        ->add_option("--bounces", renderOptions.bounces,
+                     "Of --reference: paths of light that are reflected by up to so many opaque surfaces")
+        ->check(CLI::Range(1, kMostBounces));
 
     PlayOptions playOptions;
     CLI::App* playCommand = app.add_subcommand(

@@ -34,9 +34,12 @@ const std::vector<std::string>& renderViews() {
     return names;  // in the order of RENDER_PICTURE and the following
 }
 
-RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size) {
+RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size,
+                            const Player& player) {
     RenderOptions render{.width = size.first, .height = size.second, .samples = options.samples};
     render.reference = options.reference;
+    constexpr int kBounces = 8;
+    render.bounces = options.bounces > 0 ? options.bounces : player.program().transmits() ? kBounces : 0;
     render.show = viewOf(options);
     return render;
 }
@@ -88,7 +91,7 @@ int runRender(const RenderCommandOptions& options) {
         openPlayer(kept, progress, {.liveParameters = false, .fieldBy = renderedBy(options)}, status);
     if (!player) return status;
     progress.start("mesh", 50);
-    RenderOptions render = renderOptions(options, *size);
+    RenderOptions render = renderOptions(options, *size, *player);
     const Result<MesherResult> mesh = player->meshOnDevice(render.show);
     if (!mesh) return badInput(options.mesh, mesh.error());
     if (mesh->triangles == 0 && !(showsParticles(render.show) && player->particles() > 0))

@@ -163,7 +163,7 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     long made = 0;
     {
         SequenceProgress progress(range->count());
-        const RenderOptions render = renderOptions(options, size);
+        const RenderOptions render = renderOptions(options, size, *player);
         for (long frame = range->first; frame < range->last; ++frame) {
             const std::string path = pathOf(options, frame).string();
             const bool there = !options.overwrite && sizeOfPng(path) == size;

@@ -53,7 +53,8 @@ class SequenceProgress {
 /// What --view takes.
 const std::vector<std::string>& renderViews();
 /// The options that all pictures of the command share.
-RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size);
+RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size,
+                            const Player& player);
 /// Who evaluates the field for them: kernels if a view traces it.
 FieldBy renderedBy(const RenderCommandOptions& options);
 /// Says of a picture that is a draft for lack of a quick compiler why it is one.

@@ -376,7 +376,7 @@ gpu::DraftMaterial Session::material() const {
     const auto constant = [&](int component) {
         const IrId id = current.surface[component];
         return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
-                                         : static_cast<float>(kDefaultMaterial[component - 1]);
+                                         : static_cast<float>(kDefaultMaterial[std::size_t(component) - 1]);
     };
     gpu::DraftMaterial constants{};
     constants.roughness = constant(roughnessComponent);

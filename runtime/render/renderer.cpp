@@ -50,13 +50,13 @@ glm::vec2 onDisc(int number, int count) {
 
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
+}  // namespace
+
 Picture readPicture(const Renderer& renderer) {
     const glm::uvec2 size = renderer.described.size;
     return {int(size.x), int(size.y),
             download<uint8_t>(*renderer.device, renderer.readback, 4 * std::size_t(size.x) * size.y)};
 }
-
-}  // namespace
 
 std::optional<FieldKernels> createFieldKernels(const Device& device, std::string field,
                                                const FieldKernelOptions& options) {
@@ -115,6 +115,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.lamps = std::move(kernels.lamps);
     renderer.show = std::move(kernels.show);
     renderer.reference = {};
+    renderer.paths.trace = {};
     renderer.shown.reset();
     renderer.shadowStands = false;
     renderer.tracing.reset();
@@ -188,6 +189,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         return Error{.message =
                          "a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel"};
     const gpu::View middle = viewOf(scene, options);
+    if (options.reference && options.bounces > 0) return renderPaths(renderer, scene, options, middle);
     const bool lens = options.scene.camera && options.scene.camera->aperture > 0.0;
     renderer.ambient.options = ambientOptions(scene, options);
     renderer.ambient.options.raysResting = kRaysStill;

@@ -26,6 +26,7 @@
 
 #include "runtime/render/ambient.h"
 #include "runtime/render/draft.h"
+#include "runtime/render/paths.h"
 #include "runtime/render/picture.h"
 #include "runtime/render/places.h"
 #include "runtime/render/sprites.h"
@@ -79,8 +80,11 @@ struct RenderOptions {
     std::span<const gpu::MeshVertex> framed = {};
     int samples = 16;  ///< frames that a still picture is the mean of, 1 to kMostSamples
     Primary primary = Primary::traced;
-    bool reference = false;  ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
-    uint32_t show = RENDER_PICTURE;  ///< or one of the views that shaders/render/render.h lists
+    bool reference = false;    ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
+    int bounces = 0;           ///< of the reference, if above 0: whole paths of light (paths.h), one a sample
+    PathSums* sums = nullptr;  ///< where paths go on from, and what they are left in, if given
+    std::function<void()> keepSums = {};  ///< called now and then, with `sums` as they are
+    uint32_t show = RENDER_PICTURE;       ///< or one of the views that shaders/render/render.h lists
     Slice slice = {};
     /// Looked at within a frame; that of a live view can be drawn again as if this one had not begun.
     const std::atomic<bool>* cancel = nullptr;
@@ -88,6 +92,7 @@ struct RenderOptions {
 };
 
 inline constexpr int kMostSamples = 4096;
+inline constexpr int kMostBounces = 64;
 
 /// What the live view shows: while none of it changes, it rests.
 struct Shown {
@@ -126,6 +131,7 @@ struct Renderer {
     Sprites sprites;  ///< ditto
     Clusters clusters;
     Places places;
+    PathTracer paths;
     GBuffer gbuffer;
     Ambient ambient;
     Pipeline light[3][32];  ///< by list of tiles and what light.comp defines; made when needed
@@ -155,13 +161,17 @@ Renderer createRenderer(const Device& device);
 /// Draws this field from now on. The device is not using the kernels that the renderer had.
 void setField(Renderer& renderer, FieldKernels kernels);
 
-/// A still picture. Errors: as checkPictureSize, samples out of range, cancelled.
+/// A still picture, by samples or by paths. Errors: as renderPaths() and checkPictureSize, samples out of
+/// range, cancelled.
 Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, const RenderOptions& options);
 
 /// The live view's next frame, into Renderer::pixels and, if one is given, `picture`; false if it would be
 /// the same as the last, or if it was cancelled. Errors: as checkPictureSize.
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                         Picture* picture);
+
+/// The picture in Renderer::readback.
+Picture readPicture(const Renderer& renderer);
 
 /// One frame of either, for the benchmarks: what its stages take. `view.pixel` is set here. False if the
 /// commands were cancelled, before the picture was touched.

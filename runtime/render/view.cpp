@@ -44,9 +44,13 @@ gpu::View cameraView(const Camera& camera, const SeenBounds& bounds, float aspec
     return view;
 }
 
+float focusOf(const Camera& camera, const gpu::View& view) {
+    return camera.focus > 0.0 ? std::max(float(camera.focus), view.near)
+                              : glm::distance(vector(camera.position), vector(camera.target));
+}
+
 gpu::View throughLens(gpu::View view, const Camera& camera, glm::vec2 place) {
-    const float distance = glm::distance(vector(camera.position), vector(camera.target));
-    const float focus = camera.focus > 0.0 ? std::max(float(camera.focus), view.near) : distance;
+    const float focus = focusOf(camera, view);
     const glm::vec2 moved = 0.5f * float(camera.aperture) * place;
     view.eye += moved.x * glm::normalize(view.right) + moved.y * glm::normalize(view.up);
     view.jitter -= moved / (focus * glm::vec2(glm::length(view.right), glm::length(view.up)));

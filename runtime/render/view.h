@@ -32,6 +32,9 @@ gpu::View lookFrom(glm::vec3 eye, glm::vec3 target, float fov, float aspect, flo
 /// The camera's view; `near` suits what is within the bounds.
 gpu::View cameraView(const Camera& camera, const SeenBounds& bounds, float aspect);
 
+/// How far from the camera things are sharp, metres along the view.
+float focusOf(const Camera& camera, const gpu::View& view);
+
 /// The view from a place on the camera's lens (`place`: of the unit disc), which sees what is in focus where
 /// the view does.
 gpu::View throughLens(gpu::View view, const Camera& camera, glm::vec2 place);

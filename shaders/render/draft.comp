@@ -35,7 +35,7 @@ void main() {
     float facing = dot(n, toEye);  // never away from the eye, as between vertices it can be
     n = facing < 0.0 ? normalize(n - 1.02 * facing * toEye) : n;
     vec3 color = unpackUnorm4x8(drawn.y).rgb;
-    FieldMaterial material = FieldMaterial(look.colored != 0 ? color * color : look.base, look.roughness, look.metallic, look.emission);
+    FieldMaterial material = FieldMaterial(look.colored != 0 ? color * color : look.base, look.roughness, look.metallic, look.emission, 0.0, 1.5, vec3(0.0));
     uvec4 surface = hit ? packSurface(depth, n, material) : toGround > 0.0 ? packGround(view.near / toGround) : uvec4(0);
     if (inPicture) imageStore(surfaces, ivec2(pixel), surface);
 }

@@ -1,10 +1,8 @@
 // From the G-buffer to the finished picture, one listed tile a work group: sun with its shadow, sky with the ambient occlusion,
 // lamps, fog; tone map, mean over frames, sRGB. It samples no field, so its pipelines serve all graphs.
 // Where no surface is there is the sky, or a studio's wall, on which the ground, not drawn itself, catches the solid's shadow.
-// Tone map: ACES, as fitted by Narkowicz ("ACES filmic tone mapping curve", 2015); or Khronos' PBR Neutral (its specification,
-// 2024), which takes 4 % off, for a highlight's, leaves colours below 0.8 as they are, and lets brighter ones bleach as a whole.
 // Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; MEAN where the picture is the
-// mean of frames; NEUTRAL.
+// mean of frames; NEUTRAL, of tone.glsl.
 #define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
@@ -37,26 +35,13 @@ layout(binding = 12, rgba16f) readonly uniform image2D fog;  // light that it se
 #include "render/solid.glsl"
 #include "render/shading.glsl"
 #include "render/shadow.glsl"
+#include "render/tone.glsl"
 
 // How much of the sun p sees: two places opposite of each other in a disc of two texels, others for each pixel and frame.
 float sunSeen(vec3 p, vec3 n, uvec2 pixel) {
     vec3 at = inShadowMap(p + n * (1.5 * frame.shadowTexel) + frame.sun * (0.75 * frame.shadowTexel));
     vec2 u = evenly(pixel, frame.number), spot = vec2(cos(6.2831853 * u.x), sin(6.2831853 * u.x)) * (1.5 * sqrt(u.y));
     return 0.5 * (sunReaches(at, spot) + sunReaches(at, -spot));
-}
-
-vec3 toneMap(vec3 x) {
-    x = min(x * frame.exposure, 1e4);  // far beyond white, and its square is finite
-#ifdef NEUTRAL
-    const float kHighlight = 0.04, kKept = 0.8 - kHighlight, kLeft = 1.0 - kKept, kBleaching = 0.15;
-    float least = min(x.r, min(x.g, x.b));
-    x -= least < 2.0 * kHighlight ? least - least * least / (4.0 * kHighlight) : kHighlight;
-    float most = max(x.r, max(x.g, x.b));
-    float pressed = most < kKept ? most : 1.0 - kLeft * kLeft / (most + kLeft - kKept);
-    float bleached = 1.0 - 1.0 / (kBleaching * (most - pressed) + 1.0);
-    return mix(x * (pressed / max(most, 1e-6)), vec3(pressed), bleached);
-#endif
-    return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
 void main() {
@@ -123,13 +108,5 @@ void main() {
     linear = mix(linear, before, float(frame.mean) / float(frame.mean + 1));
     if (inPicture) imageStore(means, at, uvec4(packUnorm2x16(linear.xy), packUnorm2x16(vec2(linear.z, 0.0)), 0, 0));
 #endif
-    // sRGB's curve, fitted to 0.16 of a step of eight bits.
-    vec3 root = sqrt(linear), encoded = (root * (root * 1.66847 + 1.41553) - 0.03867) / (root * 2.04346 + 1.0);
-    encoded = mix(12.92 * linear, encoded, greaterThan(linear, vec3(0.0031308)));
-    // Half a step up or down by Bayer's 4 x 4 pattern keeps gradients from banding, and files small.
-    uint bits = pixel.x ^ pixel.y;
-    float rank = float((bits & 1u) << 3 | (pixel.y & 1u) << 2 | (bits & 2u) | (pixel.y & 2u) >> 1);
-    float noise = (rank + 0.5) / 16.0 - 0.5;
-    uvec3 bytes = uvec3(clamp(255.0 * encoded + noise + 0.5, 0.0, 255.0));
-    if (inPicture) imageStore(pixels, at, uvec4(bytes.x | bytes.y << 8 | bytes.z << 16 | 255u << 24));
+    if (inPicture) imageStore(pixels, at, uvec4(displayed(linear, pixel)));
 }

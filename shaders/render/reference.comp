@@ -16,15 +16,9 @@ layout(binding = 7, r32ui) writeonly uniform uimage2D historyNow;
 layout(push_constant, scalar) uniform Push { uint rays; };
 
 #include "render/solid.glsl"
+#include "lib/random.glsl"
 
 const float kLeastStep = 1.0 / 1024.0;  // of a ray's length
-
-// PCG (Jarzynski and Olano, "Hash functions for GPU rendering", 2020).
-uint random(inout uint state) {
-    state = state * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
-    return word >> 22 ^ word;
-}
 
 void main() {
     fieldBegin();
@@ -39,7 +33,7 @@ void main() {
     float radius = frame.ambientRadius, close = radius * kLeastStep, open = 0.0;
     uint state = (here.y * frame.size.x + here.x) * 9781u + frame.number * 6271u + 1u, ray = 0;
     do {
-        vec2 u = vec2(random(state) >> 8, random(state) >> 8) / 16777216.0;
+        vec2 u = vec2(random(state), random(state));
         vec3 d = cosineDirection(n, u);
         float t = 0.0, least = 1.0;
         do {

@@ -18,6 +18,8 @@ namespace fw::gpu {
 #define RENDER_NEAR 3    // with surface that ambient occlusion may reach
 #define RENDER_LISTS 4
 
+#define RENDER_PATHS 8  // pixels along each side of a work group of path.comp
+
 #define RENDER_PLACES 32       // boxes along each axis of the grid of the families' lists: places.glsl
 #define RENDER_LEAST_PLACES 4  // of the coarsest; each has twice as many as the one before
 
@@ -174,6 +176,16 @@ struct TracePush {
     uvec2 size;
     uint parallel;  // 1: all rays have one direction
     uint steps;     // of a ray, at most
+};
+
+// Paths of light.
+struct PathPush {
+    uint path;      // which of the pixel's this is, from 0
+    uint bounces;   // off opaque surfaces, at most
+    float lens;     // its radius, metres; 0: a pinhole
+    float focus;    // metres along the view's direction
+    vec3 sun;       // towards the middle of its disc
+    float sunWide;  // how much the cosine of its edge is less than 1; 0: it is a point; -1: there is none
 };
 
 struct PlacesPush {

@@ -26,7 +26,7 @@ void main() {
     bool hidden = toGround > 0.0 && toGround * depth < frame.now.near;
     uvec2 look = imageLoad(looks, at).xy;
     vec3 color = unpackUnorm4x8(look.y).rgb;
-    uvec4 surface = packSurface(depth, unpackOctahedral(look.x), FieldMaterial(color * color, 0.5, 0.0, vec3(0.0)));
+    uvec4 surface = packSurface(depth, unpackOctahedral(look.x), FieldMaterial(color * color, 0.5, 0.0, vec3(0.0), 0.0, 1.5, vec3(0.0)));
     surface = hidden ? packGround(frame.now.near / toGround) : surface;
     if (inPicture && look.y != 0) imageStore(surfaces, at, surface);
 }

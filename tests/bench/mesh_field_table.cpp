@@ -266,7 +266,8 @@ void meshingTable(Bench& bench) {
         for (const bool boxed : {true, false}) {
             Program program;
             Ir& ir = program.ir;
-            for (std::size_t i = 0; i < 8; ++i) program.surface[i + 1] = ir.constant(kDefaultMaterial[i]);
+            for (std::size_t i = 0; i < kDefaultMaterial.size(); ++i)
+                program.surface[i + 1] = ir.constant(kDefaultMaterial[i]);
             if (boxed) {
                 // The exact box around the mesh.
                 std::array<IrId, 3> q;
@@ -288,6 +289,7 @@ void meshingTable(Bench& bench) {
                 program.surface[0] = ir.sample(ir.addVolume(*volume), tricubicChannel, {0, 1, 2});
             }
             program.ir = ir.compact(program.surface);
+            program.opaque = program.surface;
             program.structureHash = program.ir.hash(program.surface);
             time(boxed ? "box around the " + input.name : input.name + ", 128, tricubic", std::move(program),
                  region);

@@ -281,7 +281,9 @@ Program programOf(const FieldVolumePtr& volume) {
     const uint32_t number = program.ir.addVolume(volume);
     program.surface.fill(program.ir.constant(0.0));
     program.surface[distanceComponent] = program.ir.sample(number, tricubicChannel, {0, 1, 2});
-    for (std::size_t i = 0; i < 8; ++i) program.surface[i + 1] = program.ir.constant(kDefaultMaterial[i]);
+    for (std::size_t i = 0; i < kDefaultMaterial.size(); ++i)
+        program.surface[i + 1] = program.ir.constant(kDefaultMaterial[i]);
+    program.opaque = program.surface;
     program.structureHash = program.ir.hash(program.surface);
     return program;
 }

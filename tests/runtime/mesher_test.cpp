@@ -19,7 +19,7 @@ namespace fw::mesher_test {
 /// `interval` is an expression for (least, greatest) over lo and hi.
 std::string fieldText(const std::string& value, const std::string& interval, const std::string& before = "") {
     return before + R"(
-struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; };
+struct FieldMaterial { vec3 baseColor; float roughness; float metallic; vec3 emission; float transmission; float ior; vec3 absorption; };
 void fieldBegin() {}
 bool fieldChoose(uint place) { return true; }
 float fieldValueOf(vec3 p) { return )" +
@@ -57,7 +57,7 @@ float fieldAt(FieldRow row, float at) { return fieldValueOf(vec3(row.a, row.b, a
 #endif
 #endif
 #ifdef FIELD_MATERIAL
-FieldMaterial fieldMaterial(vec3 p) { return FieldMaterial(p * 0.25 + 0.5, 0.5, 0.0, vec3(0)); }
+FieldMaterial fieldMaterial(vec3 p) { return FieldMaterial(p * 0.25 + 0.5, 0.5, 0.0, vec3(0), 0.0, 1.5, vec3(0)); }
 #endif
 )";
 }

@@ -1,0 +1,435 @@
+// One path of light a pixel, from the eye to where it comes from, added to the sums of those before: what all quicker light is
+// measured against (Kajiya, "The rendering equation", 1986).
+//
+// The field's own surface is traced, by steps of its value; no mesh, no G-buffer, no map of shadows. At an opaque surface one
+// lamp, or the sun, is asked for by a ray of its own, and weighed against the chance that the path finds it by itself (Veach,
+// "Robust Monte Carlo methods", 1997: the balance heuristic). Facets are drawn as they are seen; light that they mask leaves as
+// from chalk, as does what they let through, tinted by the base colour: so nothing is lost or won at any roughness, without a
+// table. That part's albedo is not known in closed form but by the facet that was drawn, which is as good in the mean.
+//
+// Where light passes through, the path is reflected or bent by Fresnel's share and Snell's law, and loses within by Beer and
+// Lambert's. The whole solid and its opaque part are two fields (field.glsl): within, a ray goes until it leaves the one or
+// meets the other. Where transmissive solids overlap, a place is of the one that it is deeper in; the interface is where that
+// changes, and its normal the difference of the two fields' slopes. What lies behind an interface cannot be asked for lamps; it
+// is found by paths that hit the sun's disc or a lamp's ball, for which some leave chalk towards the sun.
+//
+// One loop, whose turns are rays of either kind: the field's code stands once in it, as drivers inline it at each place.
+#define FIELD_VALUE
+#define FIELD_GRADIENT
+#define FIELD_MATERIAL
+#define FIELD_OPAQUE
+#include "shared.h"
+#include "render/render.h"
+#include "render/places.glsl"
+#include "lib/octahedral.glsl"
+#include "render/view.glsl"
+#include "render/gbuffer.glsl"
+
+layout(local_size_x = RENDER_PATHS, local_size_y = RENDER_PATHS) in;
+layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
+layout(binding = 8, scalar) buffer Sums { vec4 sums[]; };
+layout(push_constant, scalar) uniform Push { PathPush push; };
+
+#include "render/solid.glsl"
+#include "render/shading.glsl"
+#include "render/microfacets.glsl"
+#include "lib/random.glsl"
+
+const uint kMostSteps = 768, kMostTurns = 200;
+const float kClose = 2e-5;        // of the radius: nearer is a hit
+const float kLeave = 0.25;        // or of the way gone, so that rays may leave the surface they start on
+const float kSmooth = 0.04;       // roughness below which an interface is smooth, and no facet of a solid is rougher
+const float kToSun = 0.35;        // share of the paths that leave chalk towards the sun where light passes through something,
+const float kSunCone = 0.82;      // within the cone of this cosine about it
+const float kSameMedium = 0.01;   // difference in the index of refraction
+
+// What a ray is for.
+const uint kPath = 0, kLamp = 1, kShade = 2, kOpen = 3;
+
+float mean(vec3 v) { return (v.x + v.y + v.z) / 3.0; }
+
+void basis(vec3 n, out vec3 x, out vec3 y) {  // Duff et al., as in view.glsl
+    float s = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
+    x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), y = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
+// A direction within the cone about `axis`, evenly.
+vec3 inCone(vec3 axis, float cosine, vec2 u) {
+    vec3 x, y;
+    basis(axis, x, y);
+    float c = mix(cosine, 1.0, u.x), s = sqrt(max(1.0 - c * c, 0.0)), angle = 6.2831853 * u.y;
+    return normalize(s * cos(angle) * x + s * sin(angle) * y + c * axis);
+}
+
+// How often chalk sends paths in a direction.
+float chalkDensity(float facing, vec3 d) {
+    float density = max(facing, 0.0) / kPi;
+#ifdef FIELD_TRANSMITS
+    if (push.sunWide > 0.0) density = mix(density, dot(d, push.sun) > kSunCone ? 1.0 / (6.2831853 * (1.0 - kSunCone)) : 0.0, kToSun);
+#endif
+    return density;
+}
+
+// Share of the sphere that the sun takes, steradians; 0: it is a point.
+float sunSpread() { return 6.2831853 * push.sunWide; }
+
+// A lamp's ball from o: in w the cosine of its edge less than 1, in xyz the direction to its middle.
+vec4 lampBall(Light lamp, vec3 o) {
+    vec3 v = lamp.position - o;
+    float far2 = dot(v, v), sine2 = min(lamp.size * lamp.size / far2, 0.999);
+    return vec4(v * inversesqrt(far2), sine2 / (1.0 + sqrt(1.0 - sine2)));
+}
+vec3 lampRadiance(Light lamp, vec3 d) {
+    return lamp.color * (smoothstep(lamp.cosOuter, lamp.cosInner, dot(-d, lamp.direction)) / (kPi * lamp.size * lamp.size));
+}
+
+// What a ray that goes straight from the eye ends at. In the studio that is the wall, as it is where the ray would be seen.
+vec3 backdrop(vec3 d) {
+    if (frame.studio == 0) return skySeen(d);
+    vec3 at = project(frame.now, frame.now.eye + d);
+    vec2 place = at.z > 0.05 ? clamp(at.xy, -1.5, 1.5) : vec2(0.0);
+    return mix(vec3(0.76, 0.745, 0.72), vec3(0.36, 0.43, 0.53), smoothstep(-1.0, 1.2, place.y)) * (1.0 - 0.10 * dot(place, place));
+}
+
+// The whole solid at p, cut at the region; negative inside.
+float wholeAt(Bounds bounds, vec3 p) {
+    vec3 from = p - bounds.centre, q = abs(from) - bounds.half_, at = from * bounds.perHalf;
+    chooseMembers(at);
+    float region = max(q.x, max(q.y, q.z));
+    return withinPlaces(at) ? max(fieldValue(p) * bounds.stepScale, region) : region;
+}
+float opaqueAt(Bounds bounds, vec3 p) {
+#ifdef FIELD_TRANSMITS
+    vec3 q = abs(p - bounds.centre) - bounds.half_;
+    return max(fieldOpaque(p) * bounds.stepScale, max(q.x, max(q.y, q.z)));
+#else
+    return wholeAt(bounds, p);
+#endif
+}
+
+void main() {
+    fieldBegin();
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, frame.size))) return;
+    uint state = randomStart(pixel.y * frame.size.x + pixel.x, push.path);
+    Bounds bounds = solidBounds();
+    float close = kClose * frame.radius;
+
+    // From the eye, or a place on the lens.
+    vec2 jitter = vec2(random(state), random(state)) - 0.5, onLens = vec2(random(state), random(state));
+    vec2 place = placeOf(pixel, frame.size) + 2.0 * jitter / vec2(frame.size);
+    vec3 ray = rayOf(frame.now, place);
+    float r = push.lens * sqrt(onLens.x);
+    vec3 o = frame.now.eye + r * cos(6.2831853 * onLens.y) * normalize(frame.now.right) + r * sin(6.2831853 * onLens.y) * normalize(frame.now.up);
+    vec3 d = normalize(frame.now.eye + ray * push.focus - o);
+
+    vec3 light = vec3(0.0), through = vec3(1.0);
+    vec3 pending = vec3(0.0), onward = d;  // what the lamp's ray brings if nothing is in its way, and where the path goes on
+    uint purpose = kPath, after = kPath, bounces = 0, turn = 0;
+    float far = 1e30;
+    float density = -1.0;  // of the path's direction, where a lamp could have been asked for instead
+    bool straight = true, alive = true;
+
+    float ior = 1.0;
+    vec3 absorption = vec3(0.0);
+    bool within = false;
+#ifdef FIELD_TRANSMITS
+    within = wholeAt(bounds, o) < 0.0 && opaqueAt(bounds, o) > 0.0;
+    if (within) {
+        FieldMaterial medium = fieldMaterial(o);
+        ior = medium.ior;
+        absorption = medium.absorption;
+    }
+#endif
+    do {
+        // Where the ray meets the ground, and the region's box.
+        bool groundCounts = frame.studio == 0 || (purpose == kPath && straight);
+        float toGround = d.y < 0.0 && groundCounts ? max(frame.ground - o.y, -1e30) / d.y : -1.0;
+        float away = length(o.xz + d.xz * toGround - frame.centre.xz) / frame.radius;
+        float fade = 1.0 - smoothstep(0.43 * frame.groundEnd, frame.groundEnd, away);
+        bool solidGround = frame.studio != 0 || random(state) < fade;
+        toGround = toGround > 0.0 && away < frame.groundEnd && solidGround ? toGround : 1e30;
+        vec3 a = (frame.lo - o) / d, b = (frame.hi - o) / d, first = min(a, b), last = max(a, b);
+        float t = max(max(first.x, max(first.y, first.z)), 0.0);
+        float end = min(min(last.x, min(last.y, last.z)) + close, min(far, toGround));
+
+        // To the solid, or out of it.
+        float free = t, f = 0.0;
+        bool hit = false, hitsOpaque = !within, between = false;
+        vec3 optical = vec3(0.0);
+        uint i = 0;
+        if (t < end) {
+            do {
+                vec3 p = o + d * t;
+                float whole = wholeAt(bounds, p);
+                f = whole;
+#ifdef FIELD_TRANSMITS
+                if (within) {
+                    float opaque = opaqueAt(bounds, p);
+                    f = min(-whole, opaque);
+                    hitsOpaque = opaque < -whole;
+                }
+#ifdef FIELD_MEDIA
+                if (within && f > close) {
+                    FieldMaterial medium = fieldMaterial(p);
+                    if (abs(medium.ior - ior) > kSameMedium) {
+                        // Another medium, or the same that changes slowly, which light would not notice.
+                        float before = free, behind = t;
+                        for (int k = 0; k < 24; ++k) {
+                            float middle = 0.5 * (before + behind), there = fieldMaterial(o + d * middle).ior;
+                            bool same = abs(there - ior) < abs(there - medium.ior);
+                            before = same ? middle : before;
+                            behind = same ? behind : middle;
+                        }
+                        between = abs(fieldMaterial(o + d * behind).ior - fieldMaterial(o + d * before).ior) > kSameMedium;
+                        if (between) {
+                            t = behind;
+                            hit = true;
+                            hitsOpaque = false;
+                            break;
+                        }
+                        ior = medium.ior;
+                    }
+                    optical += absorption * (t - free);
+                    absorption = medium.absorption;
+                    free = t;
+                }
+#endif
+#endif
+                float least = min(close, kLeave * t + 0.01 * close);
+                bool jumped = f < -least && t - free > least && !within;
+                hit = f < least && !jumped;
+                if (hit) break;
+                free = jumped || within ? free : t;
+                t = jumped ? 0.5 * (free + t) : t + max(f, 0.02 * close);
+            } while (t < end && ++i < kMostSteps);
+        }
+#ifdef FIELD_MEDIA
+        optical += within ? absorption * max(min(t, end) - free, 0.0) : vec3(0.0);
+#else
+        optical = within ? absorption * min(t, end) : vec3(0.0);
+#endif
+        hit = hit || (t < end && f < 16.0 * close);
+        bool hitsGround = !hit && toGround < 1e29 && toGround <= far;
+        bool blocked = hit || hitsGround;
+
+        if (purpose != kPath) {
+            // A ray to a lamp has done its work, or one that says how dark the studio's ground is.
+            if (purpose == kLamp && !blocked) light += pending;
+            if (purpose == kShade) through *= blocked ? vec3(0.46, 0.50, 0.58) : vec3(1.0);
+            if (purpose == kOpen) light += through * mix(1.0, blocked ? 0.35 : 1.0, frame.ambientStrength);
+            alive = alive && purpose != kOpen;
+            purpose = after;
+            d = onward;
+            far = 1e30;
+            if (purpose == kOpen) far = frame.ambientRadius;
+            continue;
+        }
+        through *= exp(-optical);
+
+        // Lamps that the path goes through, and the sun if it ends there. Not seen from the eye as such.
+        if (!straight) {
+            float chances = float(frame.lightCount + (push.sunWide >= 0.0 ? 1 : 0));
+            float reached = hit ? t : hitsGround ? toGround : 1e30;
+            for (uint k = 0; k < frame.lightCount; ++k) {
+                Light lamp = frame.lights[k];
+                vec4 ball = lampBall(lamp, o);
+                bool found = lamp.directional == 0 && dot(ball.xyz, d) > 1.0 - ball.w && distance(lamp.position, o) < reached;
+                float asked = 1.0 / (6.2831853 * ball.w * chances);
+                if (found) light += through * lampRadiance(lamp, d) * (density < 0.0 ? 1.0 : density / (density + asked));
+            }
+            if (!blocked && push.sunWide > 0.0 && dot(d, push.sun) > 1.0 - push.sunWide) {
+                float asked = 1.0 / (sunSpread() * chances);
+                light += through * frame.sunLight / sunSpread() * (density < 0.0 ? 1.0 : density / (density + asked));
+            }
+        }
+        if (!blocked) {
+            light += through * (straight ? backdrop(d) : surroundings(d, 0.0));
+            break;
+        }
+
+        // The surface.
+        vec3 p = o + d * (hit ? t : toGround), n = vec3(0, 1, 0);
+        Surface s = groundSurface(0.0);
+        float slope = 1.0, transmission = 0.0, other = 1.0;
+        vec3 otherAbsorption = vec3(0.0);
+        bool otherWithin = false;
+        if (hit) {
+            chooseMembers(fromMiddle(p));
+            vec4 g = vec4(0.0), region = regionDistance(p);
+#ifdef FIELD_TRANSMITS
+            hitsOpaque = hitsOpaque && !between && opaqueAt(bounds, p) < 4.0 * close;
+            if (hitsOpaque) g = fieldOpaqueGradient(p);
+            else
+#endif
+                g = fieldGradient(between ? p - d * (4.0 * close) : p);
+#ifdef FIELD_MEDIA
+            if (between) {
+                g.xyz -= fieldGradient(p + d * (4.0 * close)).xyz;
+                g.w = 0.0;
+            }
+#endif
+            slope = max(length(g.xyz), 1e-6);
+            float off = g.w / slope;
+            bool cap = !between && region.w > off - 0.1 * close && region.w > -4.0 * close;
+            n = cap ? region.xyz : g.xyz / slope;
+            p -= n * clamp(cap ? region.w : off, -4.0 * close, 4.0 * close);
+        }
+        n = within ? -n : n;  // towards where the ray comes from
+        float facing = dot(n, d);
+        n = facing > -1e-4 ? normalize(n - (facing + 1e-3) * d) : n;
+        float bias = clamp(4.0 * close / min(slope, 1.0), 4.0 * close, 64.0 * close);
+        if (hit) {
+            FieldMaterial material;
+#ifdef FIELD_TRANSMITS
+            if (hitsOpaque) {
+                material = fieldOpaqueMaterial(p);
+            } else {
+                vec3 beyond = p - n * bias;
+                material = fieldMaterial(beyond);
+                otherWithin = wholeAt(bounds, beyond) < 0.0;
+                transmission = within || otherWithin ? material.transmission : 0.0;
+                other = otherWithin ? material.ior : 1.0;
+                otherAbsorption = otherWithin ? material.absorption : vec3(0.0);
+            }
+#else
+            material = fieldMaterial(p);
+#endif
+            s.base = clamp(material.baseColor, 0.0, 1.0);
+            s.metallic = clamp(material.metallic, 0.0, 1.0);
+            s.roughness = clamp(material.roughness, 0.0, 1.0);
+            s.emission = max(material.emission, 0.0);
+            s.ground = false;
+        }
+        bool passes = transmission > 0.0 && random(state) < transmission;
+        light += passes ? vec3(0.0) : through * s.emission;
+        vec3 x, y, back = -d;
+        basis(n, x, y);
+        vec3 from = vec3(dot(back, x), dot(back, y), max(dot(back, n), 1e-4));
+        float alpha = max(s.roughness, kSmooth);
+        alpha *= alpha;
+        vec3 h = facet(from, alpha, vec2(random(state), random(state)));
+        float choice = random(state);
+
+        if (passes) {
+            h = s.roughness > kSmooth ? h : vec3(0, 0, 1);
+            float ratio = other / ior, cosine = max(dot(from, h), 1e-4);
+            bool mirrors = choice < fresnel(cosine, ratio);
+            vec3 l = mirrors ? 2.0 * cosine * h - from : refract(-from, h, 1.0 / ratio);
+            if (mirrors != l.z > 0.0) {  // a facet's, on the wrong side
+                l = mirrors ? vec3(-from.xy, from.z) : refract(-from, vec3(0, 0, 1), 1.0 / ratio);
+                mirrors = l.z >= 0.0;
+                if (mirrors) l = vec3(-from.xy, from.z);
+            }
+            d = normalize(l.x * x + l.y * y + l.z * n);
+            o = p + n * (mirrors ? bias : -bias);
+            if (!mirrors) {
+                through *= (within ? vec3(1.0) : s.base) / (ratio * ratio);
+                within = otherWithin;
+                ior = other;
+                absorption = otherAbsorption;
+            }
+            straight = straight && !mirrors;
+            density = -1.0;
+            continue;
+        }
+
+        if (s.ground && frame.studio != 0) {
+            // Not drawn itself: the wall, dimmed where the sun or the sky is hidden.
+            vec3 wall = backdrop(d);
+            light += through * wall * (1.0 - fade);
+            through *= wall * fade;
+            o = p + n * bias;
+            straight = false;
+            purpose = after = kOpen;
+            onward = d = cosineDirection(n, vec2(random(state), random(state)));
+            far = frame.ambientRadius;
+            if (push.sunWide >= 0.0) {
+                purpose = kShade;
+                d = inCone(push.sun, 1.0 - push.sunWide, vec2(random(state), random(state)));
+                far = 1e30;
+            }
+            continue;
+        }
+
+        // Opaque: of a facet, or as from chalk.
+        vec3 mirror = s.ground ? vec3(0.0) : mirrored(s), tint = mirror + (1.0 - mirror) * (s.ground ? 0.0 : fifth(1.0 - max(dot(from, h), 0.0)));
+        vec3 l = 2.0 * dot(from, h) * h - from;
+        float seen = l.z > 0.0 ? unmasked(from, l, alpha) : 0.0, share = mean(tint);
+        vec3 chalk = tint * (1.0 - seen) + (1.0 - tint) * s.base * (1.0 - s.metallic);
+        float likely = clamp(1.0 - mean(mirror) - (1.0 - mean(mirror)) * fifth(1.0 - from.z), 0.05, 1.0);  // share of chalk, about
+        o = p + n * bias;
+
+        // One lamp, or the sun.
+        uint lamps = frame.lightCount + (push.sunWide >= 0.0 ? 1 : 0);
+        bool asks = false;
+        if (lamps > 0) {
+            uint k = min(uint(random(state) * float(lamps)), lamps - 1);
+            vec2 u = vec2(random(state), random(state));
+            vec3 toLamp, radiance;
+            float asked;  // density; 0: a single direction, whose irradiance `radiance` is
+            float limit = 1e30;
+            if (k == frame.lightCount) {
+                toLamp = inCone(push.sun, 1.0 - push.sunWide, u);
+                asked = push.sunWide > 0.0 ? 1.0 / (sunSpread() * float(lamps)) : 0.0;
+                radiance = push.sunWide > 0.0 ? frame.sunLight / sunSpread() : frame.sunLight * float(lamps);
+            } else {
+                Light lamp = frame.lights[k];
+                if (lamp.directional != 0) {
+                    toLamp = -lamp.direction;
+                    asked = 0.0;
+                    radiance = lamp.color * float(lamps);
+                } else {
+                    vec4 ball = lampBall(lamp, o);
+                    toLamp = inCone(ball.xyz, 1.0 - ball.w, u);
+                    asked = 1.0 / (6.2831853 * ball.w * float(lamps));
+                    radiance = lampRadiance(lamp, toLamp);
+                    limit = max(distance(lamp.position, o) - lamp.size, 0.0);
+                }
+            }
+            vec3 to = vec3(dot(toLamp, x), dot(toLamp, y), dot(toLamp, n));
+            if (to.z > 0.0) {
+                vec3 half_ = normalize(from + to);
+                vec3 shine = s.ground ? vec3(0.0) : (mirror + (1.0 - mirror) * fifth(1.0 - max(dot(from, half_), 0.0))) * lobe(from, to, alpha);
+                float found = mean(shine) + likely * chalkDensity(to.z, toLamp);
+                pending = through * (shine + chalk * (to.z / kPi)) * radiance / (asked > 0.0 ? asked + found : 1.0);
+                asks = any(greaterThan(pending, vec3(0.0)));
+                onward = toLamp;
+                far = asks ? limit : 1e30;
+            }
+        }
+
+        // Where the path goes on.
+        vec3 next;
+        if (choice < share * seen) {
+            through *= tint / share;
+        } else {
+            bool masked = choice < share;
+            through *= masked ? tint / share : (1.0 - tint) * s.base * (1.0 - s.metallic) / max(1.0 - share, 1e-6);
+            vec2 u = vec2(random(state), random(state));
+            next = cosineDirection(n, u);
+#ifdef FIELD_TRANSMITS
+            if (push.sunWide > 0.0 && random(state) < kToSun) next = inCone(push.sun, kSunCone, u);
+#endif
+            l = vec3(dot(next, x), dot(next, y), dot(next, n));
+            through *= l.z > 0.0 ? l.z / kPi / chalkDensity(l.z, next) : 0.0;
+        }
+        next = normalize(l.x * x + l.y * y + l.z * n);
+        vec3 middle = normalize(from + l);
+        vec3 shine = s.ground ? vec3(0.0) : (mirror + (1.0 - mirror) * fifth(1.0 - max(dot(from, middle), 0.0))) * lobe(from, l, alpha);
+        density = mean(shine) + likely * chalkDensity(l.z, next);
+        straight = false;
+        float lives = ++bounces > 3 ? clamp(max(through.x, max(through.y, through.z)), 0.05, 1.0) : 1.0;
+        alive = bounces <= push.bounces && max(through.x, max(through.y, through.z)) > 0.0 && random(state) < lives;
+        through /= lives;
+        purpose = asks ? kLamp : kPath;
+        after = kPath;
+        d = asks ? onward : next;
+        onward = next;
+    } while ((alive || purpose == kLamp) && ++turn < kMostTurns);
+
+    bool fine = !any(isnan(light)) && !any(isinf(light));
+    uint at = pixel.y * frame.size.x + pixel.x;
+    vec4 sum = push.path == 0 ? vec4(0.0) : sums[at];
+    sums[at] = sum + vec4(fine ? light : vec3(0.0), 1.0);
+}
