@@ -1,5 +1,6 @@
 #include "runtime/render/paths.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@ namespace fw {
 namespace {
 
 constexpr double kBetweenKept = 10'000;  // ms
+constexpr int kPathsTogether = 16;       // of a pixel, so that lanes seldom wait for others' last
 
 gpu::PathPush pushOf(const Scene& scene, const gpu::View& view, const gpu::RenderFrame& frame, int bounces) {
     gpu::PathPush push{};
@@ -64,20 +66,22 @@ Result<Picture> renderPaths(Renderer& renderer, const RenderScene& scene, const 
     std::vector<Descriptor> bound = {{0, renderer.frame}, {8, paths.sums, 0, bytes}};
     addField(bound, fieldOf(renderer, scene));
     Clock::time_point kept = Clock::now();
-    for (int i = known; i < options.samples; ++i) {
+    for (int i = known; i < options.samples;) {
         if (options.progress) options.progress(int(100ll * i / options.samples));
         Commands commands(device);
         commands.parted = true;
         commands.cancel = options.cancel;
         if (i == known) findPlaces(commands, renderer, scene);
         push.path = uint32_t(i);
+        push.paths = uint32_t(std::min(kPathsTogether, options.samples - i));
         dispatchRows(commands, paths.trace,
                      {groupsFor(extent.width, RENDER_PATHS), groupsFor(extent.height, RENDER_PATHS), 1},
                      &push, sizeof push, bound);
         if (cancelled(commands)) return Error{.message = "cancelled"};
         submit(commands);
+        i += int(push.paths);
         if (options.keepSums && millisecondsSince(kept) > kBetweenKept) {
-            keep(i + 1);
+            keep(i);
             options.keepSums();
             kept = Clock::now();
         }

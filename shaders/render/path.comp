@@ -1,5 +1,5 @@
-// One path of light a pixel, from the eye to where it comes from, added to the sums of those before: what all quicker light is
-// measured against (Kajiya, "The rendering equation", 1986).
+// Paths of light from the eye to where they come from, some for each pixel, added to the sums of those before: what all quicker
+// light is measured against (Kajiya, "The rendering equation", 1986).
 //
 // The field's own surface is traced, by steps of its value; no mesh, no G-buffer, no map of shadows. At an opaque surface one
 // lamp, or the sun, is asked for by a ray of its own, and weighed against the chance that the path finds it by itself (Veach,
@@ -13,7 +13,8 @@
 // changes, and its normal the difference of the two fields' slopes. What lies behind an interface cannot be asked for lamps; it
 // is found by paths that hit the sun's disc or a lamp's ball, for which some leave chalk towards the sun.
 //
-// One loop, whose turns are rays of either kind: the field's code stands once in it, as drivers inline it at each place.
+// One loop, whose turns are rays of either kind: the field's code stands once in it, as drivers inline it at each place. A lane
+// whose path has ended begins the next of its pixel's, so that no lane waits for long paths of others but at the end.
 #define FIELD_VALUE
 #define FIELD_GRADIENT
 #define FIELD_MATERIAL
@@ -35,13 +36,14 @@ layout(push_constant, scalar) uniform Push { PathPush push; };
 #include "render/microfacets.glsl"
 #include "lib/random.glsl"
 
-const uint kMostSteps = 768, kMostTurns = 200;
+const uint kMostSteps = 768, kLongPath = 16;
 const float kClose = 2e-5;        // of the radius: nearer is a hit
 const float kLeave = 0.25;        // or of the way gone, so that rays may leave the surface they start on
 const float kSmooth = 0.04;       // roughness below which an interface is smooth, and no facet of a solid is rougher
 const float kToSun = 0.35;        // share of the paths that leave chalk towards the sun where light passes through something,
 const float kSunCone = 0.82;      // within the cone of this cosine about it
 const float kSameMedium = 0.01;   // difference in the index of refraction
+const float kGoesOn = 0.9;        // how likely a path does that has had kLongPath rays
 
 // What a ray is for.
 const uint kPath = 0, kLamp = 1, kShade = 2, kOpen = 3;
@@ -111,37 +113,50 @@ void main() {
     fieldBegin();
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, frame.size))) return;
-    uint state = randomStart(pixel.y * frame.size.x + pixel.x, push.path);
     Bounds bounds = solidBounds();
     float close = kClose * frame.radius;
 
-    // From the eye, or a place on the lens.
-    vec2 jitter = vec2(random(state), random(state)) - 0.5, onLens = vec2(random(state), random(state));
-    vec2 place = placeOf(pixel, frame.size) + 2.0 * jitter / vec2(frame.size);
-    vec3 ray = rayOf(frame.now, place);
-    float r = push.lens * sqrt(onLens.x);
-    vec3 o = frame.now.eye + r * cos(6.2831853 * onLens.y) * normalize(frame.now.right) + r * sin(6.2831853 * onLens.y) * normalize(frame.now.up);
-    vec3 d = normalize(frame.now.eye + ray * push.focus - o);
-
-    vec3 light = vec3(0.0), through = vec3(1.0);
-    vec3 pending = vec3(0.0), onward = d;  // what the lamp's ray brings if nothing is in its way, and where the path goes on
-    uint purpose = kPath, after = kPath, bounces = 0, turn = 0;
+    uint at = pixel.y * frame.size.x + pixel.x;
+    vec4 sum = push.path == 0 ? vec4(0.0) : sums[at];
+    uint state, path = push.path, bounces = 0, turn = 0, purpose = kPath, after = kPath;
+    vec3 total = sum.rgb, light = vec3(0.0), through = vec3(1.0), o = vec3(0.0), d = vec3(0.0);
+    vec3 pending = vec3(0.0), onward = vec3(0.0);  // what the lamp's ray brings if nothing is in its way, and where the path goes on
     float far = 1e30;
     float density = -1.0;  // of the path's direction, where a lamp could have been asked for instead
-    bool straight = true, alive = true;
-
+    bool done = false, alive = false, straight = true, within = false;
     float ior = 1.0;
     vec3 absorption = vec3(0.0);
-    bool within = false;
-#ifdef FIELD_TRANSMITS
-    within = wholeAt(bounds, o) < 0.0 && opaqueAt(bounds, o) > 0.0;
-    if (within) {
-        FieldMaterial medium = fieldMaterial(o);
-        ior = medium.ior;
-        absorption = medium.absorption;
-    }
-#endif
     do {
+        if (!alive && purpose != kLamp) {
+            // The next path, from the eye or a place on the lens.
+            total += any(isnan(light)) || any(isinf(light)) ? vec3(0.0) : light;
+            state = randomStart(at, path);
+            // Not left by a break: some drivers let such a lane go on beside its neighbours. It does nothing more that counts.
+            done = path++ == push.path + push.paths;
+            vec2 jitter = vec2(random(state), random(state)) - 0.5, onLens = vec2(random(state), random(state));
+            vec3 ray = rayOf(frame.now, placeOf(pixel, frame.size) + 2.0 * jitter / vec2(frame.size));
+            float r = push.lens * sqrt(onLens.x), angle = 6.2831853 * onLens.y;
+            o = frame.now.eye + r * (cos(angle) * normalize(frame.now.right) + sin(angle) * normalize(frame.now.up));
+            d = normalize(frame.now.eye + ray * push.focus - o);
+            light = vec3(0.0), through = vec3(1.0), absorption = vec3(0.0);
+            purpose = after = kPath, bounces = 0, turn = 0;
+            far = 1e30, density = -1.0, ior = 1.0;
+            alive = true, straight = true, within = false;
+#ifdef FIELD_TRANSMITS
+            within = wholeAt(bounds, o) < 0.0 && opaqueAt(bounds, o) > 0.0;
+            if (within) {
+                FieldMaterial medium = fieldMaterial(o);
+                ior = medium.ior;
+                absorption = medium.absorption;
+            }
+#endif
+        }
+        // Paths that glass leads in circles end by chance.
+        if (++turn > kLongPath && purpose == kPath) {
+            alive = random(state) < kGoesOn;
+            if (!alive) continue;
+            through /= kGoesOn;
+        }
         // Where the ray meets the ground, and the region's box.
         bool groundCounts = frame.studio == 0 || (purpose == kPath && straight);
         float toGround = d.y < 0.0 && groundCounts ? max(frame.ground - o.y, -1e30) / d.y : -1.0;
@@ -155,7 +170,7 @@ void main() {
 
         // To the solid, or out of it.
         float free = t, f = 0.0;
-        bool hit = false, hitsOpaque = !within, between = false;
+        bool hit = false, hitsOpaque = !within, between = false, changes = false;
         vec3 optical = vec3(0.0);
         uint i = 0;
         if (t < end) {
@@ -172,24 +187,8 @@ void main() {
 #ifdef FIELD_MEDIA
                 if (within && f > close) {
                     FieldMaterial medium = fieldMaterial(p);
-                    if (abs(medium.ior - ior) > kSameMedium) {
-                        // Another medium, or the same that changes slowly, which light would not notice.
-                        float before = free, behind = t;
-                        for (int k = 0; k < 24; ++k) {
-                            float middle = 0.5 * (before + behind), there = fieldMaterial(o + d * middle).ior;
-                            bool same = abs(there - ior) < abs(there - medium.ior);
-                            before = same ? middle : before;
-                            behind = same ? behind : middle;
-                        }
-                        between = abs(fieldMaterial(o + d * behind).ior - fieldMaterial(o + d * before).ior) > kSameMedium;
-                        if (between) {
-                            t = behind;
-                            hit = true;
-                            hitsOpaque = false;
-                            break;
-                        }
-                        ior = medium.ior;
-                    }
+                    changes = abs(medium.ior - ior) > kSameMedium;
+                    if (changes) break;
                     optical += absorption * (t - free);
                     absorption = medium.absorption;
                     free = t;
@@ -205,17 +204,42 @@ void main() {
             } while (t < end && ++i < kMostSteps);
         }
 #ifdef FIELD_MEDIA
+        if (changes) {
+            // Another medium, or the same that changes slowly, which light would not notice.
+            float before = free, behind = t, there = fieldMaterial(o + d * t).ior;
+            for (int k = 0; k < 24; ++k) {
+                float middle = 0.5 * (before + behind), here = fieldMaterial(o + d * middle).ior;
+                bool same = abs(here - ior) < abs(here - there);
+                before = same ? middle : before;
+                behind = same ? behind : middle;
+            }
+            between = abs(fieldMaterial(o + d * behind).ior - fieldMaterial(o + d * before).ior) > kSameMedium;
+            hit = between;
+            hitsOpaque = false;
+            t = between ? behind : t;
+            ior = between ? ior : there;
+        }
         optical += within ? absorption * max(min(t, end) - free, 0.0) : vec3(0.0);
 #else
         optical = within ? absorption * min(t, end) : vec3(0.0);
 #endif
-        hit = hit || (t < end && f < 16.0 * close);
+        hit = hit || (t < end && f < 16.0 * close && !changes);
         bool hitsGround = !hit && toGround < 1e29 && toGround <= far;
         bool blocked = hit || hitsGround;
 
+        vec3 left = exp(-optical);
+#ifdef FIELD_MEDIA
+        if (changes && !between) {
+            o += d * t;
+            far -= t;
+            through *= purpose == kPath ? left : vec3(1.0);
+            pending *= left;
+            continue;
+        }
+#endif
         if (purpose != kPath) {
             // A ray to a lamp has done its work, or one that says how dark the studio's ground is.
-            if (purpose == kLamp && !blocked) light += pending;
+            if (purpose == kLamp && !blocked) light += pending * left;
             if (purpose == kShade) through *= blocked ? vec3(0.46, 0.50, 0.58) : vec3(1.0);
             if (purpose == kOpen) light += through * mix(1.0, blocked ? 0.35 : 1.0, frame.ambientStrength);
             alive = alive && purpose != kOpen;
@@ -225,7 +249,7 @@ void main() {
             if (purpose == kOpen) far = frame.ambientRadius;
             continue;
         }
-        through *= exp(-optical);
+        through *= left;
 
         // Lamps that the path goes through, and the sun if it ends there. Not seen from the eye as such.
         if (!straight) {
@@ -245,7 +269,8 @@ void main() {
         }
         if (!blocked) {
             light += through * (straight ? backdrop(d) : surroundings(d, 0.0));
-            break;
+            alive = false;
+            continue;
         }
 
         // The surface.
@@ -275,7 +300,7 @@ void main() {
             n = cap ? region.xyz : g.xyz / slope;
             p -= n * clamp(cap ? region.w : off, -4.0 * close, 4.0 * close);
         }
-        n = within ? -n : n;  // towards where the ray comes from
+        n = within && !hitsOpaque ? -n : n;  // towards where the ray comes from
         float facing = dot(n, d);
         n = facing > -1e-4 ? normalize(n - (facing + 1e-3) * d) : n;
         float bias = clamp(4.0 * close / min(slope, 1.0), 4.0 * close, 64.0 * close);
@@ -426,10 +451,7 @@ void main() {
         after = kPath;
         d = asks ? onward : next;
         onward = next;
-    } while ((alive || purpose == kLamp) && ++turn < kMostTurns);
+    } while (!done);
 
-    bool fine = !any(isnan(light)) && !any(isinf(light));
-    uint at = pixel.y * frame.size.x + pixel.x;
-    vec4 sum = push.path == 0 ? vec4(0.0) : sums[at];
-    sums[at] = sum + vec4(fine ? light : vec3(0.0), 1.0);
+    sums[at] = vec4(total, sum.w + float(push.paths));
 }

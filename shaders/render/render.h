@@ -180,7 +180,8 @@ struct TracePush {
 
 // Paths of light.
 struct PathPush {
-    uint path;      // which of the pixel's this is, from 0
+    uint path;      // which of the pixel's the first is, from 0
+    uint paths;     // of each pixel
     uint bounces;   // off opaque surfaces, at most
     float lens;     // its radius, metres; 0: a pinhole
     float focus;    // metres along the view's direction

@@ -1,0 +1,287 @@
+// Whole paths of light against closed forms: nothing is lost or won in a furnace, Fresnel's share, Snell's
+// angle, Beer and Lambert's loss; and that a picture goes on where it was left.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <initializer_list>
+#include <numbers>
+
+#include "graph/document/json.h"
+#include "runtime/play/session.h"
+#include "runtime/render/renderer.h"
+#include "tests/support/gpu.h"
+
+namespace fw::paths_test {
+
+constexpr int kSide = 48;
+
+/// The text with these in place of its $, in order.
+std::string filled(std::string text, std::initializer_list<std::string> values) {
+    std::size_t at = 0;
+    for (const std::string& value : values) {
+        at = text.find('$', at);
+        text.replace(at, 1, value);
+        at += value.size();
+    }
+    return text;
+}
+std::string filled(const std::string& text, std::initializer_list<double> values) {
+    std::string made = text;
+    for (const double value : values) made = filled(made, {std::to_string(value)});
+    return made;
+}
+
+/// A uniform sky of radiance 1, and nothing else.
+const std::string kFurnace =
+    R"("sun": false, "ground": false, "ao": false, "sky": {"zenith": [1, 1, 1], "horizon": [1, 1, 1], "ground": [1, 1, 1]})";
+
+/// Seen from +z, 5 m away, through a narrow lens.
+std::string seenFrom(glm::dvec3 eye, double fov = 2) {
+    return filled(R"("camera": {"position": [$, $, $], "target": [0, 0, 0], "fov": $}, )",
+                  {eye.x, eye.y, eye.z, fov});
+}
+
+/// `material` are inputs of the material node behind a comma.
+std::string solid(const std::string& shape, const std::string& material) {
+    return shape + R"(, {"id": "paint", "type": "material", "inputs": {"surface": {"from": "shape"}, )" +
+           material + R"(}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}}})";
+}
+const std::string kBall = R"({"id": "shape", "type": "sphere"})";
+const std::string kBlock = R"({"id": "shape", "type": "box", "inputs": {"half_extents": [4, 1, 4]}})";
+
+struct Traced {
+    Picture picture;
+    PathSums sums;
+    /// Mean radiance of the pixels within `reach` of the middle, in pixels.
+    glm::dvec3 middle(int reach) const {
+        glm::dvec3 sum(0);
+        int count = 0;
+        for (int y = kSide / 2 - reach; y < kSide / 2 + reach; ++y)
+            for (int x = kSide / 2 - reach; x < kSide / 2 + reach; ++x, ++count)
+                for (int k = 0; k < 3; ++k) sum[k] += at(x, y, k);
+        return sum / double(count);
+    }
+    double at(int x, int y, int channel) const {
+        return double(sums.sums[4 * std::size_t(y * kSide + x) + std::size_t(channel)]) / sums.paths;
+    }
+};
+
+struct Paths : testing::Test {
+    Traced trace(const std::string& nodes, const std::string& scene, int samples, int bounces = 8,
+                 PathSums from = {}) {
+        Traced traced{.picture = {}, .sums = std::move(from)};
+        const Result<Graph> graph = parseGraph(
+            R"({"fieldwright": 1, "nodes": [)" + nodes + R"(], "scene": {)" + scene + "}}", "", nullptr);
+        EXPECT_TRUE(graph) << format(graph.error());
+        if (!graph) return traced;
+        const Result<Scene> look = readScene(graph->scene);
+        EXPECT_TRUE(look) << format(look.error());
+        Result<Program> program = compile(*graph);
+        EXPECT_TRUE(program) << format(program.error());
+        if (!look || !program) return traced;
+        Result<Device> device = createDevice({.validation = true});
+        EXPECT_TRUE(device);
+        const auto record = device->record;
+        Session session(std::move(*device));
+        session.setProgram(std::move(*program));
+        const Result<MesherResult> mesh = session.polygonise({{}, 16});
+        EXPECT_TRUE(mesh) << format(mesh.error());
+        Result<Picture> picture = session.render(*mesh, {.width = kSide,
+                                                         .height = kSide,
+                                                         .scene = *look,
+                                                         .samples = samples,
+                                                         .reference = true,
+                                                         .bounces = bounces,
+                                                         .sums = &traced.sums});
+        EXPECT_TRUE(picture) << format(picture.error());
+        if (picture) traced.picture = std::move(*picture);
+        for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+        return traced;
+    }
+};
+
+TEST_F(Paths, AWhiteBallInAWhiteSkyVanishes) {
+    for (const char* metallic : {"0", "1"})
+        for (const char* roughness : {"0", "0.1", "0.3", "0.6", "1"}) {
+            SCOPED_TRACE(filled("metallic $, roughness $", {std::string(metallic), roughness}));
+            const Traced ball =
+                trace(solid(kBall, filled(R"("base_color": [1, 1, 1], "metallic": $, "roughness": $)",
+                                          {std::string(metallic), roughness})),
+                      seenFrom({0, 0, 5}, 26) + kFurnace, 24, 64);
+            for (int y = 0; y < kSide; ++y)
+                for (int x = 0; x < kSide; ++x) ASSERT_NEAR(ball.at(x, y, 1), 1.0, 0.01) << x << " " << y;
+        }
+}
+
+TEST_F(Paths, ClearGlassInAWhiteSkyVanishes) {
+    for (const char* more :
+         {R"("ior": 1.5, "roughness": 0)", R"("ior": 1.5, "roughness": 0.4)", R"("ior": 3, "roughness": 0)",
+          R"("ior": 0.5, "roughness": 0.2)", R"("ior": 1, "roughness": 0)"}) {
+        SCOPED_TRACE(more);
+        const Traced ball =
+            trace(solid(kBall, R"("base_color": [1, 1, 1], "transmission": 1, )" + std::string(more)),
+                  seenFrom({0, 0, 5}, 26) + kFurnace, 64, 64);
+        EXPECT_NEAR(ball.middle(kSide / 2).g, 1.0, 0.01);
+        EXPECT_NEAR(ball.middle(kSide / 6).g, 1.0, 0.01);
+    }
+}
+
+/// Of facets of roughness 1 that are seen from straight above: the share of light that they reflect, and of
+/// that the share that others do not mask. Their normals are as dense as the cosine.
+struct Facets {
+    double reflect = 0, leave = 0;
+};
+Facets facetsSeen(double alpha) {
+    Facets facets;
+    constexpr int kSteps = 2000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double c = (i + 0.5) / kSteps, fresnel = 0.04 + 0.96 * std::pow(1 - c, 5), down = 2 * c * c - 1;
+        const double slope = alpha * alpha * (1 - down * down) / (down * down);
+        facets.reflect += 2 * c * fresnel / kSteps;
+        if (down > 0) facets.leave += 2 * c * fresnel / (1 + 0.5 * (std::sqrt(1 + slope) - 1)) / kSteps;
+    }
+    return facets;
+}
+
+TEST_F(Paths, GreyLosesByEachBounce) {
+    // A ball never sees itself: one bounce, and the sky.
+    const Traced ball = trace(solid(kBall, R"("base_color": [0.5, 0.2, 0], "roughness": 1)"),
+                              seenFrom({0, 0, 5}) + kFurnace, 64, 1);
+    // What facets reflect is white, be it masked or not, the rest is the base's.
+    const glm::dvec3 seen = ball.middle(8);
+    const double mirror = facetsSeen(1.0).reflect;
+    EXPECT_NEAR(seen.r, mirror + (1 - mirror) * 0.5, 0.01);
+    EXPECT_NEAR(seen.g, mirror + (1 - mirror) * 0.2, 0.01);
+    EXPECT_NEAR(seen.b, mirror, 0.01);
+}
+
+double fresnelOf(double cosine, double ior) {
+    const double sine = std::sqrt(1 - cosine * cosine) / ior;
+    if (sine >= 1) return 1;
+    const double bent = std::sqrt(1 - sine * sine);
+    const double across = (cosine - ior * bent) / (cosine + ior * bent),
+                 along = (ior * cosine - bent) / (ior * cosine + bent);
+    return 0.5 * (across * across + along * along);
+}
+
+TEST_F(Paths, ReflectsFresnelsShare) {
+    // What enters is absorbed at once.
+    for (const double ior : {1.33, 1.5, 3.0})
+        for (const double degrees : {0.0, 45.0, 70.0}) {
+            SCOPED_TRACE(filled("ior $, $ degrees", {ior, degrees}));
+            const double angle = degrees * std::numbers::pi / 180;
+            const Traced block = trace(
+                solid(
+                    kBlock,
+                    filled(
+                        R"("base_color": [1, 1, 1], "transmission": 1, "roughness": 0, "ior": $, "absorption": [1e9, 1e9, 1e9])",
+                        {ior})),
+                seenFrom(12.0 * glm::dvec3(std::sin(angle) + 1e-3, std::cos(angle), 0)) + kFurnace, 256);
+            EXPECT_NEAR(block.middle(12).g, fresnelOf(std::cos(angle), ior), 0.012);
+        }
+}
+
+TEST_F(Paths, LosesByTheLengthWithin) {
+    const Traced block = trace(
+        solid(
+            kBlock,
+            R"("base_color": [1, 1, 1], "transmission": 1, "roughness": 0, "ior": 1, "absorption": [0, 0.5, 2])"),
+        seenFrom({0, 12, 1e-3}) + kFurnace, 4);
+    const glm::dvec3 seen = block.middle(12);
+    EXPECT_NEAR(seen.r, 1, 1e-3);
+    EXPECT_NEAR(seen.g, std::exp(-0.5 * 2), 2e-3);
+    EXPECT_NEAR(seen.b, std::exp(-2.0 * 2), 2e-3);
+}
+
+TEST_F(Paths, ASlabShiftsWhatIsBehindIt) {
+    // A thin bright rod along z behind a slab that is seen at 45 degrees.
+    const auto shift = [&](double ior) {
+        const std::string nodes = filled(
+            R"({"id": "block", "type": "box", "inputs": {"half_extents": [8, 1, 8]}},
+               {"id": "clear", "type": "material", "inputs": {"surface": {"from": "block"}, "base_color": [1, 1, 1], "roughness": 0, "transmission": 1, "ior": $}},
+               {"id": "rod", "type": "box", "inputs": {"half_extents": [0.05, 0.05, 6]}},
+               {"id": "moved", "type": "translate", "inputs": {"surface": {"from": "rod"}, "offset": [-2.5, -2.5, 0]}},
+               {"id": "bright", "type": "material", "inputs": {"surface": {"from": "moved"}, "base_color": [0, 0, 0], "roughness": 1, "emission": [4, 4, 4]}},
+               {"id": "both", "type": "union", "inputs": {"a": {"from": "clear"}, "b": {"from": "bright"}}},
+               {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})",
+            {ior});
+        const Traced seen = trace(nodes,
+                                  seenFrom({20, 20, 0}, 6) +
+                                      R"("sun": false, "ground": false, "ao": false, "sky": {"strength": 0})",
+                                  64, 1);
+        double sum = 0, moment = 0;
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
+                if (seen.at(x, y, 1) > 0.3) sum += seen.at(x, y, 1), moment += y * seen.at(x, y, 1);
+        EXPECT_GT(sum, 0);
+        const double perPixel = 2 * std::tan(3 * std::numbers::pi / 180) / kSide *
+                                (20 * std::numbers::sqrt2 + 2.5 * std::numbers::sqrt2);
+        return moment / sum * perPixel;
+    };
+    // Across the ray, of a slab 2 m thick: t sin(a) (1 - cos(a) / sqrt(n^2 - sin(a)^2)).
+    const double sine = std::sqrt(0.5);
+    const double expected = 2 * sine * (1 - sine / std::sqrt(1.5 * 1.5 - 0.5));
+    EXPECT_NEAR(std::abs(shift(1.5) - shift(1.0)), expected, 0.05 * expected);
+}
+
+/// A post on a plate, which is wider than all that is put beside it.
+const std::string kStand =
+    R"({"id": "post", "type": "box", "inputs": {"half_extents": [0.2, 2, 0.2]}},
+       {"id": "plate", "type": "box", "inputs": {"half_extents": [2.2, 0.1, 2.2]}},
+       {"id": "low", "type": "translate", "inputs": {"surface": {"from": "plate"}, "offset": [0, -2, 0]}},
+       {"id": "stand", "type": "union", "inputs": {"a": {"from": "post"}, "b": {"from": "low"}}})";
+
+TEST_F(Paths, WhatBendsNothingIsNotSeen) {
+    const std::string scene = seenFrom({0, 2, 5}, 40) + R"("sky": {}, "ground": false, "sun": {"size": 40})";
+    const auto with = [&](const std::string& material) {
+        return trace(
+            kStand +
+                R"(, {"id": "ball", "type": "sphere"}, {"id": "shape", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0, 0, 1]}},
+            {"id": "paint", "type": "material", "inputs": {"surface": {"from": "shape"}, )" +
+                material + R"(}},
+            {"id": "both", "type": "union", "inputs": {"a": {"from": "paint"}, "b": {"from": "stand"}}},
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})",
+            scene, 128);
+    };
+    const Traced there = with(R"("base_color": [1, 1, 1], "transmission": 1, "roughness": 0, "ior": 1)"),
+                 painted = with(R"("base_color": [1, 1, 1], "roughness": 0)");
+    const Traced without =
+        trace(kStand + R"(, {"id": "out", "type": "output", "inputs": {"surface": {"from": "stand"}}})",
+              scene, 128);
+    // Lamps behind it are found by other paths, so that each pixel has noise of its own, but not all of them.
+    for (const int reach : {4, 12, kSide / 2})
+        EXPECT_NEAR(there.middle(reach).g, without.middle(reach).g, 0.02);
+    EXPECT_GT(std::abs(painted.middle(4).g - without.middle(4).g), 0.05);
+}
+
+TEST_F(Paths, TheSunIsFoundByEitherWay) {
+    // What a white floor sends back of the sun: irradiance over pi, whether the sun is a point or a disc.
+    for (const char* size : {"0", "4", "30"}) {
+        SCOPED_TRACE(size);
+        const Traced floor = trace(
+            solid(kBlock, R"("base_color": [0.5, 0.5, 0.5], "roughness": 1, "metallic": 0)"),
+            seenFrom({0, 12, 1e-3}) +
+                filled(
+                    R"("ground": false, "ao": false, "sky": {"strength": 0}, "sun": {"elevation": 90, "strength": 3, "color": [1, 1, 1], "size": $})",
+                    {std::string(size)}),
+            256, 1);
+        // Chalk, with what facets mask, and the gloss of those that are level: D F G / 4, D = 1 / pi.
+        const Facets facets = facetsSeen(1.0);
+        EXPECT_NEAR(floor.middle(12).g * std::numbers::pi / 3,
+                    (1 - facets.reflect) * 0.5 + facets.reflect - facets.leave + 0.01, 0.01);
+    }
+}
+
+TEST_F(Paths, GoesOnWhereItWasLeft) {
+    const std::string nodes = solid(kBall,
+                                    R"("base_color": [1, 0.9, 0.8], "roughness": 0.1, "transmission": 0.5)"),
+                      scene = seenFrom({0, 1, 5}, 30) + R"("sky": {})";
+    const Traced whole = trace(nodes, scene, 21), part = trace(nodes, scene, 5),
+                 rest = trace(nodes, scene, 21, 8, part.sums);
+    EXPECT_EQ(whole.sums.sums, rest.sums.sums);
+    EXPECT_EQ(whole.picture.pixels, rest.picture.pixels);
+    EXPECT_NE(whole.picture.pixels, part.picture.pixels);
+}
+
+}  // namespace fw::paths_test
