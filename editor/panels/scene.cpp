@@ -82,6 +82,14 @@ void color(Editor& editor, const std::string& path, const char* label, const Tri
                true);
 }
 
+/// A row for what is on or off.
+void flag(Editor& editor, const char* path, const char* label, const char* doc, bool on) {
+    propertyRow(label, doc);
+    ImGui::PushID(path);
+    if (ImGui::Checkbox("##on", &on)) set(editor, label, setSceneValue(editor.document.graph(), path, on));
+    ImGui::PopID();
+}
+
 /// The head of a part of the scene, with a switch where it can be off. Whether its rows are to follow.
 bool part(Editor& editor, const char* path, const char* label, std::optional<bool> on) {
     ImGui::PushID(path);
@@ -273,6 +281,9 @@ void showScene(Editor& editor) {
         auto chosen = std::size_t(scene->tone);
         if (chooseName("##tone", tones, chosen))
             set(editor, "Tone", setSceneValue(editor.document.graph(), "tone", tones[chosen]));
+        flag(editor, "bounce", "Bounce", "Light that surfaces throw on each other.", scene->bounce);
+        flag(editor, "reflections", "Reflections", "Surfaces mirror each other, rather than the sky alone.",
+             scene->reflections);
         endProperties();
     }
     showCamera(editor, *scene);

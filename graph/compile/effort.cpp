@@ -104,8 +104,8 @@ double secondsToTrace(double weight) { return kTraceSecondsAWeight * weight; }
 
 std::vector<NodeEffort> effortByNode(const Program& program) {
     const Ir& ir = program.ir;
-    const std::vector<bool> sampled = inCode(ir, program.surface, {}),
-                            coded = inCode(ir, program.surface, program.families);
+    const std::vector<bool> sampled = inCode(ir, program.roots(), {}),
+                            coded = inCode(ir, program.roots(), program.families);
     std::vector<NodeEffort> all(program.origins.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i].node = program.origins[i];
     for (IrId id = 0; id < ir.size(); ++id) {

@@ -83,8 +83,9 @@ Lowered GraphLowering::lower(const NodeAt& at) {
                 return same->second;
     }
     const std::size_t transmissions = state.transmissions;
-    const uint32_t outer = state.ir.setOrigin(uint32_t(origins.size()));
-    origins.push_back(at.path());
+    const auto [origin, first] = originOf.try_emplace(at.path(), uint32_t(origins.size()));
+    if (first) origins.push_back(at.path());
+    const uint32_t outer = state.ir.setOrigin(origin->second);
     Lowered made = at.node.muted && !at.type.open && !at.type.outputs.empty() ? passOn(at, &at.type.outputs)
                    : at.type.lower                                            ? at.type.lower(*this, at)
                                                                               : lowerBody(at);

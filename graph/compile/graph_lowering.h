@@ -114,6 +114,7 @@ class GraphLowering {
   private:
     /// Those of each group's instance, by its prefix; and, while the opaque part is made, those of the whole.
     std::map<std::string, LoweredNodes> lowered, whole;
+    std::unordered_map<std::string, uint32_t> originOf;  ///< its number among `origins`
 
     Lowered lower(const NodeAt& at);
 

@@ -4,6 +4,12 @@
 
 namespace fw {
 
+std::array<IrId, 2 * kSurfaceComponents> Program::roots() const {
+    std::array<IrId, 2 * kSurfaceComponents> all;
+    std::ranges::copy(opaque, std::ranges::copy(surface, all.begin()).out);
+    return all;
+}
+
 bool Program::hasMaterial() const {
     for (std::size_t i = 0; i < kDefaultMaterial.size(); ++i)
         if (!ir.isConstant(surface[i + 1], kDefaultMaterial[i])) return true;

@@ -56,6 +56,8 @@ struct Program {
     std::vector<Error> notes;       ///< warnings: what its user should know
 
     IrId distance() const { return surface[distanceComponent]; }
+    /// Of surface, then of opaque.
+    std::array<IrId, 2 * kSurfaceComponents> roots() const;
     /// Light passes through some part of it.
     bool transmits() const { return opaque != surface; }
     /// Some point's material differs from another's or from the default.

@@ -183,6 +183,12 @@ struct SceneReader {
         return fail(value, R"(the scene's tone must be "aces" or "neutral")");
     }
 
+    bool flag(const PlacedJson& value, const std::string& key, bool& to) {
+        if (!value.value().is_boolean()) return fail(value, "the scene's " + key + " must be true or false");
+        to = value.value().get<bool>();
+        return true;
+    }
+
     bool lights(const PlacedJson& value, Scene& scene) {
         if (!value.value().is_array() || value.value().size() > kMostLights)
             return fail(value, "the scene's lights must be a list of at most " + std::to_string(kMostLights) +
@@ -213,6 +219,8 @@ Result<Scene> readScene(const Json& json, const TextPlaces& places) {
         if (key == "ground") return reader.ground(value, scene);
         if (key == "fog") return reader.fog(value, scene);
         if (key == "lights") return reader.lights(value, scene);
+        if (key == "bounce") return reader.flag(value, key, scene.bounce);
+        if (key == "reflections") return reader.flag(value, key, scene.reflections);
         if (key == "tone") return reader.tone(value, scene);
         return key != "exposure" ||
                reader.number(value, "exposure", scene.exposure, -kMostExposure, kMostExposure);

@@ -106,7 +106,9 @@ struct Scene {
     std::optional<Ground> ground = Ground{};
     std::optional<Fog> fog;
     std::vector<Lamp> lights;
-    double exposure = 0.0;  ///< stops
+    bool bounce = false;       ///< light that surfaces throw on each other, once
+    bool reflections = false;  ///< surfaces mirror each other, rather than the sky alone
+    double exposure = 0.0;     ///< stops
     Tone tone = Tone::aces;
     bool operator==(const Scene&) const = default;
 };

@@ -45,8 +45,15 @@ MeshFieldBaker toldBaker(const Device& device, const std::function<void(double)>
     };
 }
 
-bool hasLamps(const Graph& graph) {
-    return graph.scene->is_object() && graph.scene->contains("lights") && !(*graph.scene)["lights"].empty();
+/// The kernels that the document's scene asks for.
+FieldKernelOptions kernelsFor(const Graph& graph, const Program& program, bool show) {
+    FieldKernelOptions kernels{.lamps = false, .show = show};
+    const Result<Scene> scene = readScene(*graph.scene);
+    if (!scene) return kernels;
+    kernels.lamps = !scene->lights.empty();
+    if (scene->bounce || scene->reflections || program.transmits())
+        kernels.secondary = {scene->bounce, scene->reflections, kernels.lamps};
+    return kernels;
 }
 
 }  // namespace
@@ -169,7 +176,7 @@ void Player::adopt(Prepared prepared) {
 
 void Player::give() {
     if (options.compileBehind)
-        session.replaceProgram(now.program, {.lamps = hasLamps(now.graph), .show = options.fieldViews});
+        session.replaceProgram(now.program, kernelsFor(now.graph, now.program, options.fieldViews));
     else
         session.setProgram(now.program);
 }

@@ -432,6 +432,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .lipschitz = static_cast<float>(current.exactness.lipschitz),
                             .buffers = fieldBuffers(),
                             .families = &current.families,
+                            .transmits = current.transmits(),
                             .bounds = boundsOf(options.framed),
                             .particles = clouds,
                             .draft = draft ? std::optional(look) : std::nullopt,

@@ -8,21 +8,19 @@ namespace {
 
 constexpr uint32_t kRaysReference = 64;  // of a frame
 
-/// The pipeline that lights one kind of tiles, made at its first use.
-const Pipeline& lightPipeline(Renderer& renderer, uint32_t list, bool lamps, bool fog, bool mean,
-                              bool neutral) {
-    const bool sky = !renderer.described.studio;
-    Pipeline& light = renderer.light[list][lamps + 2 * fog + 4 * mean + 8 * sky + 16 * neutral];
-    if (light) return light;
-    ShaderOptions options{.name = "render/light.comp"};
-    options.defines.push_back("LIST " + std::to_string(list));
-    if (lamps) options.defines.push_back("LAMPS");
-    if (fog) options.defines.push_back("FOG");
-    if (sky) options.defines.push_back("SKY");
-    if (mean) options.defines.push_back("MEAN");
-    if (neutral) options.defines.push_back("NEUTRAL");
-    light = createComputePipeline(*renderer.device, options);
+/// The pipeline of light.comp with these defined, made at its first use.
+const Pipeline& lightPipeline(Renderer& renderer, std::vector<std::string> defines) {
+    Pipeline& light = renderer.light[defines];
+    if (!light)
+        light = createComputePipeline(*renderer.device,
+                                      {.name = "render/light.comp", .defines = std::move(defines)});
     return light;
+}
+
+/// What the scene and the field need secondary rays for; none if for nothing.
+std::optional<SecondaryKinds> secondaryKinds(const RenderScene& scene, const Scene& look, bool lamps) {
+    if (scene.draft || !(look.bounce || look.reflections || scene.transmits)) return std::nullopt;
+    return SecondaryKinds{look.bounce, look.reflections, lamps};
 }
 
 /// Edges of the triangles that are seen, over the picture; the mesh's depth has been drawn.
@@ -51,7 +49,8 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
 
 }  // namespace
 
-bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, bool mean) {
+bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look,
+                bool mean) {
     const Device& device = commands.device;
     const GBuffer& gbuffer = renderer.gbuffer;
     const gpu::RenderFrame& frame = renderer.described;
@@ -93,9 +92,37 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
                  bound);
         barrier(commands);
     }
+    const std::optional<SecondaryKinds> secondary = secondaryKinds(scene, look, lamps);
+    if (secondary) {
+        beginStage(commands, "secondary");
+        if (!renderer.secondary.trace || renderer.secondary.kinds != *secondary) {
+            renderer.secondary.trace =
+                createComputePipeline(device, secondaryShader(renderer.field, *secondary));
+            renderer.secondary.filter = {};
+            renderer.secondary.kinds = *secondary;
+            renderer.secondary.hasHistory = false;
+        }
+        drawSecondary(commands, renderer.secondary, gbuffer, renderer.shadow.depth, renderer.frame,
+                      fieldOf(renderer, scene), scene.transmits);
+        if (cancelled(commands)) return false;
+        addSecondary(bound, renderer.secondary, scene.transmits);
+    }
     beginStage(commands, "light");
-    for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK})
-        overTiles(lightPipeline(renderer, list, lamps, fog, mean, frame.neutral != 0), list);
+    for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK}) {
+        std::vector<std::string> defines = {"LIST " + std::to_string(list)};
+        const auto define = [&](bool wanted, const char* name) {
+            if (wanted) defines.push_back(name);
+        };
+        define(lamps, "LAMPS");
+        define(fog, "FOG");
+        define(!frame.studio, "SKY");
+        define(mean, "MEAN");
+        define(frame.neutral, "NEUTRAL");
+        define(secondary && secondary->bounce, "BOUNCE");
+        define(secondary && secondary->reflections, "REFLECTIONS");
+        define(secondary && scene.transmits, "TRANSMITS");
+        overTiles(lightPipeline(renderer, std::move(defines)), list);
+    }
     barrier(commands);
     return true;
 }

@@ -18,6 +18,7 @@ constexpr uint32_t kStillShadowSize = 2048;  // at most: two texels for each pix
 constexpr int kRestFrames = 64;              // of the live view, after which it stops
 constexpr double kSlowFrame = 100.0;         // ms; then the next live frame is drawn in parts
 constexpr int kRaysStill = 16, kRaysResting = 8;
+constexpr uint32_t kSecondaryStill = 4;
 
 /// What ambient occlusion is to do for this scene.
 AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& options) {
@@ -48,6 +49,11 @@ glm::vec2 onDisc(int number, int count) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+void forgetHistory(Renderer& renderer) {
+    fw::forgetHistory(renderer.ambient);
+    renderer.secondary.hasHistory = false;
+}
+
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
@@ -76,6 +82,11 @@ std::optional<FieldKernels> createFieldKernels(const Device& device, std::string
     if (hasFamilies(kernels.field)) add(kernels.places, "render/places.comp");
     if (options.lamps) add(kernels.lamps, "render/lamps.comp");
     if (options.show) add(kernels.show, "render/show.comp");
+    if (options.secondary) {
+        shaders.push_back(secondaryShader(kernels.field, *options.secondary));
+        places.push_back(&kernels.secondary);
+        kernels.kinds = *options.secondary;
+    }
     const std::size_t step = options.when == Compile::behind ? 1 : shaders.size();
     for (std::size_t i = 0; i < shaders.size(); i += step) {
         if (options.cancel && *options.cancel) return std::nullopt;
@@ -114,6 +125,8 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.places.content.reset();
     renderer.lamps = std::move(kernels.lamps);
     renderer.show = std::move(kernels.show);
+    renderer.secondary.trace = std::move(kernels.secondary);
+    renderer.secondary.kinds = kernels.kinds;
     renderer.reference = {};
     renderer.paths.trace = {};
     renderer.shown.reset();
@@ -121,7 +134,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.tracing.reset();
     renderer.trust = 0.5f;
     renderer.slow = true;
-    forgetHistory(renderer.ambient);
+    forgetHistory(renderer);
 }
 
 bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
@@ -133,6 +146,7 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         still ? std::clamp(2 * std::max(extent.width, extent.height), kShadowSize, kStillShadowSize)
               : kShadowSize;
     renderer.described = describeFrame(renderer, scene, options, view, resting, mean, shadowSize);
+    renderer.described.secondaryRays = still ? kSecondaryStill : 1;
     const gpu::RenderFrame& frame = renderer.described;
     if (scene.draft) renderer.described.ambientStrength = 0, renderer.described.lightCount = 0;
     if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(commands.device);
@@ -144,7 +158,7 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     resizeImage(commands, renderer.pixels, extent, VK_FORMAT_R32_UINT);
     resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT);
     if (resizeGBuffer(commands, renderer.gbuffer, extent) || before.groundEnd != frame.groundEnd)
-        forgetHistory(renderer.ambient);
+        forgetHistory(renderer);
 
     findPlaces(commands, renderer, scene);
     const bool traced = wantsTracing(scene, options, renderer);
@@ -170,14 +184,18 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     if (!scene.particles.empty())
         addSprites(commands, renderer.sprites, renderer.gbuffer, renderer.seen.depth, renderer.frame);
     beginStage(commands, "ambient");
-    if (scene.draft)
+    // Where rays find the sky themselves, none asks how much of it is seen.
+    const bool unasked = options.scene.bounce && options.scene.reflections && options.scene.sky &&
+                         options.show == RENDER_PICTURE;
+    if (scene.draft || unasked)
         resizeHistory(commands, renderer.ambient, extent);
     else if (options.reference)
         traceReference(commands, renderer, scene);
     else
         drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame,
                     fieldOf(renderer, scene));
-    if (cancelled(commands) || !lightFrame(commands, renderer, scene, still || resting)) return false;
+    if (cancelled(commands) || !lightFrame(commands, renderer, scene, options.scene, still || resting))
+        return false;
     showView(commands, renderer, scene);
     ++renderer.number;
     return true;
@@ -195,7 +213,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     renderer.ambient.options.raysResting = kRaysStill;
     renderer.ambient.options.samplesMoving = renderer.ambient.options.samples;
     renderer.ambient.options.enough = kRaysStill * kMostSamples;
-    forgetHistory(renderer.ambient);
+    forgetHistory(renderer);
     renderer.number = 0;
     renderer.shown.reset();
     for (int i = 0; i < options.samples; ++i) {
@@ -204,7 +222,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         view.jitter = jitterOf(i, options);
         if (lens) {
             view = throughLens(view, *options.scene.camera, onDisc(i, options.samples));
-            forgetHistory(renderer.ambient);  // each frame sees other places
+            forgetHistory(renderer);  // each frame sees other places
         }
         renderer.shadowStands = false;
         Commands commands(*renderer.device);
@@ -235,7 +253,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     if (rests && renderer.rested >= kRestFrames) return false;
     renderer.rested = rests ? renderer.rested + 1 : 0;
     if (!shown || shown->scene.ao != shows.scene.ao || shown->scene.ground != shows.scene.ground)
-        forgetHistory(renderer.ambient);
+        forgetHistory(renderer);
     renderer.shadowStands = renderer.shadowStands && sameField;
     AmbientOptions ambient = ambientOptions(scene, options);
     ambient.raysResting = kRaysResting;
@@ -254,9 +272,10 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     commands.parted = renderer.slow || (options.cancel && renderer.device->software);
     const auto state = [&] {
         return std::tie(renderer.described, renderer.gbuffer.current, renderer.ambient.current,
-                        renderer.ambient.rays, renderer.ambient.hasHistory);
+                        renderer.ambient.rays, renderer.ambient.hasHistory, renderer.secondary.current,
+                        renderer.secondary.hasHistory);
     };
-    const std::tuple<gpu::RenderFrame, uint32_t, uint32_t, int, bool> before = state();
+    const std::tuple<gpu::RenderFrame, uint32_t, uint32_t, int, bool, uint32_t, bool> before = state();
     // The mean begins with the first frame that rests.
     if (!drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0))) {
         // As if it had not begun: what it wrote is written anew by the next one, the mean it did not touch.
@@ -265,7 +284,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
         if (rests)
             --renderer.rested;
         else
-            renderer.shown.reset(), forgetHistory(renderer.ambient);
+            renderer.shown.reset(), forgetHistory(renderer);
         return false;
     }
     if (picture) recordReading(commands, renderer.pixels, renderer.readback);

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@
 #include "runtime/render/paths.h"
 #include "runtime/render/picture.h"
 #include "runtime/render/places.h"
+#include "runtime/render/secondary.h"
 #include "runtime/render/sprites.h"
 
 namespace fw {
@@ -47,6 +49,7 @@ struct RenderScene {
     float lipschitz = 1.0f;                         ///< of the field; infinite if unknown
     FieldBuffers buffers = {};                      ///< of the field, without lists
     const Families* families = nullptr;             ///< of the field, where it has some
+    bool transmits = false;                         ///< light passes through some of it
     SeenBounds bounds = {};                         ///< of RenderOptions::framed
     std::span<const ParticleCloud> particles = {};  ///< whose surfaces the field lacks, for their views
     /// If given, the mesh alone is drawn, in this material or its colours: the renderer need not have the
@@ -110,11 +113,14 @@ struct FieldKernels {
     Pipeline cones, trace, surface, ambient, ambientHoles;
     Pipeline places;       ///< only if the field has families
     Pipeline lamps, show;  ///< only if asked for
+    Pipeline secondary;    ///< ditto
+    SecondaryKinds kinds;  ///< of that
 };
 
 struct FieldKernelOptions {
     bool lamps = false;  ///< the scene has some
     bool show = false;   ///< for showsField()
+    std::optional<SecondaryKinds> secondary = {};
     Compile when = Compile::now;
     const std::atomic<bool>* cancel = nullptr;  ///< looked at between kernels if they are compiled behind
 };
@@ -134,8 +140,9 @@ struct Renderer {
     PathTracer paths;
     GBuffer gbuffer;
     Ambient ambient;
-    Pipeline light[3][32];  ///< by list of tiles and what light.comp defines; made when needed
-    Pipeline lamps, fog, reference, show, wireframe;  ///< ditto
+    Secondary secondary;
+    std::map<std::vector<std::string>, Pipeline> light;  ///< by what light.comp defines; made when needed
+    Pipeline lamps, fog, reference, show, wireframe;     ///< ditto
 
     DepthTarget seen, shadow;
     Image means, lampLight, fogLight;

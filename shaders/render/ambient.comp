@@ -4,8 +4,7 @@
 // frame; what the last frame knew of a point is found again by reprojection and kept where depth and normal agree; a pixel
 // without such a history is a hole and gets many rays, all others one. Where rays are shared, a hole gets here what all
 // pixels get and is listed, and ambient_holes.comp adds the rest.
-// Deviations: history is rejected by the distance to the surface's plane, not by depth alone, which would lose grazing
-// surfaces; it remembers how many rays it stands for, so that a resting view converges to their plain mean.
+// Deviations: history is rejected as reproject.glsl has it; it remembers how many rays it stands for, so that a resting view converges to their plain mean.
 #define FIELD_VALUE
 #include "shared.h"
 #include "render/render.h"
@@ -26,9 +25,7 @@ layout(binding = 7, r32ui) writeonly uniform uimage2D historyNow;
 
 #include "render/solid.glsl"
 #include "render/ambient.glsl"
-
-const float kSamePlane = 0.01;  // of the distance to the eye
-const float kSameNormal = 0.9;  // cosine
+#include "render/reproject.glsl"
 
 void main() {
     fieldBegin();
@@ -42,17 +39,9 @@ void main() {
     vec3 p = pointAt(frame.now, placeOf(pixel, size), surface ? depth : 1.0), n = unpackOctahedral(words.y);
     surface = surface && nearSolid(p, 0.0);
 
-    vec3 seen = project(frame.before, p);
-    vec2 place = vec2(0.5 + 0.5 * seen.x, 0.5 - 0.5 * seen.y) * vec2(size);
-    bool inBefore = seen.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(size)));
-    uvec2 was = frame.resting != 0 ? here : inBefore ? uvec2(place) : uvec2(0);
-    uvec4 old = imageLoad(surfacesBefore, ivec2(was));
+    uvec2 was;
+    bool kept = surface && pixelSeenBefore(p, n, here, was);
     uint past = imageLoad(historyBefore, ivec2(was)).x;
-    float oldDepth = uintBitsToFloat(old.x);
-    vec3 pOld = pointAt(frame.before, placeOf(was, size), oldDepth > 0.0 ? oldDepth : 1.0);
-    bool kept = surface && (inBefore || frame.resting != 0) && oldDepth > 0.0 &&
-                abs(dot(n, pOld - p)) < kSamePlane * distance(p, frame.now.eye) &&
-                dot(n, unpackOctahedral(old.y)) > kSameNormal && nearSolid(pOld, 0.0);
     uint known = kept ? min(past >> 16, frame.mostKept) : 0;
     bool hole = surface && known == 0, shares = frame.balance != 0;
     uint need = hole && !shares ? frame.raysNew : frame.raysKept;

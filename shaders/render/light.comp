@@ -1,7 +1,8 @@
 // From the G-buffer to the finished picture, one listed tile a work group: sun with its shadow, sky with the ambient occlusion,
 // lamps, fog; tone map, mean over frames, sRGB. It samples no field, so its pipelines serve all graphs.
 // Where no surface is there is the sky, or a studio's wall, on which the ground, not drawn itself, catches the solid's shadow.
-// Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; MEAN where the picture is the
+// Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; BOUNCE,
+// REFLECTIONS and TRANSMITS, of secondary.comp; MEAN where the picture is the
 // mean of frames; NEUTRAL, of tone.glsl.
 #define SHADOW_MAP
 #include "shared.h"
@@ -32,6 +33,17 @@ layout(binding = 11, rgba16f) readonly uniform image2D lamps;
 layout(binding = 12, rgba16f) readonly uniform image2D fog;  // light that it sends; share of light that it lets through
 #endif
 
+#ifdef BOUNCE
+layout(binding = 19, rgba16f) readonly uniform image2D bounce;
+#endif
+#ifdef REFLECTIONS
+layout(binding = 21, rgba16f) readonly uniform image2D reflection;
+#endif
+#ifdef TRANSMITS
+layout(binding = 22, rgba16f) readonly uniform image2D passed;
+layout(binding = 23, rgba16f) readonly uniform image2D sunlight;
+#endif
+
 #include "render/solid.glsl"
 #include "render/shading.glsl"
 #include "render/shadow.glsl"
@@ -54,7 +66,7 @@ void main() {
 #ifdef SKY
     vec3 behind = skySeen(-toEye);
 #else
-    vec3 behind = mix(vec3(0.76, 0.745, 0.72), vec3(0.36, 0.43, 0.53), smoothstep(-1.0, 1.2, place.y)) * (1.0 - 0.10 * dot(place, place));
+    vec3 behind = wallAt(place);
 #endif
 #if LIST == RENDER_BACK
     bool there = false;
@@ -73,6 +85,12 @@ void main() {
     bool occluded = there && nearSolid(p, 0.0);
     float open = mix(1.0, occluded ? opennessOf(imageLoad(history, at).x) : 1.0, frame.ambientStrength);
     float sunlit = frame.shadowSize != 0 && there ? sunSeen(p, s.n, pixel) : 1.0;
+    vec3 sunned = vec3(sunlit);
+#ifdef TRANSMITS
+    // Through what transmits, which the map takes for opaque.
+    sunned = frame.shadowSize != 0 && occluded ? imageLoad(sunlight, at).rgb : sunned;
+    sunlit = (sunned.r + sunned.g + sunned.b) / 3.0;
+#endif
 
     // The ground fades into what is behind it; of the wall's light a shadow on it leaves that of the sky.
     float away = length(p.xz - frame.centre.xz) / frame.radius;
@@ -82,14 +100,42 @@ void main() {
     lamplight = there ? imageLoad(lamps, at).rgb : vec3(0.0);
 #endif
 #ifdef SKY
-    vec3 onGround = s.base * (frame.sunLight * (max(frame.sun.y, 0.0) * sunlit / kPi) + 0.66 * open * skylight(vec3(0, 1, 0)));
+    vec3 around = 0.66 * open * skylight(vec3(0, 1, 0));
+#ifdef BOUNCE
+    around = occluded ? imageLoad(bounce, at).rgb : skylight(vec3(0, 1, 0));
+#endif
+    vec3 onGround = s.base * (frame.sunLight * sunned * (max(frame.sun.y, 0.0) / kPi) + around);
     vec3 color = mix(behind, onGround + lamplight, fade);
 #else
     vec3 dimmed = mix(vec3(0.46, 0.50, 0.58), vec3(1.0), sunlit) * mix(0.35, 1.0, open);
     vec3 color = behind * mix(vec3(1.0), dimmed, fade) + fade * lamplight;
 #endif
 #if LIST == RENDER_SOLID
-    vec3 lit = reflected(s, toEye, frame.sun, frame.sunLight * sunlit) + ambientLight(s, toEye, open) + s.emission + lamplight;
+    vec3 behindIt = vec3(0.0);
+#ifdef TRANSMITS
+    vec4 through = imageLoad(passed, at);
+    behindIt = through.rgb;
+    s.base *= 1.0 - through.a;
+#endif
+    vec3 diffuse = 0.66 * bounced(open, s.base) * skylight(s.n), mirror = open * surroundings(mirrorAxis(s, toEye), s.roughness);
+#ifdef BOUNCE
+    diffuse = imageLoad(bounce, at).rgb;
+#endif
+#ifdef REFLECTIONS
+    mirror = imageLoad(reflection, at).rgb;
+#endif
+    vec3 share = mirroredShare(s, toEye), kept = vec3(1.0);
+#ifdef REFLECTIONS
+    // What facets mask is mirrored once more (Turquin, "Practical multiple scattering compensation for microfacet models", 2019).
+    Surface white = s;
+    white.base = vec3(1.0), white.metallic = 1.0;
+    share *= 1.0 + mirrored(s) * (1.0 / mirroredShare(white, toEye) - 1.0);
+#endif
+#ifdef BOUNCE
+    kept -= share;  // what facets mirror does not reach the base
+#endif
+    vec3 lit = reflected(s, toEye, frame.sun, frame.sunLight * sunned) + s.base * (1.0 - s.metallic) * kept * diffuse + share * mirror + behindIt +
+               s.emission + lamplight;
     color = there && !s.ground ? lit : color;
 #endif
 #endif

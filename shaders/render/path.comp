@@ -8,10 +8,8 @@
 // table. That part's albedo is not known in closed form but by the facet that was drawn, which is as good in the mean.
 //
 // Where light passes through, the path is reflected or bent by Fresnel's share and Snell's law, and loses within by Beer and
-// Lambert's. The whole solid and its opaque part are two fields (field.glsl): within, a ray goes until it leaves the one or
-// meets the other. Where transmissive solids overlap, a place is of the one that it is deeper in; the interface is where that
-// changes, and its normal the difference of the two fields' slopes. What lies behind an interface cannot be asked for lamps; it
-// is found by paths that hit the sun's disc or a lamp's ball, for which some leave chalk towards the sun.
+// Lambert's (media.glsl). An interface's normal is the difference of the two fields' slopes. What lies behind an interface cannot
+// be asked for lamps; it is found by paths that hit the sun's disc or a lamp's ball, for which some leave chalk towards the sun.
 //
 // One loop, whose turns are rays of either kind: the field's code stands once in it, as drivers inline it at each place. A lane
 // whose path has ended begins the next of its pixel's, so that no lane waits for long paths of others but at the end.
@@ -32,17 +30,16 @@ layout(binding = 8, scalar) buffer Sums { vec4 sums[]; };
 layout(push_constant, scalar) uniform Push { PathPush push; };
 
 #include "render/solid.glsl"
+#include "render/media.glsl"
 #include "render/shading.glsl"
 #include "render/microfacets.glsl"
 #include "lib/random.glsl"
 
 const uint kMostSteps = 768, kLongPath = 16;
 const float kClose = 2e-5;        // of the radius: nearer is a hit
-const float kLeave = 0.25;        // or of the way gone, so that rays may leave the surface they start on
 const float kSmooth = 0.04;       // roughness below which an interface is smooth, and no facet of a solid is rougher
 const float kToSun = 0.35;        // share of the paths that leave chalk towards the sun where light passes through something,
 const float kSunCone = 0.82;      // within the cone of this cosine about it
-const float kSameMedium = 0.01;   // difference in the index of refraction
 const float kGoesOn = 0.9;        // how likely a path does that has had kLongPath rays
 
 // What a ray is for.
@@ -50,15 +47,10 @@ const uint kPath = 0, kLamp = 1, kShade = 2, kOpen = 3;
 
 float mean(vec3 v) { return (v.x + v.y + v.z) / 3.0; }
 
-void basis(vec3 n, out vec3 x, out vec3 y) {  // Duff et al., as in view.glsl
-    float s = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
-    x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), y = vec3(b, s + n.y * n.y * a, -n.y);
-}
-
 // A direction within the cone about `axis`, evenly.
 vec3 inCone(vec3 axis, float cosine, vec2 u) {
     vec3 x, y;
-    basis(axis, x, y);
+    axesAcross(axis, x, y);
     float c = mix(cosine, 1.0, u.x), s = sqrt(max(1.0 - c * c, 0.0)), angle = 6.2831853 * u.y;
     return normalize(s * cos(angle) * x + s * sin(angle) * y + c * axis);
 }
@@ -83,30 +75,6 @@ vec4 lampBall(Light lamp, vec3 o) {
 }
 vec3 lampRadiance(Light lamp, vec3 d) {
     return lamp.color * (smoothstep(lamp.cosOuter, lamp.cosInner, dot(-d, lamp.direction)) / (kPi * lamp.size * lamp.size));
-}
-
-// What a ray that goes straight from the eye ends at. In the studio that is the wall, as it is where the ray would be seen.
-vec3 backdrop(vec3 d) {
-    if (frame.studio == 0) return skySeen(d);
-    vec3 at = project(frame.now, frame.now.eye + d);
-    vec2 place = at.z > 0.05 ? clamp(at.xy, -1.5, 1.5) : vec2(0.0);
-    return mix(vec3(0.76, 0.745, 0.72), vec3(0.36, 0.43, 0.53), smoothstep(-1.0, 1.2, place.y)) * (1.0 - 0.10 * dot(place, place));
-}
-
-// The whole solid at p, cut at the region; negative inside.
-float wholeAt(Bounds bounds, vec3 p) {
-    vec3 from = p - bounds.centre, q = abs(from) - bounds.half_, at = from * bounds.perHalf;
-    chooseMembers(at);
-    float region = max(q.x, max(q.y, q.z));
-    return withinPlaces(at) ? max(fieldValue(p) * bounds.stepScale, region) : region;
-}
-float opaqueAt(Bounds bounds, vec3 p) {
-#ifdef FIELD_TRANSMITS
-    vec3 q = abs(p - bounds.centre) - bounds.half_;
-    return max(fieldOpaque(p) * bounds.stepScale, max(q.x, max(q.y, q.z)));
-#else
-    return wholeAt(bounds, p);
-#endif
 }
 
 void main() {
@@ -168,75 +136,22 @@ void main() {
         float t = max(max(first.x, max(first.y, first.z)), 0.0);
         float end = min(min(last.x, min(last.y, last.z)) + close, min(far, toGround));
 
-        // To the solid, or out of it.
-        float free = t, f = 0.0;
-        bool hit = false, hitsOpaque = !within, between = false, changes = false;
-        vec3 optical = vec3(0.0);
-        uint i = 0;
-        if (t < end) {
-            do {
-                vec3 p = o + d * t;
-                float whole = wholeAt(bounds, p);
-                f = whole;
-#ifdef FIELD_TRANSMITS
-                if (within) {
-                    float opaque = opaqueAt(bounds, p);
-                    f = min(-whole, opaque);
-                    hitsOpaque = opaque < -whole;
-                }
-#ifdef FIELD_MEDIA
-                if (within && f > close) {
-                    FieldMaterial medium = fieldMaterial(p);
-                    changes = abs(medium.ior - ior) > kSameMedium;
-                    if (changes) break;
-                    optical += absorption * (t - free);
-                    absorption = medium.absorption;
-                    free = t;
-                }
-#endif
-#endif
-                float least = min(close, kLeave * t + 0.01 * close);
-                bool jumped = f < -least && t - free > least && !within;
-                hit = f < least && !jumped;
-                if (hit) break;
-                free = jumped || within ? free : t;
-                t = jumped ? 0.5 * (free + t) : t + max(f, 0.02 * close);
-            } while (t < end && ++i < kMostSteps);
-        }
-#ifdef FIELD_MEDIA
-        if (changes) {
-            // Another medium, or the same that changes slowly, which light would not notice.
-            float before = free, behind = t, there = fieldMaterial(o + d * t).ior;
-            for (int k = 0; k < 24; ++k) {
-                float middle = 0.5 * (before + behind), here = fieldMaterial(o + d * middle).ior;
-                bool same = abs(here - ior) < abs(here - there);
-                before = same ? middle : before;
-                behind = same ? behind : middle;
-            }
-            between = abs(fieldMaterial(o + d * behind).ior - fieldMaterial(o + d * before).ior) > kSameMedium;
-            hit = between;
-            hitsOpaque = false;
-            t = between ? behind : t;
-            ior = between ? ior : there;
-        }
-        optical += within ? absorption * max(min(t, end) - free, 0.0) : vec3(0.0);
-#else
-        optical = within ? absorption * min(t, end) : vec3(0.0);
-#endif
-        hit = hit || (t < end && f < 16.0 * close && !changes);
+        Way way = follow(bounds, o, d, t, end, within, ior, absorption, close, kMostSteps);
+        bool hit = way.hit, hitsOpaque = way.opaque, between = way.between;
+        t = way.t;
+        ior = way.ior;
+        absorption = way.absorption;
         bool hitsGround = !hit && toGround < 1e29 && toGround <= far;
         bool blocked = hit || hitsGround;
 
-        vec3 left = exp(-optical);
-#ifdef FIELD_MEDIA
-        if (changes && !between) {
+        vec3 left = exp(-way.optical);
+        if (way.changes) {
             o += d * t;
             far -= t;
             through *= purpose == kPath ? left : vec3(1.0);
             pending *= left;
             continue;
         }
-#endif
         if (purpose != kPath) {
             // A ray to a lamp has done its work, or one that says how dark the studio's ground is.
             if (purpose == kLamp && !blocked) light += pending * left;
@@ -329,7 +244,7 @@ void main() {
         bool passes = transmission > 0.0 && random(state) < transmission;
         light += passes ? vec3(0.0) : through * s.emission;
         vec3 x, y, back = -d;
-        basis(n, x, y);
+        axesAcross(n, x, y);
         vec3 from = vec3(dot(back, x), dot(back, y), max(dot(back, n), 1e-4));
         float alpha = max(s.roughness, kSmooth);
         alpha *= alpha;

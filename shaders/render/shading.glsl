@@ -23,6 +23,18 @@ vec3 surroundings(vec3 d, float roughness) {
     return frame.studio != 0 ? studio : skyColor(d);
 }
 
+// The studio's wall at a place in the picture.
+vec3 wallAt(vec2 place) {
+    return mix(vec3(0.76, 0.745, 0.72), vec3(0.36, 0.43, 0.53), smoothstep(-1.0, 1.2, place.y)) * (1.0 - 0.10 * dot(place, place));
+}
+
+// What a ray that goes straight from the eye ends at, though it may have been bent: the wall as it is where it would be seen.
+vec3 backdrop(vec3 d) {
+    if (frame.studio == 0) return skySeen(d);
+    vec3 at = project(frame.now, frame.now.eye + d);
+    return wallAt(at.z > 0.05 ? clamp(at.xy, -1.5, 1.5) : vec2(0.0));
+}
+
 // Light of the sky on a surface that sees `open` of it, as an average over its hemisphere.
 vec3 skylight(vec3 n) {
     // The cosine-weighted mean of skyColor, which changes with the height alone: fitted by its value a little flatter.
@@ -53,14 +65,14 @@ vec3 reflected(Surface s, vec3 toEye, vec3 toLight, vec3 light) {
     return light * facing * (s.base * (1.0 - s.metallic) / kPi + shape * fresnel);
 }
 
-// Radiance towards the eye from all around; the environment's part of a mirror after Karis, "Physically based shading on
-// mobile" (2014).
-vec3 ambientLight(Surface s, vec3 toEye, float open) {
+// Share of the light all around that the surface mirrors towards the eye: after Karis, "Physically based shading on mobile"
+// (2014).
+vec3 mirroredShare(Surface s, vec3 toEye) {
     float seen = max(dot(s.n, toEye), 1e-3);
     vec4 c = s.roughness * vec4(-1, -0.0275, -0.572, 0.022) + vec4(1, 0.0425, 1.04, -0.04);
     float edge = min(c.x * c.x, exp2(-9.28 * seen)) * c.x + c.y;
-    vec3 around = mirrored(s) * (c.z - 1.04 * edge) + edge + c.w;
-    vec3 away = normalize(mix(reflect(-toEye, s.n), s.n, s.roughness * s.roughness));
-    return 0.66 * s.base * (1.0 - s.metallic) * bounced(open, s.base) * skylight(s.n) +
-           open * around * surroundings(away, s.roughness);
+    return mirrored(s) * (c.z - 1.04 * edge) + edge + c.w;
 }
+
+// The middle of what a surface mirrors: the rougher, the nearer to its normal.
+vec3 mirrorAxis(Surface s, vec3 toEye) { return normalize(mix(reflect(-toEye, s.n), s.n, s.roughness * s.roughness)); }

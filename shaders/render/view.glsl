@@ -38,10 +38,16 @@ vec2 evenly(uvec2 pixel, uint number) {
     return vec2(turned >> 8) / 16777216.0;
 }
 
-// Cosine-distributed about n. The frame around n is Duff et al.'s ("Building an orthonormal basis, revisited", 2017).
-vec3 cosineDirection(vec3 n, vec2 u) {
-    float angle = 6.2831853 * u.x, r = sqrt(u.y);
+// Two axes across n: Duff et al.'s ("Building an orthonormal basis, revisited", 2017).
+void axesAcross(vec3 n, out vec3 x, out vec3 y) {
     float s = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (s + n.z), b = n.x * n.y * a;
-    vec3 x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), y = vec3(b, s + n.y * n.y * a, -n.y);
+    x = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), y = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
+// Cosine-distributed about n.
+vec3 cosineDirection(vec3 n, vec2 u) {
+    vec3 x, y;
+    axesAcross(n, x, y);
+    float angle = 6.2831853 * u.x, r = sqrt(u.y);
     return r * cos(angle) * x + r * sin(angle) * y + sqrt(1.0 - u.y) * n;
 }

@@ -1,0 +1,168 @@
+// Indirect light, reflections and transmission as every picture has them, against closed forms and against
+// whole paths of light.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "graph/document/json.h"
+#include "runtime/play/player.h"
+#include "tests/support/gpu.h"
+
+namespace fw::secondary_test {
+
+constexpr int kWidth = 128, kHeight = 96;
+
+struct Secondary : testing::Test {
+    static Result<Graph> parsed(const std::string& nodes, const std::string& scene) {
+        return parseGraph(R"({"fieldwright": 1, "nodes": [)" + nodes + R"(], "scene": {)" + scene + "}}", "",
+                          nullptr);
+    }
+    static Player playerOf(Result<Graph> graph) {
+        EXPECT_TRUE(graph) << format(graph.error());
+        Result<Device> device = createDevice({.validation = true});
+        EXPECT_TRUE(device);
+        Result<Player> player =
+            Player::create(std::move(*graph), std::move(*device), {.fieldBy = FieldBy::kernels});
+        EXPECT_TRUE(player) << format(player.error());
+        return std::move(*player);
+    }
+    static Picture drawn(Player& player, const RenderOptions& options) {
+        const auto record = player.device().record;
+        Result<Picture> picture = player.frame(options);
+        EXPECT_TRUE(picture) << format(picture.error());
+        for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+        return picture ? std::move(*picture) : Picture{};
+    }
+    static Picture drawn(const std::string& nodes, const std::string& scene, int samples = 8) {
+        Player player = playerOf(parsed(nodes, scene));
+        return drawn(player, {.width = kWidth, .height = kHeight, .samples = samples});
+    }
+};
+
+int at(const Picture& picture, int x, int y, int channel) {
+    return picture.pixels[4 * std::size_t(y * picture.width + x) + std::size_t(channel)];
+}
+
+/// Mean difference of two pictures, 0 to 1.
+double difference(const Picture& a, const Picture& b) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        if (i % 4 < 3) sum += std::abs(int(a.pixels[i]) - int(b.pixels[i])), ++count;
+    return sum / double(count) / 255;
+}
+
+TEST_F(Secondary, AWhiteBallInAWhiteSkyVanishes) {
+    // 0.5 is grey in the picture, so that more and less light show.
+    const std::string furnace =
+        R"("sun": false, "ground": false, "bounce": true, "reflections": true,
+           "sky": {"zenith": [0.5, 0.5, 0.5], "horizon": [0.5, 0.5, 0.5], "ground": [0.5, 0.5, 0.5]})";
+    for (const char* metallic : {"0", "1"})
+        for (const char* roughness : {"0", "0.3", "0.6", "1"}) {
+            SCOPED_TRACE(std::string("metallic ") + metallic + ", roughness " + roughness);
+            const Picture picture = drawn(
+                std::string(
+                    R"({"id": "ball", "type": "sphere"}, {"id": "paint", "type": "material", "inputs": {"surface": {"from": "ball"},
+                    "base_color": [1, 1, 1], "metallic": )") +
+                    metallic + R"(, "roughness": )" + roughness + R"(}},
+                    {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}}})",
+                furnace);
+            for (int y = 0; y < kHeight; ++y)
+                for (int x = 0; x < kWidth; ++x)
+                    ASSERT_NEAR(at(picture, x, y, 1), at(picture, 0, 0, 1), 2.6) << x << " " << y;  // 1 %
+        }
+}
+
+TEST_F(Secondary, AMirrorShowsWhatStandsBeforeIt) {
+    // A red ball above a level mirror, seen from the side: its image is as far below as it is above.
+    const std::string nodes =
+        R"({"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+           {"id": "high", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0, 1, 0]}},
+           {"id": "red", "type": "material", "inputs": {"surface": {"from": "high"}, "base_color": [1, 0, 0], "roughness": 1, "emission": [0.3, 0, 0]}},
+           {"id": "plate", "type": "box", "inputs": {"half_extents": [3, 0.1, 3]}},
+           {"id": "low", "type": "translate", "inputs": {"surface": {"from": "plate"}, "offset": [0, -0.1, 0]}},
+           {"id": "mirror", "type": "material", "inputs": {"surface": {"from": "low"}, "base_color": [1, 1, 1], "roughness": 0, "metallic": 1}},
+           {"id": "both", "type": "union", "inputs": {"a": {"from": "red"}, "b": {"from": "mirror"}}},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})";
+    const std::string look =
+        R"("sky": {}, "sun": false, "ground": false, "camera": {"position": [0, 1.5, 6], "target": [0, 0, 0], "fov": 36})";
+    // Where the image's middle, at (0, -1, 0), is seen.
+    const double along = 6 * 6 / std::hypot(6, 1.5) + 1.5 * 2.5 / std::hypot(6, 1.5),
+                 across = (-1 * 6) / std::hypot(6, 1.5);
+    const int y = int(kHeight * (0.5 - 0.5 * across / along / std::tan(18 * 3.14159265 / 180)));
+    const auto redness = [&](const Picture& picture) {
+        return at(picture, kWidth / 2, y, 0) - at(picture, kWidth / 2, y, 1);
+    };
+    EXPECT_GT(redness(drawn(nodes, look + R"(, "reflections": true)")), 60);
+    EXPECT_LT(redness(drawn(nodes, look)), 20);
+}
+
+TEST_F(Secondary, AWallLendsItsColour) {
+    const std::string nodes =
+        R"({"id": "wall", "type": "box", "inputs": {"half_extents": [0.1, 2, 2]}},
+           {"id": "left", "type": "translate", "inputs": {"surface": {"from": "wall"}, "offset": [-1.2, 1, 0]}},
+           {"id": "red", "type": "material", "inputs": {"surface": {"from": "left"}, "base_color": [0.9, 0.02, 0.02], "roughness": 1}},
+           {"id": "plate", "type": "box", "inputs": {"half_extents": [2, 0.1, 2]}},
+           {"id": "white", "type": "material", "inputs": {"surface": {"from": "plate"}, "base_color": [0.8, 0.8, 0.8], "roughness": 1}},
+           {"id": "both", "type": "union", "inputs": {"a": {"from": "red"}, "b": {"from": "white"}}},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})";
+    const std::string look =
+        R"("sky": {"strength": 0.3}, "sun": {"azimuth": 90, "elevation": 40, "color": [1, 1, 1]}, "ground": false, "ao": false,
+        "camera": {"position": [2, 4, 7], "target": [0, 0, 0], "fov": 30})";
+    const auto redness = [&](const Picture& picture) {
+        double sum = 0;
+        for (int y = 46; y < 52; ++y)
+            for (int x = 54; x < 60; ++x) sum += at(picture, x, y, 0) - at(picture, x, y, 2);
+        return sum / 36;
+    };
+    EXPECT_GT(redness(drawn(nodes, look + R"(, "bounce": true)", 16)), redness(drawn(nodes, look, 16)) + 8);
+}
+
+/// Beside whole paths, every sample that has any of it.
+TEST_F(Secondary, IsNearWholePaths) {
+    for (const char* name : {"cornell_box", "glass_of_water"}) {
+        SCOPED_TRACE(name);
+        Player player = playerOf(
+            readGraph(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json", nullptr));
+        const Picture quick = drawn(player, {.width = kWidth, .height = kHeight, .samples = 16});
+        const Picture paths = drawn(
+            player, {.width = kWidth, .height = kHeight, .samples = 128, .reference = true, .bounces = 8});
+        const double off = difference(quick, paths);
+        std::printf("%s: %.4f from whole paths\n", name, off);
+        EXPECT_LT(off, 0.03);
+    }
+}
+
+TEST_F(Secondary, TheSameBytesEachTime) {
+    const std::string nodes =
+        R"({"id": "ball", "type": "sphere"}, {"id": "glass", "type": "material", "inputs": {"surface": {"from": "ball"}, "transmission": 0.7, "roughness": 0.2}},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "glass"}}})";
+    EXPECT_EQ(drawn(nodes, R"("bounce": true, "reflections": true)", 3).pixels,
+              drawn(nodes, R"("bounce": true, "reflections": true)", 3).pixels);
+}
+
+/// What people write: a picture, never a crash.
+TEST_F(Secondary, AnyMediumHasAPicture) {
+    for (const char* medium :
+         {R"("ior": 1)", R"("ior": 0.5)", R"("ior": 3)", R"("absorption": [1e9, 1e9, 1e9])",
+          R"("absorption": [0, 0, 0])", R"("roughness": 1)", R"("transmission": 0.3)"}) {
+        SCOPED_TRACE(medium);
+        const std::string nodes =
+            std::string(R"({"id": "ball", "type": "sphere"},
+            {"id": "glass", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": [1, 1, 1])") +
+            (std::string(medium).find("transmission") == std::string::npos ? R"(, "transmission": 1, )"
+                                                                           : ", ") +
+            medium + R"(}},
+            {"id": "shells", "type": "expression", "code": "surface s = a; for (int i = 0; i < 30; i++) s = with_distance(s, abs(s.distance) - 0.3 * pow(0.8, i)); return s;",
+             "inputs": {"a": {"from": "glass"}}},
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "shells"}, "resolution": 48}}";
+        Player player = playerOf(parsed(
+            nodes,
+            R"("bounce": true, "reflections": true, "camera": {"position": [0, 0, 0.1], "target": [0, 0, 5]})"));
+        drawn(player, {.width = 64, .height = 48, .samples = 2});
+        drawn(player, {.width = 64, .height = 48, .samples = 2, .reference = true, .bounces = 4});
+    }
+}
+
+}  // namespace fw::secondary_test
