@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -79,25 +80,31 @@ std::optional<Groups> groupsOf(std::span<const Material> materials, float chord,
 using Machine = TapeMachine<float>;
 constexpr std::size_t kBatch = Machine::kPoints;
 
-/// Of the field at the middles of a batch of triangles, from `first` on. Neighbours follow each other
-/// mostly, so that a tape of their box is short.
-void evaluate(Machine& machine, const Tape& field, const Mesh& mesh, std::size_t first,
-              std::span<Material> materials) {
-    Box box;
-    box.lo.fill(std::numeric_limits<double>::infinity());
-    box.hi.fill(-std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        const uint32_t* corner = &mesh.indices[3 * (first + i)];
-        const glm::vec3 middle =
-            (mesh.positions[corner[0]] + mesh.positions[corner[1]] + mesh.positions[corner[2]]) / 3.0f;
-        for (int axis = 0; axis < 3; ++axis) {
-            machine.position(axis)[i] = middle[axis];
-            box.lo[std::size_t(axis)] = std::min(box.lo[std::size_t(axis)], double(middle[axis]));
-            box.hi[std::size_t(axis)] = std::max(box.hi[std::size_t(axis)], double(middle[axis]));
-        }
+glm::vec3 middleOf(const Mesh& mesh, std::size_t triangle) {
+    const uint32_t* corner = &mesh.indices[3 * triangle];
+    return (mesh.positions[corner[0]] + mesh.positions[corner[1]] + mesh.positions[corner[2]]) / 3.0f;
+}
+
+/// Of the field, for the middles of the triangles from first to before last. Neighbours mostly follow each
+/// other, so that their box is small and its tape short.
+Tape tapeAt(Machine& machine, const Tape& field, const Mesh& mesh, std::size_t first, std::size_t last) {
+    glm::vec3 low = middleOf(mesh, first), high = low;
+    for (std::size_t t = first + 1; t < last; ++t) {
+        const glm::vec3 middle = middleOf(mesh, t);
+        low = glm::min(low, middle);
+        high = glm::max(high, middle);
     }
-    machine.interval(field, box);
-    const Tape tape = machine.shortens() ? machine.shortened(field) : field;
+    machine.interval(field, {{low.x, low.y, low.z}, {high.x, high.y, high.z}});
+    return machine.shortens() ? machine.shortened(field) : field;
+}
+
+/// Of a batch of triangles, from `first` on.
+void evaluate(Machine& machine, const Tape& tape, const Mesh& mesh, std::size_t first,
+              std::span<Material> materials) {
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const glm::vec3 middle = middleOf(mesh, first + i);
+        for (int axis = 0; axis < 3; ++axis) machine.position(axis)[i] = middle[axis];
+    }
     machine.value(tape, materials.size());
     for (std::size_t i = 0; i < materials.size(); ++i) {
         Numbers numbers;
@@ -112,8 +119,11 @@ std::vector<Material> materialsAt(const Mesh& mesh, const Program& program) {
     std::vector<Material> materials(mesh.triangleCount());
     forBlocks(materials.size(), 32 * kBatch, [&](std::size_t, std::size_t first, std::size_t last) {
         Machine machine;
-        for (std::size_t at = first; at < last; at += kBatch)
-            evaluate(machine, field, mesh, at, std::span(materials).subspan(at, std::min(kBatch, last - at)));
+        for (std::size_t at = first; at < last; at += kBatch) {
+            const std::size_t end = std::min(at + kBatch, last);
+            evaluate(machine, tapeAt(machine, field, mesh, at, end), mesh, at,
+                     std::span(materials).subspan(at, end - at));
+        }
     });
     return materials;
 }

@@ -178,6 +178,21 @@ TEST(Materials, EachTriangleHasThatOfTheFieldAtIt) {
     EXPECT_NEAR(double(mesh.parts[0].triangles), double(t) / 2, double(t) / 50);
 }
 
+TEST(Materials, WhereTheFieldHasNoNumberItIsTheLeast) {
+    Session session = sessionOf(R"({"id": "ball", "type": "sphere"},
+        {"id": "root", "type": "expression", "code": "return sqrt(p.x);"},
+        {"id": "paint", "type": "material", "inputs": {"surface": {"from": "ball"}, "roughness": {"from": "root"}}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}}})");
+    const Mesh mesh = meshOf(session, 64, true);
+EXPECT_GT(mesh.parts.size(), kMostMaterials / 4);
+EXPECT_LE(mesh.parts.size(), kMostMaterials);
+std::size_t t = 0;
+for (const MeshPart& part : mesh.parts)
+    for (const std::size_t end = t + part.triangles; t < end; ++t)
+        ASSERT_NEAR(part.material.roughness, std::sqrt(std::max(0.0f, middleOf(mesh, t).x)), 1.0 / 32);
+EXPECT_EQ(t, mesh.triangleCount());
+}
+
 TEST(Materials, TilesOfGlassAreAsThickAsTheWhole) {
     Session session = sessionOf(R"({"id": "ball", "type": "sphere"},
         {"id": "glass", "type": "material", "inputs": {"surface": {"from": "ball"}, "roughness": 0,
