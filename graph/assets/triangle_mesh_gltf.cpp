@@ -11,7 +11,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 
 #include "graph/assets/triangle_mesh.h"
@@ -373,6 +375,14 @@ class Reader {
         return result;
     }
 
+    /// What vertices are made from.
+    struct Source {
+        std::map<std::string, int> attributes;
+        glm::dvec3 base;
+        glm::dmat4 whole;
+        bool operator==(const Source&) const = default;
+    };
+
     void add(const tinygltf::Primitive& primitive, const glm::dmat4& whole) {
         const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
         if (mode > TINYGLTF_MODE_TRIANGLE_FAN) fail("has a primitive of mode " + std::to_string(mode));
@@ -384,31 +394,40 @@ class Reader {
             fail("is packed by Draco, a compression that is not read: export it without");
         const tinygltf::Accessor& accessor = at(model.accessors, position->second, "accessor");
         if (accessor.type != TINYGLTF_TYPE_VEC3) fail("has positions that are no vectors of three");
-        const std::vector<double> places = numbers(position->second, 3, false);
-        const std::size_t count = places.size() / 3, first = mesh.positions.size();
+        const Source source{primitive.attributes, baseOf(primitive), whole};
+        if (source != last) addVertices(position->second, source);
+        last = source;
+        addTriangles(primitive, mode, glm::determinant(glm::dmat3(whole)) < 0);
+    }
+
+    void addVertices(int position, const Source& source) {
+        const std::vector<double> places = numbers(position, 3, false);
+        const std::size_t count = places.size() / 3;
+        first = mesh.positions.size();
         if (first + count > kMostMeshVertices) fail("has more vertices than can be read");
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec4 p = whole * glm::dvec4(places[3 * i], places[3 * i + 1], places[3 * i + 2], 1);
+            const glm::dvec4 p =
+                source.whole * glm::dvec4(places[3 * i], places[3 * i + 1], places[3 * i + 2], 1);
             const glm::vec3 narrow(p);
             for (int k = 0; k < 3; ++k)
                 if (!std::isfinite(narrow[k])) fail("has a vertex that is not finite");
             mesh.positions.push_back(narrow);
         }
-        addColors(primitive, count);
-        addTriangles(primitive, mode, count, uint32_t(first), glm::determinant(glm::dmat3(whole)) < 0);
+        addColors(source, count);
     }
 
-    void addColors(const tinygltf::Primitive& primitive, std::size_t count) {
-        glm::dvec3 base(1);
-        if (primitive.material >= 0) {
-            const auto& factor =
-                at(model.materials, primitive.material, "material").pbrMetallicRoughness.baseColorFactor;
-            if (factor.size() >= 3) base = {factor[0], factor[1], factor[2]};
-            colored = true;
-        }
-        const auto color = primitive.attributes.find("COLOR_0");
+    glm::dvec3 baseOf(const tinygltf::Primitive& primitive) {
+        if (primitive.material < 0) return glm::dvec3(1);
+        colored = true;
+        const auto& factor =
+            at(model.materials, primitive.material, "material").pbrMetallicRoughness.baseColorFactor;
+        return factor.size() >= 3 ? glm::dvec3(factor[0], factor[1], factor[2]) : glm::dvec3(1);
+    }
+
+    void addColors(const Source& source, std::size_t count) {
+        const auto color = source.attributes.find("COLOR_0");
         std::vector<double> own;
-        if (color != primitive.attributes.end()) {
+        if (color != source.attributes.end()) {
             own = numbers(color->second, 3, false);
             if (own.size() != 3 * count) fail("has more or fewer colours than positions");
             colored = true;
@@ -416,15 +435,15 @@ class Reader {
         for (std::size_t i = 0; i < count; ++i) {
             const glm::dvec3 mine =
                 own.empty() ? glm::dvec3(1) : glm::dvec3(own[3 * i], own[3 * i + 1], own[3 * i + 2]);
-            const glm::dvec3 product = mine * base;
+            const glm::dvec3 product = mine * source.base;
             glm::vec3 kept;
             for (int k = 0; k < 3; ++k) kept[k] = product[k] >= 0 ? float(std::min(product[k], 1.0)) : 0.0f;
             mesh.colors.push_back(kept);
         }
     }
 
-    void addTriangles(const tinygltf::Primitive& primitive, int mode, std::size_t vertices, uint32_t first,
-                      bool mirrored) {
+    void addTriangles(const tinygltf::Primitive& primitive, int mode, bool mirrored) {
+        const std::size_t vertices = mesh.positions.size() - first;
         std::vector<uint32_t> order;
         if (primitive.indices >= 0) {
             const int type = at(model.accessors, primitive.indices, "accessor").componentType;
@@ -447,12 +466,14 @@ class Reader {
                 : strip ? std::array{order[t], order[t + 1 + t % 2], order[t + 2 - t % 2]}
                         : std::array{order[t + 1], order[t + 2], order[0]};
             if (mirrored) std::swap(corners[1], corners[2]);
-            for (uint32_t corner : corners) mesh.indices.push_back(first + corner);
+            for (uint32_t corner : corners) mesh.indices.push_back(uint32_t(first) + corner);
         }
     }
 
     const tinygltf::Model& model;
     TriangleMesh mesh;
+    std::size_t first = 0;       // vertex of those that were added last,
+    std::optional<Source> last;  // from this: the parts of a mesh mostly share theirs
     bool colored = false;
 };
 

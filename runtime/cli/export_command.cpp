@@ -36,7 +36,7 @@ Result<WholeMesh> meshWhole(const ExportOptions& options, OpenedGraph graph, Pro
         Result<MeshedProgram> meshed = meshOpened(std::move(graph), progress, timed);
         if (!meshed) return meshed.error();
         progress.start("download", 60);
-        Mesh mesh = meshed->session.download(meshed->mesh);
+        Mesh mesh = meshed->session.download(meshed->mesh, exportFormat(options.output)->parts);
         return WholeMesh{std::move(*meshed), std::move(mesh)};
     } catch (const DeviceTooSmall& full) {
         if (!canTile) throw DeviceTooSmall(full.what() + std::string(kOrTiles));

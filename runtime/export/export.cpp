@@ -26,9 +26,9 @@ enum class Format { glb, gltf, obj, stl, ply, threeMf, vdb };
 
 /// In the order of Format.
 constexpr ExportFormat kFormats[] = {
-    {".glb", "glTF in one file, with colours: Blender, game engines, the web", true},
-    {".gltf", "glTF as text and a .bin file beside it", true},
-    {".obj", "OBJ with colours and a .mtl file beside it"},
+    {".glb", "glTF in one file, with colours: Blender, game engines, the web", true, true, true},
+    {".gltf", "glTF as text and a .bin file beside it", true, true, true},
+    {".obj", "OBJ with colours and a .mtl file beside it", false, true, true},
     {".stl", "STL: the shape alone, for printing"},
     {".ply", "PLY with colours: MeshLab and other tools for meshes"},
     {".3mf", "3MF in millimetres with colours, for printing"},
@@ -361,7 +361,8 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
     const GltfLayout layout{.vertices = mesh.vertexCount,
                             .indices = 3 * mesh.triangleCount,
                             .normals = true,
-                            .colors = mesh.colors};
+                            .colors = mesh.colors,
+                            .thickness = mesh.size.meanChord()};
     const Bounds bounds{mesh.least, mesh.greatest};
     Done written = done();
     std::optional<OutputFile> beside;
@@ -380,7 +381,7 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         writeObjMaterial(name, *file);
         written = forPieces(mesh, MeshPieces::numbered, *file, [&](const Mesh& m) {
             writeObjVertices(m, *file);
-            writeObjFaces(m, *file);
+            writeObjFaces(m, 0, m.triangleCount(), *file);
         });
     } else if (format == Format::glb) {
         if (!writeGlbHead(mesh.material, layout, bounds, name, *file))
@@ -398,6 +399,10 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
     }
     if (!written) return written.error();
     return commitAll(path, options, *file, beside ? &*beside : nullptr);
+}
+
+std::string partName(const Mesh& mesh, const std::string& name, std::size_t part) {
+    return mesh.parts.empty() ? name : name + "_" + std::to_string(part + 1);
 }
 
 std::string generatorName() { return "Fieldwright " FIELDWRIGHT_VERSION; }

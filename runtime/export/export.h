@@ -22,6 +22,7 @@
 
 #include "graph/base/result.h"
 #include "runtime/measure/read_back.h"
+#include "runtime/mesh/materials.h"
 #include "runtime/mesh/mesh.h"
 
 namespace fw {
@@ -64,6 +65,7 @@ struct MeshPieces {
     glm::vec3 least{0}, greatest{0};  ///< coordinates over all vertices
     uint64_t vertexCount = 0, triangleCount = 0;
     bool colors = false;
+    SolidSize size;  ///< of what light passes through; else 0
     std::size_t count = 0;
     /// Called for one piece at a time, on a thread of the caller's choice.
     std::function<Result<Mesh>(std::size_t piece, Part part)> load;
@@ -86,6 +88,7 @@ struct ExportFormat {
     const char* about;       ///< what it is good for, some words
     bool manifold = false;   ///< whether ExportOptions::manifold is for it
     bool measurable = true;  ///< whether it holds triangles, which a report measures
+    bool parts = false;      ///< whether it holds more than one material, Mesh::parts
 };
 std::span<const ExportFormat> exportFormats();
 /// That of the path's ending; nullptr if it is none of them.

@@ -32,6 +32,7 @@ struct GltfLayout {
     bool normals = false, colors = false;
     bool solid = false;   ///< said to be one
     uint64_t merges = 0;  ///< then: vertices that the solid has in place of others
+    float thickness = 0;  ///< of what light passes through, metres
     /// 65535 is the restart value and may not be an index.
     bool shortIndices() const { return vertices <= 65535; }
     uint64_t indexSize() const { return shortIndices() ? 2 : 4; }
@@ -40,8 +41,9 @@ struct GltfLayout {
                merges * (4 + indexSize());
     }
 };
-/// The JSON with the material of `mesh`, whose arrays are not looked at. Its one buffer has the given uri, or
-/// none where the binary part follows in the same file: all positions, normals, colours, then indices.
+/// The JSON with the materials of `mesh`, whose other arrays are not looked at. Its one buffer has the given
+/// uri, or none where the binary part follows in the same file: all positions, normals, colours, then
+/// indices.
 std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
                      const std::string& name, const std::string& uri);
 /// All of a GLB before its binary part; false if the whole would exceed the format's 4 GiB.
@@ -67,7 +69,7 @@ void writeObjHead(const Mesh& material, bool colors, const std::string& name, co
                   OutputFile& file, OutputFile& library);
 void writeObjMaterial(const std::string& name, OutputFile& file);
 void writeObjVertices(const Mesh& mesh, OutputFile& file);
-void writeObjFaces(const Mesh& mesh, OutputFile& file);
+void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t count, OutputFile& file);
 void writePly(const Mesh& mesh, OutputFile& file);
 void writeStl(const Mesh& mesh, OutputFile& file);
 /// Of a vertex with its normal, and of a face.
@@ -84,6 +86,9 @@ std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::strin
 /// `voxel` is the length of a voxel's side in metres. Returns the same.
 std::string writeVdb(const WeldedMesh& solid, float voxel, const std::string& name,
                      const std::atomic<bool>* cancel, OutputFile& file);
+
+/// What a part's material is called: as the mesh, and where there are several with its number from 1.
+std::string partName(const Mesh& mesh, const std::string& name, std::size_t part);
 
 /// "Fieldwright 0.1.0"
 std::string generatorName();

@@ -1,26 +1,36 @@
-// glTF 2.0, core features only: one node, one mesh, one primitive, one material.
+// glTF 2.0: one node, one mesh, a primitive and a material for each part of it, and where it has no parts
+// one. Primitives share all vertices; their indices follow each other in one view.
 //
 // The JSON comes from tinygltf. The binary part is streamed beside it, block after block (positions, normals,
 // colours, indices), straight from the mesh's arrays: tinygltf would hold it two more times. Colours are
 // normalised 16-bit RGBA, because 8 bits of linear light band visibly in the dark and floats take twice the
 // room.
 //
-// Two things the core cannot say. An emission above 1: KHR_materials_emissive_strength says it. That a mesh
-// with doubled vertices is a solid: on request EXT_mesh_manifold says it, with a second primitive over the
-// same positions, whose indices are the first's but for those that a sparse accessor replaces; its two parts
-// stand once more as accessors, for programs that merge vertices by them.
+// Parts, and not a texture of roughness and what else there is textures for: an index of refraction and an
+// absorption have none, and a viewer needs to know nothing but materials.
+//
+// Some things the core cannot say. An emission above 1: KHR_materials_emissive_strength says it. That light
+// passes through: KHR_materials_transmission, _ior and _volume say it. The last asks how thick the solid is,
+// for viewers that follow no rays within: the mean length of lines through it. An index of refraction below 1
+// it cannot say; 1 is written. That a mesh with doubled vertices is a solid: on request EXT_mesh_manifold
+// says it, with one more primitive over the same positions, whose indices are those of all parts but for
+// those that a sparse accessor replaces; its two parts stand once more as accessors, for programs that merge
+// vertices by them.
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
-#include <glm/common.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
+#include "runtime/mesh/materials.h"
 
 namespace fw {
 namespace {
@@ -31,10 +41,12 @@ GltfLayout layoutOf(const Mesh& mesh, const Merges* merges) {
             .normals = !mesh.normals.empty(),
             .colors = !mesh.colors.empty(),
             .solid = merges != nullptr,
-            .merges = merges ? merges->entries.size() : 0};
+            .merges = merges ? merges->entries.size() : 0,
+            .thickness = transmits(mesh) ? sizeOf(mesh).meanChord() : 0.0f};
 }
 
-/// Adds EXT_mesh_manifold. The accessors that the document has are those of its one primitive.
+/// Adds EXT_mesh_manifold. The accessors that the document has are those of its primitives, which have the
+/// triangles behind each other in one view; the solid has them all.
 void addManifold(nlohmann::json& document, const GltfLayout& layout) {
     using nlohmann::json;
     json& accessors = document["accessors"];
@@ -44,8 +56,13 @@ void addManifold(nlohmann::json& document, const GltfLayout& layout) {
                   {"indices", primitive["indices"]},
                   {"mode", TINYGLTF_MODE_TRIANGLES}};
     json extension;
+    json indices = accessors[primitive["indices"].get<std::size_t>()];
+    indices["count"] = layout.indices;
+    const auto addIndices = [&](const json& accessor) {
+        accessors.push_back(accessor);
+        solid["indices"] = accessors.size() - 1;
+    };
     if (layout.merges > 0) {
-        const json indices = accessors[primitive["indices"].get<std::size_t>()];
         json sparse = {{"count", layout.merges}};
         uint64_t offset = layout.bytes() - layout.merges * (4 + layout.indexSize());
         const auto part = [&](const char* accessorName, const char* sparseName, const json& componentType,
@@ -65,28 +82,62 @@ void addManifold(nlohmann::json& document, const GltfLayout& layout) {
         part("mergeValues", "values", indices["componentType"], layout.merges * layout.indexSize());
         json merged = indices;
         merged["sparse"] = sparse;
-        accessors.push_back(merged);
-        solid["indices"] = accessors.size() - 1;
+        addIndices(merged);
+    } else if (object["primitives"].size() > 1) {
+        addIndices(indices);
     }
     extension["manifoldPrimitive"] = solid;
     object["extensions"]["EXT_mesh_manifold"] = extension;
     document["extensionsUsed"].push_back("EXT_mesh_manifold");
 }
 
-tinygltf::Material materialOf(const Mesh& mesh, bool colors) {
+/// Within 0..1; NaN: 0.
+double unit(float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; }
+std::vector<double> unit(glm::vec3 v) { return {unit(v.x), unit(v.y), unit(v.z)}; }
+
+/// At least 0 and finite; NaN: 0.
+float positive(float value) {
+    return value > 0.0f ? std::min(value, std::numeric_limits<float>::max()) : 0.0f;
+}
+glm::vec3 positive(glm::vec3 v) { return {positive(v.x), positive(v.y), positive(v.z)}; }
+
+using Extension = tinygltf::Value::Object;
+
+tinygltf::Value numberOf(double value) { return tinygltf::Value(value); }
+
+/// By Beer and Lambert exp(-absorption * length) of light is left: color^(length / distance), with the
+/// distance after which 1/e is left of the colour that is lost soonest. So no number is too small or too
+/// large, however much is absorbed.
+Extension volumeOf(glm::vec3 absorption, float thickness) {
+    Extension volume{{"thicknessFactor", numberOf(thickness)}};
+    const glm::dvec3 lost(positive(absorption));
+    const double most = std::max({lost.x, lost.y, lost.z});
+    if (most == 0.0) return volume;
+    tinygltf::Value::Array color;
+    for (int i = 0; i < 3; ++i) color.push_back(numberOf(std::exp(-lost[i] / most)));
+    volume["attenuationDistance"] = numberOf(1.0 / most);
+    volume["attenuationColor"] = tinygltf::Value(color);
+    return volume;
+}
+
+tinygltf::Material materialOf(const Material& from, glm::vec3 baseColor, float thickness) {
     tinygltf::Material material;
-    const glm::vec3 color = colors ? glm::vec3(1.0f) : mesh.baseColor;
-    material.pbrMetallicRoughness.baseColorFactor = {std::clamp(color.x, 0.0f, 1.0f),
-                                                     std::clamp(color.y, 0.0f, 1.0f),
-                                                     std::clamp(color.z, 0.0f, 1.0f), 1.0};
-    material.pbrMetallicRoughness.roughnessFactor = std::clamp(mesh.roughness, 0.0f, 1.0f);
-    material.pbrMetallicRoughness.metallicFactor = std::clamp(mesh.metallic, 0.0f, 1.0f);
-    const glm::vec3 emission = glm::max(mesh.emission, glm::vec3(0.0f));
+    material.pbrMetallicRoughness.baseColorFactor = unit(baseColor);
+    material.pbrMetallicRoughness.baseColorFactor.push_back(1.0);
+    material.pbrMetallicRoughness.roughnessFactor = unit(from.roughness);
+    material.pbrMetallicRoughness.metallicFactor = unit(from.metallic);
+    const glm::vec3 emission = positive(from.emission);
     const float strength = std::max({1.0f, emission.x, emission.y, emission.z});
     material.emissiveFactor = {emission.x / strength, emission.y / strength, emission.z / strength};
-    if (strength > 1.0f) {
-        tinygltf::Value::Object value{{"emissiveStrength", tinygltf::Value(static_cast<double>(strength))}};
-        material.extensions["KHR_materials_emissive_strength"] = tinygltf::Value(value);
+    const auto extend = [&](const char* name, Extension extension) {
+        material.extensions[name] = tinygltf::Value(std::move(extension));
+    };
+    if (strength > 1.0f)
+        extend("KHR_materials_emissive_strength", {{"emissiveStrength", numberOf(strength)}});
+    if (const double transmission = unit(from.transmission); transmission > 0.0) {
+        extend("KHR_materials_transmission", {{"transmissionFactor", numberOf(transmission)}});
+        extend("KHR_materials_ior", {{"ior", numberOf(std::max(1.0f, positive(from.ior)))}});
+        extend("KHR_materials_volume", volumeOf(from.absorption, thickness));
     }
     return material;
 }
@@ -96,8 +147,8 @@ uint16_t unit16(float value) {
                         : uint16_t{0};  // NaN: 0
 }
 
-void writeBinary(const Mesh& mesh, const Merges* merges, OutputFile& file) {
-    const bool asShorts = layoutOf(mesh, merges).shortIndices();
+void writeBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* merges, OutputFile& file) {
+    const bool asShorts = layout.shortIndices();
     file.write(std::span(mesh.positions));
     file.write(std::span(mesh.normals));
     writeGltfColors(mesh, file);
@@ -140,7 +191,6 @@ std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& b
 
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = 0;
     tinygltf::Accessor& positions =
         addAccessor(addView(layout.vertices * 12, TINYGLTF_TARGET_ARRAY_BUFFER),
                     TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, layout.vertices);
@@ -159,19 +209,31 @@ std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& b
             .normalized = true;
         primitive.attributes["COLOR_0"] = lastAccessor();
     }
-    addAccessor(
-        addView(layout.indices * layout.indexSize(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
-        layout.shortIndices() ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-        TINYGLTF_TYPE_SCALAR, layout.indices);
-    primitive.indices = lastAccessor();
-
-    tinygltf::Material material = materialOf(mesh, layout.colors);
-    material.name = name;
-    for (const auto& extension : material.extensions) model.extensionsUsed.push_back(extension.first);
-    model.materials.push_back(material);
+    const int indexView = addView(layout.indices * layout.indexSize(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    std::set<std::string> extensions;
     tinygltf::Mesh object;
     object.name = name;
-    object.primitives.push_back(primitive);
+    const glm::vec3 baseColor = layout.colors ? glm::vec3(1.0f) : mesh.baseColor;
+    uint64_t written = 0;
+    const auto addPart = [&](const Material& of, uint64_t indices) {
+        tinygltf::Accessor& accessor =
+            addAccessor(indexView,
+                        layout.shortIndices() ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+                                              : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                        TINYGLTF_TYPE_SCALAR, indices);
+        accessor.byteOffset = written * layout.indexSize();
+        written += indices;
+        primitive.indices = lastAccessor();
+        primitive.material = static_cast<int>(model.materials.size());
+        object.primitives.push_back(primitive);
+        tinygltf::Material material = materialOf(of, baseColor, layout.thickness);
+        material.name = partName(mesh, name, model.materials.size());
+        for (const auto& extension : material.extensions) extensions.insert(extension.first);
+        model.materials.push_back(material);
+    };
+    if (mesh.parts.empty()) addPart(mesh.material, layout.indices);
+    for (const MeshPart& part : mesh.parts) addPart(part.material, 3 * part.triangles);
+    model.extensionsUsed.assign(extensions.begin(), extensions.end());
     model.meshes.push_back(object);
     tinygltf::Node node;
     node.name = name;
@@ -245,15 +307,16 @@ bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, c
               OutputFile& file) {
     const GltfLayout layout = layoutOf(mesh, merges);
     if (!writeGlbHead(mesh, layout, bounds, name, file)) return false;
-    writeBinary(mesh, merges, file);
+    writeBinary(mesh, layout, merges, file);
     writeGlbEnd(layout, file);
     return true;
 }
 
 void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
                const std::string& binaryUri, OutputFile& file, OutputFile& binary) {
-    file.write(gltfJson(mesh, layoutOf(mesh, merges), bounds, name, binaryUri));
-    writeBinary(mesh, merges, binary);
+    const GltfLayout layout = layoutOf(mesh, merges);
+    file.write(gltfJson(mesh, layout, bounds, name, binaryUri));
+    writeBinary(mesh, layout, merges, binary);
 }
 
 }  // namespace fw

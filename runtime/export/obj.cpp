@@ -3,7 +3,8 @@
 // Numbers are the shortest text that reads back as the same float, so the file loses nothing. Vertex colours
 // follow the position ("v x y z r g b"), the extension that MeshLab, Blender and ZBrush share, sRGB-encoded.
 // The material file carries the factors: Kd, and Pr, Pm, Ke of the PBR extension that Blender and others
-// read.
+// read; of what light passes through also its filter Tf, its index of refraction Ni, and illum 7, which says
+// that both count. Nothing in it says how much is absorbed within.
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -53,10 +54,19 @@ void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, Output
         return std::string(text.data(), putColor(text.data(), v));
     };
     const glm::vec3 base = colors ? glm::vec3(1.0f) : mesh.baseColor;
-    library.write("# " + generatorName() + "\nnewmtl " + name + "\n");
-    library.write("Kd" + encoded(base) + "\nPr " + std::to_string(mesh.roughness) + "\nPm " +
-                  std::to_string(mesh.metallic) + "\n");
-    if (mesh.emission != glm::vec3(0.0f)) library.write("Ke" + linear(mesh.emission) + "\n");
+    library.write("# " + generatorName() + "\n");
+    const auto write = [&](const Material& material, const std::string& called) {
+        library.write("newmtl " + called + "\nKd" + encoded(base) + "\nPr " +
+                      std::to_string(material.roughness) + "\nPm " + std::to_string(material.metallic) +
+                      "\n");
+        if (material.emission != glm::vec3(0.0f)) library.write("Ke" + linear(material.emission) + "\n");
+        if (material.transmission > 0.0f)
+            library.write("Tf" + encoded(base * material.transmission) + "\nNi " +
+                          std::to_string(material.ior) + "\nillum 7\n");
+    };
+    if (mesh.parts.empty()) write(mesh.material, name);
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i)
+        write(mesh.parts[i].material, partName(mesh, name, i));
 }
 
 }  // namespace
@@ -93,12 +103,12 @@ void writeObjVertices(const Mesh& mesh, OutputFile& file) {
         file);
 }
 
-void writeObjFaces(const Mesh& mesh, OutputFile& file) {
+void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t count, OutputFile& file) {
     const bool normals = !mesh.normals.empty();
     writeBlocks(
-        mesh.triangleCount(), kLongestLine,
+        count, kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
-            for (std::size_t i = first * 3; i < last * 3; ++i) {
+            for (std::size_t i = (firstTriangle + first) * 3; i < (firstTriangle + last) * 3; ++i) {
                 if (i % 3 == 0) *out++ = 'f';
                 *out++ = ' ';
                 const char* index = out;
@@ -121,8 +131,16 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
               OutputFile& library) {
     writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, file, library);
     writeObjVertices(mesh, file);
-    writeObjMaterial(name, file);
-    writeObjFaces(mesh, file);
+    if (mesh.parts.empty()) {
+        writeObjMaterial(name, file);
+        writeObjFaces(mesh, 0, mesh.triangleCount(), file);
+    }
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        writeObjMaterial(partName(mesh, name, i), file);
+        writeObjFaces(mesh, first, mesh.parts[i].triangles, file);
+        first += mesh.parts[i].triangles;
+    }
 }
 
 }  // namespace fw

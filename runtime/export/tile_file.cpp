@@ -16,7 +16,7 @@
 namespace fw {
 namespace {
 
-static_assert(sizeof(TileHeader) == 120 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 24);
+static_assert(sizeof(TileHeader) == 152 && sizeof(PartHeader) == 24 && sizeof(SharedVertex) == 24);
 static_assert(sizeof(gpu::MeshVertex) == 16 && std::is_trivially_copyable_v<TileHeader>);
 
 Error damaged(const std::string& path, const char* what) {
@@ -272,10 +272,10 @@ Result<TileNumbers> TileJoin::add(const TileHeader& header, std::span<const Shar
     }
     if (pieces.count++ == 0) {
         pieces.material.baseColor = header.baseColor;
-        pieces.material.emission = header.emission;
-        pieces.material.roughness = header.roughness;
-        pieces.material.metallic = header.metallic;
+        pieces.material.material = header.material;
     }
+    pieces.size.volume += header.size.volume;
+    pieces.size.area += header.size.area;
     pieces.vertexCount += header.vertices - known;
     pieces.triangleCount += header.triangles;
     return numbers;

@@ -21,20 +21,22 @@
 
 #include "graph/base/result.h"
 #include "runtime/export/export.h"
+#include "runtime/mesh/materials.h"
 #include "shaders/shared.h"
 
 namespace fw {
 
 struct TileHeader {
-    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '3', 0};
+    char magic[8] = {'F', 'W', 'T', 'I', 'L', 'E', '4', 0};
     uint64_t key = 0;       ///< equal for tiles of one mesh
     uint64_t checksum = 0;  ///< of the whole record, this taken for 0
     uint32_t tile = 0, tiles = 0;
-    uint32_t capped = 0, colors = 0;  ///< 0 or 1
     uint64_t vertices = 0, triangles = 0, shared = 0;
+    SolidSize size;                   ///< of its triangles, if light passes through the solid; else 0
+    uint16_t capped = 0, colors = 0;  ///< 0 or 1
     glm::vec3 least{0}, greatest{0};  ///< coordinates, if there are vertices
-    glm::vec3 baseColor{0}, emission{0};
-    float roughness = 0, metallic = 0;
+    glm::vec3 baseColor{0};
+    Material material;
 };
 
 /// A vertex that several tiles have.

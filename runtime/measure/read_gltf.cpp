@@ -63,6 +63,9 @@ struct GltfReader {
     const json& document;
     const std::vector<Bytes>& buffers;
     const Fault& fault;
+    /// Of the vertices of the accessor that was read last: the parts of a mesh mostly share theirs.
+    std::optional<uint64_t> numbered = {};
+    std::vector<uint32_t> numbers = {};
 
     Result<Elements> elements(uint64_t index, const std::string& type) const {
         const json* accessor = entry(document, "accessors", index);
@@ -102,22 +105,30 @@ struct GltfReader {
         return found;
     }
 
-    Done primitive(const json& part, Welder& welder, std::vector<uint32_t>& indices) const {
-        if (whole(part, "mode", 4) != std::optional<uint64_t>(4))
-            return fault("only triangle lists are read back");
-        const auto attributes = part.find("attributes");
-        const auto position = attributes != part.end() ? whole(*attributes, "POSITION") : std::nullopt;
-        if (!position) return fault("a primitive has no positions");
-        const Result<Elements> points = elements(*position, "VEC3");
+    Done number(uint64_t position, Welder& welder) {
+        if (numbered == position) return done();
+        const Result<Elements> points = elements(position, "VEC3");
         if (!points) return points.error();
         if (points->componentType != 5126) return fault("positions are not floats");
-        std::vector<uint32_t> numbers(points->count);
+        numbered.reset();
+        numbers.resize(points->count);
         welder.expect(points->count);
         for (uint64_t i = 0; i < points->count; ++i) {
             const auto p = load<glm::vec3>(points->bytes, i * points->stride);
             if (!finite(p)) return fault("vertex " + std::to_string(i) + " is not finite");
             numbers[i] = welder.add(p);
         }
+        numbered = position;
+        return done();
+    }
+
+    Done primitive(const json& part, Welder& welder, std::vector<uint32_t>& indices) {
+        if (whole(part, "mode", 4) != std::optional<uint64_t>(4))
+            return fault("only triangle lists are read back");
+        const auto attributes = part.find("attributes");
+        const auto position = attributes != part.end() ? whole(*attributes, "POSITION") : std::nullopt;
+        if (!position) return fault("a primitive has no positions");
+        if (const Done read = number(*position, welder); !read) return read;
         if (!part.contains("indices")) {
             indices.insert(indices.end(), numbers.begin(),
                            numbers.begin() + static_cast<long>(numbers.size() / 3 * 3));
@@ -166,7 +177,7 @@ Result<WeldedMesh> readMeshes(const json& document, const std::vector<Bytes>& bu
     const auto meshes = document.find("meshes");
     WeldedMesh welded;
     Welder welder(1024);
-    const GltfReader reader{document, buffers, fault};
+    GltfReader reader{document, buffers, fault};
     if (meshes == document.end() || !meshes->is_array()) return fault("it holds no mesh");
     for (const json& mesh : *meshes) {
         if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array())

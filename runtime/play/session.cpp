@@ -10,6 +10,7 @@
 #include "graph/evaluate/region.h"
 #include "runtime/measure/field_measure.h"
 #include "runtime/mesh/creases.h"
+#include "runtime/mesh/materials.h"
 #include "runtime/mesher/host.h"
 #include "runtime/stages/decimate.h"
 #include "runtime/stages/project_host.h"
@@ -372,20 +373,25 @@ Done Session::runStages(MesherResult& result, const Box& region, const Program* 
     return runMeshStages(*gpu, stageBuffers, buffers, result, current.stages, config);
 }
 
-gpu::DraftMaterial Session::material() const {
-    const auto constant = [&](int component) {
-        const IrId id = current.surface[component];
-        return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
-                                         : static_cast<float>(kDefaultMaterial[std::size_t(component) - 1]);
-    };
-    gpu::DraftMaterial constants{};
-    constants.roughness = constant(roughnessComponent);
-    constants.metallic = constant(metallicComponent);
-    for (int i = 0; i < 3; ++i) {
-        constants.base[i] = constant(baseColorComponent + i);
-        constants.emission[i] = constant(emissionComponent + i);
-    }
-    return constants;
+float Session::constant(int component) const {
+    const IrId id = current.surface[component];
+    return current.ir.isConstant(id) ? static_cast<float>(current.ir.number(id))
+                                     : static_cast<float>(kDefaultMaterial[std::size_t(component) - 1]);
+}
+
+glm::vec3 Session::constantVector(int component) const {
+    return {constant(component), constant(component + 1), constant(component + 2)};
+}
+
+glm::vec3 Session::baseColor() const { return constantVector(baseColorComponent); }
+
+Material Session::material() const {
+    return {.roughness = constant(roughnessComponent),
+            .metallic = constant(metallicComponent),
+            .emission = constantVector(emissionComponent),
+            .transmission = constant(transmissionComponent),
+            .ior = constant(iorComponent),
+            .absorption = constantVector(absorptionComponent)};
 }
 
 void Session::dropMesh() {
@@ -393,16 +399,12 @@ void Session::dropMesh() {
     stageBuffers = MeshStageBuffers();
 }
 
-Mesh Session::download(const MesherResult& result) const {
+Mesh Session::download(const MesherResult& result, bool parts) const {
     Mesh mesh = downloadMesh(*gpu, buffers, result);
     if (result.creases) splitCreases(mesh);
-    const gpu::DraftMaterial constants = material();
-    mesh.roughness = constants.roughness;
-    mesh.metallic = constants.metallic;
-    for (int i = 0; i < 3; ++i) {
-        mesh.baseColor[i] = constants.base[i];
-        mesh.emission[i] = constants.emission[i];
-    }
+    mesh.baseColor = baseColor();
+    mesh.material = material();
+    if (parts && hasManyMaterials(current)) partByMaterial(mesh, onHost());
     return mesh;
 }
 
@@ -421,8 +423,13 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
         points = fw::download<gpu::MeshVertex>(*gpu, buffers.vertices, result.vertices);
         options.framed = points;
     }
-    gpu::DraftMaterial look = material();
-    look.colored = result.colors && 12ull * result.vertices <= gpu->limits.storageRange;
+    const Material constants = material();
+    const gpu::DraftMaterial look{
+        .base = baseColor(),
+        .roughness = constants.roughness,
+        .emission = constants.emission,
+        .metallic = constants.metallic,
+        .colored = result.colors && 12ull * result.vertices <= gpu->limits.storageRange};
     std::vector<ParticleCloud> clouds;
     if (particles && showsParticles(options.show)) clouds = particles->clouds(current);
     const RenderScene scene{.mesh = buffers,

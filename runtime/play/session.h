@@ -104,11 +104,13 @@ class Session {
     /// runMesher and runMeshStages refuse.
     Result<MesherResult> polygonise(const MeshRequest& request, bool timed = false);
 
-    /// The program's material where it is the same everywhere, else its default.
-    gpu::DraftMaterial material() const;
+    /// The program's base colour and material. What is not the same everywhere is the default.
+    glm::vec3 baseColor() const;
+    Material material() const;
 
     /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
-    Mesh download(const MesherResult& result) const;
+    /// With `parts`, where the material varies, each part of the mesh has its own (partByMaterial).
+    Mesh download(const MesherResult& result, bool parts = false) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
     /// Gives the last mesh's memory back.
     void dropMesh();
@@ -130,6 +132,9 @@ class Session {
   private:
     void take(Program program);
     void dropRenderer();
+    /// Of the surface, if it is the same everywhere, else of the default material.
+    float constant(int component) const;
+    glm::vec3 constantVector(int component) const;
     /// The program with the samples of its particles, for the host to evaluate.
     Program onHost() const;
     FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }

@@ -57,6 +57,13 @@ Faces facesOf(const TilePlan& plan, std::size_t index) {
     return faces;
 }
 
+/// Adds the triangles to the header's numbers.
+void lookAtTriangles(TileContent& tile, std::span<const gpu::MeshVertex> vertices) {
+    const auto corner = [&](std::size_t i) { return vertices[tile.indices[i]].position; };
+    for (std::size_t i = 0; i < tile.indices.size(); i += 3)
+        tile.header.size.add(corner(i), corner(i + 1), corner(i + 2));
+}
+
 /// The numbers in the header.
 Done lookAtVertices(TileContent& tile, std::span<const gpu::MeshVertex> vertices) {
     if (!vertices.empty()) tile.header.least = tile.header.greatest = vertices[0].position;
@@ -85,7 +92,11 @@ Done takeAll(const Session& session, const MesherResult& meshed, const TilePlan&
     const MesherBuffers& buffers = session.meshBuffers();
     const auto vertices = look(session.device(), buffers.vertices, meshed.vertices, tile.vertices);
     if (arrays && tile.vertices.empty()) tile.vertices.assign(vertices.begin(), vertices.end());
-    if (arrays) tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed.triangles * 3);
+    const bool transmits = tile.header.material.transmission > 0.0f;
+    if (arrays || transmits)
+        tile.indices = download<uint32_t>(session.device(), buffers.triangles, meshed.triangles * 3);
+    if (transmits) lookAtTriangles(tile, vertices);
+    if (!arrays) tile.indices.clear();
     if (arrays && tile.header.colors)
         tile.colors = download<glm::vec3>(session.device(), buffers.colors, meshed.vertices);
     tile.header.vertices = meshed.vertices;
@@ -127,6 +138,7 @@ Done takeOwn(const Session& session, const MesherResult& meshed, const TilePlan&
         if (tiles[i / 3] == kOwnTile) tile.indices.push_back(numbers[mesh.indices[i]]);
     tile.header.vertices = tile.vertices.size();
     tile.header.triangles = tile.indices.size() / 3;
+    if (tile.header.material.transmission > 0.0f) lookAtTriangles(tile, tile.vertices);
     const Done fine = lookAtVertices(tile, tile.vertices);
     if (!arrays) tile.vertices.clear(), tile.colors.clear(), tile.indices.clear();
     return fine;
@@ -140,15 +152,12 @@ Result<TileContent> contentOf(Session& session, const MeshRequest& request, cons
     const Result<MesherResult> meshed = session.polygonise(ofTile);
     if (!meshed) return meshed.error();
     TileContent tile;
-    const gpu::DraftMaterial material = session.material();
     tile.header.tile = uint32_t(index);
     tile.header.tiles = uint32_t(plan.tiles.size());
     tile.header.capped = meshed->capped ? 1 : 0;
     tile.header.colors = meshed->colors ? 1 : 0;
-    tile.header.roughness = material.roughness;
-    tile.header.metallic = material.metallic;
-    tile.header.baseColor = material.base;
-    tile.header.emission = material.emission;
+    tile.header.baseColor = session.baseColor();
+    tile.header.material = session.material();
 
     const Done fine = meshed->method == MeshMethod::dualContouring
                           ? takeOwn(session, *meshed, plan, tile, arrays)
@@ -198,7 +207,9 @@ uint64_t tileKey(const Session& session, const MeshRequest& request, const TileP
     for (const FieldVolumePtr& volume : program.ir.volumes()) hash.add(volume->words);
     for (const OutlinePtr& outline : program.ir.outlines()) hash.add(outline->corners);
     for (const Family& family : program.families.all) hash.add(family.table);
-    const gpu::DraftMaterial material = session.material();
+    const glm::vec3 baseColor = session.baseColor();
+    const Material material = session.material();
+    hash.add(&baseColor, sizeof baseColor);
     hash.add(&material, sizeof material);
     const MeshMethod method = request.method.value_or(program.method);
     hash.add(&method, sizeof method);

@@ -300,6 +300,25 @@ TEST(TriangleMeshFile, Gltf) {
     EXPECT_EQ(strips->positions[strips->indices[12 + 2]], glm::vec3(1, 0, 0));  // sparse: the others are zero
 }
 
+TEST(TriangleMeshFile, GltfPartsShareTheirVertices) {
+    const std::string part = R"({"attributes": {"POSITION": 0, "COLOR_0": 1}, "indices": 2, "material": 0})";
+    const auto withSecond = [&](const std::string& second) {
+        std::string text = gltfText();
+        text.insert(text.find(part) + part.size(), ", " + second);
+        return parseGltf(text);
+    };
+    const Result<TriangleMesh> shared = withSecond(part);
+    std::string other = part;
+    other.erase(other.find(", \"COLOR_0\": 1"), 14);
+    const Result<TriangleMesh> separate = withSecond(other);
+    ASSERT_TRUE(shared && separate);
+    EXPECT_EQ(shared->positions.size(), 8u);  // in two nodes
+    EXPECT_EQ(separate->positions.size(), 16u);
+    EXPECT_EQ(shared->indices.size(), separate->indices.size());
+    for (std::size_t i = 0; i < shared->indices.size(); ++i)
+        EXPECT_EQ(shared->positions[shared->indices[i]], separate->positions[separate->indices[i]]);
+}
+
 TEST(TriangleMeshFile, GltfRefused) {
     const auto with = [](const std::string& from, const std::string& to) {
         std::string text = gltfText();

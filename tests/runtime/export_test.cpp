@@ -116,11 +116,11 @@ TEST(Export, GltfHasNothingForTheValidatorToSay) {
     const TempDir folder;
     Mesh plain = test::cube();
     Mesh full = painted(test::torus(40, 17));
-    full.roughness = 0.25f;
-    full.metallic = 1.0f;
-    full.emission = {0.5f, 0.0f, 0.25f};
+    full.material.roughness = 0.25f;
+    full.material.metallic = 1.0f;
+    full.material.emission = {0.5f, 0.0f, 0.25f};
     Mesh glowing = test::torus(9, 5);
-    glowing.emission = {12.0f, 3.0f, 0.0f};
+    glowing.material.emission = {12.0f, 3.0f, 0.0f};
     glowing.baseColor = {0.1f, 0.2f, 0.9f};
     Mesh wide = painted(test::torus(300, 250));  // 75,000 vertices: 32-bit indices
     Mesh odd = test::tetrahedron();              // 12 indices of 16 bits ...
@@ -144,9 +144,9 @@ TEST(Export, GltfHasNothingForTheValidatorToSay) {
 TEST(Export, GltfHoldsTheMeshExactly) {
     const TempDir folder;
     Mesh mesh = painted(test::torus(300, 250, 1.0 / 3.0, 0.1));
-    mesh.roughness = 0.3f;
-    mesh.metallic = 0.6f;
-    mesh.emission = {2.0f, 1.0f, 0.0f};
+    mesh.material.roughness = 0.3f;
+    mesh.material.metallic = 0.6f;
+    mesh.material.emission = {2.0f, 1.0f, 0.0f};
     for (const char* name : {"mesh.glb", "mesh.gltf"}) {
         mustExport(mesh, folder.path(name));
         const tinygltf::Model model = loadModel(folder.path(name));
@@ -181,6 +181,16 @@ TEST(Export, GltfHoldsTheMeshExactly) {
     }
 }
 
+/// In three parts, the second of glass.
+Mesh withParts(Mesh mesh) {
+    const std::size_t third = mesh.triangleCount() / 3;
+    mesh.parts = {{{.roughness = 0.125f, .metallic = 1.0f}, third},
+                  {{.roughness = 0.0f, .transmission = 1.0f, .ior = 1.25f, .absorption = {0, 1, 2}}, 7},
+                  {{.roughness = 0.75f, .emission = {4, 2, 0}}, mesh.triangleCount() - third - 7}};
+    return mesh;
+}
+Mesh inParts(int around, int across) { return withParts(painted(test::torus(around, across))); }
+
 /// The triangles of EXT_mesh_manifold's primitive, as its specification says to read them.
 std::vector<uint32_t> solidOf(const tinygltf::Model& model) {
     const tinygltf::Mesh& object = model.meshes.at(0);
@@ -194,11 +204,12 @@ std::vector<uint32_t> solidOf(const tinygltf::Model& model) {
     const auto& accessor = model.accessors.at(static_cast<std::size_t>(number));
     const auto& shown = model.accessors.at(static_cast<std::size_t>(object.primitives[0].indices));
     EXPECT_EQ(accessor.bufferView, shown.bufferView);
+    EXPECT_EQ(accessor.byteOffset, 0u);
     std::vector<uint32_t> indices =
         indicesAt(viewOf(model, accessor.bufferView), accessor.componentType, accessor.count);
     EXPECT_EQ(extension.Has("mergeIndices"), accessor.sparse.isSparse);
     if (!accessor.sparse.isSparse) {
-        EXPECT_EQ(number, object.primitives[0].indices);
+        EXPECT_EQ(number == object.primitives[0].indices, object.primitives.size() == 1);
         return indices;
     }
     const auto& sparse = accessor.sparse;
@@ -252,7 +263,152 @@ TEST(Export, GltfSaysThatAMeshIsASolid) {
     expectSolid("cube.gltf", creased, true);
     expectSolid("tetrahedron.glb", test::unshared(test::tetrahedron()), true);
     expectSolid("wide.glb", test::unshared(test::torus(160, 80)), true);  // 76,800 vertices: 32-bit indices
+    expectSolid("parts.glb", inParts(40, 18), false);
+    expectSolid("doubled parts.gltf", withParts(test::unshared(test::torus(40, 18))), true);
     expectValid(files, false);
+}
+
+double numberIn(const tinygltf::Material& material, const char* extension, const char* key) {
+    return material.extensions.at(extension).Get(key).GetNumberAsDouble();
+}
+
+/// What is left of each colour's light after `length` metres, as KHR_materials_volume says it.
+glm::dvec3 leftAfter(double length, const tinygltf::Material& material) {
+    const tinygltf::Value& volume = material.extensions.at("KHR_materials_volume");
+    EXPECT_EQ(volume.Has("attenuationDistance"), volume.Has("attenuationColor"));
+    if (!volume.Has("attenuationDistance")) return glm::dvec3(1.0);
+    const double distance = volume.Get("attenuationDistance").GetNumberAsDouble();
+    EXPECT_GT(distance, 0.0);
+    glm::dvec3 left;
+    for (int i = 0; i < 3; ++i) {
+        const double color = volume.Get("attenuationColor").Get(i).GetNumberAsDouble();
+        EXPECT_GE(color, 0.0);
+        EXPECT_LE(color, 1.0);
+        left[i] = std::pow(color, length / distance);
+    }
+    return left;
+}
+
+TEST(Export, GltfSaysWhatLightPassesThrough) {
+    const TempDir folder;
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN(),
+                    kEndless = std::numeric_limits<float>::infinity();
+    struct Case {
+        Material material;
+        double ior;
+        glm::dvec3 absorption;
+    };
+    const std::vector<Case> cases = {
+        {{.transmission = 1.0f}, 1.5, {0, 0, 0}},
+        {{.transmission = 0.25f, .ior = 1.33f, .absorption = {0.5f, 0, 2}}, double{1.33f}, {0.5, 0, 2}},
+        {{.transmission = 1.0f, .ior = 1.0f, .absorption = {1e9f, 1e9f, 1}}, 1.0, {1e9, 1e9, 1}},
+        {{.transmission = 1.0f, .ior = 0.5f, .absorption = {1e-9f, 0, 0}}, 1.0, {1e-9, 0, 0}},
+        {{.transmission = 1.0f, .ior = kNone, .absorption = {kNone, -1, 3}}, 1.0, {0, 0, 3}},
+        {{.transmission = kEndless, .ior = 2.4f, .absorption = {0, kEndless, 0}}, double{2.4f}, {0, 3e38, 0}},
+        {{.roughness = kNone, .metallic = kNone, .emission = {kNone, kEndless, 0}, .transmission = 1.0f},
+         1.5,
+         {0, 0, 0}},
+    };
+    std::vector<std::string> files;
+    for (const Case& wanted : cases) {
+        Mesh mesh = test::moved(test::cube(), {5, 6, 7});
+        mesh.material = wanted.material;
+        files.push_back(folder.path(std::to_string(files.size()) + ".glb"));
+        SCOPED_TRACE(files.back());
+        mustExport(mesh, files.back());
+        const tinygltf::Model model = loadModel(files.back());
+        ASSERT_EQ(model.materials.size(), 1u);
+        const tinygltf::Material& material = model.materials[0];
+        EXPECT_EQ(numberIn(material, "KHR_materials_transmission", "transmissionFactor"),
+                  std::min(1.0, double{wanted.material.transmission}));
+        EXPECT_EQ(numberIn(material, "KHR_materials_ior", "ior"), wanted.ior);
+        EXPECT_NEAR(numberIn(material, "KHR_materials_volume", "thicknessFactor"), 4.0 * 8 / 24, 1e-6);
+        for (const double length : {1e-9, 0.3, 2.0})
+            for (int i = 0; i < 3; ++i)
+                EXPECT_NEAR(leftAfter(length, material)[i], std::exp(-wanted.absorption[i] * length), 1e-6);
+    }
+    expectValid(files);
+}
+
+TEST(Export, WhatNoLightPassesThroughNeedsNoWordOfIt) {
+    const TempDir folder;
+    Mesh mesh = painted(test::torus(20, 10));
+    mustExport(mesh, folder.path("plain.gltf"), {.name = "part"});
+    mustExport(mesh, folder.path("plain.obj"), {.name = "part"});
+    mesh.material.ior = 2.4f;
+    mesh.material.absorption = {1, 2, 3};
+    mustExport(mesh, folder.path("other.gltf"), {.name = "part"});
+    mustExport(mesh, folder.path("other.obj"), {.name = "part"});
+    const std::string text = test::readText(folder.path("plain.gltf"));
+    EXPECT_EQ(text.find("KHR_"), std::string::npos);
+    EXPECT_EQ(test::readText(folder.path("other.gltf")),
+              std::string(text).replace(text.find("plain.bin"), 9, "other.bin"));
+    EXPECT_EQ(test::readText(folder.path("other.mtl")), test::readText(folder.path("plain.mtl")));
+}
+
+TEST(Export, GltfHasAPrimitiveForEachPart) {
+    const TempDir folder;
+    std::vector<std::string> files;
+    for (const auto& [name, around] : {std::pair("short.glb", 40), {"long.glb", 700}, {"text.gltf", 41}}) {
+        SCOPED_TRACE(name);
+        const Mesh mesh = inParts(around, 100);
+        files.push_back(folder.path(name));
+        mustExport(mesh, files.back());
+        const tinygltf::Model model = loadModel(files.back());
+        const std::string stem = std::string(name).substr(0, std::string(name).find('.'));
+        ASSERT_EQ(model.materials.size(), 3u);
+        ASSERT_EQ(model.meshes.at(0).primitives.size(), 3u);
+        std::vector<uint32_t> all;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const tinygltf::Primitive& primitive = model.meshes[0].primitives[i];
+            EXPECT_EQ(primitive.material, int(i));
+            EXPECT_EQ(primitive.attributes, model.meshes[0].primitives[0].attributes);
+            const auto& accessor = model.accessors.at(static_cast<std::size_t>(primitive.indices));
+            const auto indices = indicesAt(viewOf(model, accessor.bufferView) + accessor.byteOffset,
+                                           accessor.componentType, accessor.count);
+            EXPECT_EQ(indices.size(), 3 * mesh.parts[i].triangles);
+            all.insert(all.end(), indices.begin(), indices.end());
+            const tinygltf::Material& material = model.materials[i];
+            EXPECT_EQ(material.name, stem + "_" + std::to_string(i + 1));
+            EXPECT_EQ(material.pbrMetallicRoughness.roughnessFactor,
+                      double{mesh.parts[i].material.roughness});
+            EXPECT_EQ(material.pbrMetallicRoughness.metallicFactor, double{mesh.parts[i].material.metallic});
+            EXPECT_EQ(material.extensions.contains("KHR_materials_transmission"), i == 1);
+            EXPECT_EQ(material.extensions.contains("KHR_materials_emissive_strength"), i == 2);
+        }
+        EXPECT_EQ(all, mesh.indices);
+        EXPECT_EQ(model.extensionsUsed.size(), 4u);
+        // What is read back of it is the whole mesh, without parts.
+        Mesh whole = mesh;
+        whole.parts.clear();
+        mustExport(whole, folder.path("whole.glb"));
+        EXPECT_EQ(writeReport(*reportOnFile(files.back())),
+                  writeReport(*reportOnFile(folder.path("whole.glb"))));
+    }
+    expectValid(files);
+}
+
+TEST(Export, ObjNamesTheMaterialOfEachPart) {
+    const TempDir folder;
+    const Mesh mesh = inParts(20, 10);
+    mustExport(mesh, folder.path("part.obj"));
+    std::istringstream lines(test::readText(folder.path("part.obj")));
+    std::vector<std::pair<std::string, std::size_t>> faces;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("usemtl ")) faces.emplace_back(line.substr(7), 0);
+        if (line.starts_with("f ")) ++faces.back().second;
+    }
+    ASSERT_EQ(faces.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(faces[i], std::pair("part_" + std::to_string(i + 1), mesh.parts[i].triangles));
+    const std::string library = test::readText(folder.path("part.mtl"));
+    const std::string glass =
+        "newmtl part_2\nKd 1.000 1.000 1.000\nPr 0.000000\nPm 0.000000\nTf 1.000 1.000 1.000\nNi 1.250000\n"
+        "illum 7\nnewmtl part_3\n";
+    EXPECT_NE(library.find(glass), std::string::npos) << library;
+    mustExport(mesh, folder.path("part.glb"));
+    EXPECT_EQ(reportOnFile(folder.path("part.obj"))->triangles,
+              reportOnFile(folder.path("part.glb"))->triangles);
 }
 
 TEST(Export, GltfStatesTheBaseColourOfAMeshWithoutVertexColours) {
