@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -66,6 +67,7 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     push.viscosity = std::min(config.viscosity * step, 1.0f);
     push.tension = config.tension * step;
     push.soft = lattice.soft / (config.spacing * config.spacing);
+    push.error = config.error;
     return push;
 }
 
@@ -92,18 +94,21 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
 FluidKernels createFluidKernels(const Device& device, std::string_view obstacle) {
     ShaderOptions predict{.name = "particles/predict.comp", .field = obstacle};
     if (!obstacle.empty()) predict.defines = {"OBSTACLE", "FIELD_GRADIENT"};
-    const std::array shaders = {predict,
-                                ShaderOptions{.name = "particles/reorder.comp"},
-                                ShaderOptions{.name = "particles/neighbours.comp"},
-                                ShaderOptions{.name = "particles/neighbours.comp", .defines = {"FAR_ONCE"}},
-                                ShaderOptions{.name = "particles/density_error.comp"},
-                                ShaderOptions{.name = "particles/give_way.comp"},
-                                ShaderOptions{.name = "particles/velocity.comp"},
-                                ShaderOptions{.name = "particles/smooth_velocity.comp"}};
+    const std::array shaders = {
+        predict,
+        ShaderOptions{.name = "particles/reorder.comp"},
+        ShaderOptions{.name = "particles/neighbours.comp"},
+        ShaderOptions{.name = "particles/neighbours.comp", .defines = {"FAR_ONCE"}},
+        ShaderOptions{.name = "particles/density_error.comp"},
+        ShaderOptions{.name = "particles/density_error.comp", .defines = {"ADD_ERRORS"}},
+        ShaderOptions{.name = "particles/enough.comp"},
+        ShaderOptions{.name = "particles/give_way.comp"},
+        ShaderOptions{.name = "particles/velocity.comp"},
+        ShaderOptions{.name = "particles/smooth_velocity.comp"}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createCountingSort(device), std::move(made[0]), std::move(made[1]),
-            std::move(made[2]),         std::move(made[3]), std::move(made[4]),
-            std::move(made[5]),         std::move(made[6]), std::move(made[7])};
+    return {createCountingSort(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
+            std::move(made[3]),         std::move(made[4]), std::move(made[5]), std::move(made[6]),
+            std::move(made[7]),         std::move(made[8]), std::move(made[9])};
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -127,6 +132,47 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
     write(fluid.places, places);
     write(fluid.velocities, velocities);
 }
+
+namespace {
+
+/// Records the turns of a step: particles give way to one another.
+void takeTurns(Commands& commands, const FluidKernels& kernels, FluidParticles& b, const FluidConfig& config,
+               const gpu::FluidPush& push) {
+    const bool many = b.count > kParticlesSentTogether, ends = config.error > 0.0f;
+    const glm::uvec3 groups = spread(commands.device, groupsFor(b.count, FLUID_GROUP));
+    if (ends) {
+        reserve(commands.device, b.errors, 4 * FLUID_ERROR_SUMS);
+        reserve(commands.device, b.turns, sizeof(gpu::FluidTurns));
+        fill(commands, b.errors, 0);
+        const gpu::FluidTurns first{groups, gpu::uvec3(1), 0};
+        update(commands, b.turns, &first, sizeof first);
+        barrier(commands);
+    }
+    const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
+        if (ends) dispatchIndirect(commands, kernel, b.turns, 0, push, bound);
+        if (!ends) dispatch(commands, kernel, groups, push, bound);
+        barrier(commands);
+    };
+    const std::array weighs = {Descriptor{0, b.sortedGuesses}, Descriptor{1, b.sortedPlanes},
+                               Descriptor{2, b.lists},         Descriptor{3, b.counts},
+                               Descriptor{4, b.weighed},       Descriptor{5, b.densities},
+                               Descriptor{6, b.far},           Descriptor{7, b.errors}};
+    const std::array moves = {Descriptor{0, b.weighed},       Descriptor{1, b.sortedPlanes},
+                              Descriptor{2, b.lists},         Descriptor{3, b.counts},
+                              Descriptor{4, b.sortedGuesses}, Descriptor{5, b.sortedGuesses}};
+    for (int i = 0; i < config.iterations; ++i) {
+        run(ends ? kernels.addedError : kernels.densityError, weighs);
+        if (ends) {
+            dispatchIndirect(commands, kernels.enough, b.turns, offsetof(gpu::FluidTurns, one), push,
+                             std::array{Descriptor{0, b.errors}, Descriptor{1, b.turns}});
+            barrier(commands);
+        }
+        run(kernels.giveWay, moves);
+        if (many) sendOn(commands);
+    }
+}
+
+}  // namespace
 
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& b,
                      const FluidConfig& config, float step) {
@@ -177,21 +223,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     }
     barrier(commands);
     beginStage(commands, "density");
-    const std::array weighs = {Descriptor{0, b.sortedGuesses},
-                               Descriptor{1, b.sortedPlanes},
-                               Descriptor{2, b.lists},
-                               Descriptor{3, b.counts},
-                               Descriptor{4, b.weighed},
-                               Descriptor{5, b.densities},
-                               Descriptor{6, b.far}};
-    const std::array moves = {Descriptor{0, b.weighed},       Descriptor{1, b.sortedPlanes},
-                              Descriptor{2, b.lists},         Descriptor{3, b.counts},
-                              Descriptor{4, b.sortedGuesses}, Descriptor{5, b.sortedGuesses}};
-    for (int i = 0; i < config.iterations; ++i) {
-        run(kernels.densityError, weighs);
-        run(kernels.giveWay, moves);
-        sendIfMany();
-    }
+    takeTurns(commands, kernels, b, config, push);
     beginStage(commands, "velocity");
     // The old guesses' memory is free by now.
     run(kernels.velocity,

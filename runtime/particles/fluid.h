@@ -22,6 +22,10 @@
 // are left, and with cells as wide as the support the density is far off. fluid_test.cpp has the figures of
 // both.
 //
+// Turns end, where that is asked for, at a mean error (FluidConfig::error). The device finds it while it
+// weighs densities, and the groups of all turns behind are read from where it then writes none: the host
+// waits for nothing. Errors are added up as whole numbers, so that every run takes the same turns.
+//
 // What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
 // half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
 // the bottom.
@@ -40,7 +44,8 @@ namespace fw {
 
 struct FluidKernels {
     CountingSort sort;
-    Pipeline predict, reorder, neighbours, nearNeighbours, densityError, giveWay, velocity, smoothVelocity;
+    Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
+        velocity, smoothVelocity;
 };
 /// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
 /// for none.
@@ -52,7 +57,8 @@ struct FluidConfig {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
     float tension = 0.0f;    ///< 1/s^2: what draws neighbours together, for each metre between them
-    int iterations = 4;      ///< turns of a step
+    int iterations = 4;      ///< turns of a step, at most
+    float error = 0.0f;   ///< at which turns end: the mean of how far densities exceed that at rest; 0: never
     bool farOnce = true;  ///< whether neighbours beyond kFluidNear are felt as they were when the step began
     FieldBuffers field = {};  ///< what the obstacle reads
 };
@@ -64,6 +70,7 @@ struct FluidParticles {
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
     Buffer keys, order, lists, counts, far;
     CountingSortBuffers cells;
+    Buffer errors, turns;  ///< where turns end at an error (FluidTurns)
 };
 
 /// Whose step one submission is at most, or whose steps: a tenth of a second on two cores.

@@ -23,7 +23,8 @@ namespace {
 constexpr VkDeviceSize kMostCheckpointBytes = 256u << 20;
 constexpr VkDeviceSize kCheckpointBufferBytes = 4u << 20;  // that several share: drivers allow few
 constexpr double kLeastSpacing = 1e-6;                     // metres
-constexpr double kMostSubsteps = 64;
+constexpr double kMostSubsteps = 64, kMostTurns = 256;
+constexpr int kTurnsToAnError = 32;
 
 using Kind = ParticleStage::Kind;
 
@@ -251,7 +252,10 @@ FluidConfig Simulation::configOf(Commands& commands, const std::vector<double>& 
                        .gravity = numbers.vector("gravity"),
                        .viscosity = float(std::max(numbers.scalar("viscosity"), 0.0)),
                        .tension = float(std::max(numbers.scalar("tension"), 0.0)),
+                       .error = float(std::max(numbers.scalar("error"), 0.0)),
                        .farOnce = source().words.find("neighbours")->second == "fast"};
+    const int turns = int(std::clamp(numbers.scalar("turns"), 0.0, kMostTurns));
+    config.iterations = turns > 0 ? turns : config.error > 0.0f ? kTurnsToAnError : config.iterations;
     if (fluid->obstacle) {
         setParameters(commands, *fluid->obstacle, values);
         config.field = fluid->obstacle->buffers();
