@@ -24,10 +24,10 @@ std::vector<NodeType> particleNodes() {
     };
     const InputSpec gravity =
         measured(vector("gravity", {0, -9.81, 0}, "The acceleration of everything."), "m/s²");
-    const InputSpec collide = surfaceInput(
-        "collide",
-        "What is in the way: any surface, which may move with the time. A fluid leaks through walls much "
-        "thinner than its spacing.");
+    const InputSpec collide = surfaceInput("collide",
+                                           "What is in the way: any surface, which may move with the time "
+                                           "and then pushes a fluid. A fluid leaks "
+                                           "through walls much thinner than its spacing.");
     const InputSpec seed = integer("seed", 0, 0, 1'000'000, "Another number gives other chances.");
     return {
         {.id = "emitter",
@@ -104,8 +104,8 @@ std::vector<NodeType> particleNodes() {
                      "exact, in every "
                      "turn of the step."),
               integer("substeps", 0, 0, 64,
-                      "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank asks "
-                      "for."),
+                      "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank, and "
+                      "what moves in it, ask for."),
               share(
                   "error", 0,
                   "How much too dense the fluid may be, on average, where a part of a step ends: 0.002 is "

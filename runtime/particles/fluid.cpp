@@ -195,8 +195,8 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
         if (many) sendOn(commands);
     };
     beginStage(commands, "predict");
-    std::vector<Descriptor> predicted = {
-        {0, b.places}, {1, b.velocities}, {2, b.guesses}, {3, b.planes}, {4, b.keys}};
+    std::vector<Descriptor> predicted = {{0, b.places}, {1, b.velocities}, {2, b.guesses},
+                                         {3, b.planes}, {4, b.keys},       {5, b.places}};
     addField(predicted, config.field);
     run(kernels.predict, predicted);
     beginStage(commands, "sort");
@@ -237,12 +237,13 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
 
 namespace {
 
-/// `behind` records what follows each step.
-template <class Behind>
+/// `ahead` records what goes ahead of each step, by its number, and `behind` what follows.
+template <class Ahead, class Behind>
 Done recordSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
-                 const FluidConfig& config, float step, int count, Behind behind) {
+                 const FluidConfig& config, float step, int count, Ahead ahead, Behind behind) {
     uint64_t recorded = 0;
     for (int i = 0; i < count; ++i) {
+        ahead(i);
         if (const Done stepped = recordFluidStep(commands, kernels, fluid, config, step); !stepped)
             return stepped;
         behind();
@@ -256,8 +257,14 @@ Done recordSteps(Commands& commands, const FluidKernels& kernels, FluidParticles
 }  // namespace
 
 Done recordFluidSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
-                      const FluidConfig& config, float step, int count) {
-    return recordSteps(commands, kernels, fluid, config, step, count, [] {});
+                      const FluidConfig& config, float step, int count,
+                      const std::function<void(int)>& ahead) {
+    return recordSteps(
+        commands, kernels, fluid, config, step, count,
+        [&](int i) {
+            if (ahead) ahead(i);
+        },
+        [] {});
 }
 
 Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
@@ -265,10 +272,12 @@ Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidPartic
     constexpr int kTurns = 30;
     constexpr float kStep = 1.0f / 240;
     config.gravity = glm::vec3(0.0f);
-    return recordSteps(commands, kernels, fluid, config, kStep, kTurns, [&] {
-        fill(commands, fluid.velocities, 0);
-        barrier(commands);
-    });
+    return recordSteps(
+        commands, kernels, fluid, config, kStep, kTurns, [](int) {},
+        [&] {
+            fill(commands, fluid.velocities, 0);
+            barrier(commands);
+        });
 }
 
 }  // namespace fw

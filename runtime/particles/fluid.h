@@ -22,6 +22,11 @@
 // are left, and with cells as wide as the support the density is far off. fluid_test.cpp has the figures of
 // both.
 //
+// An obstacle that moves has gone its way by each step's end, and pushes out what it then holds. Velocities
+// come of places, so that what lies on it gets the speed of its surface along the normal; along the surface
+// it drags nothing. It should move by half a spacing a step at most: through a wall that is thinner than its
+// way particles pass.
+//
 // Turns end, where that is asked for, at a mean error (FluidConfig::error). The device finds it while it
 // weighs densities, and the groups of all turns behind are read from where it then writes none: the host
 // waits for nothing. Errors are added up as whole numbers, so that every run takes the same turns.
@@ -34,6 +39,7 @@
 // grow.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <string_view>
 
@@ -107,9 +113,11 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
                      const FluidConfig& config, float step);
 
-/// Records so many steps, sent some at a time. Errors as above.
+/// Records so many steps, sent some at a time. `ahead`, which may be empty, records what goes ahead of each,
+/// by its number from 0: how an obstacle has moved. Errors as above.
 Done recordFluidSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
-                      const FluidConfig& config, float step, int count);
+                      const FluidConfig& config, float step, int count,
+                      const std::function<void(int)>& ahead = {});
 
 /// Records how particles that were just set settle, without weight, and come to rest: a lattice that fills a
 /// corner is too dense by 5 % beside each wall, and would spring apart. Errors as recordFluidStep().
