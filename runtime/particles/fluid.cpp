@@ -67,6 +67,7 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     push.viscosity = std::min(config.viscosity * step, 1.0f);
     push.tension = config.tension * step;
     push.soft = lattice.soft / (config.spacing * config.spacing);
+    push.vorticity = config.vorticity * step * config.spacing;
     push.error = config.error;
     return push;
 }
@@ -104,11 +105,14 @@ FluidKernels createFluidKernels(const Device& device, std::string_view obstacle)
         ShaderOptions{.name = "particles/enough.comp"},
         ShaderOptions{.name = "particles/give_way.comp"},
         ShaderOptions{.name = "particles/velocity.comp"},
+        ShaderOptions{.name = "particles/curl.comp"},
+        ShaderOptions{.name = "particles/confine.comp"},
         ShaderOptions{.name = "particles/smooth_velocity.comp"}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
     return {createCountingSort(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
             std::move(made[3]),         std::move(made[4]), std::move(made[5]), std::move(made[6]),
-            std::move(made[7]),         std::move(made[8]), std::move(made[9])};
+            std::move(made[7]),         std::move(made[8]), std::move(made[9]), std::move(made[10]),
+            std::move(made[11])};
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -184,6 +188,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
         reserve(device, *each, 16ull * b.count);
     for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4ull * b.count);
+    if (config.vorticity > 0.0f) reserve(device, b.curls, 16ull * b.count);
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
     reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
     const bool many = b.count > kParticlesSentTogether;
@@ -228,6 +233,14 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     // The old guesses' memory is free by now.
     run(kernels.velocity,
         std::array{Descriptor{0, b.sortedPlaces}, Descriptor{1, b.sortedGuesses}, Descriptor{2, b.guesses}});
+    if (config.vorticity > 0.0f) {
+        run(kernels.curl,
+            std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.guesses}, Descriptor{2, b.lists},
+                       Descriptor{3, b.counts}, Descriptor{4, b.curls}});
+        run(kernels.confine,
+            std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.curls}, Descriptor{2, b.lists},
+                       Descriptor{3, b.counts}, Descriptor{4, b.guesses}});
+    }
     run(kernels.smoothVelocity,
         std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.guesses}, Descriptor{2, b.lists},
                    Descriptor{3, b.counts}, Descriptor{4, b.velocities}});

@@ -16,6 +16,9 @@
 // give the same bytes on every run. A particle feels 64 others at most: momentum is not kept where there are
 // more, twice as dense as at rest.
 //
+// Swirls can be fed by vorticity confinement, as in the paper. What two particles then do to each other is
+// not opposite: momentum is kept no more than about.
+//
 // Far neighbours are felt once a step, as they were when it began (FluidConfig::farOnce). Swoboda ("Advanced
 // Procedural Rendering in DirectX 11", GDC 2012) takes them for the mean of their cell, which pays where
 // cells hold many. With some 33 neighbours they do not: with cells of half the support nearly as many means
@@ -51,7 +54,7 @@ namespace fw {
 struct FluidKernels {
     CountingSort sort;
     Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
-        velocity, smoothVelocity;
+        velocity, curl, confine, smoothVelocity;
 };
 /// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
 /// for none.
@@ -64,6 +67,7 @@ struct FluidConfig {
     float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
     float tension = 0.0f;    ///< 1/s^2: what draws neighbours together, for each metre between them
     int iterations = 4;      ///< turns of a step, at most
+    float vorticity = 0.0f;  ///< 1/s: how fast swirls gain what a spacing of them has of speed
     float error = 0.0f;   ///< at which turns end: the mean of how far densities exceed that at rest; 0: never
     bool farOnce = true;  ///< whether neighbours beyond kFluidNear are felt as they were when the step began
     FieldBuffers field = {};  ///< what the obstacle reads
@@ -76,6 +80,7 @@ struct FluidParticles {
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
     Buffer keys, order, lists, counts, far;
     CountingSortBuffers cells;
+    Buffer curls;          ///< with vorticity: four floats each, the curl of the velocity and its length, 1/s
     Buffer errors, turns;  ///< where turns end at an error (FluidTurns)
 };
 

@@ -252,6 +252,7 @@ FluidConfig Simulation::configOf(Commands& commands, const std::vector<double>& 
                        .gravity = numbers.vector("gravity"),
                        .viscosity = float(std::max(numbers.scalar("viscosity"), 0.0)),
                        .tension = float(std::max(numbers.scalar("tension"), 0.0)),
+                       .vorticity = float(std::max(numbers.scalar("vorticity"), 0.0)),
                        .error = float(std::max(numbers.scalar("error"), 0.0)),
                        .farOnce = source().words.find("neighbours")->second == "fast"};
     const int turns = int(std::clamp(numbers.scalar("turns"), 0.0, kMostTurns));

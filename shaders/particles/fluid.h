@@ -38,6 +38,7 @@ struct FluidPush {
     float relaxation;
     float viscosity;  // share of the difference of velocities that this step takes away
     float tension;    // 1/s: velocity for each metre of offset
+    float vorticity;  // metres: velocity that swirls gain for each 1/s of the curl
     float error;      // the mean of densities above that at rest, at which turns end
 };
 

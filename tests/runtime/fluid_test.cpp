@@ -28,6 +28,7 @@
 namespace fw::fluid_test {
 
 using test::device;
+using test::energyOf;
 using test::kernelsFor;
 using test::mean;
 using test::meanError;
@@ -394,6 +395,56 @@ TEST_F(Fluid, TensionRoundsABlock) {
         if (tension == 0.0f) { EXPECT_GT(shape, 1.5); }
         if (tension > 0.0f) { EXPECT_LT(shape, 1.45); }
     }
+}
+
+TEST_F(Fluid, TheCurlOfWhatTurnsIsTwiceItsTurning) {
+    FluidParticles fluid;
+    const FluidConfig config{
+        .spacing = 0.1f, .gravity = glm::vec3(0.0f), .viscosity = 0.0f, .vorticity = 1.0f};
+    const std::vector<glm::vec3> places = fluidBlock(glm::vec3(-0.8f), glm::vec3(0.8f), 0.1f);
+    std::vector<glm::vec3> velocities;
+    const glm::vec3 turning(0.3f, -0.2f, 0.5f);
+    for (const glm::vec3& p : places) velocities.push_back(glm::cross(turning, p));
+    setFluid(device(), fluid, places, velocities);
+    run(fluid, config, 1, 1e-3f);
+    const std::vector<glm::vec3> curls = read(fluid.curls, fluid.count), at = read(fluid.places, fluid.count);
+    for (uint32_t i = 0; i < fluid.count; ++i)
+        if (glm::all(glm::lessThan(glm::abs(at[i]), glm::vec3(0.5f)))) {
+            EXPECT_LT(glm::distance(curls[i], 2.0f * turning), 0.1f);
+        }
+}
+
+TEST_F(Fluid, VorticityKeepsASwirlAlive) {
+    // A vortex of Taylor and Green in a closed box, after two seconds.
+    std::vector<double> left;
+    for (const float vorticity : {0.0f, 1.0f, 3.0f}) {
+        const FluidConfig config{.spacing = 0.05f,
+                                 .lo = glm::vec3(-0.5f, -0.5f, 0.0f),
+                                 .hi = glm::vec3(0.5f, 0.5f, 0.2f),
+                                 .gravity = glm::vec3(0.0f),
+                                 .viscosity = 0.5f,
+                                 .vorticity = vorticity};
+        FluidParticles fluid;
+        setFluid(device(), fluid, fluidBlock(config.lo, config.hi, config.spacing), {});
+        Commands commands(device());
+        ASSERT_TRUE(recordSettling(commands, kernelsFor(), fluid, config));
+        submit(commands);
+        const std::vector<glm::vec3> places = read(fluid.places, fluid.count);
+        std::vector<glm::vec3> velocities;
+        for (const glm::vec3& p : places) {
+            const glm::vec3 q = float(std::numbers::pi) * p;
+            velocities.emplace_back(-std::cos(q.x) * std::sin(q.y), std::sin(q.x) * std::cos(q.y), 0.0f);
+        }
+        setFluid(device(), fluid, places, velocities);
+        const double first = energyOf(fluid, config);
+        run(fluid, config, 240, 1.0f / 120);
+        left.push_back(energyOf(fluid, config) / first);
+        std::printf("vorticity %.0f 1/s: %.3f of a vortex' energy is left after 2 s\n", vorticity,
+                    left.back());
+    }
+    EXPECT_GT(left[1], 1.1 * left[0]);
+    EXPECT_GT(left[2], left[1]);
+    EXPECT_LT(left[2], 1.5);
 }
 
 TEST_F(Fluid, NothingGetsIntoAnObstacle) {
