@@ -24,10 +24,10 @@ std::vector<NodeType> particleNodes() {
     };
     const InputSpec gravity =
         measured(vector("gravity", {0, -9.81, 0}, "The acceleration of everything."), "m/s²");
-    const InputSpec collide = surfaceInput(
-        "collide",
-        "What is in the way: any surface, which may move with the time. A fluid leaks through walls much "
-        "thinner than its spacing.");
+    const InputSpec collide = surfaceInput("collide",
+                                           "What is in the way: any surface, which may move with the time "
+                                           "and then pushes a fluid. A fluid leaks "
+                                           "through walls much thinner than its spacing.");
     const InputSpec seed = integer("seed", 0, 0, 1'000'000, "Another number gives other chances.");
     return {
         {.id = "emitter",
@@ -85,7 +85,7 @@ std::vector<NodeType> particleNodes() {
          .category = Category::particles,
          .doc = "Water: fills a surface with particles at the start, and lets them flow within a tank and "
                 "around what is in the "
-                "way. Particles keep their density by moving apart, as often in a step as it takes.",
+                "way. Particles keep their density by moving apart, some times in each step.",
          .inputs =
              {surfaceInput("source",
                            "Where there is fluid at the start; it may reach beyond the tank, and into what "
@@ -96,7 +96,10 @@ std::vector<NodeType> particleNodes() {
               measured(vector("velocity", {0, 0, 0}, "How the fluid moves at the start."), "m/s"), gravity,
               amount("viscosity", 2, "1/s",
                      "How fast neighbours come to move alike: 0.5 for water, 20 for honey."),
-              amount("tension", 0, "1/s²", "How much neighbours draw together: drops get round."), collide,
+              amount("tension", 0, "1/s²", "How much neighbours draw together: drops get round."),
+              amount("vorticity", 0, "1/s",
+                     "How much swirls are fed, against what the solver loses of them."),
+              collide,
               place("tank_min", {-1, 0, -1}, "Lowest corner of the tank, which the fluid cannot leave."),
               place("tank_max", {1, 2, 1}, "Highest corner of the tank."),
               choice("neighbours", {"fast", "exact"},
@@ -104,8 +107,15 @@ std::vector<NodeType> particleNodes() {
                      "exact, in every "
                      "turn of the step."),
               integer("substeps", 0, 0, 64,
-                      "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank asks "
-                      "for.")},
+                      "Parts of a step of a sixtieth of a second; 0: as many as a fall through the tank, and "
+                      "what moves in it, ask for."),
+              share(
+                  "error", 0,
+                  "How much too dense the fluid may be, on average, where a part of a step ends: 0.002 is "
+                  "hardly seen to sink. It takes as many turns as that asks for; 0: always the same number."),
+              integer("turns", 0, 0, 256,
+                      "How often particles move apart in a part of a step; where an error is given, at most. "
+                      "0: four times, or up to 32 where an error is given.")},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerFluid,
          .aliases = {"water", "liquid", "fluid"}},

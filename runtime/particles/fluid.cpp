@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -66,6 +67,8 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     push.viscosity = std::min(config.viscosity * step, 1.0f);
     push.tension = config.tension * step;
     push.soft = lattice.soft / (config.spacing * config.spacing);
+    push.vorticity = config.vorticity * step * config.spacing;
+    push.error = config.error;
     return push;
 }
 
@@ -92,18 +95,24 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
 FluidKernels createFluidKernels(const Device& device, std::string_view obstacle) {
     ShaderOptions predict{.name = "particles/predict.comp", .field = obstacle};
     if (!obstacle.empty()) predict.defines = {"OBSTACLE", "FIELD_GRADIENT"};
-    const std::array shaders = {predict,
-                                ShaderOptions{.name = "particles/reorder.comp"},
-                                ShaderOptions{.name = "particles/neighbours.comp"},
-                                ShaderOptions{.name = "particles/neighbours.comp", .defines = {"FAR_ONCE"}},
-                                ShaderOptions{.name = "particles/density_error.comp"},
-                                ShaderOptions{.name = "particles/give_way.comp"},
-                                ShaderOptions{.name = "particles/velocity.comp"},
-                                ShaderOptions{.name = "particles/smooth_velocity.comp"}};
+    const std::array shaders = {
+        predict,
+        ShaderOptions{.name = "particles/reorder.comp"},
+        ShaderOptions{.name = "particles/neighbours.comp"},
+        ShaderOptions{.name = "particles/neighbours.comp", .defines = {"FAR_ONCE"}},
+        ShaderOptions{.name = "particles/density_error.comp"},
+        ShaderOptions{.name = "particles/density_error.comp", .defines = {"ADD_ERRORS"}},
+        ShaderOptions{.name = "particles/enough.comp"},
+        ShaderOptions{.name = "particles/give_way.comp"},
+        ShaderOptions{.name = "particles/velocity.comp"},
+        ShaderOptions{.name = "particles/curl.comp"},
+        ShaderOptions{.name = "particles/confine.comp"},
+        ShaderOptions{.name = "particles/smooth_velocity.comp"}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createCountingSort(device), std::move(made[0]), std::move(made[1]),
-            std::move(made[2]),         std::move(made[3]), std::move(made[4]),
-            std::move(made[5]),         std::move(made[6]), std::move(made[7])};
+    return {createCountingSort(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
+            std::move(made[3]),         std::move(made[4]), std::move(made[5]), std::move(made[6]),
+            std::move(made[7]),         std::move(made[8]), std::move(made[9]), std::move(made[10]),
+            std::move(made[11])};
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -128,6 +137,47 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
     write(fluid.velocities, velocities);
 }
 
+namespace {
+
+/// Records the turns of a step: particles give way to one another.
+void takeTurns(Commands& commands, const FluidKernels& kernels, FluidParticles& b, const FluidConfig& config,
+               const gpu::FluidPush& push) {
+    const bool many = b.count > kParticlesSentTogether, ends = config.error > 0.0f;
+    const glm::uvec3 groups = spread(commands.device, groupsFor(b.count, FLUID_GROUP));
+    if (ends) {
+        reserve(commands.device, b.errors, 4 * FLUID_ERROR_SUMS);
+        reserve(commands.device, b.turns, sizeof(gpu::FluidTurns));
+        fill(commands, b.errors, 0);
+        const gpu::FluidTurns first{groups, gpu::uvec3(1), 0};
+        update(commands, b.turns, &first, sizeof first);
+        barrier(commands);
+    }
+    const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
+        if (ends) dispatchIndirect(commands, kernel, b.turns, 0, push, bound);
+        if (!ends) dispatch(commands, kernel, groups, push, bound);
+        barrier(commands);
+    };
+    const std::array weighs = {Descriptor{0, b.sortedGuesses}, Descriptor{1, b.sortedPlanes},
+                               Descriptor{2, b.lists},         Descriptor{3, b.counts},
+                               Descriptor{4, b.weighed},       Descriptor{5, b.densities},
+                               Descriptor{6, b.far},           Descriptor{7, b.errors}};
+    const std::array moves = {Descriptor{0, b.weighed},       Descriptor{1, b.sortedPlanes},
+                              Descriptor{2, b.lists},         Descriptor{3, b.counts},
+                              Descriptor{4, b.sortedGuesses}, Descriptor{5, b.sortedGuesses}};
+    for (int i = 0; i < config.iterations; ++i) {
+        run(ends ? kernels.addedError : kernels.densityError, weighs);
+        if (ends) {
+            dispatchIndirect(commands, kernels.enough, b.turns, offsetof(gpu::FluidTurns, one), push,
+                             std::array{Descriptor{0, b.errors}, Descriptor{1, b.turns}});
+            barrier(commands);
+        }
+        run(kernels.giveWay, moves);
+        if (many) sendOn(commands);
+    }
+}
+
+}  // namespace
+
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& b,
                      const FluidConfig& config, float step) {
     const Device& device = commands.device;
@@ -138,6 +188,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
         reserve(device, *each, 16ull * b.count);
     for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4ull * b.count);
+    if (config.vorticity > 0.0f) reserve(device, b.curls, 16ull * b.count);
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
     reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
     const bool many = b.count > kParticlesSentTogether;
@@ -149,8 +200,8 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
         if (many) sendOn(commands);
     };
     beginStage(commands, "predict");
-    std::vector<Descriptor> predicted = {
-        {0, b.places}, {1, b.velocities}, {2, b.guesses}, {3, b.planes}, {4, b.keys}};
+    std::vector<Descriptor> predicted = {{0, b.places}, {1, b.velocities}, {2, b.guesses},
+                                         {3, b.planes}, {4, b.keys},       {5, b.places}};
     addField(predicted, config.field);
     run(kernels.predict, predicted);
     beginStage(commands, "sort");
@@ -177,25 +228,19 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     }
     barrier(commands);
     beginStage(commands, "density");
-    const std::array weighs = {Descriptor{0, b.sortedGuesses},
-                               Descriptor{1, b.sortedPlanes},
-                               Descriptor{2, b.lists},
-                               Descriptor{3, b.counts},
-                               Descriptor{4, b.weighed},
-                               Descriptor{5, b.densities},
-                               Descriptor{6, b.far}};
-    const std::array moves = {Descriptor{0, b.weighed},       Descriptor{1, b.sortedPlanes},
-                              Descriptor{2, b.lists},         Descriptor{3, b.counts},
-                              Descriptor{4, b.sortedGuesses}, Descriptor{5, b.sortedGuesses}};
-    for (int i = 0; i < config.iterations; ++i) {
-        run(kernels.densityError, weighs);
-        run(kernels.giveWay, moves);
-        sendIfMany();
-    }
+    takeTurns(commands, kernels, b, config, push);
     beginStage(commands, "velocity");
     // The old guesses' memory is free by now.
     run(kernels.velocity,
         std::array{Descriptor{0, b.sortedPlaces}, Descriptor{1, b.sortedGuesses}, Descriptor{2, b.guesses}});
+    if (config.vorticity > 0.0f) {
+        run(kernels.curl,
+            std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.guesses}, Descriptor{2, b.lists},
+                       Descriptor{3, b.counts}, Descriptor{4, b.curls}});
+        run(kernels.confine,
+            std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.curls}, Descriptor{2, b.lists},
+                       Descriptor{3, b.counts}, Descriptor{4, b.guesses}});
+    }
     run(kernels.smoothVelocity,
         std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.guesses}, Descriptor{2, b.lists},
                    Descriptor{3, b.counts}, Descriptor{4, b.velocities}});
@@ -205,12 +250,13 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
 
 namespace {
 
-/// `behind` records what follows each step.
-template <class Behind>
+/// `ahead` records what goes ahead of each step, by its number, and `behind` what follows.
+template <class Ahead, class Behind>
 Done recordSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
-                 const FluidConfig& config, float step, int count, Behind behind) {
+                 const FluidConfig& config, float step, int count, Ahead ahead, Behind behind) {
     uint64_t recorded = 0;
     for (int i = 0; i < count; ++i) {
+        ahead(i);
         if (const Done stepped = recordFluidStep(commands, kernels, fluid, config, step); !stepped)
             return stepped;
         behind();
@@ -224,8 +270,14 @@ Done recordSteps(Commands& commands, const FluidKernels& kernels, FluidParticles
 }  // namespace
 
 Done recordFluidSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
-                      const FluidConfig& config, float step, int count) {
-    return recordSteps(commands, kernels, fluid, config, step, count, [] {});
+                      const FluidConfig& config, float step, int count,
+                      const std::function<void(int)>& ahead) {
+    return recordSteps(
+        commands, kernels, fluid, config, step, count,
+        [&](int i) {
+            if (ahead) ahead(i);
+        },
+        [] {});
 }
 
 Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
@@ -233,10 +285,12 @@ Done recordSettling(Commands& commands, const FluidKernels& kernels, FluidPartic
     constexpr int kTurns = 30;
     constexpr float kStep = 1.0f / 240;
     config.gravity = glm::vec3(0.0f);
-    return recordSteps(commands, kernels, fluid, config, kStep, kTurns, [&] {
-        fill(commands, fluid.velocities, 0);
-        barrier(commands);
-    });
+    return recordSteps(
+        commands, kernels, fluid, config, kStep, kTurns, [](int) {},
+        [&] {
+            fill(commands, fluid.velocities, 0);
+            barrier(commands);
+        });
 }
 
 }  // namespace fw

@@ -16,11 +16,23 @@
 // give the same bytes on every run. A particle feels 64 others at most: momentum is not kept where there are
 // more, twice as dense as at rest.
 //
+// Swirls can be fed by vorticity confinement, as in the paper. What two particles then do to each other is
+// not opposite: momentum is kept no more than about.
+//
 // Far neighbours are felt once a step, as they were when it began (FluidConfig::farOnce). Swoboda ("Advanced
 // Procedural Rendering in DirectX 11", GDC 2012) takes them for the mean of their cell, which pays where
 // cells hold many. With some 33 neighbours they do not: with cells of half the support nearly as many means
 // are left, and with cells as wide as the support the density is far off. fluid_test.cpp has the figures of
 // both.
+//
+// An obstacle that moves has gone its way by each step's end, and pushes out what it then holds. Velocities
+// come of places, so that what lies on it gets the speed of its surface along the normal; along the surface
+// it drags nothing. It should move by half a spacing a step at most: through a wall that is thinner than its
+// way particles pass.
+//
+// Turns end, where that is asked for, at a mean error (FluidConfig::error). The device finds it while it
+// weighs densities, and the groups of all turns behind are read from where it then writes none: the host
+// waits for nothing. Errors are added up as whole numbers, so that every run takes the same turns.
 //
 // What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
 // half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
@@ -30,6 +42,7 @@
 // grow.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <string_view>
 
@@ -40,7 +53,8 @@ namespace fw {
 
 struct FluidKernels {
     CountingSort sort;
-    Pipeline predict, reorder, neighbours, nearNeighbours, densityError, giveWay, velocity, smoothVelocity;
+    Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
+        velocity, curl, confine, smoothVelocity;
 };
 /// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
 /// for none.
@@ -52,7 +66,9 @@ struct FluidConfig {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
     float tension = 0.0f;    ///< 1/s^2: what draws neighbours together, for each metre between them
-    int iterations = 4;      ///< turns of a step
+    int iterations = 4;      ///< turns of a step, at most
+    float vorticity = 0.0f;  ///< 1/s: how fast swirls gain what a spacing of them has of speed
+    float error = 0.0f;   ///< at which turns end: the mean of how far densities exceed that at rest; 0: never
     bool farOnce = true;  ///< whether neighbours beyond kFluidNear are felt as they were when the step began
     FieldBuffers field = {};  ///< what the obstacle reads
 };
@@ -64,6 +80,8 @@ struct FluidParticles {
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
     Buffer keys, order, lists, counts, far;
     CountingSortBuffers cells;
+    Buffer curls;          ///< with vorticity: four floats each, the curl of the velocity and its length, 1/s
+    Buffer errors, turns;  ///< where turns end at an error (FluidTurns)
 };
 
 /// Whose step one submission is at most, or whose steps: a tenth of a second on two cores.
@@ -100,9 +118,11 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
                      const FluidConfig& config, float step);
 
-/// Records so many steps, sent some at a time. Errors as above.
+/// Records so many steps, sent some at a time. `ahead`, which may be empty, records what goes ahead of each,
+/// by its number from 0: how an obstacle has moved. Errors as above.
 Done recordFluidSteps(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
-                      const FluidConfig& config, float step, int count);
+                      const FluidConfig& config, float step, int count,
+                      const std::function<void(int)>& ahead = {});
 
 /// Records how particles that were just set settle, without weight, and come to rest: a lattice that fills a
 /// corner is too dense by 5 % beside each wall, and would spring apart. Errors as recordFluidStep().

@@ -23,7 +23,8 @@ namespace {
 constexpr VkDeviceSize kMostCheckpointBytes = 256u << 20;
 constexpr VkDeviceSize kCheckpointBufferBytes = 4u << 20;  // that several share: drivers allow few
 constexpr double kLeastSpacing = 1e-6;                     // metres
-constexpr double kMostSubsteps = 64;
+constexpr double kMostSubsteps = 64, kMostTurns = 256;
+constexpr int kTurnsToAnError = 32;
 
 using Kind = ParticleStage::Kind;
 
@@ -160,7 +161,7 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
     while (state.steps < wanted) {
         const double time = (state.steps + 1) * kSimulationStep;
         const std::vector<double> now = values(time);
-        if (const Done stepped = state.steps < 0 ? start(now) : step(now); !stepped) {
+        if (const Done stepped = state.steps < 0 ? start(now) : step(now, values); !stepped) {
             Error error = stepped.error();
             if (time > 0.0) error.message += " (at " + shortNumber(time) + " s)";
             return error;
@@ -202,23 +203,23 @@ Done Simulation::start(const std::vector<double>& values) {
     return taken(commands);
 }
 
-Done Simulation::step(const std::vector<double>& values) {
+Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
     Commands commands(*device);
     if (fluid) {
-        if (const Done flowed = flow(commands, values); !flowed) return flowed.error();
+        if (const Done flowed = flow(commands, now, values); !flowed) return flowed.error();
         return taken(commands);
     }
     if (source().kind != Kind::emitter) {
-        move(commands, values);
+        move(commands, now);
         return taken(commands);
     }
-    const StageNumbers numbers(field->ir, source(), values);
+    const StageNumbers numbers(field->ir, source(), now);
     const double before = born[std::size_t(state.steps)],
                  after = before + std::max(numbers.scalar("rate"), 0.0) * kSimulationStep;
     born.resize(std::max(born.size(), std::size_t(state.steps) + 2));
     born[std::size_t(state.steps) + 1] = after;
     if (const Done room = makeRoom(numbers, after); !room) return room.error();
-    move(commands, values);
+    move(commands, now);
     emit(commands, numbers, before, after);
     return taken(commands);
 }
@@ -251,7 +252,11 @@ FluidConfig Simulation::configOf(Commands& commands, const std::vector<double>& 
                        .gravity = numbers.vector("gravity"),
                        .viscosity = float(std::max(numbers.scalar("viscosity"), 0.0)),
                        .tension = float(std::max(numbers.scalar("tension"), 0.0)),
+                       .vorticity = float(std::max(numbers.scalar("vorticity"), 0.0)),
+                       .error = float(std::max(numbers.scalar("error"), 0.0)),
                        .farOnce = source().words.find("neighbours")->second == "fast"};
+    const int turns = int(std::clamp(numbers.scalar("turns"), 0.0, kMostTurns));
+    config.iterations = turns > 0 ? turns : config.error > 0.0f ? kTurnsToAnError : config.iterations;
     if (fluid->obstacle) {
         setParameters(commands, *fluid->obstacle, values);
         config.field = fluid->obstacle->buffers();
@@ -259,19 +264,65 @@ FluidConfig Simulation::configOf(Commands& commands, const std::vector<double>& 
     return config;
 }
 
-Done Simulation::flow(Commands& commands, const std::vector<double>& values) {
-    const FluidConfig config = configOf(commands, values);
-    int parts =
-        int(std::clamp(StageNumbers(field->ir, source(), values).scalar("substeps"), 0.0, kMostSubsteps));
-    if (parts <= 0) {
-        // At the end of a fall through the tank, half a spacing each.
-        const double speed =
-            std::sqrt(2.0 * glm::dot(glm::abs(config.gravity), glm::abs(config.hi - config.lo)));
-        parts =
-            int(std::min(std::max(1.0, std::ceil(speed * kSimulationStep / (0.5 * config.spacing))), 8.0));
-    }
+namespace {
+
+/// How far an obstacle's surface moves at most, within the box, between two moments: of places on a grid,
+/// from which no part of the surface is farther than half their distance, those near it are asked.
+double wayOf(const Program& obstacle, const glm::dvec3& lo, const glm::dvec3& hi,
+             const std::vector<double>& before, const std::vector<double>& now) {
+    constexpr int kSide = 9;
+    const std::size_t known = obstacle.live.size();
+    if (std::ranges::equal(std::span(before).first(std::min(known, before.size())),
+                           std::span(now).first(std::min(known, now.size()))))
+        return 0.0;
+    const glm::dvec3 apart = (hi - lo) / double(kSide - 1);
+    std::vector<Point> places;
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const glm::dvec3 p = lo + apart * glm::dvec3(x, y, z);
+                places.push_back({p.x, p.y, p.z});
+            }
+    std::vector<double> first(places.size()), last(places.size());
+    TapeMachine<double> machine;
+    machine.evaluate(distanceTape(obstacle, before), places, first);
+    machine.evaluate(distanceTape(obstacle, now), places, last);
+    double way = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (first[i] * last[i] < 0.0 ||
+            std::min(std::abs(first[i]), std::abs(last[i])) < 0.5 * glm::length(apart))
+            way = std::max(way, std::abs(last[i] - first[i]));
+    return way;
+}
+
+}  // namespace
+
+/// Parts of a step: as many as are asked for, or else so many that neither the end of a fall through the tank
+/// nor what the obstacle moves is more than half a spacing in each.
+int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& before,
+                        const std::vector<double>& now) const {
+    constexpr double kMostForFalls = 8.0, kMostForObstacles = 16.0;
+    const double asked = StageNumbers(field->ir, source(), now).scalar("substeps"),
+                 half = 0.5 * config.spacing;
+    if (asked >= 1.0) return int(std::min(asked, kMostSubsteps));
+    const double speed = std::sqrt(2.0 * glm::dot(glm::abs(config.gravity), glm::abs(config.hi - config.lo)));
+    const double falls = std::min(std::max(1.0, std::ceil(speed * kSimulationStep / half)), kMostForFalls);
+    const double way =
+        fluid->obstacle ? wayOf(*fluid->obstacle->program, config.lo, config.hi, before, now) : 0.0;
+    return int(std::max(falls, std::min(std::ceil(way / half), kMostForObstacles)));
+}
+
+Done Simulation::flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values) {
+    const FluidConfig config = configOf(commands, now);
+    const double begin = state.steps * kSimulationStep;
+    const int parts = partsOf(config, values(begin), now);
+    const auto moveObstacle = [&](int part) {
+        if (!fluid->obstacle || fluid->obstacle->program->live.empty()) return;
+        const double time = begin + (part + 1) * kSimulationStep / parts;
+        setParameters(commands, *fluid->obstacle, part + 1 < parts ? values(time) : now);
+    };
     if (const Done recorded = recordFluidSteps(commands, fluid->kernels, fluid->particles, config,
-                                               float(kSimulationStep / parts), parts);
+                                               float(kSimulationStep / parts), parts, moveObstacle);
         !recorded)
         return Error{.message = recorded.error().message, .node = source().node};
     return done();

@@ -8,6 +8,8 @@
 // value was changed by hand, the particles go on from where they are, and the past is as the new values have
 // it once it is played again.
 //
+// A fluid takes a step in parts, in each of which an obstacle that moves with the time has gone on.
+//
 // Emitted particles are numbered in the order of their births; number n stands in slot n % slots, so that the
 // last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
 // is not a number.
@@ -86,8 +88,10 @@ class Simulation {
     Done start(const std::vector<double>& values);
     Done fill(const std::vector<double>& values);
     FluidConfig configOf(Commands& commands, const std::vector<double>& values) const;
-    Done flow(Commands& commands, const std::vector<double>& values);
-    Done step(const std::vector<double>& values);
+    int partsOf(const FluidConfig& config, const std::vector<double>& before,
+                const std::vector<double>& now) const;
+    Done flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values);
+    Done step(const std::vector<double>& now, const ValuesAt& values);
     void move(Commands& commands, const std::vector<double>& values);
     void emit(Commands& commands, const StageNumbers& emitter, double before, double after);
     Done makeRoom(const StageNumbers& emitter, double born);

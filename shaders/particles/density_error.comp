@@ -1,4 +1,5 @@
-// How far each particle must give way for its density to be that at rest, at most: Macklin and Mueller's lambda.
+// How far each particle must give way for its density to be that at rest, at most: Macklin and Mueller's lambda. With ADD_ERRORS,
+// how much too dense all are.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/fluid.glsl"
 
@@ -10,6 +11,9 @@ layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
 layout(binding = 4, scalar) writeonly buffer Weighed { vec4 weighed[]; };  // the guess, about, and lambda
 layout(binding = 5, scalar) writeonly buffer Densities { float densities[]; };
 layout(binding = 6, scalar) readonly buffer Far { float far[]; };  // density of those that are not listed
+#ifdef ADD_ERRORS
+layout(binding = 7, scalar) buffer Errors { uint errors[FLUID_ERROR_SUMS]; };
+#endif
 
 void main() {
     uint index = item();
@@ -39,4 +43,8 @@ void main() {
     vec3 aside = vec3(index * uvec3(3518319155u, 2882110345u, 2360945575u)) * (1e-5 / 4294967296.0 * push.support);
     weighed[index] = vec4(p + aside, lambda);
     densities[index] = density;
+#ifdef ADD_ERRORS
+    uint error = subgroupAdd(uint(clamp(density - 1.0, 0.0, 1.0) * FLUID_ERROR_UNIT));
+    if (subgroupElect()) atomicAdd(errors[index / FLUID_GROUP % FLUID_ERROR_SUMS], error);
+#endif
 }

@@ -8,6 +8,18 @@ namespace fw::gpu {
 #define FLUID_GROUP 256           // particles of a work group
 #define FLUID_MOST_NEIGHBOURS 64  // that a particle feels; more than that are only where it is far too dense
 
+// Errors of densities are added up as whole numbers, whose sums are the same in any order, in so many sums. No sum is too great:
+// an error counts as 1 at most.
+#define FLUID_ERROR_SUMS 256
+#define FLUID_ERROR_UNIT 131072.0
+
+// What the groups of a step's turns are read from.
+struct FluidTurns {
+    uvec3 groups;  // of kernels for all particles; none once the error is small enough,
+    uvec3 one;     // as of the one that finds that
+    uint taken;
+};
+
 struct FluidPush {
     vec3 first;    // corner of the first cell, metres
     vec3 perCell;  // cells a metre
@@ -26,6 +38,8 @@ struct FluidPush {
     float relaxation;
     float viscosity;  // share of the difference of velocities that this step takes away
     float tension;    // 1/s: velocity for each metre of offset
+    float vorticity;  // metres: velocity that swirls gain for each 1/s of the curl
+    float error;      // the mean of densities above that at rest, at which turns end
 };
 
 #ifdef __cplusplus

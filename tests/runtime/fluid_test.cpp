@@ -18,15 +18,20 @@
 
 #include "graph/compile/compile.h"
 #include "graph/emit/glsl.h"
+#include "shaders/shared.h"
 #include "tests/support/fluid.h"
 #include "tests/support/gpu.h"
 #include "tests/support/graph/expression_graph.h"
 
+#include "shaders/particles/fluid.h"
+
 namespace fw::fluid_test {
 
 using test::device;
+using test::energyOf;
 using test::kernelsFor;
 using test::mean;
+using test::meanError;
 using test::read;
 using test::run;
 
@@ -158,15 +163,70 @@ TEST_F(Fluid, MomentumIsKeptAndFallsAreFree) {
 }
 
 TEST_F(Fluid, TheSameBytesEachTime) {
-    std::vector<float> first;
-    for (int i = 0; i < 3; ++i) {
-        FluidParticles fluid;
-        setFluid(device(), fluid, randomPlaces(3000, 0.6f, 7), {});
-        run(fluid, {.spacing = 0.06f}, 20, 1.0f / 60);
-        const auto places = download<float>(device(), fluid.places, 4 * std::size_t(fluid.count));
-        if (i == 0) first = places;
-        EXPECT_EQ(places, first);
+    for (const float error : {0.0f, 0.01f}) {
+        std::vector<float> first;
+        for (int i = 0; i < 3; ++i) {
+            FluidParticles fluid;
+            setFluid(device(), fluid, randomPlaces(3000, 0.6f, 7), {});
+            run(fluid, {.spacing = 0.06f, .iterations = 8, .error = error}, 20, 1.0f / 60);
+            const auto places = download<float>(device(), fluid.places, 4 * std::size_t(fluid.count));
+            if (i == 0) first = places;
+            EXPECT_EQ(places, first);
+        }
     }
+}
+
+/// The turns of the last step.
+uint32_t turnsOf(const FluidParticles& fluid) {
+    return download<gpu::FluidTurns>(device(), fluid.turns, 1)[0].taken;
+}
+
+TEST_F(Fluid, TurnsEndAtTheErrorThatIsAskedFor) {
+    // A column that breaks, and lies still at last.
+    for (const float error : {0.01f, 0.003f}) {
+        const FluidConfig config{.spacing = 0.05f,
+                                 .lo = glm::vec3(0.0f),
+                                 .hi = glm::vec3(1.0f, 1.2f, 0.3f),
+                                 .viscosity = 10.0f,
+                                 .iterations = 50,
+                                 .error = error,
+                                 .farOnce = false};
+        FluidParticles fluid;
+        setFluid(device(), fluid, fluidBlock(glm::vec3(0.0f), {0.4f, 0.9f, 0.3f}, config.spacing), {});
+        uint32_t most = 0;
+        for (int i = 0; i < 12; ++i) {
+            run(fluid, config, 5, 1.0f / 120);
+            EXPECT_LE(meanError(read(fluid.places, fluid.count), config), 1.001 * error) << i;
+            EXPECT_LT(turnsOf(fluid), 50u);
+            most = std::max(most, turnsOf(fluid));
+        }
+        run(fluid, config, 480, 1.0f / 120);
+        const uint32_t rest = turnsOf(fluid);
+        const double found = meanError(read(fluid.places, fluid.count), config);
+        std::printf(
+            "for a mean error of %.3f: up to %u turns while it breaks, %u at rest, where it is %.5f\n", error,
+            most, rest, found);
+        EXPECT_LE(found, 1.001 * error);
+        EXPECT_LT(rest, most);
+    }
+}
+
+TEST_F(Fluid, TurnsAreNoMoreThanAllowedAndNoneWhereNothingIsTooDense) {
+    FluidConfig config{.spacing = 0.1f, .gravity = glm::vec3(0.0f), .iterations = 7, .error = 1e-6f};
+    FluidParticles fluid;
+    setFluid(device(), fluid, randomPlaces(3000, 0.5f, 3), {});
+    run(fluid, config, 1, 0.01f);
+    EXPECT_EQ(turnsOf(fluid), 7u);
+    // And they are those of a step that does not ask.
+    const std::vector<glm::vec3> ended = read(fluid.places, fluid.count);
+    setFluid(device(), fluid, randomPlaces(3000, 0.5f, 3), {});
+    config.error = NAN;  // which is none
+    run(fluid, config, 1, 0.01f);
+    EXPECT_EQ(read(fluid.places, fluid.count), ended);
+    config.error = 0.01f;
+    setFluid(device(), fluid, {glm::vec3(-0.5f), glm::vec3(0.0f), glm::vec3(0.5f)}, {});
+    run(fluid, config, 3, 0.01f);
+    EXPECT_EQ(turnsOf(fluid), 0u);
 }
 
 TEST_F(Fluid, ListsNeedNotBeBoundAtOnce) {
@@ -335,6 +395,56 @@ TEST_F(Fluid, TensionRoundsABlock) {
         if (tension == 0.0f) { EXPECT_GT(shape, 1.5); }
         if (tension > 0.0f) { EXPECT_LT(shape, 1.45); }
     }
+}
+
+TEST_F(Fluid, TheCurlOfWhatTurnsIsTwiceItsTurning) {
+    FluidParticles fluid;
+    const FluidConfig config{
+        .spacing = 0.1f, .gravity = glm::vec3(0.0f), .viscosity = 0.0f, .vorticity = 1.0f};
+    const std::vector<glm::vec3> places = fluidBlock(glm::vec3(-0.8f), glm::vec3(0.8f), 0.1f);
+    std::vector<glm::vec3> velocities;
+    const glm::vec3 turning(0.3f, -0.2f, 0.5f);
+    for (const glm::vec3& p : places) velocities.push_back(glm::cross(turning, p));
+    setFluid(device(), fluid, places, velocities);
+    run(fluid, config, 1, 1e-3f);
+    const std::vector<glm::vec3> curls = read(fluid.curls, fluid.count), at = read(fluid.places, fluid.count);
+    for (uint32_t i = 0; i < fluid.count; ++i)
+        if (glm::all(glm::lessThan(glm::abs(at[i]), glm::vec3(0.5f)))) {
+            EXPECT_LT(glm::distance(curls[i], 2.0f * turning), 0.1f);
+        }
+}
+
+TEST_F(Fluid, VorticityKeepsASwirlAlive) {
+    // A vortex of Taylor and Green in a closed box, after two seconds.
+    std::vector<double> left;
+    for (const float vorticity : {0.0f, 1.0f, 3.0f}) {
+        const FluidConfig config{.spacing = 0.05f,
+                                 .lo = glm::vec3(-0.5f, -0.5f, 0.0f),
+                                 .hi = glm::vec3(0.5f, 0.5f, 0.2f),
+                                 .gravity = glm::vec3(0.0f),
+                                 .viscosity = 0.5f,
+                                 .vorticity = vorticity};
+        FluidParticles fluid;
+        setFluid(device(), fluid, fluidBlock(config.lo, config.hi, config.spacing), {});
+        Commands commands(device());
+        ASSERT_TRUE(recordSettling(commands, kernelsFor(), fluid, config));
+        submit(commands);
+        const std::vector<glm::vec3> places = read(fluid.places, fluid.count);
+        std::vector<glm::vec3> velocities;
+        for (const glm::vec3& p : places) {
+            const glm::vec3 q = float(std::numbers::pi) * p;
+            velocities.emplace_back(-std::cos(q.x) * std::sin(q.y), std::sin(q.x) * std::cos(q.y), 0.0f);
+        }
+        setFluid(device(), fluid, places, velocities);
+        const double first = energyOf(fluid, config);
+        run(fluid, config, 240, 1.0f / 120);
+        left.push_back(energyOf(fluid, config) / first);
+        std::printf("vorticity %.0f 1/s: %.3f of a vortex' energy is left after 2 s\n", vorticity,
+                    left.back());
+    }
+    EXPECT_GT(left[1], 1.1 * left[0]);
+    EXPECT_GT(left[2], left[1]);
+    EXPECT_LT(left[2], 1.5);
 }
 
 TEST_F(Fluid, NothingGetsIntoAnObstacle) {

@@ -1,5 +1,7 @@
 #include "tests/support/fluid.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <map>
@@ -44,6 +46,26 @@ glm::dvec3 mean(const std::vector<glm::vec3>& list) {
     glm::dvec3 sum(0.0);
     for (const glm::vec3& each : list) sum += each;
     return sum / double(list.size());
+}
+
+double meanError(const std::vector<glm::vec3>& places, const FluidConfig& config) {
+    const double support = kFluidSupport * config.spacing, weight = fluidLattice().weight;
+    const auto beyond = [&](double d) {  // the integral of Wendland's C2 kernel beyond a plane
+        const double u = std::clamp(1.0 - d / support, 0.0, 1.0);
+        return std::pow(u, 6.0) * (3.5 + u * (1.5 * u - 4.5));
+    };
+    double sum = 0.0;
+    for (const glm::dvec3 p : places) {
+        double density = 0.0;
+        for (const glm::dvec3 q : places) {
+            const double u = std::max(1.0 - glm::distance(p, q) / support, 0.0);
+            density += weight * u * u * u * u * (5.0 - 4.0 * u);
+        }
+        for (int axis = 0; axis < 3; ++axis)
+            density += beyond(p[axis] - config.lo[axis]) + beyond(config.hi[axis] - p[axis]);
+        sum += std::max(density - 1.0, 0.0);
+    }
+    return sum / double(places.size());
 }
 
 double energyOf(const FluidParticles& fluid, const FluidConfig& config) {

@@ -29,6 +29,10 @@ void run(FluidParticles& fluid, const FluidConfig& config, int steps, float step
 
 glm::dvec3 mean(const std::vector<glm::vec3>& list);
 
+/// How much denser than at rest particles in a tank are, on average, those that are less dense counting as
+/// such at rest: sums over all pairs in double, and walls as if they were full.
+double meanError(const std::vector<glm::vec3>& places, const FluidConfig& config);
+
 /// Kinetic and potential, of a kilogramme, above the tank's floor.
 double energyOf(const FluidParticles& fluid, const FluidConfig& config);
 
