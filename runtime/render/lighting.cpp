@@ -57,9 +57,9 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
     const bool lamps = frame.lightCount > 0, fog = frame.fogDensity > 0.0f;
     std::vector<Descriptor> bound = {
-        {0, renderer.frame},        storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
-        {3, gbuffer.tileLists},     storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
-        storage(9, renderer.means), storage(10, renderer.pixels)};
+        {0, renderer.frame},         storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
+        {3, gbuffer.tileLists},      storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
+        storage(10, renderer.pixels)};
     const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
         dispatchAllTiles(commands, pipeline, gbuffer, list, nullptr, 0, bound);
     };
@@ -107,6 +107,9 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         if (cancelled(commands)) return false;
         addSecondary(bound, renderer.secondary, scene.transmits);
     }
+    resizeImage(commands, renderer.means, extent,
+                secondary ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_UINT);
+    bound.push_back(storage(9, renderer.means));
     beginStage(commands, "light");
     for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK}) {
         std::vector<std::string> defines = {"LIST " + std::to_string(list)};
@@ -117,6 +120,7 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         define(fog, "FOG");
         define(!frame.studio, "SKY");
         define(mean, "MEAN");
+        define(mean && secondary, "LINEAR");
         define(frame.neutral, "NEUTRAL");
         define(secondary && secondary->bounce, "BOUNCE");
         define(secondary && secondary->reflections, "REFLECTIONS");

@@ -19,6 +19,7 @@ constexpr int kRestFrames = 64;              // of the live view, after which it
 constexpr double kSlowFrame = 100.0;         // ms; then the next live frame is drawn in parts
 constexpr int kRaysStill = 16, kRaysResting = 8;
 constexpr uint32_t kSecondaryStill = 4;
+constexpr int kFramesAhead = 3;
 
 /// What ambient occlusion is to do for this scene.
 AmbientOptions ambientOptions(const RenderScene& scene, const RenderOptions& options) {
@@ -156,7 +157,6 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
                             before.shadowCentre == frame.shadowCentre &&
                             before.shadowRight == frame.shadowRight && before.shadowSize == frame.shadowSize;
     resizeImage(commands, renderer.pixels, extent, VK_FORMAT_R32_UINT);
-    resizeImage(commands, renderer.means, extent, VK_FORMAT_R32G32_UINT);
     if (resizeGBuffer(commands, renderer.gbuffer, extent) || before.groundEnd != frame.groundEnd)
         forgetHistory(renderer);
 
@@ -216,7 +216,10 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
     forgetHistory(renderer);
     renderer.number = 0;
     renderer.shown.reset();
-    for (int i = 0; i < options.samples; ++i) {
+    // What surfaces throw on each other goes on from frame to frame: some come before the first that counts.
+    const int ahead = options.scene.bounce && !options.reference ? kFramesAhead : 0;
+    for (int frame = -ahead; frame < options.samples; ++frame) {
+        const int i = std::max(frame, 0);
         if (options.progress) options.progress(100 * i / options.samples);
         gpu::View view = middle;
         view.jitter = jitterOf(i, options);
@@ -228,9 +231,9 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         Commands commands(*renderer.device);
         commands.parted = true;
         commands.cancel = options.cancel;
-        if (!drawFrame(commands, renderer, scene, options, view, i > 0 && !lens, i))
+        if (!drawFrame(commands, renderer, scene, options, view, frame > -ahead && !lens, i))
             return Error{.message = "cancelled"};
-        if (i + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
+        if (frame + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);
     }
     return readPicture(renderer);

@@ -3,7 +3,7 @@
 // Where no surface is there is the sky, or a studio's wall, on which the ground, not drawn itself, catches the solid's shadow.
 // Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; BOUNCE,
 // REFLECTIONS and TRANSMITS, of secondary.comp; MEAN where the picture is the
-// mean of frames; NEUTRAL, of tone.glsl.
+// mean of frames, of what a display shows, or, LINEAR, of the light itself, whose noise would darken what is shown; NEUTRAL, of tone.glsl.
 #define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
@@ -23,7 +23,11 @@ layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 layout(binding = 7, r32ui) readonly uniform uimage2D history;  // ambient.comp
 layout(binding = 8, r32f) readonly uniform image2D shadowMap;
 #ifdef MEAN
-layout(binding = 9, rg32ui) uniform uimage2D means;  // linear, 16 bits a channel
+#ifdef LINEAR
+layout(binding = 9, rgba32f) uniform image2D means;  // of radiance
+#else
+layout(binding = 9, rg32ui) uniform uimage2D means;  // of what a display shows, linear, 16 bits a channel
+#endif
 #endif
 layout(binding = 10, r32ui) writeonly uniform uimage2D pixels;  // sRGB, red in the lowest byte
 #ifdef LAMPS
@@ -143,12 +147,16 @@ void main() {
     vec4 veil = imageLoad(fog, at / 2);
     color = color * veil.a + veil.rgb;
 #endif
+#if defined(MEAN) && defined(LINEAR)
+    color = mix(min(color, vec3(1e6)), imageLoad(means, at).rgb, float(frame.mean) / float(frame.mean + 1));
+    if (inPicture) imageStore(means, at, vec4(color, 1.0));
+#endif
     vec3 linear = toneMap(color);
     bool solid = there && !s.ground;
     linear = frame.show == RENDER_AMBIENT ? vec3(open) : frame.show == RENDER_SHADOW ? vec3(sunlit) : linear;
     linear = frame.show == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
     linear = frame.show == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
-#ifdef MEAN
+#if defined(MEAN) && !defined(LINEAR)
     uvec2 words = imageLoad(means, at).xy;
     vec3 before = vec3(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y).x);
     linear = mix(linear, before, float(frame.mean) / float(frame.mean + 1));

@@ -90,6 +90,6 @@ Way follow(Bounds bounds, vec3 o, vec3 d, float start, float end, bool within, f
     way.optical = within ? absorption * min(way.t, end) : vec3(0.0);
 #endif
     // One that ran out of steps beside a surface grazes it.
-    way.hit = way.hit || (way.steps == most && f < 16.0 * close && !way.changes);
+    way.hit = way.hit || (way.steps == most && f < max(16.0 * close, 0.05 * way.t) && !way.changes);
     return way;
 }

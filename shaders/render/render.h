@@ -88,7 +88,7 @@ struct RenderFrame {
     uint raysNew;           // of a pixel without history, up to RENDER_MOST_RAYS
     uint raysKept;          // of one with history
     uint mostKept;          // rays that the history counts for at most
-    uint secondaryRays;  // of each kind, of a pixel
+    uint secondaryRays;     // of each kind, of a pixel
     uint balance;  // 1: lanes share the rays of pixels without history; 0: each traces its own pixel's
 
     vec3 sun;       // towards it, unit length

@@ -7,8 +7,8 @@
 // each defined as needed. What is hit is lit by the sun as its map says, the sky, one lamp (LAMPS) with a ray for its shadow, and
 // by itself. Of the first two the means of frames are kept, as ambient occlusion's are; mirrors forget sooner.
 // path.comp is what these are measured against; they differ by the sun's map, by chalk and facets that share light by a fit, and
-// by what reaches a place that is hit: known where it was seen in the frame before, elsewhere the sky's light, of which so much is
-// seen as the field's value near it says.
+// by what reaches a place that is hit: known where it was seen in the frame before; elsewhere taken for what reaches the
+// pixel itself, or, before that is known, the sky's light as far as the field's value near it says that it is seen.
 #define FIELD_VALUE
 #define FIELD_GRADIENT
 #define FIELD_MATERIAL
@@ -121,6 +121,9 @@ void main() {
 
     vec4 bounced = vec4(0.0), mirrorSum = vec4(0.0);  // sums; in w of how many rays
     uint rays = frame.secondaryRays, ray = 0;
+#ifdef BOUNCE
+    vec4 ownBounce = kept ? imageLoad(bounceBefore, ivec2(was)) : vec4(0.0);
+#endif
     do {
         uint kind = ray < rays ? kBounce : ray < 2 * rays ? kReflection : kPassed + ray - 2 * rays;
         u = evenly(here, frame.number * rays + ray % rays);
@@ -231,9 +234,10 @@ void main() {
 #endif
                 vec3 around = open * skylight(seen.n);
 #ifdef BOUNCE
-                // Where the last frame knew what reaches it, that: so light is thrown on again with each frame.
+                // What the last frame knew: so light is thrown on again with each frame.
                 uvec2 there;
                 vec4 cached = sees && seenBefore(q, seen.n, there) ? imageLoad(bounceBefore, ivec2(there)) : vec4(0.0);
+                cached = cached.w > 0.0 ? cached : ownBounce;
                 around = cached.w > 0.0 ? min(cached.rgb, vec3(8.0)) : around;
 #endif
                 vec3 lit = reflected(seen, -d, frame.sun, frame.sunLight * sunlit) + seen.base * (1.0 - seen.metallic) * around +
@@ -293,9 +297,8 @@ void main() {
 
     float most = float(frame.mostKept);
 #ifdef BOUNCE
-    vec4 old = imageLoad(bounceBefore, ivec2(was));
-    float known = kept ? min(old.w, most) : 0.0;
-    if (surface) imageStore(bounceNow, ivec2(here), vec4((bounced.rgb + old.rgb * known) / (bounced.w + known), bounced.w + known));
+    float known = min(ownBounce.w, most);
+    if (surface) imageStore(bounceNow, ivec2(here), vec4((bounced.rgb + ownBounce.rgb * known) / (bounced.w + known), bounced.w + known));
 #endif
 #ifdef REFLECTIONS
     vec4 oldMirror = imageLoad(reflectionBefore, ivec2(was));

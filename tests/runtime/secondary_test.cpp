@@ -127,7 +127,7 @@ TEST_F(Secondary, IsNearWholePaths) {
             readGraph(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json", nullptr));
         const Picture quick = drawn(player, {.width = kWidth, .height = kHeight, .samples = 16});
         const Picture paths = drawn(
-            player, {.width = kWidth, .height = kHeight, .samples = 128, .reference = true, .bounces = 8});
+            player, {.width = kWidth, .height = kHeight, .samples = 400, .reference = true, .bounces = 8});
         const double off = difference(quick, paths);
         std::printf("%s: %.4f from whole paths\n", name, off);
         EXPECT_LT(off, 0.03);
@@ -154,9 +154,9 @@ TEST_F(Secondary, AnyMediumHasAPicture) {
             (std::string(medium).find("transmission") == std::string::npos ? R"(, "transmission": 1, )"
                                                                            : ", ") +
             medium + R"(}},
-            {"id": "shells", "type": "expression", "code": "surface s = a; for (int i = 0; i < 30; i++) s = with_distance(s, abs(s.distance) - 0.3 * pow(0.8, i)); return s;",
+            {"id": "shells", "type": "expression", "code": "s = a; for (int i = 0; i < 30; i++) s = with_distance(s, abs(s.distance) - 0.3 * pow(0.8, i)); return s;",
              "inputs": {"a": {"from": "glass"}}},
-            {"id": "out", "type": "output", "inputs": {"surface": {"from": "shells"}, "resolution": 48}}";
+            {"id": "out", "type": "output", "inputs": {"surface": {"from": "shells"}, "resolution": 48}})";
         Player player = playerOf(parsed(
             nodes,
             R"("bounce": true, "reflections": true, "camera": {"position": [0, 0, 0.1], "target": [0, 0, 5]})"));
