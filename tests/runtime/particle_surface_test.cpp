@@ -19,6 +19,7 @@
 #include "shaders/shared.h"
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
+#include "tests/support/second_driver.h"
 
 #include "shaders/particles/density.h"
 
@@ -42,12 +43,12 @@ class ParticleSurfaceOnDevice : public testing::Test {
     }
 };
 
-Result<std::vector<float>> distancesOf(const Places& places, const SurfaceConfig& config) {
+Result<std::vector<float>> distancesOn(const Device& device, ParticleVolumeKernels& kernels,
+                                       const Places& places, const SurfaceConfig& config) {
     DensityBuffers buffers;
-    Buffer shapes, particles = createBuffer(device(), std::max<std::size_t>(16 * places.size(), 16));
-    upload(device(), particles, places);
-    Commands commands(device());
-    ParticleVolumeKernels& kernels = ParticleSurfaceOnDevice::kernels();
+    Buffer shapes, particles = createBuffer(device, std::max<std::size_t>(16 * places.size(), 16));
+    upload(device, particles, places);
+    Commands commands(device);
     if (const Done recorded = recordSurface(commands, kernels.density, kernels.surface, buffers, shapes,
                                             config, particles, uint32_t(places.size()));
         !recorded)
@@ -56,11 +57,15 @@ Result<std::vector<float>> distancesOf(const Places& places, const SurfaceConfig
     const glm::ivec3 size = config.grid.size;
     const auto pitch = std::size_t((size.x + 3) / 4 * 4);
     const auto padded =
-        download<float>(device(), buffers.density, pitch * std::size_t(size.y) * std::size_t(size.z));
+        download<float>(device, buffers.density, pitch * std::size_t(size.y) * std::size_t(size.z));
     std::vector<float> distances;
     for (std::size_t row = 0; row < std::size_t(size.y) * std::size_t(size.z); ++row)
         distances.insert(distances.end(), &padded[row * pitch], &padded[row * pitch] + size.x);
     return distances;
+}
+
+Result<std::vector<float>> distancesOf(const Places& places, const SurfaceConfig& config) {
+    return distancesOn(device(), ParticleSurfaceOnDevice::kernels(), places, config);
 }
 
 std::vector<float> made(const Places& places, const SurfaceConfig& config) {
@@ -239,6 +244,44 @@ TEST_F(ParticleSurfaceOnDevice, TheSameBytesEachTimeAndInEveryOrder) {
         std::printf("%s in another order: off by %.6f cells at most\n", nameOf(surface), worst);
         EXPECT_LT(worst, 0.02);
     }
+}
+
+void expectSameOn(const Device& other, double allowed) {
+    const Places places = splash(1000, 5);
+    const DensityGrid grid{.origin = glm::vec3(-1.1f), .cell = 0.06f, .size = {37, 36, 35}};
+    ParticleVolumeKernels kernels = createParticleVolumeKernels(other);
+    for (const ParticleSurface surface : kSmooth) {
+        const std::vector<float> first = made(places, {grid, 0.062f, surface});
+        const Result<std::vector<float>> second =
+            distancesOn(other, kernels, places, {grid, 0.062f, surface});
+        ASSERT_TRUE(second) << second.error().message;
+        double worst = 0.0;
+        for (std::size_t i = 0; i < first.size(); ++i)
+            worst = std::max(worst, double(std::abs(first[i] - (*second)[i])));
+        std::printf("%s: off by %.6f cells at most\n", nameOf(surface), worst);
+        EXPECT_LE(worst, allowed);
+    }
+    EXPECT_EQ(other.validationMessages(), std::vector<std::string>());
+}
+
+TEST_F(ParticleSurfaceOnDevice, TheSameWhereDevicesHaveLess) {
+    Result<Device> least = createDevice({.validation = true});
+    ASSERT_TRUE(least);
+    DeviceLimits most = leastLimits();
+    most.invocations = DENSITY_GROUP;
+    least->limits = lowered(least->limits, most);
+    least->limits.groups = 64;
+    least->pushDescriptors = nullptr;
+    expectSameOn(*least, 0.0);
+}
+
+TEST_F(ParticleSurfaceOnDevice, AlikeOnASecondDriver) {
+    const test::SecondDriver driver;
+    if (!driver.works()) GTEST_SKIP() << driver.why();
+    const Result<Device> second = createDevice({.validation = true});
+    ASSERT_TRUE(second);
+    ASSERT_NE(second->name().find("SwiftShader"), std::string::npos);
+    expectSameOn(*second, 0.05);
 }
 
 TEST_F(ParticleSurfaceOnDevice, WhateverThereIs) {
