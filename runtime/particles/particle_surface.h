@@ -8,8 +8,8 @@
 // Solenthaler, Schläfli and Pajarola, "A Unified Particle Model for Fluid-Solid Interactions" (2007), shrink
 // r where the mean moves fast; then two drops have a third in their midst. Here it is seen by the space that
 // the particles fill: W particles, the sum of the weights, of the mean square distance V from their mean.
-// Before the face of a lattice W a^3 / V^(3/2) is 3.4, in a layer of particles 3.5, midway between two that
-// are 1.9 a apart 1.5; there the distance is that from the nearest particle.
+// At the face of a lattice W a^3 / V^(3/2) is 3.4, in a layer of particles 3.5, midway between two that are
+// 2 a apart 1.1: from 2 down to 1 the distance becomes that from the nearest particle.
 //
 // Anisotropic. After Yu and Turk, "Reconstructing Surfaces of Particle-Based Fluids Using Anisotropic
 // Kernels" (2010): each particle's centre is drawn by 0.9 of the way to the mean of those around it; its
@@ -21,7 +21,8 @@
 // that threshold leaves r; a density counts as the distance at which such a particle has it.
 //
 // Both are told in blocks of samples that have particles around, but not everywhere: deep inside the value is
-// -r. They are distances of some slope, which particle_volume.h divides them by.
+// -r, and kernels are those of a full neighbourhood. They are distances of some slope, which
+// particle_volume.h divides them by.
 //
 // Lifetime: kernels serve all; buffers grow.
 #pragma once

@@ -5,7 +5,7 @@
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer sorted;
 
 const float kVolume = 4.18879 * pow(kReach / AVERAGE_REACH, 3.0);  // of a particle
-const float kApart = 1.5, kTogether = 2.5;
+const float kApart = 1.0, kTogether = 2.0;
 
 // Sums of weights, of weighted offsets and of their squares; and the least of these.
 mat2x4 weights, offX, offY, offZ, squares, nearest;

@@ -5,22 +5,11 @@ layout(local_size_x = DENSITY_GROUP) in;
 layout(binding = 2, scalar) writeonly buffer Distance { vec4 distances[]; };  // cells; rows padded to texels
 layout(binding = 4, scalar) buffer Blocks { uint blocks[]; };                 // how many, and which
 
-// Whether there are particles in every bucket within one and a half: it is far from the surface.
+// Whether it is far from the surface.
 bool deep(Block block) {
-    ivec3 first = max(ivec3(floor(block.lo - 1.5)), ivec3(0));
-    ivec3 count = min(ivec3(floor(block.hi + 1.5)), push.buckets - 1) - first + 1;
-    int rows = count.y * count.z, row = 0;
-    bool full = true;
-    do {
-        int bucket = bucketAt(first + ivec3(0, row % count.y, row / count.y)), end = bucket + count.x;
-        uint before = starts[bucket];
-        do {
-            uint after = starts[++bucket];
-            full = full && after > before;
-            before = after;
-        } while (full && bucket < end);
-    } while (full && ++row < rows);
-    return full;
+    const vec3 around = vec3(2.5, 1.5, 1.5);
+    ivec3 first = max(ivec3(floor(block.lo - around)), ivec3(0));
+    return full(first, min(ivec3(floor(block.hi + around)), push.buckets - 1) - first + 1);
 }
 
 bool alone(Block block) {

@@ -1,22 +1,19 @@
 // The kernel of each particle: its centre drawn towards its neighbours, and its ellipsoid that of how they lie
 // (runtime/particles/particle_surface.h). Lengths are sides of a bucket, unless told.
-#include "particles/density.glsl"
+#include "particles/surface.glsl"
 
 layout(local_size_x = DENSITY_GROUP) in;
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer sorted;
-layout(binding = 1, scalar) readonly buffer Starts { uint starts[]; };
 layout(binding = 2, scalar) writeonly buffer Shapes { vec4 shapes[]; };
 layout(binding = 3, scalar) writeonly buffer Keys { uint keys[]; };  // buckets of the centres
 
-const float kReach = float(SURFACE_SIDES), kDrop = kReach / ANISOTROPIC_REACH, kLone = ANISOTROPIC_LONE * kDrop;
+const float kDrop = kReach / ANISOTROPIC_REACH, kLone = ANISOTROPIC_LONE * kDrop;
 const float kVariance = kReach * kReach / 11.0;  // of a full neighbourhood, along each axis
 const float kVolume = 4.18879 * kDrop * kDrop * kDrop;
 const float kIntegral = 0.638291;  // of (1 - r^2)^3
 const float kSmoothing = 0.9;      // Yu and Turk's lambda,
 const float kFlattest = 0.25;      // and the inverse of their k_r
 const float kFew = 1.5, kMany = 3.0;
-
-int bucketAt(ivec3 b) { return (b.z * push.buckets.y + b.y) * push.buckets.x + b.x; }
 
 // What is known of the neighbours: the sum of weights, of weighted offsets, and of the products of these.
 float weights = 0.0;
@@ -60,17 +57,10 @@ void main() {
     uint nowhere = uint(push.buckets.x * push.buckets.y * push.buckets.z);
     bool there = index < starts[nowhere];
     vec3 p = there ? uintBitsToFloat(imageLoad(sorted, int(index)).xyz) : vec3(push.buckets / 2);
-    ivec3 own = clamp(ivec3(p), ivec3(2), push.buckets - 3);
-    bool full = there;  // whether there are particles in all buckets that it feels: it is far from the surface
-    int row = 0;
-    do {
-        int bucket = bucketAt(own + ivec3(-2, row % 5 - 2, row / 5 - 2));
-        for (int k = 0; k < 5; ++k) full = full && starts[bucket + k] < starts[bucket + k + 1];
-    } while (full && ++row < 25);
-
+    ivec3 own = clamp(ivec3(p), ivec3(3), push.buckets - 4);
     vec3 along = vec3(1.0 / (kReach * kReach)), across = vec3(0.0), centre = p;
     float height = kVolume / (kIntegral * kReach * kReach * kReach);
-    if (there && !full) {
+    if (there && !full(own - ivec3(3, 2, 2), ivec3(7, 5, 5))) {  // or it is far from the surface
         lookAround(p, own);
         vec3 mean = offs / weights, variance = max(squares / weights - mean * mean, 0.0);
         vec3 covariance = products / weights - mean.xxy * mean.yzz;

@@ -9,6 +9,19 @@ const float kReach = float(SURFACE_SIDES);
 ivec3 texels() { return ivec3(pitch() / 4, push.size.yz); }
 int bucketAt(ivec3 b) { return (b.z * push.buckets.y + b.y) * push.buckets.x + b.x; }
 
+// Whether there are particles everywhere among these buckets, as good as: of two neighbours along x, fewer than one pair in 32 has
+// none. Buckets are as wide as a lattice's spacing, and some are empty in any fluid.
+bool full(ivec3 first, ivec3 count) {
+    int rows = count.y * count.z, row = 0, few = rows * (count.x - 1) / 32, voids = 0;
+    do {
+        int bucket = bucketAt(first + ivec3(0, row % count.y, row / count.y)), last = bucket + count.x - 2;
+        do {
+            voids += starts[bucket] == starts[bucket + 2] ? 1 : 0;
+        } while (++bucket <= last);
+    } while (voids <= few && ++row < rows);
+    return voids <= few;
+}
+
 struct Block {
     ivec3 first;  // texel of its first four samples
     float cell;
