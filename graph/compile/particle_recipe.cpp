@@ -89,6 +89,23 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
     return box;
 }
 
+SurfaceNumbers surfaceNumbers(const Ir& ir, const ParticleRecipe& recipe, const ParticleStage& toField,
+                              std::span<const double> parameters) {
+    constexpr double kDropOfCube = 0.6203504908994;  // radius of the ball as large as a cube of side 1
+    constexpr double kLeastShare = 0.04;             // of the radius, squared
+    const StageNumbers own(ir, toField, parameters);
+    SurfaceNumbers numbers{own.scalar("radius"), own.scalar("threshold"), own.scalar("drop")};
+    const double blob = numbers.radius * std::sqrt(std::max(1.0 - std::cbrt(numbers.threshold), kLeastShare));
+    const ParticleStage& source = recipe.stages.front();
+    if (toField.words.find("surface")->second == kParticleSurfaceNames[0])
+        numbers.drop = blob;
+    else if (numbers.drop == 0.0)
+        numbers.drop = source.kind == ParticleStage::Kind::fluid
+                           ? kDropOfCube * StageNumbers(ir, source, parameters).scalar("spacing")
+                           : blob;
+    return numbers;
+}
+
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
                                       const ParticleStage& toField, const Box& region, int resolution) {
     constexpr double kMostSide = 1e32;  // metres: it is a float on the device
@@ -112,17 +129,20 @@ Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe
     field->particles = recipe;
     const auto method = std::ranges::find(kDensityMethodNames, toField.words.find("method")->second);
     field->method = DensityMethod(method - kDensityMethodNames);
+    const auto surface = std::ranges::find(kParticleSurfaceNames, toField.words.find("surface")->second);
+    field->surface = ParticleSurface(surface - kParticleSurfaceNames);
     field->trueDistance = toField.words.find("distance")->second == "true";
     field->node = toField.node;
-    std::vector<IrId> roots{toField.numbers.find("radius")->second[0],
-                            toField.numbers.find("threshold")->second[0]};
-    for (const ParticleStage& stage : recipe.stages)
-        for (const auto& [name, ids] : stage.numbers) roots.insert(roots.end(), ids.begin(), ids.end());
+    field->toField = toField;
+    std::vector<ParticleStage*> stages{&field->toField};
+    for (ParticleStage& stage : field->particles.stages) stages.push_back(&stage);
+    std::vector<IrId> roots;
+    for (const ParticleStage* stage : stages)
+        for (const auto& [name, ids] : stage->numbers) roots.insert(roots.end(), ids.begin(), ids.end());
     field->ir = ir.compact(roots);
     std::size_t next = 0;
-    field->radius = roots[next++], field->threshold = roots[next++];
-    for (ParticleStage& stage : field->particles.stages)
-        for (auto& [name, ids] : stage.numbers)
+    for (ParticleStage* stage : stages)
+        for (auto& [name, ids] : stage->numbers)
             for (IrId& id : ids) id = roots[next++];
 
     uint64_t hash = field->ir.hash(roots);
@@ -133,7 +153,7 @@ Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe
         for (const auto& [name, program] : stage.fields) mix(program->structureHash);
         if (stage.places) mix(stage.places->hash);
     }
-    mix(uint64_t(field->method) * 2 + uint64_t(field->trueDistance));
+    mix((uint64_t(field->surface) * 4 + uint64_t(field->method)) * 2 + uint64_t(field->trueDistance));
     for (int axis = 0; axis < 3; ++axis) {
         mix(std::bit_cast<uint64_t>(grid.origin[axis]));
         mix(uint64_t(grid.size[axis]));

@@ -49,15 +49,19 @@ struct ParticleRecipe {
 enum class DensityMethod : unsigned char { blur, exact, proxies };
 inline constexpr const char* kDensityMethodNames[] = {"blur", "exact", "proxies"};
 
-/// Particles as a field: density on a grid, and a surface where it is `threshold`.
+enum class ParticleSurface : unsigned char { blobs, average, anisotropic };
+inline constexpr const char* kParticleSurfaceNames[] = {"blobs", "average", "anisotropic"};
+
+/// Particles as a field: samples on a grid, of a surface about the particles.
 struct ParticleField {
-    Ir ir;  ///< of all numbers: of the stages, and of the two below
+    Ir ir;  ///< of all numbers: of the stages, and of the node that makes the field
     ParticleRecipe particles;
-    IrId radius = 0, threshold = 0;
-    DensityMethod method = DensityMethod::blur;
-    bool trueDistance = false;  ///< everywhere, and not near the surface alone
-    std::string node;           ///< of the particles_to_field
-    uint64_t hash = 0;          ///< equal for equal recipes, whatever the live values
+    ParticleStage toField;  ///< the numbers of that node
+    ParticleSurface surface = ParticleSurface::blobs;
+    DensityMethod method = DensityMethod::blur;  ///< of blobs
+    bool trueDistance = false;                   ///< everywhere, and not near the surface alone
+    std::string node;                            ///< of the particles_to_field
+    uint64_t hash = 0;                           ///< equal for equal recipes, whatever the live values
 };
 using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
 
@@ -96,6 +100,16 @@ class StageNumbers {
 /// a region without extent.
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
                                       const ParticleStage& toField, const Box& region, int resolution);
+
+/// Metres, but for the threshold.
+struct SurfaceNumbers {
+    double radius, threshold;  ///< of blobs: how far a density reaches, and what it is at the surface
+    double drop;  ///< radius of the surface about a particle alone; a fifth of `radius` where blobs have none
+    bool operator==(const SurfaceNumbers&) const = default;
+};
+/// What the surface of particles is made with, of a particles_to_field that names no `drop` too.
+SurfaceNumbers surfaceNumbers(const Ir& ir, const ParticleRecipe& recipe, const ParticleStage& toField,
+                              std::span<const double> parameters);
 
 /// Where the particles can be: the box of a file's places, a fluid's tank, or what an emitter's particles
 /// reach in their lives under the gravity behind it, with nothing in their way; enlarged by `radius`.

@@ -13,8 +13,10 @@ using language::Value;
 
 namespace {
 
-/// How many cells a particle should reach at least, and reaches at most where the grid is found.
+/// How many cells a blob should reach at least, and reaches at most where the grid is found.
 constexpr double kFewRadiusCells = 1.7, kManyRadiusCells = 8.0;
+/// Cells along a drop's radius for what they show of it to be round, and cells along a grid, of blobs.
+constexpr double kDropCells = 2.0, kBlobResolution = 96;
 
 std::vector<double> valuesOf(const std::vector<LiveParameter>& live) {
     std::vector<double> values;
@@ -90,21 +92,28 @@ Lowered particlesOf(const NodeAt& at, ParticleRecipe recipe) {
     return result;
 }
 
+bool makesBlobs(const ParticleStage& toField) {
+    return toField.words.find("surface")->second == kParticleSurfaceNames[0];
+}
+
 /// The grid about particles, at all moments that are asked for.
 struct Reach {
     Box region;
     double least = std::numeric_limits<double>::infinity(), most = 0.0;  ///< of the radius
+    double leastDrop = std::numeric_limits<double>::infinity();
 };
 Reach reachOf(const GraphLowering& lowering, const ParticleStage& own, const ParticleRecipe& particles) {
     const std::vector<LiveParameter>& live = lowering.live;
     const auto& moments = lowering.options.moments;
     std::vector<double> values = valuesOf(live);
+    const bool blobs = makesBlobs(own);
     Reach reach;
     const auto lookAt = [&](bool first) {
-        const double radius = StageNumbers(lowering.state.ir, own, values).scalar("radius");
-        const Box then = particleBounds(lowering.state.ir, particles, values, radius);
+        const auto [radius, threshold, drop] = surfaceNumbers(lowering.state.ir, particles, own, values);
+        const Box then = particleBounds(lowering.state.ir, particles, values, blobs ? radius : 2.0 * drop);
         reach.region = first ? then : joined(reach.region, then);
         reach.least = std::min(reach.least, radius), reach.most = std::max(reach.most, radius);
+        reach.leastDrop = std::min(reach.leastDrop, drop);
     };
     if (moments.empty()) lookAt(true);
     for (std::size_t i = 0; i < moments.size(); ++i) {
@@ -186,7 +195,13 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
     auto resolution = lowering.knownNumber(at, *inputs, "resolution");
     const auto margin = lowering.knownNumber(at, *inputs, "margin");
     if (!own || !from.particles || !resolution || !margin) return lowering.failure(at.type.outputs);
-    auto [region, least, most] = reachOf(lowering, *own, *from.particles);
+    if (*resolution != 0.0 && *resolution < kLeastParticleResolution) {
+        lowering.report(at, "resolution",
+                        {.message = "must be at least " + std::to_string(kLeastParticleResolution) +
+                                    ", or 0 for as many cells as are good"});
+        return lowering.failure(at.type.outputs);
+    }
+    auto [region, least, most, leastDrop] = reachOf(lowering, *own, *from.particles);
     bool found = true;
     for (const auto& [name, corner] :
          {std::pair("region_min", &region.lo), std::pair("region_max", &region.hi)}) {
@@ -199,7 +214,13 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
         }
     }
     for (std::size_t axis = 0; axis < 3; ++axis) region.lo[axis] -= *margin, region.hi[axis] += *margin;
-    if (found) resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / most));
+    const bool blobs = makesBlobs(*own);
+    if (*resolution == 0.0)
+        resolution = blobs ? kBlobResolution
+                           : std::clamp(std::ceil(kDropCells * longestSide(region) / leastDrop),
+                                        double(kLeastParticleResolution), double(kMostParticleResolution));
+    if (found && blobs)
+        resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / most));
     const Result<FieldVolumePtr> volume =
         particleVolume(lowering.state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
     if (!volume) {
@@ -207,14 +228,16 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
         return lowering.failure(at.type.outputs);
     }
     const double cell = (*volume)->grid.cell;
-    const double enough = std::ceil(*resolution * cell * kFewRadiusCells / least);
+    const double fine = blobs ? least : leastDrop, cells = blobs ? kFewRadiusCells : kDropCells;
+    const double enough = std::ceil(*resolution * cell * cells / fine - 1e-6);
     if (enough > *resolution)
         lowering.warn(
             at, "resolution",
-            "cells of " + shortNumber(cell) + " m are wide for particles that reach " + shortNumber(least) +
-                " m: " +
+            "cells of " + shortNumber(cell) + " m are wide for " +
+                (blobs ? "particles that reach " : "drops with a radius of ") + shortNumber(fine) + " m: " +
                 (enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
-                                                   : "raise the radius") +
+                 : blobs                           ? "raise the radius"
+                                                   : "raise drop") +
                 ", or give the grid a smaller region");
     if (inputOf(*inputs, "distance").text == "near") lowering.nearFields.insert(at.path());
     return sampledVolume(lowering, at, *inputs, *volume, tricubicChannel);

@@ -122,24 +122,39 @@ std::vector<NodeType> particleNodes() {
         {.id = "particles_to_field",
          .label = "Particles to field",
          .category = Category::particles,
-         .doc = "Makes a solid of particles, for booleans and everything else that works on surfaces: where "
-                "the density, the "
-                "sum of (1 - r²/R²)³ over all particles, exceeds a threshold.",
+         .doc =
+             "Makes a solid of particles, for booleans and everything else that works on surfaces. Its "
+             "samples are on a grid; where their cells are wider than half a drop's radius, drops look like "
+             "boxes.",
          .inputs =
              {positionInput(), particles,
-              positiveLength("radius", 0.15, "R: how far a particle's density reaches."),
+              choice(
+                  "surface", {std::begin(kParticleSurfaceNames), std::end(kParticleSurfaceNames)},
+                  "Where it is. Blobs: where the density, the sum of (1 - r²/R²)³ over all particles, "
+                  "exceeds "
+                  "a threshold; fluids are larger than they should be, and bumpy. Average: about the mean "
+                  "places of particles; flat where a fluid is, with drops around. Anisotropic: a density of "
+                  "particles that are flattened as their neighbours lie, for thin sheets and sharp edges; it "
+                  "takes longest."),
+              length(
+                  "drop", 0.0,
+                  "The radius of a particle alone, where the surface is average or anisotropic. 0: of a "
+                  "fluid, what gives it its volume at rest, 0.62 of its spacing; of other particles, that of "
+                  "their blob."),
+              positiveLength("radius", 0.15, "R: how far a blob's density reaches."),
               [] {
                   InputSpec threshold =
                       scalar("threshold", 0.3,
-                             "The density at the surface. A particle alone has 1 in its middle, and is not "
-                             "seen above that.");
+                             "The density at the surface of blobs. A particle alone has 1 in its "
+                             "middle, and is not seen above that.");
                   threshold.positive = true;
                   threshold.max = 100;
                   return threshold;
               }(),
               choice(
                   "method", {std::begin(kDensityMethodNames), std::end(kDensityMethodNames)},
-                  "How densities are added up. Blur is fast and some per cent off, but where dozens crowd "
+                  "How densities of blobs are added up. Blur is fast and some per cent off, but where dozens "
+                  "crowd "
                   "within a radius its solids come out a fifth too large, and like boxes; exact asks every "
                   "particle; proxies asks cells for the mean of theirs."),
               choice(
@@ -148,10 +163,11 @@ std::vector<NodeType> particleNodes() {
                   "for offsets, shells and blends that reach far: beyond it they are rough."),
               length("margin", 0.0,
                      "How much farther the grid reaches, to every side: room for true distances."),
-              integer("resolution", 96, kLeastParticleResolution, kMostParticleResolution,
-                      "Cells along the grid's longest side. A radius is best two to six cells, and is "
-                      "eight at most in a "
-                      "grid that is found."),
+              integer(
+                  "resolution", 0, 0, kMostParticleResolution,
+                  "Cells along the grid's longest side; 0: 96 of blobs, and of other surfaces as many as "
+                  "make them half a drop's radius. A blob's radius is best two to six cells, and is eight at "
+                  "most in a grid that is found."),
               corner(
                   "region_min",
                   "Lowest corner of the grid; found from where the particles come from, at all times of the "

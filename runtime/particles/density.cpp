@@ -19,10 +19,6 @@ namespace {
 /// Cells: a sample looks at (2 * 20 + 1)^3 of them, and some devices end loops of more turns.
 constexpr int kMostProxyReach = 20;
 
-uint32_t samplesOf(const DensityGrid& grid) {
-    return uint32_t((grid.size.x + 3) / 4 * 4) * uint32_t(grid.size.y) * uint32_t(grid.size.z);
-}
-
 /// In double: not yet known to be few enough for whole numbers.
 double reachOf(const DensityConfig& config) { return std::ceil(double(config.radius) / config.grid.cell); }
 glm::dvec3 bucketsOf(const DensityConfig& config) {
@@ -61,7 +57,7 @@ Done fits(const DensityConfig& config, const Device& device) {
                                 kDensityMethodNames[std::size_t(config.method)] +
                                 ": lower the resolution or the radius, or take the method exact"};
     const uint64_t range = device.limits.storageRange;
-    const double samples = double(samplesOf(config.grid));
+    const double samples = double(paddedSamples(config.grid));
     const glm::dvec3 sides = bucketsOf(config);
     const double buckets = sides.x * sides.y * sides.z;
     const double needed = std::max(samples * (config.method == DensityMethod::proxies ? 16 : 4),
@@ -84,6 +80,10 @@ std::array<Pipeline, 3> createBlur(const Device& device, int reach) {
 }
 
 }  // namespace
+
+uint32_t paddedSamples(const DensityGrid& grid) {
+    return uint32_t((grid.size.x + 3) / 4 * 4) * uint32_t(grid.size.y) * uint32_t(grid.size.z);
+}
 
 DensityKernels createDensityKernels(const Device& device) {
     const std::array shaders = {ShaderOptions{.name = "particles/bucket.comp"},
@@ -132,6 +132,22 @@ std::vector<float> blurWeights(double radius) {
     return {w.begin(), w.end()};
 }
 
+void recordSorted(Commands& commands, const DensityKernels& kernels, DensityBuffers& b,
+                  const gpu::DensityPush& push, const Buffer& particles) {
+    const uint32_t groups = groupsFor(push.particles, DENSITY_GROUP);
+    const auto buckets = uint32_t(push.buckets.x * push.buckets.y * push.buckets.z);
+    reserve(commands.device, b.keys, 4ull * push.particles);
+    reserve(commands.device, b.sorted, 16ull * push.particles);
+    beginStage(commands, "sort");
+    dispatchGroups(commands, kernels.bucket, groups, push,
+                   std::array{Descriptor{0, particles}, Descriptor{1, b.keys}});
+    barrier(commands);
+    sortByKey(commands, kernels.sort, b.buckets, b.keys, b.order, push.particles, buckets + 1);
+    dispatchGroups(commands, kernels.gather, groups, push,
+                   std::array{Descriptor{0, particles}, Descriptor{1, b.order}, Descriptor{2, b.sorted}});
+    barrier(commands);
+}
+
 namespace {
 
 /// What the ways share.
@@ -152,18 +168,7 @@ struct Run {
 
 void recordExact(const Run& run) {
     DensityBuffers& b = run.buffers;
-    const Device& device = run.commands.device;
-    const uint32_t count = run.push.particles;
-    const auto buckets = uint32_t(run.push.buckets.x * run.push.buckets.y * run.push.buckets.z);
-    reserve(device, b.keys, 4ull * count);
-    reserve(device, b.sorted, 16ull * count);
-    beginStage(run.commands, "sort");
-    run.dispatchOver(count, run.kernels.bucket,
-                     std::array{Descriptor{0, run.particles}, Descriptor{1, b.keys}});
-    sortByKey(run.commands, run.kernels.sort, b.buckets, b.keys, b.order, count, buckets + 1);
-    run.dispatchOver(
-        count, run.kernels.gather,
-        std::array{Descriptor{0, run.particles}, Descriptor{1, b.order}, Descriptor{2, b.sorted}});
+    recordSorted(run.commands, run.kernels, b, run.push, run.particles);
     beginStage(run.commands, "density");
     run.dispatchOver(
         run.samples, run.kernels.exact,
@@ -215,7 +220,7 @@ void recordBlur(Run& run) {
 Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& buffers,
                    const DensityConfig& config, const Buffer& particles, uint32_t count) {
     if (const Done fit = fits(config, commands.device); !fit) return fit.error();
-    Run run{commands, kernels, buffers, config, particles, pushOf(config, count), samplesOf(config.grid)};
+    Run run{commands, kernels, buffers, config, particles, pushOf(config, count), paddedSamples(config.grid)};
     reserve(commands.device, buffers.density, 4ull * run.samples);
     if (count == 0) {
         fill(commands, buffers.density, 0);

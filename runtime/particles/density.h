@@ -32,6 +32,10 @@
 
 namespace fw {
 
+namespace gpu {
+struct DensityPush;
+}
+
 struct DensityKernels {
     CountingSort sort;
     Pipeline bucket, gather, exact, splatProxies, proxies, splat;
@@ -65,6 +69,14 @@ struct DensityConfig {
 /// bind.
 Done recordDensity(Commands& commands, DensityKernels& kernels, DensityBuffers& buffers,
                    const DensityConfig& config, const Buffer& particles, uint32_t count);
+
+/// Records the particles by the buckets of the push constants: buffers.sorted has the places in sides of a
+/// bucket, buckets.starts the first of each bucket, the last of which has all that are in none.
+void recordSorted(Commands& commands, const DensityKernels& kernels, DensityBuffers& buffers,
+                  const gpu::DensityPush& push, const Buffer& particles);
+
+/// Samples of a grid in buffers, with rows padded to four.
+uint32_t paddedSamples(const DensityGrid& grid);
 
 /// Weights of a blur, from the middle on, whose products are nearest to the density of a particle `radius`
 /// cells wide.

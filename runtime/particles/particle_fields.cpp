@@ -79,7 +79,7 @@ void ParticleFields::setProgram(const Program& program) {
             parts.erase(same);
         }
         next.back().volume = i;
-        next.back().radius = 0.0;  // the volumes are others
+        next.back().numbers = {};  // the volumes are others
     }
     parts = std::move(next);
 }
@@ -96,16 +96,13 @@ uint64_t ParticleFields::slots() const {
 
 std::vector<ParticleCloud> ParticleFields::clouds(const Program& program) const {
     std::vector<ParticleCloud> made;
-    for (const Part& part : parts) {
-        // As recordParticleVolume() has it; a threshold that no particle reaches alone leaves a small one.
-        const double share = std::sqrt(std::max(1.0 - std::cbrt(part.threshold), 0.04));
+    for (const Part& part : parts)
         for (const glm::mat4& toWorld : placesOf(program, part.volume))
             made.push_back({.places = &part.simulation.places(),
                             .velocities = part.simulation.velocities(),
                             .slots = part.simulation.slots(),
-                            .radius = float(share * part.radius),
+                            .radius = float(part.numbers.drop),
                             .toWorld = toWorld});
-    }
     return made;
 }
 
@@ -116,24 +113,23 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
     const std::vector<double> now = parts.empty() ? std::vector<double>() : values(seconds);
     for (Part& part : parts) {
         const ParticleField& field = *part.simulation.recipe();
-        const double madeWith = std::exchange(part.radius, 0.0);  // no samples, should anything go wrong
+        const SurfaceNumbers madeWith =
+            std::exchange(part.numbers, {});  // no samples, should anything go wrong
         const Result<bool> moved = part.simulation.goTo(seconds, values, progress);
         if (!moved) return atNode(moved.error(), field);
-        const std::vector<double> numbers =
-            evaluate(field.ir, std::array{field.radius, field.threshold}, now, {});
-        const double radius = numbers[0], threshold = numbers[1];
-        const bool same = radius == madeWith && threshold == part.threshold;
+        const SurfaceNumbers numbers = surfaceNumbers(field.ir, field.particles, field.toField, now);
+        const bool same = numbers == madeWith;
         changes.places |= *moved || !same;
         if (same && surfaces == part.surface && !(*moved && surfaces)) {
-            part.radius = radius;
+            part.numbers = numbers;
             continue;
         }
-        if (!(radius > 0.0) || !(threshold > 0.0))
+        if (!(numbers.radius > 0.0) || !(numbers.threshold > 0.0))
             return atNode(Error{.message = "the radius and the threshold must be above 0"}, field);
         if (!kernels) kernels = createParticleVolumeKernels(*device);
         const ParticleVolumeConfig config{.grid = program.ir.volumes()[part.volume]->grid,
-                                          .radius = radius,
-                                          .threshold = threshold,
+                                          .numbers = numbers,
+                                          .surface = field.surface,
                                           .method = field.method,
                                           .trueDistance = field.trueDistance};
         Commands commands(*device);
@@ -144,7 +140,7 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
             !recorded)
             return atNode(recorded.error(), field);
         send(commands);
-        part.radius = radius, part.threshold = threshold, part.surface = surfaces;
+        part.numbers = numbers, part.surface = surfaces;
         changes.fields = true;
     }
     return changes;

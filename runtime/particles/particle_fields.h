@@ -46,8 +46,8 @@ class ParticleFields {
     struct Part {
         std::size_t volume;  ///< among the program's
         Simulation simulation;
-        double radius = 0.0, threshold = 0.0;  ///< that its samples were made with
-        bool surface = true;                   ///< whether they are of the particles
+        SurfaceNumbers numbers{};  ///< that its samples were made with; all 0: there are none
+        bool surface = true;       ///< whether they are of the particles
     };
     const Device* device;
     std::optional<ParticleVolumeKernels> kernels;  ///< made when first used

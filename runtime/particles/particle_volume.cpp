@@ -19,15 +19,40 @@ uint32_t countOf(const glm::ivec3& size) { return uint32_t(size.x) * uint32_t(si
 
 ParticleVolumeKernels createParticleVolumeKernels(const Device& device) {
     const std::array shaders = {ShaderOptions{.name = "particles/level.comp"},
+                                ShaderOptions{.name = "particles/level.comp", .defines = {"DISTANCES"}},
                                 ShaderOptions{.name = "particles/reach.comp"},
                                 ShaderOptions{.name = "particles/samples.comp"},
                                 ShaderOptions{.name = "particles/pyramid.comp"},
                                 ShaderOptions{.name = "particles/seed.comp"},
                                 ShaderOptions{.name = "particles/samples.comp", .defines = {"SWEPT"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createDensityKernels(device), std::move(made[0]), std::move(made[1]),  std::move(made[2]),
-            std::move(made[3]),           std::move(made[4]), createSweep(device), std::move(made[5])};
+    ParticleVolumeKernels kernels;
+    kernels.density = createDensityKernels(device);
+    kernels.surface = createSurfaceKernels(device);
+    kernels.sweep = createSweep(device);
+    Pipeline* const places[] = {&kernels.level,   &kernels.border, &kernels.reach,       &kernels.samples,
+                                &kernels.pyramid, &kernels.seed,   &kernels.sweptSamples};
+    for (std::size_t i = 0; i < made.size(); ++i) *places[i] = std::move(made[i]);
+    return kernels;
 }
+
+namespace {
+
+/// What level.comp takes: densities, or distances.
+Done recordDistances(Commands& commands, ParticleVolumeKernels& kernels, ParticleVolumeBuffers& b,
+                     const ParticleVolumeConfig& config, const Buffer& particles, uint32_t count) {
+    const DensityGrid grid{
+        .origin = config.grid.origin, .cell = float(config.grid.cell), .size = config.grid.size};
+    if (config.surface == ParticleSurface::blobs)
+        return recordDensity(commands, kernels.density, b.density,
+                             {.grid = grid, .radius = float(config.numbers.radius), .method = config.method},
+                             particles, count);
+    return recordSurface(commands, kernels.density, kernels.surface, b.density, b.shapes,
+                         {.grid = grid, .drop = float(config.numbers.drop), .surface = config.surface},
+                         particles, count);
+}
+
+}  // namespace
 
 Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, ParticleVolumeBuffers& b,
                           const ParticleVolumeConfig& config, const Buffer& particles, uint32_t count,
@@ -40,24 +65,22 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
                                 std::to_string(most >> 20) +
                                 " where particles are among them: lower the resolution"};
     const VolumeGrid& grid = config.grid;
-    const DensityConfig density{.grid = {.origin = grid.origin, .cell = float(grid.cell), .size = grid.size},
-                                .radius = float(config.radius),
-                                .method = config.method};
-    if (const Done recorded = recordDensity(commands, kernels.density, b.density, density, particles, count);
-        !recorded)
+    if (const Done recorded = recordDistances(commands, kernels, b, config, particles, count); !recorded)
         return recorded.error();
 
     const std::vector<glm::ivec3> levels = blockLevels(grid);
-    const double threshold = std::cbrt(config.threshold);
+    const double threshold = std::cbrt(config.numbers.threshold);
     gpu::ParticleVolumePush push{};
     push.size = grid.size;
     push.cell = float(grid.cell);
     push.blocks = levels.front();
     push.first = first;
     push.coarse = (levels.front() + 1) / 2;
-    push.radius = float(config.radius / grid.cell);
+    push.radius = float(config.numbers.radius / grid.cell);
     push.least = float(threshold);
     push.most = float(std::max(1.0, threshold + 0.1));
+    const bool blobs = config.surface == ParticleSurface::blobs;
+    push.flattest = blobs ? 1.0f : 0.4f;
     const uint32_t blocks = countOf(push.blocks), coarse = countOf(push.coarse);
     reserve(device, b.least, 4ull * blocks);
     for (Buffer& each : b.reach) reserve(device, each, 4ull * coarse);
@@ -66,7 +89,7 @@ Done recordParticleVolume(Commands& commands, ParticleVolumeKernels& kernels, Pa
         barrier(commands);
     };
     beginStage(commands, "distance");
-    run(kernels.level, blocks,
+    run(blobs ? kernels.level : kernels.border, blocks,
         std::array{Descriptor{0, b.density.density}, Descriptor{1, b.least},
                    Descriptor{2, b.density.density}});
     if (config.trueDistance) {

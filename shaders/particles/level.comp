@@ -1,4 +1,4 @@
-// Density to what would be the distance for a particle alone. Each lane does a block of 4 x 4 x 4 samples, and keeps its least.
+// Density to what would be the distance for a particle alone; with DISTANCES these are given. Each lane does a block of 4 x 4 x 4 samples, and keeps its least.
 #include "particles/volume.glsl"
 
 layout(local_size_x = VOLUME_GROUP) in;
@@ -6,12 +6,16 @@ layout(binding = 0, rgba32ui) readonly uniform uimageBuffer density;  // floats
 layout(binding = 2, scalar) writeonly buffer Distance { vec4 distances[]; };  // in its place
 layout(binding = 1, scalar) writeonly buffer Least { float least[]; };
 
+#ifdef DISTANCES
+vec4 distanceAt(vec4 distance) { return distance; }
+#else
 vec4 distanceAt(vec4 density) {
     vec4 s = pow(max(density, 1e-30), vec4(1.0 / 3.0));
     float at = sqrt(push.most - push.least);
     vec4 outside = sqrt(max(push.most - s, 0.0)) - at, inside = (push.least - s) * (0.5 / at);
     return push.radius * mix(inside, outside, lessThan(s, vec4(push.least)));
 }
+#endif
 
 void main() {
     uint index = item();

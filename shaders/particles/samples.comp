@@ -70,7 +70,7 @@ void main() {
             vec3 gradient = away < kNowhere ? side * off / max(away, 1e-6) : vec3(0.0);
 #else
             vec3 gradient = vec3(gx[k], gy[k], gz[k]);
-            float steep = max(length(gradient), 1.0);
+            float steep = max(length(gradient), push.flattest);
             float reach = mix(low.x, low.y, (float(4 * at.x + k) - 3.5) / 8.0 - float(corner.x)) - kTooFar;
             float value = max(f[k] / steep, reach);
             gradient /= steep;

@@ -17,6 +17,7 @@ struct ParticleVolumePush {
     float radius;   // R, cells
     float least;    // the cube root of the threshold
     float most;     // of the cube root of a density, where the distance would be 0 were there no threshold
+    float flattest;  // slope that values are divided by at least, which are no distances where it is less
     uint from, to;  // of the pyramid: the first block of a level, and of the next one
 };
 

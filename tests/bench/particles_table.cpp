@@ -93,6 +93,51 @@ void recordSlideExact(Commands& commands, DensityKernels& kernels, const Pipelin
         std::array{Descriptor{0, b.sorted}, Descriptor{1, b.buckets.starts}, Descriptor{2, b.density}});
 }
 
+/// Surfaces whose particles feel one another four cells away, as many as the blur's.
+void surfaceTable(Bench& bench, ParticleVolumeKernels& kernels, const Buffer& particles) {
+    Table table{
+        .title = "From " + count(kParticles) + " particles to a surface, four cells wide (ms)",
+        .header = {"surface", "samples", "all", "sort", "shape", "blocks", "surface", "times the blur"}};
+    DensityBuffers buffers;
+    Buffer shapes;
+    for (const int size : bench.sizes({128})) {
+        const DensityGrid grid{
+            .origin = glm::vec3(-1.0f), .cell = 2.0f / float(size - 1), .size = glm::ivec3(size)};
+        const float radius = kRadiusInCells * grid.cell;
+        double blur = 0.0;
+        for (const ParticleSurface surface :
+             {ParticleSurface::blobs, ParticleSurface::average, ParticleSurface::anisotropic}) {
+            const bool blobs = surface == ParticleSurface::blobs;
+            const double reach = surface == ParticleSurface::average ? AVERAGE_REACH : ANISOTROPIC_REACH;
+            const SurfaceConfig config{grid, float(radius / reach), surface};
+            const auto run = [&](bool timed) {
+                const auto start = Clock::now();
+                Commands commands(bench.device(), timed);
+                const Done recorded = blobs ? recordDensity(commands, kernels.density, buffers,
+                                                            {grid, radius}, particles, kParticles)
+                                            : recordSurface(commands, kernels.density, kernels.surface,
+                                                            buffers, shapes, config, particles, kParticles);
+                if (!recorded) bench.fail(recorded.error().message);
+                submit(commands);
+                return std::pair(millisecondsSince(start), commands.stages);
+            };
+            const Figure all = measure(bench.options.repeats, [&] { return run(false).first; });
+            if (blobs) blur = all.median();
+            std::map<std::string, double> stages;
+            for (const StageTime& stage : run(true).second) stages[stage.name] += stage.milliseconds;
+            const auto time = [&](const char* stage) {
+                return stages[stage] > 0.0 ? number(stages[stage]) : "";
+            };
+            table.rows.push_back({blobs ? "blobs, by the blur" : kParticleSurfaceNames[std::size_t(surface)],
+                                  count(grid.size.x * grid.size.y * grid.size.z), text(all), time("sort"),
+                                  time("shape"), time("blocks"), time("surface"),
+                                  number(all.median() / blur)});
+        }
+    }
+    table.notes.push_back("Wanted: average at most 4 times the blur, anisotropic at most 12 times.");
+    print(table, bench.options.markdown);
+}
+
 /// What becomes of a density: samples of a volume.
 void volumeTable(Bench& bench, ParticleVolumeKernels& kernels, const Buffer& particles) {
     Table table{
@@ -102,12 +147,12 @@ void volumeTable(Bench& bench, ParticleVolumeKernels& kernels, const Buffer& par
         for (const bool trueDistance : {false, true}) {
             ParticleVolumeBuffers buffers;
             ParticleVolumeConfig config;
-            config.threshold = 0.5;
+            config.numbers.threshold = 0.5;
             config.trueDistance = trueDistance;
             config.grid.origin = glm::dvec3(-1.0);
             config.grid.cell = 2.0 / double(size - 1);
             config.grid.size = glm::ivec3(size);
-            config.radius = kRadiusInCells * config.grid.cell;
+            config.numbers.radius = kRadiusInCells * config.grid.cell;
             std::size_t texels = config.grid.samples();
             for (const glm::ivec3& level : blockLevels(config.grid))
                 texels += std::size_t(level.x) * std::size_t(level.y) * std::size_t(level.z);
@@ -233,6 +278,7 @@ void particlesTable(Bench& bench) {
     table.notes.push_back("Errors are of the densest sample. Blur is wanted at least " +
                           number(kLeastOverExact) + " times as fast as exact.");
     print(table, bench.options.markdown);
+    surfaceTable(bench, volumeKernels, particles);
     volumeTable(bench, volumeKernels, particles);
     frameTable(bench);
     fluidTable(bench);

@@ -57,7 +57,7 @@ TEST(Particles, AChainIsARecipe) {
     EXPECT_EQ(numbers.vector("position"), glm::dvec3(0, 2, 0));
     EXPECT_EQ(StageNumbers(particles.ir, particles.particles.stages[1], {}).vector("gravity").y, -9.81);
     EXPECT_EQ(particles.method, DensityMethod::exact);
-    EXPECT_EQ(evaluate(particles.ir, particles.radius, {}, {}), 0.2);
+    EXPECT_EQ(surfaceNumbers(particles.ir, particles.particles, particles.toField, {}).radius, 0.2);
     EXPECT_TRUE(particles.particles.stages[1].fields.empty());
 }
 
@@ -196,6 +196,43 @@ TEST(Particles, AGridThatIsFoundIsAsFineAsItsParticlesAsk) {
     EXPECT_NEAR(cut.origin[0], -9.0, cut.cell);
     EXPECT_NEAR(cut.origin[1] + cut.cell * (cut.size[1] - 1),
                 found.origin[1] + found.cell * (found.size[1] - 1), cut.cell + found.cell);
+}
+
+TEST(Particles, ASmoothSurfaceFindsItsDropAndItsCells) {
+    const auto compiled = [](const std::string& inputs) {
+        return *compile(graphOf(R"({"id": "cube", "type": "box"},
+            {"id": "water", "type": "sph_fluid", "inputs": {"source": {"from": "cube"}, "spacing": 0.1}},)" +
+                                field("water", inputs)));
+    };
+    const auto dropOf = [](const Program& program) {
+        const ParticleField& own = particlesOf(program);
+        return surfaceNumbers(own.ir, own.particles, own.toField, {}).drop;
+    };
+    for (const char* surface : {R"(, "surface": "average")", R"(, "surface": "anisotropic")"}) {
+        const Program program = compiled(surface);
+        const double drop = dropOf(program);
+        EXPECT_NEAR(4.0 / 3.0 * 3.14159265358979 * drop * drop * drop, 0.001,
+                    1e-9);  // that of a spacing's cube
+        EXPECT_LE(program.ir.volumes()[0]->grid.cell, 0.5 * drop);
+        EXPECT_GT(program.ir.volumes()[0]->grid.cell, 0.48 * drop);
+        EXPECT_TRUE(program.notes.empty());
+        const Program given = compiled(std::string(surface) + R"(, "drop": 0.2, "resolution": 20)");
+        EXPECT_EQ(dropOf(given), 0.2);
+        EXPECT_NEAR(given.ir.volumes()[0]->grid.cell, (2.0 + 4 * 0.2) / 20,
+                    1e-9);  // the tank, two drops to each side
+        ASSERT_EQ(given.notes.size(), 1u);
+        EXPECT_NE(given.notes[0].message.find("drops with a radius of 0.2 m: raise the resolution to 28"),
+                  std::string::npos)
+            << given.notes[0].message;
+        EXPECT_NE(program.ir.volumes()[0]->hash, compiled("").ir.volumes()[0]->hash);
+    }
+    // Of other particles, and of blobs, the one of a blob alone.
+    const double blob = 0.15 * std::sqrt(1.0 - std::cbrt(0.3));
+    EXPECT_NEAR(dropOf(compiled("")), blob, 1e-12);
+    EXPECT_NEAR(dropOf(*compile(graphOf(kEmitter + field("rain", R"(, "surface": "average")")))), blob,
+                1e-12);
+    EXPECT_EQ(compiled("").ir.volumes()[0]->grid.size,
+              compiled(R"(, "resolution": 96)").ir.volumes()[0]->grid.size);
 }
 
 TEST(Particles, FilesOfPlaces) {

@@ -49,8 +49,7 @@ FieldVolumePtr made(const FieldVolume& unmade, const std::vector<glm::vec4>& pla
     Commands commands(device());
     const Done recorded = recordParticleVolume(commands, ParticleFieldOnDevice::kernels(), buffers,
                                                {.grid = unmade.grid,
-                                                .radius = radius,
-                                                .threshold = threshold,
+                                                .numbers = {radius, threshold, 0.0},
                                                 .method = method,
                                                 .trueDistance = trueDistance},
                                                particles, uint32_t(places.size()), volumes, 0);
