@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "graph/compile/effort.h"
+#include "runtime/cli/kept_paths.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/outputs.h"
@@ -60,6 +61,10 @@ void noteDraft(Player& player, const RenderCommandOptions& options) {
 int runRender(const RenderCommandOptions& options) {
     const auto size = pictureSize("render", options.size);
     if (!size) return kBadUsage;
+    if (options.bounces > 0 && !options.reference) {
+        std::fprintf(stderr, "fieldwright render: --bounces is of paths of light: give --reference too\n");
+        return kBadUsage;
+    }
     if (options.quality == FieldBy::tapes && renderedBy(options) != options.quality) {
         std::fprintf(stderr,
                      "fieldwright render: %s traces the field, and --quality draft is a picture of the mesh "
@@ -99,11 +104,35 @@ int runRender(const RenderCommandOptions& options) {
                         nothingToSee(!player->regionFound(), player->region(), player->resolution()));
     progress.start("light", 60);
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
+    std::optional<KeptPaths> keptPaths;
+    PathSums sums;
+    if (render.reference && render.bounces > 0) {
+        keptPaths.emplace(options.output, *player, render);
+        sums = keptPaths->read();
+        const auto tell = [&sums, &options] {
+            whenEnded({.said = "; " + std::to_string(sums.paths) + " of " + std::to_string(options.samples) +
+                               " samples are kept: the same command goes on"});
+        };
+        if (sums.paths > 0) {
+            std::fprintf(stderr, "%s: note: goes on from %d samples that were kept\n", options.output.c_str(),
+                         sums.paths);
+            tell();
+        }
+        render.sums = &sums;
+        render.keepSums = [&keptPaths, &sums, tell] {
+            if (keptPaths->write(sums)) tell();  // the picture does not depend on it
+        };
+        if (player->graph().scene->is_object() && player->graph().scene->contains("fog"))
+            std::fprintf(stderr, "%s: note: paths of light leave out the scene's fog\n",
+                         options.output.c_str());
+    }
     const Result<Picture> picture = player->frame(render);
     if (!picture) return badInput(options.mesh, picture.error());
-    if (const Done written =
-            savePicture(*picture, options.output, [] { whenEnded({.said = "; the picture was written"}); });
-        !written)
+    const auto isThere = [&] {
+        if (keptPaths) keptPaths->remove();
+        whenEnded({.said = "; the picture was written"});
+    };
+    if (const Done written = savePicture(*picture, options.output, isThere); !written)
         return print(written.error()), kSystemFailure;
     progress.finish();
     noteDraft(*player, options);

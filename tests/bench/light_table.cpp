@@ -5,6 +5,7 @@
 #include "graph/emit/glsl.h"
 #include "graph/evaluate/evaluate.h"
 #include "runtime/play/session.h"
+#include "runtime/system/clock.h"
 #include "tests/bench/tables.h"
 
 namespace fw::bench {
@@ -256,6 +257,73 @@ void frameTable(Bench& bench, Stage& stage_) {
     print(table, bench.options.markdown);
 }
 
+/// What secondary rays add to a frame, and how many whole paths of light there are in a second.
+void secondaryTable(Bench& bench, Stage& stage_) {
+    Table table{.title =
+                    "A frame with secondary rays, one of each kind a pixel, 1280 x 720, tower at 128 cells, "
+                    "the camera moving (ms)",
+                .header = {"rays", "ambient", "secondary", "filter", "light", "all", "of none"}};
+    const struct {
+        const char* name;
+        bool bounce, reflections;
+    } ways[] = {
+        {"none", false, false}, {"bounce", true, false}, {"reflections", false, true}, {"both", true, true}};
+    double none = 0, both = 0, filter = 0;
+    stage_.renderer.tracing = true;
+    stage_.renderer.trust = 1.0f;
+    stage_.renderer.ambient.options = {.radius = 0.8f, .bias = 0.01f};
+    for (const auto& way : ways) {
+        stage_.options.scene = {};
+        stage_.options.scene.sky = Sky{};
+        stage_.options.scene.bounce = way.bounce;
+        stage_.options.scene.reflections = way.reflections;
+        forgetHistory(stage_.renderer.ambient);
+        std::map<std::string, Figure> parts;
+        int frame = 0;
+        const Figure all = measure(bench.options.repeats, [&] {
+            stage_.turn(frame++);
+            Commands commands(stage_.session.device(), true);
+            drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
+            submit(commands);
+            double sum = 0;
+            for (const StageTime& time : commands.stages) {
+                parts[time.name].runs.push_back(time.milliseconds);
+                sum += time.milliseconds;
+            }
+            return sum;
+        });
+        const auto part = [&](const char* name) {
+            std::ranges::sort(parts[name].runs);
+            return parts[name].runs.empty() ? 0.0 : parts[name].median();
+        };
+        if (&way == &ways[0]) none = all.median();
+        both = all.median();
+        filter = part("filter");
+        table.rows.push_back({way.name, number(part("ambient")), number(part("secondary")),
+                              number(part("filter")), number(part("light")), text(all),
+                              number(all.median() / none)});
+    }
+    stage_.options.scene = {};
+    stage_.turn(0);
+    RenderOptions paths = stage_.options;
+    paths.reference = true;
+    paths.bounces = 4;
+    paths.samples = 4;
+    const RenderScene scene = stage_.scene();
+    const Figure traced = measure(bench.options.repeats, [&] {
+        const Clock::time_point start = Clock::now();
+        if (!renderPicture(stage_.renderer, scene, paths)) return 0.0;
+        return millisecondsSince(start);
+    });
+    table.notes = {"Both, of none: at most 2.5 wanted, " + std::string(metOrMissed(both / none, 2.5)) + " (" +
+                       number(both / none) + "). The filter, of the frame with both: at most 0.15 wanted, " +
+                       metOrMissed(filter / both, 0.15) + " (" + number(filter / both) + ").",
+                   "Whole paths, of up to 4 bounces: " +
+                       number(double(kWidth) * kHeight * paths.samples / traced.median() / 1000) +
+                       " million a second."};
+    print(table, bench.options.markdown);
+}
+
 /// Drawing the depth of a fine mesh, of all of its clusters and of those that are seen.
 void cullTable(Bench& bench, Stage& stage_) {
     constexpr int kFine = 512;
@@ -310,6 +378,7 @@ void lightTable(Bench& bench) {
     ambientTable(bench, stage_);
     bakedTable(bench, stage_, *program);
     frameTable(bench, stage_);
+    secondaryTable(bench, stage_);
     cullTable(bench, stage_);
 }
 

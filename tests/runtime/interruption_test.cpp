@@ -99,6 +99,27 @@ TEST_F(Interruption, WhatAKilledProcessLeftGoesWhenTheFileIsWrittenAgain) {
     close(running);
 }
 
+TEST_F(Interruption, PathsOfLightGoOnWhereTheyWereLeft) {
+    const auto render = [&](const std::string& name, const char* samples,
+                            const CommandOptions& options = {}) {
+        return runCommand({"render", graph, "-o", folder.path(name), "--size", "64x48", "--reference",
+                           "--bounces", "2", "--samples", samples},
+                          options);
+    };
+    EXPECT_EQ(render("whole.png", "24").status, 0);
+    // What an ended command leaves behind, by hand, for when it does is a matter of time: none of another
+    // picture is taken, and none that is not whole.
+    for (const char* left :
+         {"", "FWPATHS1", "of something else, and long enough to be a head of such a file"}) {
+        test::writeText(folder.path("again.png.paths"), left);
+        const CommandResult result = render("again.png", "24");
+        EXPECT_EQ(result.status, 0) << result.errors;
+        EXPECT_EQ(test::readText(folder.path("again.png")), test::readText(folder.path("whole.png")));
+        EXPECT_EQ(folder.names(), (std::vector<std::string>{"again.png", "whole.png"}));
+        fs::remove(folder.path("again.png"));
+    }
+}
+
 TEST_F(Interruption, TwoWritersOfOneFileDoNotMeet) {
     Result<OutputFile> one = OutputFile::open(folder.path("a"), nullptr),
                        two = OutputFile::open(folder.path("a"), nullptr);

@@ -1,0 +1,75 @@
+#include "runtime/cli/kept_paths.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "graph/base/hash.h"
+#include "runtime/system/output_file.h"
+
+namespace fw::cli {
+
+namespace {
+
+struct Head {
+    char name[8] = {'F', 'W', 'P', 'A', 'T', 'H', 'S', '1'};
+    uint64_t key = 0;
+    int64_t paths = 0;
+};
+
+uint64_t keyOf(const Player& player, const RenderOptions& options) {
+    uint64_t key = player.program().structureHash;
+    const auto add = [&](double value) { key = mixed(key, std::bit_cast<uint64_t>(value)); };
+    for (const float number : player.program().numbers()) add(number);
+    for (const char letter : player.graph().scene->dump()) key = mixed(key, uint64_t(letter));
+    add(player.time());
+    const Box region = player.region();
+    for (int axis = 0; axis < 3; ++axis) add(region.lo[axis]), add(region.hi[axis]);
+    add(options.width), add(options.height), add(options.bounces), add(player.resolution());
+    return key;
+}
+
+}  // namespace
+
+KeptPaths::KeptPaths(const std::string& output, const Player& player, const RenderOptions& options)
+    : path(output + ".paths"),
+      key(keyOf(player, options)),
+      floats(4 * std::size_t(options.width) * std::size_t(options.height)) {}
+
+PathSums KeptPaths::read() const {
+    std::ifstream file(path, std::ios::binary);
+    Head head;
+    const Head mine;
+    PathSums sums;
+    if (!file.read(reinterpret_cast<char*>(&head), sizeof head) ||
+        std::memcmp(head.name, mine.name, 8) != 0 || head.key != key || head.paths < 1 ||
+        head.paths > kMostSamples)
+        return sums;
+    sums.sums.resize(floats);
+    if (!file.read(reinterpret_cast<char*>(sums.sums.data()), std::streamsize(floats * sizeof(float))))
+        return {};
+    for (const float value : sums.sums)
+        if (!std::isfinite(value)) return {};
+    sums.paths = int(head.paths);
+    return sums;
+}
+
+Done KeptPaths::write(const PathSums& sums) const {
+    Result<OutputFile> file = OutputFile::open(path, nullptr);
+    if (!file) return file.error();
+    Head head;
+    head.key = key;
+    head.paths = sums.paths;
+    file->write(&head, sizeof head);
+    file->write(std::span<const float>(sums.sums));
+    return file->commit();
+}
+
+void KeptPaths::remove() const {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+}
+
+}  // namespace fw::cli
