@@ -60,7 +60,7 @@ void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuf
     const auto both = [&](Image(&images)[2]) {
         for (Image& image : images) forget(image);
     };
-    if (secondary.kinds.bounce) both(secondary.bounce);
+    if (secondary.kinds.bounce) both(secondary.bounce), forget(secondary.smoothBounce[1]);
     if (secondary.kinds.reflections) both(secondary.reflection);
     if (transmits) ready(secondary.passed), ready(secondary.sunlight);
     barrier(commands);
@@ -71,7 +71,9 @@ void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuf
                                      {3, gbuffer.tileLists},
                                      storage(5, gbuffer.before()),
                                      storage(8, shadowMap)};
-    if (secondary.kinds.bounce) bound.push_back(storage(18, secondary.bounce[before]));
+    if (secondary.kinds.bounce)
+        bound.insert(bound.end(),
+                     {storage(18, secondary.bounce[before]), storage(24, secondary.smoothBounce[1])});
     if (secondary.kinds.reflections) bound.push_back(storage(20, secondary.reflection[before]));
     if (secondary.kinds.bounce) bound.push_back(storage(19, secondary.bounce[secondary.current]));
     if (secondary.kinds.reflections) bound.push_back(storage(21, secondary.reflection[secondary.current]));

@@ -92,7 +92,9 @@ void main() {
     vec3 sunned = vec3(sunlit);
 #ifdef TRANSMITS
     // Through what transmits, which the map takes for opaque.
-    sunned = frame.shadowSize != 0 && occluded ? imageLoad(sunlight, at).rgb : sunned;
+    vec3 fromIt = max(max(frame.lo - p, p - frame.hi), 0.0);
+    float far = smoothstep(0.5, 1.0, length(fromIt) / frame.ambientRadius);
+    if (frame.shadowSize != 0 && occluded) sunned = mix(imageLoad(sunlight, at).rgb, sunned, far);
     sunlit = (sunned.r + sunned.g + sunned.b) / 3.0;
 #endif
 
@@ -106,7 +108,10 @@ void main() {
 #ifdef SKY
     vec3 around = 0.66 * open * skylight(vec3(0, 1, 0));
 #ifdef BOUNCE
-    around = occluded ? imageLoad(bounce, at).rgb : skylight(vec3(0, 1, 0));
+    // Rays know the ground as far as they may reach the solid; there it goes over to what an open sky sends.
+    around = skylight(vec3(0, 1, 0));
+    vec3 from = max(max(frame.lo - p, p - frame.hi), 0.0);
+    if (occluded) around = mix(imageLoad(bounce, at).rgb, around, smoothstep(0.5, 1.0, length(from) / frame.ambientRadius));
 #endif
     vec3 onGround = s.base * (frame.sunLight * sunned * (max(frame.sun.y, 0.0) / kPi) + around);
     vec3 color = mix(behind, onGround + lamplight, fade);

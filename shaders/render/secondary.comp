@@ -31,6 +31,7 @@ layout(binding = 8, r32f) readonly uniform image2D shadowMap;
 #ifdef BOUNCE
 layout(binding = 18, rgba16f) readonly uniform image2D bounceBefore;
 layout(binding = 19, rgba16f) writeonly uniform image2D bounceNow;
+layout(binding = 24, rgba16f) readonly uniform image2D bounceSmooth;  // of the frame before, as it was filtered
 #endif
 #ifdef REFLECTIONS
 layout(binding = 20, rgba16f) readonly uniform image2D reflectionBefore;
@@ -220,7 +221,8 @@ void main() {
                 if (hit) {
                     seen.base = clamp(material.baseColor, 0.0, 1.0);
                     seen.metallic = clamp(material.metallic, 0.0, 1.0);
-                    seen.roughness = clamp(material.roughness, 0.25, 1.0);
+                    // What chalk sees in a mirror is rare and bright: it is spread.
+                    seen.roughness = clamp(material.roughness, kind == kBounce ? 0.6 : 0.25, 1.0);
                     seen.emission = clamp(material.emission, 0.0, kMostEmission);
                     seen.n = dot(m, d) > 0.0 ? -m : m;
                 }
@@ -236,8 +238,8 @@ void main() {
 #ifdef BOUNCE
                 // What the last frame knew: so light is thrown on again with each frame.
                 uvec2 there;
-                vec4 cached = sees && seenBefore(q, seen.n, there) ? imageLoad(bounceBefore, ivec2(there)) : vec4(0.0);
-                cached = cached.w > 0.0 ? cached : ownBounce;
+                vec4 cached = sees && seenBefore(q, seen.n, there) ? imageLoad(bounceSmooth, ivec2(there)) : vec4(0.0);
+                cached = cached.w > 0.0 || kind != kBounce ? cached : ownBounce;
                 around = cached.w > 0.0 ? min(cached.rgb, vec3(8.0)) : around;
 #endif
                 vec3 lit = reflected(seen, -d, frame.sun, frame.sunLight * sunlit) + seen.base * (1.0 - seen.metallic) * around +
