@@ -3,9 +3,9 @@
 //
 // The field's own surface is traced, by steps of its value; no mesh, no G-buffer, no map of shadows. At an opaque surface one
 // lamp, or the sun, is asked for by a ray of its own, and weighed against the chance that the path finds it by itself (Veach,
-// "Robust Monte Carlo methods", 1997: the balance heuristic). Facets are drawn as they are seen; light that they mask leaves as
-// from chalk, as does what they let through, tinted by the base colour: so nothing is lost or won at any roughness, without a
-// table. That part's albedo is not known in closed form but by the facet that was drawn, which is as good in the mean.
+// "Robust Monte Carlo methods", 1997: the balance heuristic). Facets are drawn as they are seen; light that they mask meets
+// the surface once more and leaves as from chalk, as does what they let through, tinted by the base colour: so nothing is lost or
+// won at any roughness, without a table. That part's albedo is not known in closed form but by the facet that was drawn, which is as good in the mean.
 //
 // Where light passes through, the path is reflected or bent by Fresnel's share and Snell's law, and loses within by Beer and
 // Lambert's (media.glsl). An interface's normal is the difference of the two fields' slopes. What lies behind an interface cannot
@@ -296,7 +296,8 @@ void main() {
         vec3 mirror = s.ground ? vec3(0.0) : mirrored(s), tint = mirror + (1.0 - mirror) * (s.ground ? 0.0 : fifth(1.0 - max(dot(from, h), 0.0)));
         vec3 l = 2.0 * dot(from, h) * h - from;
         float seen = l.z > 0.0 ? unmasked(from, l, alpha) : 0.0, share = mean(tint);
-        vec3 chalk = tint * (1.0 - seen) + (1.0 - tint) * s.base * (1.0 - s.metallic);
+        vec3 base = s.base * (1.0 - s.metallic), again = tint + (1.0 - tint) * base;  // of what meets the surface once more
+        vec3 chalk = tint * (1.0 - seen) * again + (1.0 - tint) * base;
         float likely = clamp(1.0 - mean(mirror) - (1.0 - mean(mirror)) * fifth(1.0 - from.z), 0.05, 1.0);  // share of chalk, about
         o = p + n * bias;
 
@@ -345,7 +346,7 @@ void main() {
             through *= tint / share;
         } else {
             bool masked = choice < share;
-            through *= masked ? tint / share : (1.0 - tint) * s.base * (1.0 - s.metallic) / max(1.0 - share, 1e-6);
+            through *= masked ? tint / share * again : (1.0 - tint) * base / max(1.0 - share, 1e-6);
             vec2 u = vec2(random(state), random(state));
             next = cosineDirection(n, u);
 #ifdef FIELD_TRANSMITS
