@@ -236,6 +236,7 @@ std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& optio
     if (!hasErrors(lowering.findings) && output) {
         // Only what the output needs counts.
         std::array<IrId, kSurfaceComponents> surface = lowered.at(output->id).outputs[0].value.ids;
+        if (lowered.at(output->id).transmits) lowering.lowerOpaque(*output);
         const bool small = lowering.state.ir.size() <= kMaxIrOperations;
         if (small)
             if (auto note = overflow(graph, lowering.state.ir, surface, lowering.live, lowering.origins))

@@ -89,8 +89,14 @@ Lowered GraphLowering::lower(const NodeAt& at) {
     Lowered made = at.node.muted && !at.type.open && !at.type.outputs.empty() ? passOn(at, &at.type.outputs)
                    : at.type.lower                                            ? at.type.lower(*this, at)
                                                                               : lowerBody(at);
+    if (state.opaquePart && state.transmissions != transmissions)
+        for (NodeOutput& output : made.outputs) language::leaveOpaquePart(state, output.value);
     state.ir.setOrigin(outer);
-    made.transmits = made.transmits || state.transmissions != transmissions || receivesTransmission(at);
+    // Particles are what they are, whatever they were put into.
+    const bool simulated = std::ranges::any_of(
+        made.outputs, [](const NodeOutput& output) { return output.type == Type::particles; });
+    made.transmits =
+        !simulated && (made.transmits || state.transmissions != transmissions || receivesTransmission(at));
     return made;
 }
 

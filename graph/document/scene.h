@@ -106,7 +106,7 @@ struct Scene {
     std::optional<Ground> ground = Ground{};
     std::optional<Fog> fog;
     std::vector<Lamp> lights;
-    bool bounce = false;       ///< light that surfaces throw on each other, once
+    bool bounce = false;       ///< light that surfaces throw on each other
     bool reflections = false;  ///< surfaces mirror each other, rather than the sky alone
     double exposure = 0.0;     ///< stops
     Tone tone = Tone::aces;

@@ -369,7 +369,7 @@ Result<Value> withMaterial(Lowering& s, Arguments a) {
     if (a.size() > 7)
         std::ranges::copy_n(convert(s, a[7], Type::vec3)->ids.begin(), 3,
                             result.ids.begin() + absorptionComponent);
-    giveTransmission(s, result);
+    s.transmissions += !s.ir.isConstant(result.ids[transmissionComponent], 0.0);
     return result;
 }
 Result<Value> countOf(Lowering& s, Arguments a) {

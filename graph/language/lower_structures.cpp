@@ -80,7 +80,8 @@ void Run::store(Frame& frame, const Instruction& i) {
     Value whole = i.kind == Kind::storePart ? *convert(state, *old, Type::surface) : *old;
     for (int k = 0; k < i.count; ++k)
         whole.ids[i.kind == Kind::storePart ? i.index + k : (i.index >> (2 * k)) & 3] = made.ids[k];
-    if (i.kind == Kind::storePart && i.index == transmissionComponent) giveTransmission(state, whole);
+    if (i.kind == Kind::storePart && i.index == transmissionComponent)
+        state.transmissions += !state.ir.isConstant(whole.ids[transmissionComponent], 0.0);
     assign(frame, slot, std::move(whole));
 }
 

@@ -19,11 +19,10 @@ Value emptySurface(Lowering& state) {
     return value;
 }
 
-void giveTransmission(Lowering& state, Value& surface) {
+void leaveOpaquePart(Lowering& state, Value& surface) {
+    if (surface.type != Type::surface) return;
     const IrId transmission = surface.ids[transmissionComponent];
     if (state.ir.isConstant(transmission, 0.0)) return;
-    ++state.transmissions;
-    if (!state.opaquePart) return;
     const IrId nothing = state.ir.constant(kEmptyDistance);
     IrId& distance = surface.ids[distanceComponent];
     distance = state.ir.isConstant(transmission)

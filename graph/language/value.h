@@ -59,8 +59,8 @@ Result<Value> convert(Lowering& state, const Value& value, Type type);
 bool standsFor(Type from, Type to);
 
 Value constantValue(Lowering& state, Type type, std::span<const double> numbers);
-/// To be called when a surface was given its transmission: as Lowering::opaquePart has it.
-void giveTransmission(Lowering& state, Value& surface);
+/// What a node that gave transmissions gives, as Lowering::opaquePart has it: nothing where light passes.
+void leaveOpaquePart(Lowering& state, Value& surface);
 /// The surface of nothing: far away everywhere.
 Value emptySurface(Lowering& state);
 inline constexpr double kEmptyDistance = 1e9;

@@ -57,8 +57,8 @@ struct InputSpec {
     std::vector<std::string> options = {};  ///< the allowed strings of an enum input
     std::string unit = {};  ///< "m", "1/m", "degrees", "degrees/m", "color" (linear sRGB), "" for a number
     std::string doc = {};
-    bool positive = false;  ///< must be > 0 (min alone allows equality)
-    bool whole = false;  ///< of a surface: is what it is, light passing through it or not, for it only cuts
+    bool positive = false;           ///< must be > 0 (min alone allows equality)
+    bool whole = false;              ///< of a surface: what it is, light passing through it or not
     const FileKind* file = nullptr;  ///< of an image, or a string that is the path of a file: its kind
 };
 

@@ -52,7 +52,7 @@ NodeType blendNode(std::string id, std::string label, std::string doc, Exactness
 
 /// Whose second surface only cuts, so that it is what it is, though light may pass through it.
 NodeType cutting(NodeType type) {
-    type.inputs[1].whole = true;
+    type.inputs[1] = asWhole(std::move(type.inputs[1]));
     return type;
 }
 

@@ -27,6 +27,12 @@ inline InputSpec surfaceInput(std::string name, std::string doc) {
     return {.name = std::move(name), .type = Type::surface, .value = {}, .doc = std::move(doc)};
 }
 
+/// The same, whether light passes through it or not: of what cuts, is in the way, or is painted anew.
+inline InputSpec asWhole(InputSpec input) {
+    input.whole = true;
+    return input;
+}
+
 /// A length of at least 0.
 inline InputSpec length(std::string name, double value, std::string doc) {
     return {.name = std::move(name),

@@ -9,7 +9,7 @@ std::vector<NodeType> materialNodes() {
          .label = "Material",
          .category = Category::material,
          .doc = "Gives a surface its colour and finish.",
-         .inputs = {surfaceInput("surface", "The surface to paint."),
+         .inputs = {asWhole(surfaceInput("surface", "The surface to paint.")),
                     color("base_color", {0.8, 0.8, 0.8}, "Colour of the surface."),
                     share("roughness", 0.5, "0 is a mirror, 1 is chalk."),
                     share("metallic", 0, "0 is plastic, stone or wood; 1 is metal."),

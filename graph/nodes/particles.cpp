@@ -24,10 +24,11 @@ std::vector<NodeType> particleNodes() {
     };
     const InputSpec gravity =
         measured(vector("gravity", {0, -9.81, 0}, "The acceleration of everything."), "m/s²");
-    const InputSpec collide = surfaceInput("collide",
-                                           "What is in the way: any surface, which may move with the time "
-                                           "and then pushes a fluid. A fluid leaks "
-                                           "through walls much thinner than its spacing.");
+    const InputSpec collide =
+        asWhole(surfaceInput("collide",
+                             "What is in the way: any surface, which may move with the time "
+                             "and then pushes a fluid. A fluid leaks "
+                             "through walls much thinner than its spacing."));
     const InputSpec seed = integer("seed", 0, 0, 1'000'000, "Another number gives other chances.");
     return {
         {.id = "emitter",
@@ -87,9 +88,10 @@ std::vector<NodeType> particleNodes() {
                 "around what is in the "
                 "way. Particles keep their density by moving apart, some times in each step.",
          .inputs =
-             {surfaceInput("source",
-                           "Where there is fluid at the start; it may reach beyond the tank, and into what "
-                           "is in the way."),
+             {asWhole(surfaceInput(
+                  "source",
+                  "Where there is fluid at the start; it may reach beyond the tank, and into what "
+                  "is in the way.")),
               positiveLength(
                   "spacing", 0.05,
                   "Between particles: the fluid's finest detail. Half of it means eight times as many."),

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "graph/base/hash.h"
+#include "graph/document/json.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::cli {
@@ -23,7 +24,7 @@ uint64_t keyOf(const Player& player, const RenderOptions& options) {
     uint64_t key = player.program().structureHash;
     const auto add = [&](double value) { key = mixed(key, std::bit_cast<uint64_t>(value)); };
     for (const float number : player.program().numbers()) add(number);
-    for (const char letter : player.graph().scene->dump()) key = mixed(key, uint64_t(letter));
+    for (const char letter : writeGraph(player.graph())) key = mixed(key, uint64_t(letter));
     add(player.time());
     const Box region = player.region();
     for (int axis = 0; axis < 3; ++axis) add(region.lo[axis]), add(region.hi[axis]);
@@ -36,6 +37,7 @@ uint64_t keyOf(const Player& player, const RenderOptions& options) {
 KeptPaths::KeptPaths(const std::string& output, const Player& player, const RenderOptions& options)
     : path(output + ".paths"),
       key(keyOf(player, options)),
+      samples(options.samples),
       floats(4 * std::size_t(options.width) * std::size_t(options.height)) {}
 
 PathSums KeptPaths::read() const {
@@ -45,7 +47,7 @@ PathSums KeptPaths::read() const {
     PathSums sums;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) ||
         std::memcmp(head.name, mine.name, 8) != 0 || head.key != key || head.paths < 1 ||
-        head.paths > kMostSamples)
+        head.paths > samples)
         return sums;
     sums.sums.resize(floats);
     if (!file.read(reinterpret_cast<char*>(sums.sums.data()), std::streamsize(floats * sizeof(float))))

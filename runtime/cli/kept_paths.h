@@ -14,7 +14,8 @@ class KeptPaths {
     /// Of the picture `output` of what the player shows now with these options.
     KeptPaths(const std::string& output, const Player& player, const RenderOptions& options);
 
-    /// Those that are there; none if they are of another picture, or the file is not whole.
+    /// Those that are there; none if they are of another picture, or more than it is to have, or the file is
+    /// not whole.
     PathSums read() const;
     /// Error: the file cannot be written.
     Done write(const PathSums& sums) const;
@@ -23,6 +24,7 @@ class KeptPaths {
   private:
     std::string path;
     uint64_t key;        ///< of all that the picture depends on
+    int samples;         ///< that it is to have
     std::size_t floats;  ///< of its sums
 };
 

@@ -207,9 +207,9 @@ int run(int count, char** arguments) {
     renderCommand->add_flag(
         "--reference", renderOptions.reference,
         "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
-        "occlusion a sample (1,024 a pixel), each traced to its end; or, with --bounces, and where light "
-        "passes "
-        "through something, whole paths of light, one a sample");
+        "occlusion a sample (1,024 a pixel), each traced to its end; or, with --bounces, where light "
+        "passes through something, or the scene has bounce or reflections, whole paths of light, one a "
+        "sample");
     renderCommand
         ->add_option("--bounces", renderOptions.bounces,
                      "Of --reference: paths of light that are reflected by up to so many opaque surfaces")

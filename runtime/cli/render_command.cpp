@@ -40,7 +40,11 @@ RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, 
     RenderOptions render{.width = size.first, .height = size.second, .samples = options.samples};
     render.reference = options.reference;
     constexpr int kBounces = 8;
-    render.bounces = options.bounces > 0 ? options.bounces : player.program().transmits() ? kBounces : 0;
+    const Result<Scene> scene = player.scene();
+    const bool wanted = player.program().transmits() || (scene && (scene->bounce || scene->reflections));
+    render.bounces = options.bounces > 0                         ? options.bounces
+                     : wanted && player.program().stages.empty() ? kBounces
+                                                                 : 0;
     render.show = viewOf(options);
     return render;
 }
@@ -61,8 +65,10 @@ void noteDraft(Player& player, const RenderCommandOptions& options) {
 int runRender(const RenderCommandOptions& options) {
     const auto size = pictureSize("render", options.size);
     if (!size) return kBadUsage;
-    if (options.bounces > 0 && !options.reference) {
-        std::fprintf(stderr, "fieldwright render: --bounces is of paths of light: give --reference too\n");
+    if (options.bounces > 0 && (!options.reference || viewOf(options) != RENDER_PICTURE)) {
+        std::fprintf(
+            stderr,
+            "fieldwright render: --bounces is of paths of light: give --reference too, and no --view\n");
         return kBadUsage;
     }
     if (options.quality == FieldBy::tapes && renderedBy(options) != options.quality) {
@@ -106,7 +112,7 @@ int runRender(const RenderCommandOptions& options) {
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
     std::optional<KeptPaths> keptPaths;
     PathSums sums;
-    if (render.reference && render.bounces > 0) {
+    if (render.reference && render.bounces > 0 && render.show == RENDER_PICTURE) {
         keptPaths.emplace(options.output, *player, render);
         sums = keptPaths->read();
         const auto tell = [&sums, &options] {
@@ -122,7 +128,7 @@ int runRender(const RenderCommandOptions& options) {
         render.keepSums = [&keptPaths, &sums, tell] {
             if (keptPaths->write(sums)) tell();  // the picture does not depend on it
         };
-        if (player->graph().scene->is_object() && player->graph().scene->contains("fog"))
+        if (const Result<Scene> scene = player->scene(); scene && scene->fog && scene->fog->density > 0.0)
             std::fprintf(stderr, "%s: note: paths of light leave out the scene's fog\n",
                          options.output.c_str());
     }

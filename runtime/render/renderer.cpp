@@ -127,6 +127,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.lamps = std::move(kernels.lamps);
     renderer.show = std::move(kernels.show);
     renderer.secondary.trace = std::move(kernels.secondary);
+    renderer.secondary.filter = {};
     renderer.secondary.kinds = kernels.kinds;
     renderer.reference = {};
     renderer.paths.trace = {};
@@ -207,7 +208,14 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         return Error{.message =
                          "a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel"};
     const gpu::View middle = viewOf(scene, options);
-    if (options.reference && options.bounces > 0) return renderPaths(renderer, scene, options, middle);
+    if (options.reference && options.bounces > 0 && options.show == RENDER_PICTURE) {
+        if (scene.draft)
+            return Error{
+                .message =
+                    "paths of light are traced through the field, and this picture is of the mesh alone: "
+                    "leave out --bounces, or the stages that change the mesh"};
+        return renderPaths(renderer, scene, options, middle);
+    }
     const bool lens = options.scene.camera && options.scene.camera->aperture > 0.0;
     renderer.ambient.options = ambientOptions(scene, options);
     renderer.ambient.options.raysResting = kRaysStill;
@@ -225,7 +233,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         view.jitter = jitterOf(i, options);
         if (lens) {
             view = throughLens(view, *options.scene.camera, onDisc(i, options.samples));
-            forgetHistory(renderer);  // each frame sees other places
+            fw::forgetHistory(renderer.ambient);  // each frame sees other places
         }
         renderer.shadowStands = false;
         Commands commands(*renderer.device);

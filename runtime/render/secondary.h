@@ -1,5 +1,6 @@
 // Secondary rays: indirect light, reflections, and what is seen through solids that transmit
-// (shaders/render/secondary.comp, which has the theory), one ray of each kind a pixel and frame.
+// (shaders/render/secondary.comp, which has the theory), one ray of each kind a
+// pixel and frame, in stills four.
 //
 // Lifetime: a Secondary belongs to one field and remembers one view's frames, as Ambient does.
 #pragma once

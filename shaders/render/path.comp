@@ -38,8 +38,10 @@ layout(push_constant, scalar) uniform Push { PathPush push; };
 const uint kMostSteps = 768, kLongPath = 16;
 const float kClose = 2e-5;        // of the radius: nearer is a hit
 const float kSmooth = 0.04;       // roughness below which an interface is smooth, and no facet of a solid is rougher
-const float kToSun = 0.35;        // share of the paths that leave chalk towards the sun where light passes through something,
-const float kSunCone = 0.82;      // within the cone of this cosine about it
+const float kToSun = 0.6;         // share of the paths that leave chalk towards the sun where light passes through something,
+const float kSunCone = 0.82;      // within the cone of this cosine about it,
+const float kSunCore = 0.99;      // or this one about where it is for who looks up through a level surface:
+const float kNarrow = 0.6;        // so many of them
 const float kGoesOn = 0.9;        // how likely a path does that has had kLongPath rays
 
 // What a ray is for.
@@ -55,11 +57,19 @@ vec3 inCone(vec3 axis, float cosine, vec2 u) {
     return normalize(s * cos(angle) * x + s * sin(angle) * y + c * axis);
 }
 
+// Where the sun is for what lies within a medium below a level surface.
+vec3 sunFrom(float ior) {
+    vec2 level = push.sun.xz / ior;
+    return push.sun.y > 0.0 ? vec3(level.x, sqrt(max(1.0 - dot(level, level), 0.0)), level.y) : push.sun;
+}
+
 // How often chalk sends paths in a direction.
-float chalkDensity(float facing, vec3 d) {
+float chalkDensity(float facing, vec3 d, float ior) {
     float density = max(facing, 0.0) / kPi;
 #ifdef FIELD_TRANSMITS
-    if (push.sunWide > 0.0) density = mix(density, dot(d, push.sun) > kSunCone ? 1.0 / (6.2831853 * (1.0 - kSunCone)) : 0.0, kToSun);
+    float wide = dot(d, push.sun) > kSunCone ? 1.0 / (6.2831853 * (1.0 - kSunCone)) : 0.0;
+    float narrow = dot(d, sunFrom(ior)) > kSunCore ? 1.0 / (6.2831853 * (1.0 - kSunCore)) : 0.0;
+    if (push.sunWide > 0.0) density = mix(density, mix(wide, narrow, kNarrow), kToSun);
 #endif
     return density;
 }
@@ -92,8 +102,8 @@ void main() {
     float far = 1e30;
     float density = -1.0;  // of the path's direction, where a lamp could have been asked for instead
     bool done = false, alive = false, straight = true, within = false;
-    float ior = 1.0;
-    vec3 absorption = vec3(0.0);
+    float ior = 1.0, startIor = 1.0;
+    vec3 absorption = vec3(0.0), start = vec3(0.0), startAbsorption = vec3(0.0);  // the latter two of the path, while a lamp is asked for
     do {
         if (!alive && purpose != kLamp) {
             // The next path, from the eye or a place on the lens.
@@ -158,6 +168,7 @@ void main() {
             if (purpose == kShade) through *= blocked ? vec3(0.46, 0.50, 0.58) : vec3(1.0);
             if (purpose == kOpen) light += through * mix(1.0, blocked ? 0.35 : 1.0, frame.ambientStrength);
             alive = alive && purpose != kOpen;
+            if (purpose == kLamp) o = start, ior = startIor, absorption = startAbsorption;
             purpose = after;
             d = onward;
             far = 1e30;
@@ -304,7 +315,7 @@ void main() {
         // One lamp, or the sun.
         uint lamps = frame.lightCount + (push.sunWide >= 0.0 ? 1 : 0);
         bool asks = false;
-        if (lamps > 0) {
+        if (lamps > 0 && bounces < push.bounces) {
             uint k = min(uint(random(state) * float(lamps)), lamps - 1);
             vec2 u = vec2(random(state), random(state));
             vec3 toLamp, radiance;
@@ -332,7 +343,7 @@ void main() {
             if (to.z > 0.0) {
                 vec3 half_ = normalize(from + to);
                 vec3 shine = s.ground ? vec3(0.0) : (mirror + (1.0 - mirror) * fifth(1.0 - max(dot(from, half_), 0.0))) * lobe(from, to, alpha);
-                float found = mean(shine) + likely * chalkDensity(to.z, toLamp);
+                float found = mean(shine) + likely * chalkDensity(to.z, toLamp, ior);
                 pending = through * (shine + chalk * (to.z / kPi)) * radiance / (asked > 0.0 ? asked + found : 1.0);
                 asks = any(greaterThan(pending, vec3(0.0)));
                 onward = toLamp;
@@ -350,20 +361,23 @@ void main() {
             vec2 u = vec2(random(state), random(state));
             next = cosineDirection(n, u);
 #ifdef FIELD_TRANSMITS
-            if (push.sunWide > 0.0 && random(state) < kToSun) next = inCone(push.sun, kSunCone, u);
+            float choiceOfSun = random(state) / kToSun;
+            if (push.sunWide > 0.0 && choiceOfSun < kNarrow) next = inCone(sunFrom(ior), kSunCore, u);
+            else if (push.sunWide > 0.0 && choiceOfSun < 1.0) next = inCone(push.sun, kSunCone, u);
 #endif
             l = vec3(dot(next, x), dot(next, y), dot(next, n));
-            through *= l.z > 0.0 ? l.z / kPi / chalkDensity(l.z, next) : 0.0;
+            through *= l.z > 0.0 ? l.z / kPi / chalkDensity(l.z, next, ior) : 0.0;
         }
         next = normalize(l.x * x + l.y * y + l.z * n);
         vec3 middle = normalize(from + l);
         vec3 shine = s.ground ? vec3(0.0) : (mirror + (1.0 - mirror) * fifth(1.0 - max(dot(from, middle), 0.0))) * lobe(from, l, alpha);
-        density = mean(shine) + likely * chalkDensity(l.z, next);
+        density = mean(shine) + likely * chalkDensity(l.z, next, ior);
         straight = false;
         float lives = ++bounces > 3 ? clamp(max(through.x, max(through.y, through.z)), 0.05, 1.0) : 1.0;
         alive = bounces <= push.bounces && max(through.x, max(through.y, through.z)) > 0.0 && random(state) < lives;
         through /= lives;
         purpose = asks ? kLamp : kPath;
+        start = o, startIor = ior, startAbsorption = absorption;
         after = kPath;
         d = asks ? onward : next;
         onward = next;

@@ -57,13 +57,19 @@ const float kMirrorKept = 4.0;          // frames that a moving mirror remembers
 // How much of the sky p sees, about: by how far the field's value falls behind the way.
 float openness(Bounds bounds, vec3 p, vec3 n) {
     float way = 0.5 * frame.ambientRadius;
-    return mix(0.3, 1.0, clamp(clearance(bounds, p + n * way) / way, 0.0, 1.0));
+#ifdef FIELD_TRANSMITS
+    float clear = opaqueAt(bounds, p + n * way);
+#else
+    float clear = clearance(bounds, p + n * way);
+#endif
+    return mix(0.3, 1.0, clamp(clear / way, 0.0, 1.0));
 }
 
 #ifdef FIELD_TRANSMITS
 // What of the sun reaches p, on straight ways: what transmits dims it, what is opaque hides it.
 vec3 sunThrough(Bounds bounds, vec3 p) {
-    float t = 2.0 * frame.bias, opaque = 1.0, step = 0.0;
+    float t = 2.0 * frame.bias, opaque = 1.0, step = 0.0, share = 1.0;
+    bool inside = false;
     vec3 optical = vec3(0.0);
     uint i = 0;
     do {
@@ -73,10 +79,13 @@ vec3 sunThrough(Bounds bounds, vec3 p) {
         float whole = wholeAt(bounds, q);
         // Within a medium not farther than it reaches.
         step = whole < 0.0 ? min(step, max(-whole, frame.bias)) : step;
-        if (whole < 0.0) optical += fieldMaterial(q).absorption * step;
+        FieldMaterial medium = fieldMaterial(q);
+        if (whole < 0.0) optical += medium.absorption * step;
+        if (whole < 0.0 && !inside && i > 0) share *= medium.transmission;
+        inside = whole < 0.0;
         t += step;
     } while (opaque > 0.0 && t < 3.0 * frame.radius && ++i < 32);
-    return opaque > 0.0 ? exp(-optical) : vec3(0.0);
+    return opaque > 0.0 ? share * exp(-optical) : vec3(0.0);
 }
 #endif
 
@@ -211,7 +220,8 @@ void main() {
             vec3 beyond = q - (within ? -m : m) * bias;
             if (hitsOpaque) material = fieldOpaqueMaterial(q);
             else material = fieldMaterial(beyond);
-            bool passes = going && hit && !hitsOpaque;
+            // Where only a part passes, that part of the rays does; of the sun's all, with as much less light.
+            bool passes = going && hit && !hitsOpaque && (within || kind == kSun || fract(v.y + 0.618 * float(interfaces)) < material.transmission);
 #else
             material = fieldMaterial(q);
             bool passes = false;
@@ -275,7 +285,8 @@ void main() {
                 bool mirrors = dot(bent, bent) < 0.5;
                 bent = mirrors ? reflect(d, facing) : bent;
                 straight = straight && !mirrors;
-                through *= mirrors ? vec3(1.0) : (within ? vec3(1.0) : sqrt(s.base)) * (1.0 - fresnel(max(-dot(d, facing), 1e-3), other / ior));
+                through *= mirrors ? 1.0 : 1.0 - fresnel(max(-dot(d, facing), 1e-3), other / ior);
+                if (kind == kSun && !within) through *= material.transmission;
                 through *= within || mirrors ? vec3(1.0) : clamp(material.baseColor, 0.0, 1.0);
                 o = q + (mirrors ? facing : -facing) * bias;
                 d = bent;

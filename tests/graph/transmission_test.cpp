@@ -96,6 +96,45 @@ TEST(Transmission, ALiveOneDecidesAsItIs) {
     EXPECT_DOUBLE_EQ(opaque(program, 0), -1);
 }
 
+TEST(Transmission, WhatIsPaintedAnewIsWhatItsPaintIs) {
+    const Program program = compiled(
+        kTwo +
+            R"({"id": "again", "type": "material", "inputs": {"surface": {"from": "glass"}, "transmission": 0}},
+                  {"id": "more", "type": "material", "inputs": {"surface": {"from": "again"}, "transmission": 1}},
+                  {"id": "both", "type": "union", "inputs": {"a": {"from": "again"}, "b": {"from": "red"}}},)",
+        "both");
+    EXPECT_DOUBLE_EQ(opaque(program, 0), -1);
+    EXPECT_DOUBLE_EQ(opaque(program, 3), -1);
+}
+
+TEST(Transmission, DoesNotDependOnTheOrderOfAssignments) {
+    for (const char* code : {"s = a; s.transmission = 1; s.distance = length(p) - 2; return s;",
+                             "s = a; s.distance = length(p) - 2; s.transmission = 1; return s;"}) {
+        const Program program = compiled(std::string(R"({"id": "ball", "type": "sphere"},
+            {"id": "code", "type": "expression", "inputs": {"a": {"from": "ball"}}, "code": ")") +
+                                             code + "\"},",
+                                         "code");
+        EXPECT_DOUBLE_EQ(whole(program, 0), -2);
+        EXPECT_GT(opaque(program, 0), 1e6);
+    }
+}
+
+TEST(Transmission, GlassHoldsWhatFlowsAndMayFlow) {
+    for (const char* of : {"source", "collide"}) {
+        const std::string nodes = std::string(R"(
+            {"id": "ball", "type": "sphere", "inputs": {"radius": 0.4}},
+            {"id": "glass", "type": "material", "inputs": {"surface": {"from": "ball"}, "transmission": 1}},
+            {"id": "flow", "type": "sph_fluid", "inputs": {"source": {"from": ")") +
+                                  (of == std::string("source") ? "glass" : "ball") +
+                                  R"("}, "collide": {"from": "glass"}}},
+            {"id": "water", "type": "particles_to_field", "inputs": {"particles": {"from": "flow"}}},
+            {"id": "both", "type": "union", "inputs": {"a": {"from": "water"}, "b": {"from": "glass"}}},)";
+        const Program program = compiled(nodes, "both");
+        EXPECT_TRUE(program.transmits());
+        EXPECT_EQ(program.ir.volumes().size(), 1u);
+    }
+}
+
 TEST(Transmission, SimulationsAndMeshesAreNotMadeTwice) {
     const Program program = compiled(R"(
         {"id": "ball", "type": "sphere", "inputs": {"radius": 0.4}}, {"id": "post", "type": "box"},
