@@ -51,8 +51,7 @@ FieldKernelOptions kernelsFor(const Graph& graph, const Program& program, bool s
     const Result<Scene> scene = readScene(*graph.scene);
     if (!scene) return kernels;
     kernels.lamps = !scene->lights.empty();
-    if (scene->bounce || scene->reflections || program.transmits())
-        kernels.secondary = {scene->bounce, scene->reflections, kernels.lamps};
+    kernels.secondary = secondaryKinds(*scene, program.transmits());
     return kernels;
 }
 

@@ -6,12 +6,6 @@ namespace fw {
 
 namespace {
 
-void clear(Commands& commands, const Image& image) {
-    const VkClearColorValue nothing{};
-    const VkImageSubresourceRange all = {image.aspect, 0, 1, 0, 1};
-    vkCmdClearColorImage(commands.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, &nothing, 1, &all);
-}
-
 uint32_t raysWithin(int rays) { return uint32_t(std::clamp(rays, 1, RENDER_MOST_RAYS)); }
 
 }  // namespace
@@ -51,7 +45,7 @@ void drawAmbient(Commands& commands, Ambient& ambient, const GBuffer& gbuffer,
     resizeImage(commands, ambient.history[1], extent, VK_FORMAT_R32_UINT);
     reserve(commands.device, ambient.holes, 4ull * extent.width * extent.height);
     if (resized || !ambient.hasHistory || !ambient.options.reproject) {
-        for (const Image& history : ambient.history) clear(commands, history);
+        for (const Image& history : ambient.history) clearImage(commands, history);
         barrier(commands);
     }
     fill(commands, ambient.holeCount, 0, 0, 8);

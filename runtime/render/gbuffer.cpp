@@ -44,6 +44,12 @@ Descriptor storage(uint32_t binding, const Image& image) {
     return Descriptor(binding, image.view, VK_IMAGE_LAYOUT_GENERAL);
 }
 
+void clearImage(Commands& commands, const Image& image) {
+    const VkClearColorValue nothing{};
+    const VkImageSubresourceRange all = {image.aspect, 0, 1, 0, 1};
+    vkCmdClearColorImage(commands.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, &nothing, 1, &all);
+}
+
 bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat format) {
     if (image && image.format == format && image.extent.width == extent.width &&
         image.extent.height == extent.height)
@@ -55,9 +61,7 @@ bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat f
     image = createImage(commands.device, options);
     imageBarrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     if (format == kDepthFormat) return true;
-    const VkClearColorValue nothing{};
-    const VkImageSubresourceRange all = {image.aspect, 0, 1, 0, 1};
-    vkCmdClearColorImage(commands.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, &nothing, 1, &all);
+    clearImage(commands, image);
     barrier(commands);
     return true;
 }

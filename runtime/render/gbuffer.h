@@ -102,6 +102,9 @@ Descriptor storage(uint32_t binding, const Image& image);
 /// Makes an R32G32_UINT image of this size, unless it is, that is drawn into and then read.
 void resizeLooks(Commands& commands, Image& looks, VkExtent3D extent);
 
+/// Fills the image with zeros.
+void clearImage(Commands& commands, const Image& image);
+
 /// Makes the image anew if its size or format differ; whether it did. The new one is cleared.
 bool resizeImage(Commands& commands, Image& image, VkExtent3D extent, VkFormat format);
 

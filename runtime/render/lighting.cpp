@@ -17,12 +17,6 @@ const Pipeline& lightPipeline(Renderer& renderer, std::vector<std::string> defin
     return light;
 }
 
-/// What the scene and the field need secondary rays for; none if for nothing.
-std::optional<SecondaryKinds> secondaryKinds(const RenderScene& scene, const Scene& look, bool lamps) {
-    if (scene.draft || !(look.bounce || look.reflections || scene.transmits)) return std::nullopt;
-    return SecondaryKinds{look.bounce, look.reflections, lamps};
-}
-
 /// Edges of the triangles that are seen, over the picture; the mesh's depth has been drawn.
 void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& scene) {
     const Image& depth = renderer.seen.attachment;
@@ -92,7 +86,8 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
                  bound);
         barrier(commands);
     }
-    const std::optional<SecondaryKinds> secondary = secondaryKinds(scene, look, lamps);
+    const std::optional<SecondaryKinds> secondary =
+        scene.draft ? std::nullopt : secondaryKinds(look, scene.transmits);
     if (secondary) {
         beginStage(commands, "secondary");
         if (!renderer.secondary.trace || renderer.secondary.kinds != *secondary) {

@@ -38,6 +38,11 @@ void recordFilter(Commands& commands, Secondary& secondary, const GBuffer& gbuff
 
 }  // namespace
 
+std::optional<SecondaryKinds> secondaryKinds(const Scene& scene, bool transmits) {
+    if (!(scene.bounce || scene.reflections || transmits)) return std::nullopt;
+    return SecondaryKinds{scene.bounce, scene.reflections, !scene.lights.empty()};
+}
+
 ShaderOptions secondaryShader(std::string_view field, const SecondaryKinds& kinds) {
     ShaderOptions shader{.name = "render/secondary.comp", .field = field};
     defineKinds(shader, kinds);
@@ -52,10 +57,7 @@ void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuf
         return resizeImage(commands, image, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
     };
     const auto forget = [&](Image& image) {
-        if (ready(image) || secondary.hasHistory) return;
-        const VkClearColorValue nothing{};
-        const VkImageSubresourceRange all = {image.aspect, 0, 1, 0, 1};
-        vkCmdClearColorImage(commands.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, &nothing, 1, &all);
+        if (!ready(image) && !secondary.hasHistory) clearImage(commands, image);
     };
     const auto both = [&](Image(&images)[2]) {
         for (Image& image : images) forget(image);

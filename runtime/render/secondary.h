@@ -5,6 +5,8 @@
 // Lifetime: a Secondary belongs to one field and remembers one view's frames, as Ambient does.
 #pragma once
 
+#include <optional>
+
 #include "runtime/render/gbuffer.h"
 
 namespace fw {
@@ -15,6 +17,9 @@ struct SecondaryKinds {
     bool lamps = false;  ///< whether what is hit is lit by lamps
     bool operator==(const SecondaryKinds&) const = default;
 };
+
+/// What the scene needs of a field through which light passes, or not; none if nothing.
+std::optional<SecondaryKinds> secondaryKinds(const Scene& scene, bool transmits);
 
 struct Secondary {
     Pipeline trace, filter;

@@ -119,7 +119,7 @@ void main() {
     float bias = frame.bias;
     vec2 u, v;
 
-    float transmission = 0.0, ior = 1.0, sunTint = 1.0;
+    float transmission = 0.0, ior = 1.0;
     vec3 absorption = vec3(0.0);
 #ifdef FIELD_TRANSMITS
     vec3 under = p - n * bias;

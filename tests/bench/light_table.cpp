@@ -198,6 +198,25 @@ void bakedTable(Bench& bench, Stage& stage_, const Program& program) {
     stage_.renderer.ambient = createAmbient(stage_.session.device(), stage_.renderer.field, {});
 }
 
+/// Draws a frame of a moving view: milliseconds of all stages, and of each into `parts`.
+double drawTimed(Stage& stage_, std::map<std::string, Figure>& parts) {
+    Commands commands(stage_.session.device(), true);
+    drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
+    submit(commands);
+    double sum = 0;
+    for (const StageTime& time : commands.stages) {
+        parts[time.name].runs.push_back(time.milliseconds);
+        sum += time.milliseconds;
+    }
+    return sum;
+}
+
+/// 0 of what was never run.
+double medianOf(Figure& part) {
+    std::ranges::sort(part.runs);
+    return part.runs.empty() ? 0.0 : part.median();
+}
+
 void frameTable(Bench& bench, Stage& stage_) {
     Table table{.title = "A frame, 1280 x 720, tower at 128 cells, the camera moving (ms)",
                 .header = {"primary rays", "mesh", "shadow", "depth", "tiles", "surface", "ambient", "light",
@@ -215,15 +234,7 @@ void frameTable(Bench& bench, Stage& stage_) {
         const auto draw = [&](bool anew) {
             stage_.turn(frame++);
             if (anew) stage_.renderer.shadowStands = false, ++stage_.content;
-            Commands commands(stage_.session.device(), true);
-            drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
-            submit(commands);
-            double sum = 0;
-            for (const StageTime& time : commands.stages) {
-                parts[time.name].runs.push_back(time.milliseconds);
-                sum += time.milliseconds;
-            }
-            return sum;
+            return drawTimed(stage_, parts);
         };
         const Figure still = measure(bench.options.repeats, [&] { return draw(false); });
         const Figure animated = measure(bench.options.repeats, [&] {
@@ -233,10 +244,7 @@ void frameTable(Bench& bench, Stage& stage_) {
             parts["mesh"].runs.push_back(sum);
             return sum + draw(true);
         });
-        const auto part = [&](const char* name) {
-            std::ranges::sort(parts[name].runs);
-            return parts[name].runs.empty() ? 0.0 : parts[name].median();
-        };
+        const auto part = [&](const char* name) { return medianOf(parts[name]); };
         table.rows.push_back({traced ? "traced" : "drawn", number(part("mesh")), number(part("shadow")),
                               number(part("depth")), number(part("tiles")), number(part("surface")),
                               number(part("ambient")), number(part("light")), text(still), text(animated)});
@@ -282,20 +290,9 @@ void secondaryTable(Bench& bench, Stage& stage_) {
         int frame = 0;
         const Figure all = measure(bench.options.repeats, [&] {
             stage_.turn(frame++);
-            Commands commands(stage_.session.device(), true);
-            drawFrame(commands, stage_.renderer, stage_.scene(), stage_.options, stage_.view(), false, 0);
-            submit(commands);
-            double sum = 0;
-            for (const StageTime& time : commands.stages) {
-                parts[time.name].runs.push_back(time.milliseconds);
-                sum += time.milliseconds;
-            }
-            return sum;
+            return drawTimed(stage_, parts);
         });
-        const auto part = [&](const char* name) {
-            std::ranges::sort(parts[name].runs);
-            return parts[name].runs.empty() ? 0.0 : parts[name].median();
-        };
+        const auto part = [&](const char* name) { return medianOf(parts[name]); };
         if (&way == &ways[0]) none = all.median();
         both = all.median();
         filter = part("filter");
