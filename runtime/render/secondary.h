@@ -24,11 +24,11 @@ std::optional<SecondaryKinds> secondaryKinds(const Scene& scene, bool transmits)
 struct Secondary {
     Pipeline trace, filter;
     SecondaryKinds kinds;  ///< of `trace`
-    /// RGBA16_SFLOAT: mean radiance, and the rays that it is the mean of.
-    Image bounce[2], reflection[2];
-    Image smoothBounce[2], smoothReflection[2];  ///< what the filter makes of them; the last one is used
-    Image passed, sunlight;                      ///< of a field that transmits
-    uint32_t current = 0;
+    /// RGBA16_SFLOAT: mean radiance, and the rays that it is the mean of; as it is traced, and as it is
+    /// filtered, in this frame and the one before.
+    Image rawBounce, rawReflection, bounce[2], reflection[2];
+    Image passed, sunlight;  ///< of a field that transmits
+    uint32_t current = 0;    ///< of the two
     bool hasHistory = false;
 };
 

@@ -1,7 +1,8 @@
-// One pass of an edge-aware filter over what secondary.comp made, for one listed tile (Dammertz et al., "Edge-avoiding a-trous
-// wavelet transform for fast global illumination filtering", 2010): nine pixels, `push.stride` apart, as far as they are of the
-// same plane. The more rays a pixel is the mean of, the less it takes of its neighbours; a mirror takes nothing.
-// The history is not filtered, so that nothing is blurred twice.
+// An edge-aware filter over what secondary.comp made, for one listed tile: a pixel and the four beside it, as far as they are of
+// the same plane (Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast global illumination filtering", 2010). One
+// pass of it a frame: what it makes is the history of the next frame, so that each reaches farther, as the first level of Schied
+// et al.'s ("Spatiotemporal variance-guided filtering", 2017). The more rays a pixel is the mean of, the less it takes of its
+// neighbours, so that a resting view sharpens; a mirror takes nothing.
 #include "shared.h"
 #include "render/render.h"
 #include "lib/octahedral.glsl"
@@ -20,7 +21,6 @@ layout(binding = 19, rgba16f) writeonly uniform image2D bounceTo;
 layout(binding = 20, rgba16f) readonly uniform image2D reflectionFrom;
 layout(binding = 21, rgba16f) writeonly uniform image2D reflectionTo;
 #endif
-layout(push_constant, scalar) uniform Push { uint stride; };  // pixels
 
 const float kFew = 16.0;          // rays, of which a pixel's neighbours count for half
 const float kSamePlane = 0.004;   // of the distance to the eye
@@ -45,9 +45,11 @@ void main() {
     vec3 reflection = ownReflection.rgb;
     float reflectionWeight = 1.0, reflectionTaken = kFew / (kFew + ownReflection.w) * smoothstep(0.1, kRough, s.roughness);
 #endif
-    for (int i = 0; i < 9; ++i) {
-        ivec2 step = ivec2(i % 3 - 1, i / 3 - 1), there = at + step * int(stride);
-        bool inside = i != 4 && all(greaterThanEqual(there, ivec2(0))) && all(lessThanEqual(there, last));
+    ivec2 step = ivec2(1, 0);
+    for (int i = 0; i < 4; ++i) {
+        step = ivec2(-step.y, step.x);
+        ivec2 there = at + step;
+        bool inside = all(greaterThanEqual(there, ivec2(0))) && all(lessThanEqual(there, last));
         there = clamp(there, ivec2(0), last);
         uvec4 words = imageLoad(surfaces, there);
         float otherDepth = uintBitsToFloat(words.x);
@@ -56,7 +58,7 @@ void main() {
         facing *= facing;
         facing *= facing;
         facing *= facing;
-        float weight = inside && otherDepth > 0.0 ? facing * facing * exp(-off * off) * (step.x != 0 && step.y != 0 ? 0.5 : 0.75) : 0.0;
+        float weight = inside && otherDepth > 0.0 ? facing * facing * exp(-off * off) : 0.0;
 #ifdef BOUNCE
         vec4 otherBounce = imageLoad(bounceFrom, there);
         bounce += otherBounce.rgb * (weight * bounceTaken);

@@ -31,7 +31,6 @@ layout(binding = 8, r32f) readonly uniform image2D shadowMap;
 #ifdef BOUNCE
 layout(binding = 18, rgba16f) readonly uniform image2D bounceBefore;
 layout(binding = 19, rgba16f) writeonly uniform image2D bounceNow;
-layout(binding = 24, rgba16f) readonly uniform image2D bounceSmooth;  // of the frame before, as it was filtered
 #endif
 #ifdef REFLECTIONS
 layout(binding = 20, rgba16f) readonly uniform image2D reflectionBefore;
@@ -248,7 +247,7 @@ void main() {
 #ifdef BOUNCE
                 // What the last frame knew: so light is thrown on again with each frame.
                 uvec2 there;
-                vec4 cached = sees && seenBefore(q, seen.n, there) ? imageLoad(bounceSmooth, ivec2(there)) : vec4(0.0);
+                vec4 cached = sees && seenBefore(q, seen.n, there) ? imageLoad(bounceBefore, ivec2(there)) : vec4(0.0);
                 cached = cached.w > 0.0 || kind != kBounce ? cached : ownBounce;
                 around = cached.w > 0.0 ? min(cached.rgb, vec3(8.0)) : around;
 #endif
