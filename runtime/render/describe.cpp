@@ -32,6 +32,20 @@ gpu::Light describe(const Lamp& lamp) {
     return light;
 }
 
+/// One of `count` parts of a lamp whose shadows are the mean of theirs: at a place within its ball such that
+/// from each side they cover its disc evenly (a point of the unit sphere of four dimensions, projected into
+/// three), and as small as leaves no gaps between their penumbras.
+void takePart(gpu::Light& light, int number, int count) {
+    // The R3 sequence (Roberts 2018).
+    const auto along = [&](double step) { return float(std::fmod(0.5 + step * number, 1.0)); };
+    const float share = along(0.8191725133961645), a = 6.2831853f * along(0.6710436067037893),
+                b = 6.2831853f * along(0.5497004779019703);
+    const float wide = std::sqrt(1.0f - share);
+    light.position +=
+        light.size * glm::vec3(wide * std::cos(a), std::sqrt(share) * std::cos(b), wide * std::sin(a));
+    light.size *= 1.5f / std::sqrt(float(count));
+}
+
 /// The sun's direction and its shadow map's axes; `turn` in the unit square is a place on its disc.
 void describeSun(gpu::RenderFrame& frame, const Scene& scene, const SeenBounds& bounds, glm::vec2 turn,
                  uint32_t size) {
@@ -128,7 +142,13 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
         frame.fogEnd = kFogEnd * bounds.radius;
     }
     frame.lightCount = uint32_t(std::min<std::size_t>(look.lights.size(), RENDER_MOST_LIGHTS));
-    for (uint32_t i = 0; i < frame.lightCount; ++i) frame.lights[i] = describe(look.lights[i]);
+    // Beside whole paths of light they are as large as there.
+    const int parts = options.samples > 1 ? options.samples : resting ? kRestFrames : 1;
+    const bool inParts = parts > 1 && !options.reference && secondaryKinds(look, scene.transmits);
+    for (uint32_t i = 0; i < frame.lightCount; ++i) {
+        frame.lights[i] = describe(look.lights[i]);
+        if (inParts && !frame.lights[i].directional) takePart(frame.lights[i], mean, parts);
+    }
     return frame;
 }
 

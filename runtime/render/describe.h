@@ -6,6 +6,8 @@
 
 namespace fw {
 
+inline constexpr int kRestFrames = 64;  ///< of the live view, after which it stops
+
 /// Evenly in the unit square, the first in its middle (Roberts' R2 sequence).
 glm::vec2 evenly(int number);
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr uint32_t kShadowSize = 768;        // texels along each side
 constexpr uint32_t kStillShadowSize = 2048;  // at most: two texels for each pixel of the picture are enough
-constexpr int kRestFrames = 64;              // of the live view, after which it stops
 constexpr double kSlowFrame = 100.0;         // ms; then the next live frame is drawn in parts
 constexpr int kRaysStill = 16, kRaysResting = 8;
 constexpr uint32_t kSecondaryStill = 4;

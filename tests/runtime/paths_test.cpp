@@ -228,6 +228,83 @@ TEST_F(Paths, ASlabShiftsWhatIsBehindIt) {
     EXPECT_NEAR(std::abs(shift(1.5) - shift(1.0)), expected, 0.05 * expected);
 }
 
+/// Before black and nothing else: where a thin bright rod along `axis` at this place is seen through a clear
+/// solid, in metres from the middle of the picture at the target, 1 m of the picture being `fov` degrees
+/// wide.
+double rodSeen(Paths& test, const std::string& clear, double ior, glm::dvec3 rod, char axis, glm::dvec3 eye,
+               double fov) {
+    const glm::dvec3 half = axis == 'x' ? glm::dvec3(6, 0.04, 0.04) : glm::dvec3(0.04, 6, 0.04);
+    const std::string nodes =
+        clear +
+        filled(
+            R"(, {"id": "clear", "type": "material", "inputs": {"surface": {"from": "shape"}, "base_color": [1, 1, 1], "roughness": 0, "transmission": 1, "ior": $}},
+               {"id": "rod", "type": "box", "inputs": {"half_extents": [$, $, $]}},
+               {"id": "moved", "type": "translate", "inputs": {"surface": {"from": "rod"}, "offset": [$, $, $]}},
+               {"id": "bright", "type": "material", "inputs": {"surface": {"from": "moved"}, "base_color": [0, 0, 0], "roughness": 1, "emission": [4, 4, 4]}},
+               {"id": "both", "type": "union", "inputs": {"a": {"from": "clear"}, "b": {"from": "bright"}}},
+               {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})",
+            {ior, half.x, half.y, half.z, rod.x, rod.y, rod.z});
+    const Traced seen = test.trace(
+        nodes, seenFrom(eye, fov) + R"("sun": false, "ground": false, "ao": false, "sky": {"strength": 0})",
+        64, 1);
+    double sum = 0, moment = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            // Its image alone, in the middle of the lens.
+            const int along = axis == 'x' ? x : y, across = axis == 'x' ? kSide - 1 - y : x;
+            if (std::abs(along - kSide / 2) > 3 || seen.at(x, y, 1) < 0.3) continue;
+            sum += seen.at(x, y, 1), moment += (across + 0.5 - kSide / 2) * seen.at(x, y, 1);
+        }
+    EXPECT_GT(sum, 0);
+    return moment / sum * 2 * std::tan(fov * std::numbers::pi / 360) / kSide * glm::length(eye);
+}
+
+TEST_F(Paths, ABallIsALens) {
+    // A ray that passes the middle at b is turned by 2 (asin(b) - asin(b / n)): behind the ball's focus, at
+    // n / (2 (n - 1)), images are upside down.
+    constexpr double kIor = 1.5, kAway = 20, kBehind = 4, kHigh = 0.4;
+    const auto landing = [](double b) {
+        // From the eye upwards by `slope`, out of the ball `back` above the axis, `down` towards it.
+        const double slope = std::asin(b / kAway), in = std::asin(b), within = std::asin(b / kIor);
+        const double back = 2 * within - in + slope, down = 2 * (in - within) - slope;
+        return std::sin(back) - (kBehind - std::cos(back)) * std::tan(down);
+    };
+    double low = 0.01, high = 0.7;
+    for (int i = 0; i < 60; ++i) (landing(0.5 * (low + high)) > -kHigh ? low : high) = 0.5 * (low + high);
+    const double expected = std::tan(std::asin(low / kAway)) * kAway;
+    const double seen = rodSeen(*this, kBall, kIor, {0, -kHigh, -kBehind}, 'x', {0, 0, kAway}, 6);
+    EXPECT_NEAR(seen, expected, 0.03) << "upside down, above the middle";
+}
+
+TEST_F(Paths, APrismTurnsWhatIsBehindIt) {
+    // Straight through its front, out of a back that leans by 25 degrees: turned by asin(n sin a) - a.
+    constexpr double kAngle = 25 * std::numbers::pi / 180, kAway = 60, kBehind = 4;
+    const std::string wedge =
+        R"({"id": "block", "type": "box", "inputs": {"half_extents": [1, 1, 1]}},
+           {"id": "back", "type": "plane", "inputs": {"normal": )" +
+        filled("[$, 0, $]", {-std::sin(kAngle), -std::cos(kAngle)}) +
+        R"(, "offset": 0}},
+           {"id": "shape", "type": "intersect", "inputs": {"a": {"from": "block"}, "b": {"from": "back"}}})";
+    const double turn = std::asin(1.5 * std::sin(kAngle)) - kAngle;
+    // The back passes the origin: a ray at x leaves it at z = -x tan(a), and lands kBehind behind the origin.
+    const double x0 = 0.15, z0 = -x0 * std::tan(kAngle), landing = x0 + (kBehind + z0) * std::tan(turn);
+    const double seen = rodSeen(*this, wedge, 1.5, {landing, 0, -kBehind}, 'y', {0, 0, kAway}, 1.8);
+    EXPECT_NEAR(seen, x0, 0.06);
+}
+
+TEST_F(Paths, AWhiteRoomGathersWhatItSends) {
+    // All that its walls send out comes back to them: with each bounce as much again (an integrating sphere).
+    for (const int bounces : {1, 4}) {
+        const Traced room = trace(
+            R"({"id": "ball", "type": "sphere"}, {"id": "shape", "type": "shell", "inputs": {"surface": {"from": "ball"}, "thickness": 0.1}}, )" +
+                solid("", R"("base_color": [1, 1, 1], "roughness": 1, "emission": [0.25, 0.25, 0.25])")
+                    .substr(2),
+            R"("camera": {"position": [0, 0, 0.01], "target": [0, 0, 0], "fov": 60}, )" + kFurnace, 64,
+            bounces);
+        EXPECT_NEAR(room.middle(kSide / 2).g, 0.25 * (1 + bounces), 0.01 * (1 + bounces));
+    }
+}
+
 /// A post on a plate, which is wider than all that is put beside it.
 const std::string kStand =
     R"({"id": "post", "type": "box", "inputs": {"half_extents": [0.2, 2, 0.2]}},
