@@ -150,6 +150,7 @@ void showSun(Editor& editor, const Scene& scene) {
            kStrengthRange);
     number(editor, "sun.size", "Size", "Degrees across: the larger, the softer its shadows.", scene.sun->size,
            {.min = 0.0, .max = kMostSunSize, .speed = 0.05});
+    flag(editor, "sun.traced", "Traced", "Shadows through the field: sharp near and far.", scene.sun->traced);
     endProperties();
 }
 

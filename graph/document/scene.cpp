@@ -109,6 +109,7 @@ struct SceneReader {
                                             kMostElevation);
                           if (key == "color") return color(entry, "sun.color", to.color);
                           if (key == "strength") return number(entry, "sun.strength", to.strength, 0.0);
+                          if (key == "traced") return flag(entry, "sun.traced", to.traced);
                           return key != "size" || number(entry, "sun.size", to.size, 0.0, kMostSunSize);
                       });
     }

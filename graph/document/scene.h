@@ -50,6 +50,7 @@ struct Sun {
     Triple color{1.0, 0.9, 0.776};  ///< linear
     double strength = 2.9;  ///< irradiance of a surface that faces it; a white one then shows 1 / pi of it
     double size = 4.0;      ///< degrees across: the larger, the softer its shadows
+    bool traced = false;    ///< its shadows, through the field; by a map of the solid otherwise
     bool operator==(const Sun&) const = default;
 };
 

@@ -249,7 +249,10 @@ Json sceneSchema() {
                     {"color", sceneColor("Linear.", sun.color)},
                     {"strength", sceneNumber("Irradiance of a surface that faces it.", sun.strength)},
                     {"size", sceneNumber("Degrees across: the larger, the softer its shadows.", sun.size, 0.0,
-                                         kMostSunSize)}})},
+                                         kMostSunSize)},
+                    {"traced", described("Its shadows are traced through the field: sharp near and far. "
+                                         "Otherwise a map of the solid has them.",
+                                         {{"type", "boolean"}, {"default", sun.traced}})}})},
          {"sky", switched("What is behind the solid and lights it from all sides; a studio if absent.",
                           {{"zenith", sceneColor("Linear, as are the others.", sky.zenith)},
                            {"horizon", sceneColor("", sky.horizon)},

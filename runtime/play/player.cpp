@@ -51,6 +51,7 @@ FieldKernelOptions kernelsFor(const Graph& graph, const Program& program, bool s
     const Result<Scene> scene = readScene(*graph.scene);
     if (!scene) return kernels;
     kernels.lamps = !scene->lights.empty();
+    kernels.sun = scene->sun && scene->sun->traced;
     kernels.secondary = secondaryKinds(*scene, program.transmits());
     return kernels;
 }

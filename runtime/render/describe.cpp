@@ -32,9 +32,12 @@ gpu::Light describe(const Lamp& lamp) {
     return light;
 }
 
+/// Of a lamp in so many parts, each as wide as leaves no gaps between their penumbras.
+float widthOfPart(int count) { return std::min(1.5f / std::sqrt(float(count)), 1.0f); }
+
 /// One of `count` parts of a lamp whose shadows are the mean of theirs: at a place within its ball such that
 /// from each side they cover its disc evenly (a point of the unit sphere of four dimensions, projected into
-/// three), and as small as leaves no gaps between their penumbras.
+/// three).
 void takePart(gpu::Light& light, int number, int count) {
     // The R3 sequence (Roberts 2018).
     const auto along = [&](double step) { return float(std::fmod(0.5 + step * number, 1.0)); };
@@ -43,7 +46,7 @@ void takePart(gpu::Light& light, int number, int count) {
     const float wide = std::sqrt(1.0f - share);
     light.position +=
         light.size * glm::vec3(wide * std::cos(a), std::sqrt(share) * std::cos(b), wide * std::sin(a));
-    light.size *= 1.5f / std::sqrt(float(count));
+    light.size *= widthOfPart(count);
 }
 
 /// The sun's direction and its shadow map's axes; `turn` in the unit square is a place on its disc.
@@ -142,8 +145,9 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
         frame.fogEnd = kFogEnd * bounds.radius;
     }
     frame.lightCount = uint32_t(std::min<std::size_t>(look.lights.size(), RENDER_MOST_LIGHTS));
-    // Beside whole paths of light they are as large as there.
     const int parts = options.samples > 1 ? options.samples : resting ? kRestFrames : 1;
+    if (look.sun) frame.sunWide = std::tan(glm::radians(0.5f * float(look.sun->size))) * widthOfPart(parts);
+    // Beside whole paths of light they are as large as there.
     const bool inParts = parts > 1 && !options.reference && secondaryKinds(look, scene.transmits);
     for (uint32_t i = 0; i < frame.lightCount; ++i) {
         frame.lights[i] = describe(look.lights[i]);

@@ -43,6 +43,10 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
 
 }  // namespace
 
+std::vector<std::string> lampDefines(bool tracesSun) {
+    return tracesSun ? std::vector<std::string>{"TRACED_SUN"} : std::vector<std::string>{};
+}
+
 bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look,
                 bool mean) {
     const Device& device = commands.device;
@@ -50,6 +54,7 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     const gpu::RenderFrame& frame = renderer.described;
     const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
     const bool lamps = frame.lightCount > 0, fog = frame.fogDensity > 0.0f;
+    const bool sun = look.sun && look.sun->traced && !scene.draft;
     std::vector<Descriptor> bound = {
         {0, renderer.frame},         storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
         {3, gbuffer.tileLists},      storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
@@ -57,11 +62,12 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
         dispatchAllTiles(commands, pipeline, gbuffer, list, nullptr, 0, bound);
     };
-    if (lamps) {
+    if (lamps || sun) {
         beginStage(commands, "lamps");
-        if (!renderer.lamps)
-            renderer.lamps =
-                createComputePipeline(device, {.name = "render/lamps.comp", .field = renderer.field});
+        if (!renderer.lamps || renderer.tracesSun != sun)
+            renderer.lamps = createComputePipeline(
+                device, {.name = "render/lamps.comp", .field = renderer.field, .defines = lampDefines(sun)});
+        renderer.tracesSun = sun;
         resizeImage(commands, renderer.lampLight, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
         bound.push_back(storage(11, renderer.lampLight));
         std::vector<Descriptor> read = {{0, renderer.frame},
@@ -112,6 +118,7 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
             if (wanted) defines.push_back(name);
         };
         define(lamps, "LAMPS");
+        define(sun, "TRACED_SUN");
         define(fog, "FOG");
         define(!frame.studio, "SKY");
         define(mean, "MEAN");

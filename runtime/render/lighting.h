@@ -11,6 +11,9 @@ namespace fw {
 /// Ambient occlusion by many rays, none of which is kept, in place of drawAmbient.
 void traceReference(Commands& commands, Renderer& renderer, const RenderScene& scene);
 
+/// What lamps.comp defines.
+std::vector<std::string> lampDefines(bool tracesSun);
+
 /// Makes renderer.pixels of the G-buffer, and adds them to the mean if there is one. False if the commands
 /// are cancelled, before the mean is added to.
 bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look,

@@ -80,7 +80,8 @@ std::optional<FieldKernels> createFieldKernels(const Device& device, std::string
     add(kernels.ambient, "render/ambient.comp");
     add(kernels.ambientHoles, "render/ambient_holes.comp");
     if (hasFamilies(kernels.field)) add(kernels.places, "render/places.comp");
-    if (options.lamps) add(kernels.lamps, "render/lamps.comp");
+    if (options.lamps || options.sun) add(kernels.lamps, "render/lamps.comp", lampDefines(options.sun));
+    kernels.tracesSun = options.sun;
     if (options.show) add(kernels.show, "render/show.comp");
     if (options.secondary) {
         shaders.push_back(secondaryShader(kernels.field, *options.secondary));
@@ -124,6 +125,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.places.list = std::move(kernels.places);
     renderer.places.content.reset();
     renderer.lamps = std::move(kernels.lamps);
+    renderer.tracesSun = kernels.tracesSun;
     renderer.show = std::move(kernels.show);
     renderer.secondary.trace = std::move(kernels.secondary);
     renderer.secondary.filter = {};

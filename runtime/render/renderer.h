@@ -111,14 +111,16 @@ struct Shown {
 struct FieldKernels {
     std::string field;
     Pipeline cones, trace, surface, ambient, ambientHoles;
-    Pipeline places;       ///< only if the field has families
-    Pipeline lamps, show;  ///< only if asked for
-    Pipeline secondary;    ///< ditto
-    SecondaryKinds kinds;  ///< of that
+    Pipeline places;         ///< only if the field has families
+    Pipeline lamps, show;    ///< only if asked for
+    bool tracesSun = false;  ///< `lamps` does
+    Pipeline secondary;      ///< ditto
+    SecondaryKinds kinds;    ///< of that
 };
 
 struct FieldKernelOptions {
     bool lamps = false;  ///< the scene has some
+    bool sun = false;    ///< its shadows are traced
     bool show = false;   ///< for showsField()
     std::optional<SecondaryKinds> secondary = {};
     Compile when = Compile::now;
@@ -143,6 +145,7 @@ struct Renderer {
     Secondary secondary;
     std::map<std::vector<std::string>, Pipeline> light;  ///< by what light.comp defines; made when needed
     Pipeline lamps, fog, reference, show, wireframe;     ///< ditto
+    bool tracesSun = false;                              ///< `lamps` does
 
     DepthTarget seen, shadow;
     Image means, lampLight, fogLight;

@@ -2,7 +2,7 @@
 // lamps, fog; tone map, mean over frames, sRGB. It samples no field, so its pipelines serve all graphs.
 // Where no surface is there is the sky, or a studio's wall, on which the ground, not drawn itself, catches the solid's shadow.
 // Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; BOUNCE,
-// REFLECTIONS and TRANSMITS, of secondary.comp; MEAN where the picture is the
+// REFLECTIONS and TRANSMITS, of secondary.comp; TRACED_SUN, of lamps.comp; MEAN where the picture is the
 // mean of frames, of what a display shows, or, LINEAR, of the light itself, whose noise would darken what is shown; NEUTRAL, of tone.glsl.
 #define SHADOW_MAP
 #include "shared.h"
@@ -30,8 +30,8 @@ layout(binding = 9, rg32ui) uniform uimage2D means;  // of what a display shows,
 #endif
 #endif
 layout(binding = 10, r32ui) writeonly uniform uimage2D pixels;  // sRGB, red in the lowest byte
-#ifdef LAMPS
-layout(binding = 11, rgba16f) readonly uniform image2D lamps;
+#if defined(LAMPS) || defined(TRACED_SUN)
+layout(binding = 11, rgba16f) readonly uniform image2D lamps;  // light; share of the sun
 #endif
 #ifdef FOG
 layout(binding = 12, rgba16f) readonly uniform image2D fog;  // light that it sends; share of light that it lets through
@@ -88,7 +88,11 @@ void main() {
     vec3 p = frame.now.eye + ray * (frame.now.near / (there ? s.depth : 1.0));
     bool occluded = there && nearSolid(p, 0.0);
     float open = mix(1.0, occluded ? opennessOf(imageLoad(history, at).x) : 1.0, frame.ambientStrength);
+#ifdef TRACED_SUN
+    float sunlit = there ? imageLoad(lamps, at).w : 1.0;
+#else
     float sunlit = frame.shadowSize != 0 && there ? sunSeen(p, s.n, pixel) : 1.0;
+#endif
     vec3 sunned = vec3(sunlit);
 #ifdef TRANSMITS
     // Through what transmits, which the map takes for opaque.

@@ -98,6 +98,7 @@ struct RenderFrame {
     vec3 shadowForward;          // the same, away from the sun
     float shadowTexel;           // metres
     uint shadowSize;             // texels along each side; 0: nothing is in shadow
+    float sunWide;               // of a traced sun, the tangent of half the angle across it
 
     vec3 zenith, horizon, groundColor;
     uint studio;     // 1: behind the solid is a wall; 0: the sky

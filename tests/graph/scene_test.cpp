@@ -191,7 +191,7 @@ TEST(Scene, TheSchemaKnowsWhatIsRead) {
             expectRefused(written(limit + outward * 1e-6));
         }
     });
-    EXPECT_EQ(values, 5 + 5 + 4 + 2 + 1 + 3 + 8 + 4);
+    EXPECT_EQ(values, 5 + 6 + 4 + 2 + 1 + 3 + 8 + 4);
 }
 
 TEST(Scene, NothingStandsOnItsTarget) {

@@ -420,6 +420,39 @@ TEST(Render, ASolidThatWasCutIsShadedAtTheCut) {
         EXPECT_NEAR(pixel(*picture, kWidth / 2 + u, kHeight / 2).r, reference, 12) << u;
 }
 
+TEST(Render, ATracedSunIsSharpInALargeScene) {
+    // The shadow of a post 0.2 m wide on a plate of 100 m, of which a map has one texel for several posts.
+    const std::string post = graphText(R"(
+        {"id": "bar", "type": "box", "inputs": {"half_extents": [0.1, 2, 0.1]}},
+        {"id": "plate", "type": "box", "inputs": {"half_extents": [50, 1, 50]}},
+        {"id": "low", "type": "translate", "inputs": {"surface": {"from": "plate"}, "offset": [0, -1, 0]}},
+        {"id": "both", "type": "union", "inputs": {"a": {"from": "bar"}, "b": {"from": "low"}}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}}})");
+    RenderOptions options{.width = kWidth, .height = kHeight, .show = RENDER_SHADOW};
+    options.scene.camera = {.position = {-1, 6, 1e-3}, .target = {-1, 0, 0}, .fov = 30};
+    const double perPixel = 2 * 6 * std::tan(15 * std::numbers::pi / 180) / kHeight;
+    for (const auto& [size, traced] : {std::pair(0.0, true), {4.0, true}, {0.0, false}}) {
+        options.scene.sun = {.azimuth = 90, .elevation = 45, .size = size, .traced = traced};
+        const Result<Picture> picture = draw(post, {{}, 48}, options);
+        ASSERT_TRUE(picture) << format(picture.error());
+        double dark = 0, half = 0;
+        for (int y = 0; y < kHeight; ++y) {
+            const double lit = std::pow(pixel(*picture, kWidth / 2, y).r / 255.0, 2.2);
+            dark += 1 - lit;
+            half += lit > 0.1 && lit < 0.9;
+        }
+        if (!traced) {
+            EXPECT_GT(std::abs(dark * perPixel - 0.2), 0.05) << "a map would do";
+            continue;
+        }
+        // How much light is missing does not depend on how soft the edges are.
+        EXPECT_NEAR(dark * perPixel, 0.2, 0.03) << size;
+        // Both edges, of a shadow cast from 1 m above.
+        const double penumbra = std::sqrt(2.0) * 2 * std::tan(size / 2 * std::numbers::pi / 180);
+        EXPECT_NEAR(half * perPixel, 2 * 0.75 * penumbra, 0.09) << size;
+    }
+}
+
 TEST(Render, LampsLightAllOfTheGround) {
     // Beside the solid the ground has no edge between tiles that a lamp's light ends at.
     RenderOptions options{.width = 480, .height = 270, .samples = 2};
