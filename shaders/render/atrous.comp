@@ -22,7 +22,7 @@ layout(binding = 20, rgba16f) readonly uniform image2D reflectionFrom;
 layout(binding = 21, rgba16f) writeonly uniform image2D reflectionTo;
 #endif
 
-const float kFew = 16.0;          // rays, of which a pixel's neighbours count for half
+const float kFew = 64.0;          // rays, of which a pixel's neighbours count for half
 const float kSamePlane = 0.004;   // of the distance to the eye
 const float kRough = 0.35;        // roughness from which reflections are blurred like light from all around
 
