@@ -21,6 +21,16 @@ float opaqueAt(Bounds bounds, vec3 p) {
 #endif
 }
 
+// What a ray asks for at each step. Of an opaque solid it need not know the region's sides on the way: one that begins at them
+// within the solid hits there.
+float stepAt(Bounds bounds, vec3 p) {
+#if defined(FIELD_TRANSMITS) || defined(FIELD_FAMILIES)
+    return wholeAt(bounds, p);
+#else
+    return fieldValue(p) * bounds.stepScale;
+#endif
+}
+
 // Where a ray is, and how it came there.
 struct Way {
     float t;
@@ -38,12 +48,15 @@ struct Way {
 // the way gone, so that rays may leave the surface they start on.
 Way follow(Bounds bounds, vec3 o, vec3 d, float start, float end, bool within, float ior, vec3 absorption, float close, uint most) {
     const float kLeave = 0.25;
+#ifndef FIELD_TRANSMITS
+    within = false;  // so that drivers see it
+#endif
     Way way = Way(start, false, !within, false, false, vec3(0.0), ior, absorption, 0);
     float free = start, f = 0.0;
     if (start < end) {
         do {
             vec3 p = o + d * way.t;
-            float whole = wholeAt(bounds, p);
+            float whole = stepAt(bounds, p);
             f = whole;
 #ifdef FIELD_TRANSMITS
             float opaque = opaqueAt(bounds, p);
@@ -63,10 +76,10 @@ Way follow(Bounds bounds, vec3 o, vec3 d, float start, float end, bool within, f
             float least = min(close, kLeave * way.t + 0.01 * close);
             bool jumped = f < -least && way.t - free > least && !within;
             way.hit = f < least && !jumped;
-            if (way.hit) break;
+            float onward = jumped ? 0.5 * (free + way.t) : way.t + max(f, 0.02 * close);
             free = jumped || within ? free : way.t;
-            way.t = jumped ? 0.5 * (free + way.t) : way.t + max(f, 0.02 * close);
-        } while (way.t < end && ++way.steps < most);
+            way.t = way.hit ? way.t : onward;
+        } while (!way.hit && way.t < end && ++way.steps < most);
     }
 #ifdef FIELD_MEDIA
     if (way.changes) {
