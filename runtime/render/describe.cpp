@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
+constexpr uint32_t kFogKept = 8;  // frames that a moving view's fog is the mean of
 constexpr float kFogEnd = 12.0f;  // in the solid's radii
 
 gpu::Light describe(const Lamp& lamp) {
@@ -143,6 +144,7 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
         frame.fogDensity = float(look.fog->density);
         frame.fogFalloff = look.fog->height > 0.0 ? 1.0f / float(look.fog->height) : 0.0f;
         frame.fogEnd = kFogEnd * bounds.radius;
+        frame.fogKept = resting || options.samples > 1 ? 0 : kFogKept;
     }
     frame.lightCount = uint32_t(std::min<std::size_t>(look.lights.size(), RENDER_MOST_LIGHTS));
     const int parts = options.samples > 1 ? options.samples : resting ? kRestFrames : 1;

@@ -83,14 +83,8 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     }
     if (fog) {
         beginStage(commands, "fog");
-        if (!renderer.fog) renderer.fog = createComputePipeline(device, {.name = "render/fog.comp"});
-        const VkExtent3D half = {(extent.width + 1) / 2, (extent.height + 1) / 2, 1};
-        resizeImage(commands, renderer.fogLight, half, VK_FORMAT_R16G16B16A16_SFLOAT);
-        bound.push_back(storage(12, renderer.fogLight));
-        dispatch(commands, renderer.fog,
-                 {groupsFor(half.width, RENDER_TILE), groupsFor(half.height, RENDER_TILE), 1}, nullptr, 0,
-                 bound);
-        barrier(commands);
+        drawFog(commands, renderer.fog, renderer.seen.depth, renderer.shadow.depth, renderer.frame, extent);
+        bound.push_back(storage(12, renderer.fog.now()));
     }
     const std::optional<SecondaryKinds> secondary =
         scene.draft ? std::nullopt : secondaryKinds(look, scene.transmits);

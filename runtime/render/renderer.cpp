@@ -52,6 +52,7 @@ glm::vec2 onDisc(int number, int count) {
 void forgetHistory(Renderer& renderer) {
     fw::forgetHistory(renderer.ambient);
     renderer.secondary.hasHistory = false;
+    renderer.fog.hasHistory = false;
 }
 
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -285,9 +286,10 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     const auto state = [&] {
         return std::tie(renderer.described, renderer.gbuffer.current, renderer.ambient.current,
                         renderer.ambient.rays, renderer.ambient.hasHistory, renderer.secondary.current,
-                        renderer.secondary.hasHistory);
+                        renderer.secondary.hasHistory, renderer.fog.current, renderer.fog.hasHistory);
     };
-    const std::tuple<gpu::RenderFrame, uint32_t, uint32_t, int, bool, uint32_t, bool> before = state();
+    const std::tuple<gpu::RenderFrame, uint32_t, uint32_t, int, bool, uint32_t, bool, uint32_t, bool> before =
+        state();
     // The mean begins with the first frame that rests.
     if (!drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0))) {
         // As if it had not begun: what it wrote is written anew by the next one, the mean it did not touch.

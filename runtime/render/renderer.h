@@ -27,6 +27,7 @@
 
 #include "runtime/render/ambient.h"
 #include "runtime/render/draft.h"
+#include "runtime/render/fog.h"
 #include "runtime/render/paths.h"
 #include "runtime/render/picture.h"
 #include "runtime/render/places.h"
@@ -143,12 +144,13 @@ struct Renderer {
     GBuffer gbuffer;
     Ambient ambient;
     Secondary secondary;
+    FogLight fog;
     std::map<std::vector<std::string>, Pipeline> light;  ///< by what light.comp defines; made when needed
-    Pipeline lamps, fog, reference, show, wireframe;     ///< ditto
+    Pipeline lamps, reference, show, wireframe;          ///< ditto
     bool tracesSun = false;                              ///< `lamps` does
 
     DepthTarget seen, shadow;
-    Image means, lampLight, fogLight;
+    Image means, lampLight;
     Image pixels;     ///< the finished picture, R32_UINT: sRGB, red in the lowest byte
     Buffer frame;     ///< gpu::RenderFrame
     Buffer readback;  ///< the finished picture, where the host reads it

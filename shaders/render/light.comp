@@ -34,6 +34,7 @@ layout(binding = 10, r32ui) writeonly uniform uimage2D pixels;  // sRGB, red in 
 layout(binding = 11, rgba16f) readonly uniform image2D lamps;  // light; share of the sun
 #endif
 #ifdef FOG
+layout(binding = 1, r32f) readonly uniform image2D seen;
 layout(binding = 12, rgba16f) readonly uniform image2D fog;  // light that it sends; share of light that it lets through
 #endif
 
@@ -59,6 +60,26 @@ float sunSeen(vec3 p, vec3 n, uvec2 pixel) {
     vec2 u = evenly(pixel, frame.number), spot = vec2(cos(6.2831853 * u.x), sin(6.2831853 * u.x)) * (1.5 * sqrt(u.y));
     return 0.5 * (sunReaches(at, spot) + sunReaches(at, -spot));
 }
+
+#ifdef FOG
+// Of the four nearest pixels of fog.comp, those alone that look as far.
+vec4 fogAt(ivec2 pixel) {
+    ivec2 offset = ivec2(frame.mean & 1, frame.mean >> 1 & 1), most = (ivec2(frame.size) + 1) / 2 - 1, last = ivec2(frame.size) - 1;
+    vec2 at = max(vec2(pixel - offset) * 0.5, vec2(0.0)), part = fract(at);
+    float depth = imageLoad(seen, pixel).x;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = min(ivec2(at) + ivec2(i & 1, i >> 1), most);
+        vec2 near = mix(1.0 - part, part, vec2(i & 1, i >> 1));
+        float other = imageLoad(seen, min(texel * 2 + offset, last)).x;
+        float weight = near.x * near.y / (0.01 + abs(depth - other) / max(max(depth, other), 1e-12)) + 1e-6;
+        sum += imageLoad(fog, texel) * weight;
+        weights += weight;
+    }
+    return sum / weights;
+}
+#endif
 
 void main() {
     uint lane = gl_LocalInvocationIndex, tile = tiles[LIST * frame.tiles + gl_WorkGroupID.x];
@@ -153,7 +174,7 @@ void main() {
 #endif
 #endif
 #ifdef FOG
-    vec4 veil = imageLoad(fog, at / 2);
+    vec4 veil = fogAt(at);
     color = color * veil.a + veil.rgb;
 #endif
 #if defined(MEAN) && defined(LINEAR)

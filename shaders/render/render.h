@@ -113,6 +113,7 @@ struct RenderFrame {
     float fogDensity;  // at the ground, 1 / metre
     float fogFalloff;  // with height, 1 / metre
     float fogEnd;      // metres from the eye, where fog ends if nothing is hit
+    uint fogKept;      // frames that it is the mean of, at most; 0 where the picture is a mean itself
 
     uint lightCount;
     Light lights[RENDER_MOST_LIGHTS];
