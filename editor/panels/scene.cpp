@@ -1,4 +1,4 @@
-// The document's scene: camera, sun, sky, lamps, ambient occlusion, ground, fog, exposure and tone.
+// The document's scene: camera, sun, sky, lamps, ambient occlusion, ground, fog, bloom, exposure and tone.
 //
 // What is shown is the scene as readScene() has it, defaults included; what is changed is one value of the
 // JSON, so that everything else in it stays as it was written. A value that the scene would refuse is not
@@ -132,10 +132,13 @@ void showCamera(Editor& editor, const Scene& scene) {
     number(editor, "camera.fov", "Field of view", "Degrees, from the bottom of the picture to its top.",
            scene.camera->fov, {.min = kLeastFov, .max = kMostFov, .speed = 0.2});
     number(editor, "camera.aperture", "Aperture",
-           "Metres across the lens: stills are blurred where they are out of focus; 0: nowhere.",
-           scene.camera->aperture, {.min = 0.0, .max = kMostSceneNumber, .speed = 0.002});
+           "Metres across the lens: what is out of focus is blurred; 0: nothing.", scene.camera->aperture,
+           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.002});
     number(editor, "camera.focus", "Focus", "Metres to what is sharp; 0: as far as the target.",
            scene.camera->focus, {.min = 0.0, .max = kMostSceneNumber, .speed = 0.02});
+    number(editor, "camera.shutter", "Shutter",
+           "Degrees of a frame's 360 that it is open for: stills are blurred where they move.",
+           scene.camera->shutter, {.min = 0.0, .max = kMostShutter, .speed = 1.0});
     endProperties();
 }
 
@@ -159,7 +162,10 @@ void showSky(Editor& editor, const Scene& scene) {
     color(editor, "sky.zenith", "Zenith", scene.sky->zenith);
     color(editor, "sky.horizon", "Horizon", scene.sky->horizon);
     color(editor, "sky.ground", "Ground", scene.sky->ground);
-    number(editor, "sky.strength", "Strength", "A factor on all three.", scene.sky->strength, kStrengthRange);
+    number(editor, "sky.strength", "Strength", "A factor on all of it.", scene.sky->strength, kStrengthRange);
+    if (!scene.sky->image.empty())
+        number(editor, "sky.rotation", "Rotation", "Degrees that the map is turned, from +z towards +x.",
+               scene.sky->rotation, {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5});
     endProperties();
 }
 
@@ -194,6 +200,16 @@ void showFog(Editor& editor, const Scene& scene) {
     number(editor, "fog.height", "Height", "Metres in which it thins to 1 / e; 0: it does not.",
            scene.fog->height, kStrengthRange);
     color(editor, "fog.color", "Colour", scene.fog->color);
+    endProperties();
+}
+
+void showBloom(Editor& editor, const Scene& scene) {
+    if (!part(editor, "bloom", "Bloom", scene.bloom.has_value()) || !scene.bloom || !beginProperties("bloom"))
+        return;
+    number(editor, "bloom.strength", "Strength", "Share of all light that spills.", scene.bloom->strength,
+           {.min = 0.0, .max = 1.0, .speed = 0.005});
+    number(editor, "bloom.radius", "Radius", "How far, in heights of the picture.", scene.bloom->radius,
+           {.min = 0.0, .max = 1.0, .speed = 0.002});
     endProperties();
 }
 
@@ -293,6 +309,7 @@ void showScene(Editor& editor) {
     showAmbient(editor, *scene);
     showGround(editor, *scene);
     showFog(editor, *scene);
+    showBloom(editor, *scene);
     showLamps(editor, *scene);
 }
 

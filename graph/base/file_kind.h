@@ -24,12 +24,16 @@ struct FileKind {
 inline constexpr std::string_view kPictureEndings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga"};
 inline constexpr std::string_view kMeshEndings[] = {".glb", ".gltf", ".obj", ".stl", ".ply"};
 inline constexpr std::string_view kParticleEndings[] = {".ply", ".obj", ".csv", ".txt", ".xyz"};
+inline constexpr std::string_view kEnvironmentEndings[] = {".hdr", ".exr", ".png", ".jpg", ".jpeg"};
 
 inline constexpr FileKind kPictureFile = {
     .noun = "picture", .endings = kPictureEndings, .mostBytes = 64u << 20, .byContent = true};
 inline constexpr FileKind kMeshFile = {.noun = "mesh", .endings = kMeshEndings, .mostBytes = 512u << 20};
 inline constexpr FileKind kParticleFile = {
     .noun = "particle file", .endings = kParticleEndings, .mostBytes = 512u << 20};
+
+inline constexpr FileKind kEnvironmentFile = {
+    .noun = "environment map", .endings = kEnvironmentEndings, .mostBytes = 512u << 20, .byContent = true};
 
 /// The ending of the path's name with its point, in small letters: ".png".
 std::string endingOf(std::string_view path);

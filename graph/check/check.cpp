@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "graph/assets/environment.h"
 #include "graph/compile/compile.h"
 #include "graph/document/named_parameters.h"
+#include "graph/document/scene.h"
 #include "graph/document/sockets.h"
 #include "graph/document/timeline.h"
 #include "graph/language/resolve.h"
@@ -55,6 +57,20 @@ void checkCode(const Graph& graph, const std::vector<Node>& nodes, const std::st
     }
 }
 
+/// Whether the scene's environment map can be read.
+void checkSky(const Graph& graph, std::vector<Error>& findings) {
+    const Result<Scene> scene = readScene(graph.scene, graph.scenePlaces);
+    if (!scene || !scene->sky || scene->sky->image.empty()) return;
+    const Result<EnvironmentMapPtr> map = readEnvironment(graph.path, scene->sky->image);
+    if (map) return;
+    Error error = map.error();
+    error.message = "the scene's sky.image: " + error.message;
+    error.file = graph.path;
+    const TextPosition place = skyPlace(graph.scene, graph.scenePlaces);
+    error.line = place.line, error.column = place.column;
+    findings.push_back(std::move(error));
+}
+
 }  // namespace
 
 std::vector<Error> check(const Graph& graph, bool pictures) {
@@ -64,6 +80,7 @@ std::vector<Error> check(const Graph& graph, bool pictures) {
         for (const Group& group : graph.groups) checkCode(graph, group.nodes, group.id + "/", findings);
         return findings;
     }
+    checkSky(graph, findings);
     const Result<Timeline> timeline = readTimeline(graph);
     std::vector<Error> errors = compileErrors(graph, {.warnOfPictures = pictures});
     dropPassingZeros(graph, *timeline, errors);

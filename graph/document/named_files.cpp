@@ -1,6 +1,8 @@
 #include "graph/document/named_files.h"
 
+#include <nlohmann/json.hpp>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 #include "graph/document/sockets.h"
@@ -8,6 +10,16 @@
 namespace fw {
 
 namespace {
+
+/// What the scene names as its sky's picture; null if it names none. Any is a Json or a const one.
+template <class Any>
+auto* skyImage(Any& scene) {
+    using Text = std::conditional_t<std::is_const_v<Any>, const std::string, std::string>;
+    Text* none = nullptr;
+    if (!scene.is_object() || !scene.contains("sky")) return none;
+    Any& sky = scene.at("sky");
+    return sky.is_object() && sky.contains("image") ? sky.at("image").template get_ptr<Text*>() : none;
+}
 
 /// Calls visit(path, kind) for each input that names a file; Any is a Graph or a const one.
 template <class Any, class Visit>
@@ -25,6 +37,7 @@ void eachFile(Any& graph, const Visit& visit) {
                     if (const std::optional<Socket> socket = inputSocket(scope, i, name))
                         seen(fileKind(*socket), value);
     };
+    if (auto* path = skyImage(*graph.scene); path && !path->empty()) visit(*path, kEnvironmentFile);
     within(graph.nodes, nullptr);
     for (std::size_t i = 0; i < graph.groups.size(); ++i) {
         for (auto& input : graph.groups[i].inputs)

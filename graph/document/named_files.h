@@ -1,5 +1,5 @@
-// The files that a graph's inputs name. Which inputs these are is told by the node library (InputSpec::file)
-// and by what groups declare; files that code names are not among them.
+// The files that a graph's inputs and its scene name. Which inputs these are is told by the node library
+// (InputSpec::file) and by what groups declare; files that code names are not among them.
 #pragma once
 
 #include <functional>

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "graph/base/file_kind.h"
 #include "graph/document/placed_json.h"
 
 namespace fw {
@@ -66,6 +67,13 @@ struct SceneReader {
         return triple(value, name, to, 0.0);
     }
 
+    bool path(const PlacedJson& value, const std::string& name, std::string& to) {
+        if (!value.value().is_string() || value.value().get<std::string>().empty())
+            return fail(value, "the scene's " + name + " must be the path of " + anyOf(kEnvironmentFile));
+        to = value.value().get<std::string>();
+        return true;
+    }
+
     /// Reads an object's members by `member`(key, value), or, where `to` may be switched off, `false`.
     template <class T, class Member>
     bool object(const PlacedJson& value, const std::string& name, std::optional<T>& to, bool mayBeOff,
@@ -89,6 +97,7 @@ struct SceneReader {
             if (key == "target") return triple(entry, "camera.target", to.target);
             if (key == "aperture") return number(entry, "camera.aperture", to.aperture, 0.0);
             if (key == "focus") return number(entry, "camera.focus", to.focus, 0.0);
+            if (key == "shutter") return number(entry, "camera.shutter", to.shutter, 0.0, kMostShutter);
             if (key != "fov") return true;
             const Json& json = entry.value();
             to.fov = json.is_number() ? json.get<double>() : 0.0;
@@ -121,6 +130,8 @@ struct SceneReader {
                           if (key == "zenith") return color(entry, "sky.zenith", to.zenith);
                           if (key == "horizon") return color(entry, "sky.horizon", to.horizon);
                           if (key == "ground") return color(entry, "sky.ground", to.ground);
+                          if (key == "image") return path(entry, "sky.image", to.image);
+                          if (key == "rotation") return number(entry, "sky.rotation", to.rotation);
                           return key != "strength" || number(entry, "sky.strength", to.strength, 0.0);
                       });
     }
@@ -146,6 +157,14 @@ struct SceneReader {
                           if (key == "density") return number(entry, "fog.density", to.density, 0.0);
                           if (key == "height") return number(entry, "fog.height", to.height, 0.0);
                           return key != "color" || color(entry, "fog.color", to.color);
+                      });
+    }
+
+    bool bloom(const PlacedJson& value, Scene& scene) {
+        return object(value, "bloom", scene.bloom, true, R"({"strength": 0.15, "radius": 0.1})",
+                      [&](Bloom& to, const std::string& key, const PlacedJson& entry) {
+                          if (key == "radius") return number(entry, "bloom.radius", to.radius, 0.0, 1.0);
+                          return key != "strength" || number(entry, "bloom.strength", to.strength, 0.0, 1.0);
                       });
     }
 
@@ -219,6 +238,7 @@ Result<Scene> readScene(const Json& json, const TextPlaces& places) {
         if (key == "ao") return reader.ambient(value, scene);
         if (key == "ground") return reader.ground(value, scene);
         if (key == "fog") return reader.fog(value, scene);
+        if (key == "bloom") return reader.bloom(value, scene);
         if (key == "lights") return reader.lights(value, scene);
         if (key == "bounce") return reader.flag(value, key, scene.bounce);
         if (key == "reflections") return reader.flag(value, key, scene.reflections);
@@ -228,6 +248,15 @@ Result<Scene> readScene(const Json& json, const TextPlaces& places) {
     });
     if (!sound) return std::move(reader.error);
     return scene;
+}
+
+TextPosition skyPlace(const Json& json, const TextPlaces& places) {
+    TextPosition place;
+    PlacedJson(json, places).forMembers([&](const std::string& key, const PlacedJson& value) {
+        if (key == "sky") place = value.at();
+        return key != "sky";
+    });
+    return place;
 }
 
 }  // namespace fw

@@ -10,13 +10,15 @@
 //     }
 //
 // Every key may be absent. Without a camera the whole solid is framed from three quarters; without a sky it
-// stands before a studio's wall. `sun`, `ao`, `ground` and `fog` may be false, which switches them off. Keys
-// that are not known here are kept in the document (graph.h) and have no effect. A Scene is a value, read
-// anew for every time that tracks of the timeline give the document's scene (timeline.h, sceneAt).
+// stands before a studio's wall. `sun`, `ao`, `ground`, `fog` and `bloom` may be false, which switches them
+// off. Keys that are not known here are kept in the document (graph.h) and have no effect. A Scene is a
+// value, read anew for every time that tracks of the timeline give the document's scene (timeline.h,
+// sceneAt).
 #pragma once
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "graph/base/result.h"
@@ -24,7 +26,7 @@
 
 namespace fw {
 
-inline constexpr double kLeastFov = 1.0, kMostFov = 170.0;
+inline constexpr double kLeastFov = 1.0, kMostFov = 170.0, kMostShutter = 360.0;
 inline constexpr double kMostElevation = 90.0, kMostSunSize = 45.0;
 inline constexpr double kLeastLampAngle = 1.0, kMostLampAngle = 179.0;
 inline constexpr double kMostExposure = 20.0;
@@ -41,6 +43,7 @@ struct Camera {
     double fov = 30.0;               ///< degrees, from the bottom of the picture to its top
     double aperture = 0.0;  ///< metres across the lens: what is not in focus is blurred; 0: nothing is
     double focus = 0.0;     ///< metres to the plane that is in focus; 0: to the target
+    double shutter = 0.0;   ///< degrees of a frame's 360 that it is open for: what moves is blurred
     bool operator==(const Camera&) const = default;
 };
 
@@ -57,6 +60,9 @@ struct Sun {
 struct Sky {
     Triple zenith{0.50, 0.66, 0.95}, horizon{0.95, 0.93, 0.90}, ground{0.56, 0.54, 0.51};
     double strength = 1.0;
+    std::string image =
+        {};  ///< path of an environment map (graph/assets/environment.h) in place of the colours
+    double rotation = 0.0;  ///< of it, degrees about y, from +z towards +x
     bool operator==(const Sky&) const = default;
 };
 
@@ -86,6 +92,13 @@ struct Fog {
     bool operator==(const Fog&) const = default;
 };
 
+/// Light that spills from bright places.
+struct Bloom {
+    double strength = 0.15;  ///< share of all light that does
+    double radius = 0.1;     ///< how far, in heights of the picture
+    bool operator==(const Bloom&) const = default;
+};
+
 struct Ground {
     std::optional<double> height;  ///< metres; none: the solid's foot
     bool operator==(const Ground&) const = default;
@@ -106,6 +119,7 @@ struct Scene {
     std::optional<AmbientOcclusion> ao = AmbientOcclusion{};
     std::optional<Ground> ground = Ground{};
     std::optional<Fog> fog;
+    std::optional<Bloom> bloom;
     std::vector<Lamp> lights;
     bool bounce = false;       ///< light that surfaces throw on each other
     bool reflections = false;  ///< surfaces mirror each other, rather than the sky alone
@@ -118,5 +132,8 @@ struct Scene {
 /// errors (empty if unknown). Errors name the key: what has the wrong form, is not finite or out of range, a
 /// camera or light that stands on its target, too many lights.
 Result<Scene> readScene(const Json& json, const TextPlaces& places = {});
+
+/// Where the sky stands in the text of that JSON; 0 if that is not known.
+TextPosition skyPlace(const Json& json, const TextPlaces& places);
 
 }  // namespace fw

@@ -229,6 +229,7 @@ Json sceneSchema() {
     const Sky sky;
     const AmbientOcclusion ao;
     const Fog fog;
+    const Bloom bloom;
     const double up = kMostElevation;
     return object(
         {{"camera",
@@ -240,7 +241,10 @@ Json sceneSchema() {
                    {"fov", sceneNumber("Degrees from the bottom of the picture to its top.", camera.fov,
                                        kLeastFov, kMostFov)},
                    {"aperture", sceneNumber("Metres across the lens; 0: all is sharp.", camera.aperture)},
-                   {"focus", sceneNumber("Metres to what is sharp; 0: as far as the target.", camera.focus)}},
+                   {"focus", sceneNumber("Metres to what is sharp; 0: as far as the target.", camera.focus)},
+                   {"shutter",
+                    sceneNumber("Degrees of a frame's 360 that it is open for; 0: nothing is blurred.",
+                                camera.shutter, 0.0, kMostShutter)}},
                   {}))},
          {"sun",
           switched("A light from afar, with shadows.",
@@ -257,7 +261,11 @@ Json sceneSchema() {
                           {{"zenith", sceneColor("Linear, as are the others.", sky.zenith)},
                            {"horizon", sceneColor("", sky.horizon)},
                            {"ground", sceneColor("What is below the horizon.", sky.ground)},
-                           {"strength", sceneNumber("Factor of all three.", sky.strength)}})},
+                           {"image", described("Path of an environment map in place of the colours.",
+                                               {{"type", "string"}, {"minLength", 1}})},
+                           {"rotation", sceneNumber("Degrees that the map is turned, from +z towards +x.",
+                                                    sky.rotation, -kMostSceneNumber)},
+                           {"strength", sceneNumber("Factor of all of it.", sky.strength)}})},
          {"lights", described("Lamps, with shadows.",
                               {{"type", "array"}, {"maxItems", kMostLights}, {"items", lampSchema()}})},
          {"ao", switched("Ambient occlusion: less light of the sky where little of it is seen.",
@@ -271,6 +279,10 @@ Json sceneSchema() {
                    {{"density", sceneNumber("At the height of the ground, 1 / metre.", fog.density)},
                     {"height", sceneNumber("Metres in which it thins to 1 / e; 0: it does not.", fog.height)},
                     {"color", sceneColor("Linear.", fog.color)}})},
+         {"bloom",
+          switched("Light that spills from bright places; none if absent.",
+                   {{"strength", sceneNumber("Share of all light that does.", bloom.strength, 0.0, 1.0)},
+                    {"radius", sceneNumber("How far, in heights of the picture.", bloom.radius, 0.0, 1.0)}})},
          {"bounce",
           described("Light that surfaces throw on each other.", {{"type", "boolean"}, {"default", false}})},
          {"reflections", described("Surfaces mirror each other, rather than the sky alone.",

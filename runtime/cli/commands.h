@@ -72,11 +72,15 @@ struct MergeOptions : MeshOutput {
 };
 int runMerge(const MergeOptions& options);
 
+enum class PictureFormat { png, exr };
+
 struct RenderCommandOptions {
     MeshOptions mesh;
     std::string output, size = "1280x720", view = "picture";
     int samples = 16;
     FieldBy quality = FieldBy::sooner;
+    std::optional<PictureFormat> format;  ///< if not given, the output's ending says it; of a sequence PNG
+    bool transparent = false;
     bool reference = false;
     int bounces = 0;                                  ///< of paths of light; 0: as many as the solid needs
     std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame

@@ -29,6 +29,13 @@ uint64_t keyOf(const Player& player, const RenderOptions& options) {
     const Box region = player.region();
     for (int axis = 0; axis < 3; ++axis) add(region.lo[axis]), add(region.hi[axis]);
     add(options.width), add(options.height), add(options.bounces), add(player.resolution());
+    if (options.cutout) add(1);
+    // Which of the samples are of which moment depends on how many there are.
+    if (const Result<Scene> scene = player.scene(); scene && scene->camera && scene->camera->shutter > 0.0)
+        add(options.samples);
+    if (player.environment())
+        for (const Radiance& texel : player.environment()->texels)
+            for (const float value : texel) add(value);
     return key;
 }
 

@@ -168,7 +168,7 @@ int run(int count, char** arguments) {
     addMesh(renderCommand, renderOptions.mesh);
     renderCommand
         ->add_option("-o,--output", renderOptions.output,
-                     "The picture, a .png file; of a sequence the folder, for 000000.png and so on")
+                     "The picture, a .png or .exr file; of a sequence the folder, for 000000.png and so on")
         ->required();
     CLI::Option* moment = renderCommand->get_option("--time");
     renderCommand->add_option("--from", renderOptions.from, "Seconds of the first frame (default: 0)")
@@ -187,6 +187,14 @@ int run(int count, char** arguments) {
         ->excludes(moment);
     renderCommand->add_flag("--overwrite", renderOptions.overwrite,
                             "Make frames anew that are there already (default: skip them)");
+    static const std::map<std::string, PictureFormat> formats = {{"png", PictureFormat::png},
+                                                                 {"exr", PictureFormat::exr}};
+    renderCommand
+        ->add_option_function<std::string>(
+            "--format", [&](const std::string& name) { renderOptions.format = formats.at(name); },
+            "png: what a display shows; exr: linear light before exposure and tone map, with depth, normals, "
+            "materials and alpha (default: as the output ends, else png)")
+        ->check(oneOf({"png", "exr"}));
     renderCommand->add_option("--size", renderOptions.size, "Width and height in pixels: WxH")
         ->default_str(renderOptions.size);
     renderCommand
@@ -203,6 +211,9 @@ int run(int count, char** arguments) {
             "as points or spheres, in place of their surface")
         ->check(oneOf(renderViews()))
         ->default_str(renderOptions.view);
+    renderCommand->add_flag(
+        "--transparent", renderOptions.transparent,
+        "The solid alone, with alpha: no sky, wall or ground behind it, nor its shadow there");
     addQuality(renderCommand, renderOptions.quality);
     renderCommand->add_flag(
         "--reference", renderOptions.reference,

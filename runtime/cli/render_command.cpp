@@ -10,16 +10,11 @@
 #include "runtime/export/outputs.h"
 #include "runtime/render/renderer.h"
 #include "runtime/system/interruption.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::cli {
 
 namespace {
-
-bool isPng(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-    return extension == ".png";
-}
 
 uint32_t viewOf(const RenderCommandOptions& options) {
     const std::vector<std::string>& views = renderViews();
@@ -35,6 +30,18 @@ const std::vector<std::string>& renderViews() {
     return names;  // in the order of RENDER_PICTURE and the following
 }
 
+std::string nameOf(PictureFormat format) { return format == PictureFormat::exr ? "exr" : "png"; }
+
+PictureFormat formatOf(const RenderCommandOptions& options) {
+    if (options.format) return *options.format;
+    return lowerExtension(options.output) == ".exr" ? PictureFormat::exr : PictureFormat::png;
+}
+
+Done save(const Picture& picture, const LightPicture& light, PictureFormat format, const std::string& path,
+          const std::function<void()>& kept) {
+    return format == PictureFormat::exr ? saveLight(light, path, kept) : savePicture(picture, path, kept);
+}
+
 RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, int> size,
                             const Player& player) {
     RenderOptions render{.width = size.first, .height = size.second, .samples = options.samples};
@@ -46,6 +53,7 @@ RenderOptions renderOptions(const RenderCommandOptions& options, std::pair<int, 
                      : wanted && player.program().stages.empty() ? kBounces
                                                                  : 0;
     render.show = viewOf(options);
+    render.cutout = options.transparent;
     return render;
 }
 
@@ -78,12 +86,22 @@ int runRender(const RenderCommandOptions& options) {
                      options.reference ? "--reference" : ("--view " + options.view).c_str());
         return kBadUsage;
     }
+    if (formatOf(options) == PictureFormat::exr && viewOf(options) != RENDER_PICTURE) {
+        std::fprintf(stderr, "fieldwright render: an OpenEXR file holds light: leave out --view\n");
+        return kBadUsage;
+    }
+    if (options.transparent && viewOf(options) != RENDER_PICTURE) {
+        std::fprintf(stderr, "fieldwright render: --transparent is of the picture: leave out --view\n");
+        return kBadUsage;
+    }
     if (options.from || options.to || options.framesPerSecond) return runSequence(options, *size);
-    if (!isPng(options.output)) {
-        std::fprintf(stderr,
-                     "fieldwright render: %s: a picture is a PNG file: give a name that ends in .png, or the "
-                     "times of a sequence (--from, --to, --fps)\n",
-                     options.output.c_str());
+    const PictureFormat format = formatOf(options);
+    if (lowerExtension(options.output) != "." + nameOf(format)) {
+        std::fprintf(
+            stderr,
+            "fieldwright render: %s: a picture is a PNG or an OpenEXR file: give a name that ends in "
+            "%s, or the times of a sequence (--from, --to, --fps)\n",
+            options.output.c_str(), options.format ? ("." + nameOf(format)).c_str() : ".png or .exr");
         return kBadUsage;
     }
     if (options.overwrite) {
@@ -110,6 +128,8 @@ int runRender(const RenderCommandOptions& options) {
                         nothingToSee(!player->regionFound(), player->region(), player->resolution()));
     progress.start("light", 60);
     render.progress = [&progress](int percent) { progress.show(60 + percent * 2 / 5); };
+    LightPicture light;
+    if (format == PictureFormat::exr) render.light = &light;
     std::optional<KeptPaths> keptPaths;
     PathSums sums;
     if (render.reference && render.bounces > 0 && render.show == RENDER_PICTURE) {
@@ -138,7 +158,7 @@ int runRender(const RenderCommandOptions& options) {
         if (keptPaths) keptPaths->remove();
         whenEnded({.said = "; the picture was written"});
     };
-    if (const Done written = savePicture(*picture, options.output, isThere); !written)
+    if (const Done written = save(*picture, light, format, options.output, isThere); !written)
         return print(written.error()), kSystemFailure;
     progress.finish();
     noteDraft(*player, options);

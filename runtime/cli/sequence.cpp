@@ -12,6 +12,7 @@
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/export/outputs.h"
 #include "runtime/system/interruption.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::cli {
 
@@ -36,6 +37,13 @@ std::optional<std::pair<int, int>> sizeOfPng(const fs::path& path) {
         return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
     };
     return std::pair(number(16), number(20));
+}
+
+/// Of a picture that is there already.
+std::optional<std::pair<int, int>> sizeOfPicture(const fs::path& path, PictureFormat format) {
+    std::error_code failure;
+    if (format == PictureFormat::png) return sizeOfPng(path);
+    return fs::is_regular_file(path, failure) ? sizeOfLight(path) : std::nullopt;
 }
 
 int badUsage(const std::string& message) {
@@ -63,9 +71,9 @@ Result<FrameRange> framesBetween(double from, double to, double framesPerSecond)
     return error;
 }
 
-std::string frameName(long frame) {
+std::string frameName(long frame, PictureFormat format) {
     std::string number = std::to_string(frame);
-    return std::string(6 - std::min<std::size_t>(number.size(), 6), '0') + number + ".png";
+    return std::string(6 - std::min<std::size_t>(number.size(), 6), '0') + number + "." + nameOf(format);
 }
 
 SequenceProgress::SequenceProgress(long count_) : count(count_), shown(isatty(STDERR_FILENO)) {}
@@ -90,7 +98,7 @@ void SequenceProgress::next(bool work) {
 namespace {
 
 fs::path pathOf(const RenderCommandOptions& options, long frame) {
-    return fs::path(options.output) / frameName(frame);
+    return fs::path(options.output) / frameName(frame, formatOf(options));
 }
 
 /// Finds the frames of the graph that are asked for, and whether their files may be written; if not, says why
@@ -112,7 +120,7 @@ int acceptFrames(const Graph& graph, const RenderCommandOptions& options, std::p
         if (fs::exists(path, failure) && !fs::is_regular_file(path, failure))
             return badUsage(path.string() + " is no ordinary file: give another folder");
         if (options.overwrite) continue;
-        const auto there = sizeOfPng(path);
+        const auto there = sizeOfPicture(path, formatOf(options));
         if (there && *there != size)
             return badUsage(path.string() + " is there already, with " + std::to_string(there->first) + "x" +
                             std::to_string(there->second) +
@@ -124,9 +132,10 @@ int acceptFrames(const Graph& graph, const RenderCommandOptions& options, std::p
 }  // namespace
 
 int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
-    if (fs::path(options.output).extension() == ".png")
-        return badUsage(options.output +
-                        ": a sequence goes into a folder, in files 000000.png and so on: give its name");
+    if (const std::string ending = lowerExtension(options.output); ending == ".png" || ending == ".exr")
+        return badUsage(options.output + ": a sequence goes into a folder, in files " +
+                        frameName(0, formatOf(options)) + " and so on: give its name" +
+                        (ending == ".exr" ? ", and --format exr" : ""));
     std::error_code failure;
     if (fs::exists(options.output, failure) && !fs::is_directory(options.output, failure))
         return badUsage(options.output + ": this is a file: a sequence goes into a folder");
@@ -163,22 +172,25 @@ int runSequence(const RenderCommandOptions& options, std::pair<int, int> size) {
     long made = 0;
     {
         SequenceProgress progress(range->count());
-        const RenderOptions render = renderOptions(options, size, *player);
+        RenderOptions render = renderOptions(options, size, *player);
+        render.framesPerSecond = range->framesPerSecond;
+        LightPicture light;
+        if (formatOf(options) == PictureFormat::exr) render.light = &light;
         for (long frame = range->first; frame < range->last; ++frame) {
             const std::string path = pathOf(options, frame).string();
-            const bool there = !options.overwrite && sizeOfPng(path) == size;
+            const bool there = !options.overwrite && sizeOfPicture(path, formatOf(options)) == size;
             if (!there) {
                 const auto make = [&] {
                     player->seek(range->time(frame));
                     Result<Picture> drawn = player->frame(render);
-                    if (drawn) capped = capped || player->meshOnDevice(render.show)->capped;
+                    if (drawn) capped = capped || player->capped();
                     return drawn;
                 };
                 const Result<Picture> picture = onceMoreIfLost(
                     make, [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
                 if (!picture) return badInput(options.mesh, picture.error());
                 if (progress.made == 0) noteDraft(*player, options);
-                if (const Done written = savePicture(*picture, path); !written)
+                if (const Done written = save(*picture, light, formatOf(options), path); !written)
                     return print(written.error()), kSystemFailure;
             }
             progress.next(!there);

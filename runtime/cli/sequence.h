@@ -31,7 +31,7 @@ inline constexpr long kMostFrames = 1'000'000;
 Result<FrameRange> framesBetween(double from, double to, double framesPerSecond);
 
 /// "000042.png"
-std::string frameName(long frame);
+std::string frameName(long frame, PictureFormat format);
 
 /// How far a sequence is, on one line of a terminal: frames, rate, time left. Nothing in a pipe.
 class SequenceProgress {
@@ -49,6 +49,14 @@ class SequenceProgress {
     bool shown;
     Clock::time_point begin = Clock::now();
 };
+
+/// "png" or "exr".
+std::string nameOf(PictureFormat format);
+/// What the command writes for every picture.
+PictureFormat formatOf(const RenderCommandOptions& options);
+/// Writes the picture, of which an EXR file has the light; `kept` as in OutputFile::commit().
+Done save(const Picture& picture, const LightPicture& light, PictureFormat format, const std::string& path,
+          const std::function<void()>& kept = {});
 
 /// What --view takes.
 const std::vector<std::string>& renderViews();

@@ -103,7 +103,13 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishe
             exposed.insert(parameter.node + "." + parameter.input);
     Result<LiveProgram> live = compileLive(std::move(graph), std::move(compileOptions), exposed);
     if (!live) return live.error();
-    Prepared made{std::move(*live), {}, false};
+    Prepared made{std::move(*live), {}, false, {}};
+    const Result<Scene> scene = readScene(*made.graph.scene);
+    if (scene && scene->sky && !scene->sky->image.empty()) {
+        Result<EnvironmentMapPtr> map = readEnvironment(made.graph.path, scene->sky->image);
+        if (!map) return problem(made.graph, "the scene's sky.image: " + map.error().message);
+        made.environment = std::move(*map);
+    }
     if (const Done found = findSharedRegion(made, wishes); !found) return found.error();
     return made;
 }
@@ -198,6 +204,7 @@ std::vector<std::string> Player::files() const {
     if (!now.graph.path.empty()) list.push_back(now.graph.path);
     for (const FieldImagePtr& image : session.program().ir.images())
         if (!image->file.empty()) list.push_back(image->file);
+    if (now.environment) list.push_back(now.environment->file);
     for (const FieldVolumePtr& volume : session.program().ir.volumes()) {
         if (volume->mesh) list.push_back(volume->mesh->file);
         if (!volume->particles) continue;
@@ -329,6 +336,7 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     }
     if (!result) return problem(now.graph, result.error().message);
     meshed = *result;
+    lastCapped = result->capped;
     return result;
 }
 
@@ -399,17 +407,41 @@ auto Player::look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult
     const std::optional<Camera> camera = wishes.scene.camera;
     wishes.scene = *scene;
     if (camera) wishes.scene.camera = camera;
+    wishes.environment = now.environment;
     if (wishes.framed.empty()) wishes.framed = *framed;
     auto drawn = draw(*result, wishes);
     if (!drawn) return problem(now.graph, drawn.error().message);
     return drawn;
 }
 
+std::pair<int, double> Player::shutter(const RenderOptions& wishes) const {
+    const Result<Scene> scene = this->scene();
+    const double open = scene && scene->camera ? scene->camera->shutter / 360.0 : 0.0;
+    if (!moves() || open == 0.0) return {1, 0.0};
+    const int moments = std::clamp(wishes.samples, 1, kMostMoments);
+    const double rate = wishes.framesPerSecond > 0.0 ? wishes.framesPerSecond : now.timeline.framesPerSecond;
+    return {moments, open / rate / moments};
+}
+
 Result<Picture> Player::frame(const RenderOptions& options_) {
+    RenderOptions part = options_;
+    const auto [moments, apart] = shutter(options_);
+    const struct Rest {
+        Player& player;
+        const double seconds = player.seconds;
+        ~Rest() {  // also where the device fails
+            if (player.seconds != seconds) player.seek(seconds);
+        }
+    } rest{*this};
+    part.moments = moments;
     return halvedIfFull([&] {
-        return look(options_, [&](const MesherResult& mesh, const RenderOptions& wishes) {
-            return session.render(mesh, wishes);
-        });
+        for (part.moment = 0;; ++part.moment) {
+            if (moments > 1) seek(rest.seconds + apart * (part.moment + 0.5));
+            Result<Picture> picture = look(part, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+                return session.render(mesh, wishes);
+            });
+            if (!picture || part.moment + 1 == moments) return picture;
+        }
     });
 }
 

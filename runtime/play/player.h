@@ -70,6 +70,8 @@ struct PlayerParameter {
     bool animated = false;  ///< the timeline moves it: set() has no lasting effect
 };
 
+inline constexpr int kMostMoments = 16;
+
 class Player {
   public:
     /// Reads, checks and compiles the graph and opens a device. `warnings`, which may be null, gets what
@@ -116,7 +118,12 @@ class Player {
     std::optional<Error> coarser() const;
     const MesherBuffers& deviceMesh() const { return session.meshBuffers(); }
 
+    /// Whether the last mesh was closed where its surface leaves the region.
+    bool capped() const { return lastCapped; }
+
     /// A picture of what the graph shows now, through the document's scene unless `options` bring a camera.
+    /// Where the camera has a shutter and something moves it is the mean of up to kMostMoments moments while
+    /// the shutter is open, which is from now on.
     /// Errors as Session::render, of the scene, and of an empty solid.
     Result<Picture> frame(const RenderOptions& options = {});
 
@@ -127,6 +134,8 @@ class Player {
     Result<bool> show(const RenderOptions& wishes) { return showTo(wishes, nullptr); }
     const Image* picture() const { return session.picture(); }
 
+    /// What the scene's sky is a picture of, if it is.
+    const EnvironmentMapPtr& environment() const { return now.environment; }
     /// The scene now. Errors as readScene.
     Result<Scene> scene() const;
     /// Points of the solid's surface at even steps through the timeline: what a picture without a camera
@@ -166,8 +175,9 @@ class Player {
   private:
     /// A document made ready to be played.
     struct Prepared : LiveProgram {
-        std::optional<Box> region;  ///< shared by all times
-        bool regionFound = false;   ///< rather than given
+        std::optional<Box> region;      ///< shared by all times
+        bool regionFound = false;       ///< rather than given
+        EnvironmentMapPtr environment;  ///< that the scene's sky names, if it names one
     };
 
     Player(Device device, PlayerOptions options_);
@@ -186,6 +196,8 @@ class Player {
     /// Calls draw(mesh, options) with all that a picture of now needs.
     template <class Draw>
     auto look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult{}, wishes));
+    /// Into how many moments a picture is parted, and the seconds between them.
+    std::pair<int, double> shutter(const RenderOptions& wishes) const;
 
     Session session;
     MeshFieldBaker bake;  ///< on the session's device
@@ -193,6 +205,7 @@ class Player {
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
+    bool lastCapped = false;
     int halvings = 0;                     ///< of the resolution, for want of room
     std::string full = {};                ///< why
     std::optional<MesherResult> meshed;   ///< of the values that the session has

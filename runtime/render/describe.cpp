@@ -132,6 +132,7 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
     frame.zenith = vector(sky.zenith) * float(sky.strength);
     frame.horizon = vector(sky.horizon) * float(sky.strength);
     frame.groundColor = vector(sky.ground) * float(sky.strength);
+    if (hasEnvironment(options)) describeEnvironment(renderer.environment, sky, frame);
     frame.studio = !look.sky;
     frame.exposure = kExposure * std::exp2(float(look.exposure));
     frame.neutral = look.tone == Tone::neutral;

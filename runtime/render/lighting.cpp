@@ -47,14 +47,14 @@ std::vector<std::string> lampDefines(bool tracesSun) {
     return tracesSun ? std::vector<std::string>{"TRACED_SUN"} : std::vector<std::string>{};
 }
 
-bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look,
-                bool mean) {
+bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
+                const RenderOptions& options, bool mean) {
     const Device& device = commands.device;
     const GBuffer& gbuffer = renderer.gbuffer;
     const gpu::RenderFrame& frame = renderer.described;
     const VkExtent3D extent = {frame.size.x, frame.size.y, 1};
     const bool lamps = frame.lightCount > 0, fog = frame.fogDensity > 0.0f;
-    const bool sun = look.sun && look.sun->traced && !scene.draft;
+    const bool sun = options.scene.sun && options.scene.sun->traced && !scene.draft;
     std::vector<Descriptor> bound = {
         {0, renderer.frame},         storage(1, renderer.seen.depth),    storage(2, gbuffer.now()),
         {3, gbuffer.tileLists},      storage(7, renderer.ambient.now()), storage(8, renderer.shadow.depth),
@@ -62,6 +62,8 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     const auto overTiles = [&](const Pipeline& pipeline, uint32_t list) {
         dispatchAllTiles(commands, pipeline, gbuffer, list, nullptr, 0, bound);
     };
+    const bool environment = hasEnvironment(options);
+    if (environment) bound.push_back({25, renderer.environment.words});
     if (lamps || sun) {
         beginStage(commands, "lamps");
         if (!renderer.lamps || renderer.tracesSun != sun)
@@ -86,8 +88,12 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         drawFog(commands, renderer.fog, renderer.seen.depth, renderer.shadow.depth, renderer.frame, extent);
         bound.push_back(storage(12, renderer.fog.now()));
     }
-    const std::optional<SecondaryKinds> secondary =
-        scene.draft ? std::nullopt : secondaryKinds(look, scene.transmits);
+    std::optional<SecondaryKinds> secondary =
+        scene.draft ? std::nullopt : secondaryKinds(options.scene, scene.transmits);
+    if (secondary) secondary->environment = environment;
+    const Bloom* bloom = bloomOf(options);
+    mean = mean || options.light || bloom;
+    const bool linear = secondary || options.light || bloom;
     if (secondary) {
         beginStage(commands, "secondary");
         if (!renderer.secondary.trace || renderer.secondary.kinds != *secondary) {
@@ -98,12 +104,12 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
             renderer.secondary.hasHistory = false;
         }
         drawSecondary(commands, renderer.secondary, gbuffer, renderer.shadow.depth, renderer.frame,
-                      fieldOf(renderer, scene), scene.transmits);
+                      renderer.environment.words, fieldOf(renderer, scene), scene.transmits);
         if (cancelled(commands)) return false;
         addSecondary(bound, renderer.secondary, scene.transmits);
     }
     resizeImage(commands, renderer.means, extent,
-                secondary ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_UINT);
+                linear ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_UINT);
     bound.push_back(storage(9, renderer.means));
     beginStage(commands, "light");
     for (const uint32_t list : {RENDER_SOLID, RENDER_GROUND, RENDER_BACK}) {
@@ -115,8 +121,10 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         define(sun, "TRACED_SUN");
         define(fog, "FOG");
         define(!frame.studio, "SKY");
+        define(environment, "ENVIRONMENT");
         define(mean, "MEAN");
-        define(mean && secondary, "LINEAR");
+        define(mean && linear, "LINEAR");
+        define(options.cutout, "CUTOUT");
         define(frame.neutral, "NEUTRAL");
         define(secondary && secondary->bounce, "BOUNCE");
         define(secondary && secondary->reflections, "REFLECTIONS");
@@ -124,6 +132,9 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         overTiles(lightPipeline(renderer, std::move(defines)), list);
     }
     barrier(commands);
+    if (bloom)
+        drawBloom(commands, renderer.bloom, *bloom, renderer.means, renderer.frame, frame.neutral,
+                  options.cutout, renderer.pixels);
     return true;
 }
 
@@ -143,6 +154,18 @@ void traceReference(Commands& commands, Renderer& renderer, const RenderScene& s
     dispatchTiles(commands, renderer.reference, gbuffer, RENDER_NEAR, &kRaysReference, sizeof kRaysReference,
                   bound);
     barrier(commands);
+}
+
+std::vector<float> readLight(const Renderer& renderer, const RenderOptions& options) {
+    const Image& light = bloomOf(options) ? renderer.bloom.levels[0] : renderer.means;
+    Buffer readback;
+    Commands commands(*renderer.device);
+    recordReading(commands, light, readback, 4 * sizeof(float));
+    submit(commands);
+    auto color = download<float>(*renderer.device, readback,
+                                 4 * std::size_t(light.extent.width) * light.extent.height);
+    for (std::size_t i = 3; i < color.size() && !options.cutout; i += 4) color[i] = 1.0f;  // but for rounding
+    return color;
 }
 
 void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) {

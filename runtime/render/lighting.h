@@ -16,8 +16,11 @@ std::vector<std::string> lampDefines(bool tracesSun);
 
 /// Makes renderer.pixels of the G-buffer, and adds them to the mean if there is one. False if the commands
 /// are cancelled, before the mean is added to.
-bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene, const Scene& look,
-                bool mean);
+bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
+                const RenderOptions& options, bool mean);
+
+/// LightPicture::color of the last picture, which was to have it.
+std::vector<float> readLight(const Renderer& renderer, const RenderOptions& options);
 
 /// Draws what RenderOptions::show asks for over the picture.
 void showView(Commands& commands, Renderer& renderer, const RenderScene& scene);

@@ -7,8 +7,11 @@
 // Lifetime: pipelines belong to a field, the sums to a size.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
+#include "runtime/gpu/resources.h"
 #include "runtime/gpu/shader.h"
 #include "runtime/render/picture.h"
 #include "runtime/render/view.h"
@@ -18,13 +21,15 @@ namespace fw {
 /// What was traced so far.
 struct PathSums {
     int paths = 0;            ///< of each pixel
-    std::vector<float> sums;  ///< four floats a pixel: linear red, green and blue, and `paths`
+    std::vector<float> sums;  ///< four floats a pixel: linear red, green and blue, and `paths`, or
+                              ///< of a cutout those that met the solid
 };
 
 /// Of a renderer; made when first asked for.
 struct PathTracer {
-    Pipeline trace, expose[2];  ///< the latter by whether the tone map is the neutral one
-    Buffer sums;                ///< four floats a pixel
+    Pipeline trace[2];                                    ///< by whether the sky is a picture's
+    std::map<std::vector<std::string>, Pipeline> expose;  ///< by what expose.comp defines
+    Buffer sums;                                          ///< four floats a pixel
 };
 
 struct Renderer;

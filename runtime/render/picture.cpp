@@ -21,16 +21,17 @@ Done checkPictureSize(int width, int height) {
 Done savePicture(const Picture& picture, const std::string& path, const std::function<void()>& kept) {
     Result<OutputFile> file = OutputFile::open(path, nullptr);
     if (!file) return file.error();
-    std::vector<uint8_t> rgb;
-    rgb.reserve(picture.pixels.size() / 4 * 3);
+    const int channels = picture.alpha ? 4 : 3;
+    std::vector<uint8_t> bytes;
+    bytes.reserve(picture.pixels.size() / 4 * std::size_t(channels));
     for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
-        rgb.insert(rgb.end(), picture.pixels.begin() + i, picture.pixels.begin() + i + 3);
+        bytes.insert(bytes.end(), picture.pixels.begin() + i, picture.pixels.begin() + i + channels);
     const auto append = [](void* to, void* data, int size) {
         static_cast<OutputFile*>(to)->write(data, static_cast<std::size_t>(size));
     };
     // The only failure that is not the file's: the encoder has no memory left.
-    if (!stbi_write_png_to_func(append, &*file, picture.width, picture.height, 3, rgb.data(),
-                                3 * picture.width))
+    if (!stbi_write_png_to_func(append, &*file, picture.width, picture.height, channels, bytes.data(),
+                                channels * picture.width))
         throw std::bad_alloc();
     return file->commit(kept);
 }

@@ -13,16 +13,18 @@ namespace fw {
 inline constexpr int kLeastPictureSide = 16, kMostPictureSide = 8192;
 inline constexpr int kMostPicturePixels = 32 << 20;  ///< 128 MiB of four bytes, which every device can bind
 
-/// Rows from the top, sRGB, four bytes a pixel: red, green, blue, 255.
+/// Rows from the top, sRGB, four bytes a pixel: red, green, blue, alpha. Colours are not multiplied by alpha.
 struct Picture {
     int width = 0, height = 0;
     std::vector<uint8_t> pixels;
+    bool alpha = false;  ///< some of it may be below 255
 };
 
 /// An Error where no picture of this size can be made.
 Done checkPictureSize(int width, int height);
 
-/// Writes the picture as PNG without alpha; `kept` as in OutputFile::commit(). Errors: as OutputFile.
+/// Writes the picture as PNG, with alpha only if it has some; `kept` as in OutputFile::commit(). Errors: as
+/// OutputFile.
 Done savePicture(const Picture& picture, const std::string& path, const std::function<void()>& kept = {});
 
 }  // namespace fw

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/vector_relational.hpp>
 
+#include "graph/base/hash.h"
+#include "runtime/mesh/octahedral.h"
 #include "runtime/render/describe.h"
 
 namespace fw {
@@ -55,6 +58,24 @@ double agreement(const std::vector<float>& a, const std::vector<float>& b, VkExt
         }
     }
     return seen ? double(found) / double(seen) : 0.0;
+}
+
+/// How far along the ray of the middle of this pixel the ground is, as in shaders/render/solid.glsl.
+std::optional<float> alongToGround(const gpu::RenderFrame& frame, int x, int y) {
+    const gpu::View& view = frame.now;
+    const glm::vec2 place = (glm::vec2(x, y) + 0.5f) / glm::vec2(frame.size) * 2.0f - 1.0f;
+    const glm::vec3 ray = view.forward + place.x * view.right - place.y * view.up;
+    if (!(ray.y < 0.0f) || frame.groundEnd <= 0.0f) return std::nullopt;
+    const float along = (frame.ground - view.eye.y) / std::min(ray.y, -1e-6f);
+    const glm::vec3 p = view.eye + ray * along - frame.centre;
+    if (std::hypot(p.x, p.z) >= frame.groundEnd * frame.radius) return std::nullopt;
+    return along;
+}
+
+/// Of a material in the words of the G-buffer.
+uint32_t idOf(const glm::uvec4& surface) {
+    if (surface.w >> 24 == 0) return kGroundId;
+    return std::max(uint32_t(mixed(mixed(0, surface.z), surface.w) & 0xffffff), kGroundId + 1);
 }
 
 }  // namespace
@@ -112,6 +133,63 @@ void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene,
     trace(commands, renderer, scene, renderer.seen, extent, rays, care);
 }
 
+bool findSurfaces(Commands& commands, Renderer& renderer, const RenderScene& scene,
+                  const RenderOptions& options, const Care& care) {
+    beginStage(commands, "depth");
+    findDepth(commands, renderer, scene, wantsTracing(scene, options, renderer), care);
+    if (cancelled(commands)) return false;
+    renderer.gbuffer.current = 1 - renderer.gbuffer.current;
+    if (scene.draft)
+        fillFromDraft(commands, renderer.draft, renderer.gbuffer, renderer.seen.depth, renderer.frame,
+                      *scene.draft);
+    else
+        fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame,
+                    fieldOf(renderer, scene));
+    return !cancelled(commands);
+}
+
+bool readSurfaces(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+                  const gpu::View& view, LightPicture& picture) {
+    const VkExtent3D extent = {uint32_t(options.width), uint32_t(options.height), 1};
+    const std::size_t pixels = std::size_t(extent.width) * extent.height;
+    renderer.described = describeFrame(renderer, scene, options, view, false, 0, 1);
+    const gpu::RenderFrame& frame = renderer.described;
+    std::memcpy(renderer.frame.mapped, &frame, sizeof frame);
+    if (scene.draft && !renderer.draft.draw) renderer.draft = createDraft(*renderer.device);
+    Commands commands(*renderer.device);
+    commands.parted = true;
+    commands.cancel = options.cancel;
+    resizeGBuffer(commands, renderer.gbuffer, extent);
+    clearImage(commands, renderer.gbuffer.before());  // becomes now(), in which some tiles stay as they are
+    findPlaces(commands, renderer, scene);
+    if (!findSurfaces(commands, renderer, scene, options, options.reference ? kReferenceCare : kStillCare))
+        return false;
+    Buffer readback;
+    recordReading(commands, renderer.gbuffer.now(), readback, sizeof(glm::uvec4));
+    submit(commands);
+
+    const auto surfaces = download<glm::uvec4>(*renderer.device, readback, pixels);
+    picture = {.width = options.width,
+               .height = options.height,
+               .color = {},
+               .depth = std::vector(pixels, kNoDepth),
+               .normal = std::vector(pixels, glm::vec3(0)),
+               .id = std::vector(pixels, kNothingId)};
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float depth = std::bit_cast<float>(surfaces[i].x);
+        if (depth > 0.0f) {
+            picture.depth[i] = view.near / depth;
+            picture.normal[i] = unpackOctahedral(surfaces[i].y);
+            picture.id[i] = idOf(surfaces[i]);
+        } else if (const auto along = alongToGround(frame, int(i) % options.width, int(i) / options.width)) {
+            picture.depth[i] = *along;
+            picture.normal[i] = glm::vec3(0, 1, 0);
+            picture.id[i] = kGroundId;
+        }
+    }
+    return true;
+}
+
 void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced) {
     const gpu::RenderFrame& frame = renderer.described;
     const uint32_t size = std::max(frame.shadowSize, 1u);
@@ -128,9 +206,9 @@ void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene
     trace(commands, renderer, scene, renderer.shadow, {size, size, 1}, shadowRays(frame), kLiveCare);
 }
 
-void recordReading(Commands& commands, const Image& image, Buffer& readback) {
+void recordReading(Commands& commands, const Image& image, Buffer& readback, uint32_t bytes) {
     const VkExtent3D extent = image.extent;
-    reserve(commands.device, readback, 4ull * extent.width * extent.height, Memory::readback);
+    reserve(commands.device, readback, VkDeviceSize(bytes) * extent.width * extent.height, Memory::readback);
     VkBufferImageCopy region{};
     region.imageSubresource = {image.aspect, 0, 0, 1};
     region.imageExtent = extent;

@@ -29,10 +29,18 @@ void measurePrimary(Renderer& renderer, const RenderScene& scene);
 /// Makes renderer.seen, as the frame that is described sees it; with particles, where they are shown.
 void findDepth(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced,
                const Care& care);
+/// Makes renderer.seen and the G-buffer's now(), as the frame that is described sees them. False if the
+/// commands were cancelled.
+bool findSurfaces(Commands& commands, Renderer& renderer, const RenderScene& scene,
+                  const RenderOptions& options, const Care& care);
+/// Fills the picture's depths, normals and materials by a frame of their own, which is `view`'s. False if it
+/// was cancelled.
+bool readSurfaces(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
+                  const gpu::View& view, LightPicture& picture);
 /// Makes renderer.shadow; of a texel, if there is no sun.
 void findShadow(Commands& commands, Renderer& renderer, const RenderScene& scene, bool traced);
 
-/// Copies an image of four bytes a pixel to where the host can read it.
-void recordReading(Commands& commands, const Image& image, Buffer& readback);
+/// Copies an image of so many bytes a pixel to where the host can read it.
+void recordReading(Commands& commands, const Image& image, Buffer& readback, uint32_t bytes = 4);
 
 }  // namespace fw

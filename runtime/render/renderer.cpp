@@ -132,7 +132,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.secondary.filter = {};
     renderer.secondary.kinds = kernels.kinds;
     renderer.reference = {};
-    renderer.paths.trace = {};
+    for (Pipeline& trace : renderer.paths.trace) trace = {};
     renderer.shown.reset();
     renderer.shadowStands = false;
     renderer.tracing.reset();
@@ -164,26 +164,13 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
         forgetHistory(renderer);
 
     findPlaces(commands, renderer, scene);
-    const bool traced = wantsTracing(scene, options, renderer);
     if (!renderer.shadowStands) {
         beginStage(commands, "shadow");
-        findShadow(commands, renderer, scene, traced);
+        findShadow(commands, renderer, scene, wantsTracing(scene, options, renderer));
         renderer.shadowStands = true;
     }
-    beginStage(commands, "depth");
-    findDepth(commands, renderer, scene, traced,
-              options.reference ? kReferenceCare
-              : still           ? kStillCare
-                                : kLiveCare);
-    if (cancelled(commands)) return false;
-    renderer.gbuffer.current = 1 - renderer.gbuffer.current;
-    if (scene.draft)
-        fillFromDraft(commands, renderer.draft, renderer.gbuffer, renderer.seen.depth, renderer.frame,
-                      *scene.draft);
-    else
-        fillGBuffer(commands, renderer.gbuffer, renderer.seen.depth, renderer.frame,
-                    fieldOf(renderer, scene));
-    if (cancelled(commands)) return false;
+    const Care& care = options.reference ? kReferenceCare : still ? kStillCare : kLiveCare;
+    if (!findSurfaces(commands, renderer, scene, options, care)) return false;
     if (!scene.particles.empty())
         addSprites(commands, renderer.sprites, renderer.gbuffer, renderer.seen.depth, renderer.frame);
     beginStage(commands, "ambient");
@@ -197,7 +184,7 @@ bool drawFrame(Commands& commands, Renderer& renderer, const RenderScene& scene,
     else
         drawAmbient(commands, renderer.ambient, renderer.gbuffer, frame, renderer.frame,
                     fieldOf(renderer, scene));
-    if (cancelled(commands) || !lightFrame(commands, renderer, scene, options.scene, still || resting))
+    if (cancelled(commands) || !lightFrame(commands, renderer, scene, options, still || resting))
         return false;
     showView(commands, renderer, scene);
     ++renderer.number;
@@ -210,6 +197,7 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         return Error{.message =
                          "a picture has from 1 to " + std::to_string(kMostSamples) + " samples a pixel"};
     const gpu::View middle = viewOf(scene, options);
+    useEnvironment(*renderer.device, renderer.environment, options.environment);
     if (options.reference && options.bounces > 0 && options.show == RENDER_PICTURE) {
         if (scene.draft)
             return Error{
@@ -218,35 +206,44 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
                     "leave out --bounces, or the stages that change the mesh"};
         return renderPaths(renderer, scene, options, middle);
     }
+    const int first = firstOf(options, options.moment), last = firstOf(options, options.moment + 1);
+    if (options.light && first == 0 && !readSurfaces(renderer, scene, options, middle, *options.light))
+        return Error{.message = "cancelled"};
     const bool lens = options.scene.camera && options.scene.camera->aperture > 0.0;
     renderer.ambient.options = ambientOptions(scene, options);
     renderer.ambient.options.raysResting = kRaysStill;
     renderer.ambient.options.samplesMoving = renderer.ambient.options.samples;
     renderer.ambient.options.enough = kRaysStill * kMostSamples;
-    forgetHistory(renderer);
-    renderer.number = 0;
+    fw::forgetHistory(renderer.ambient);
+    if (first == 0) forgetHistory(renderer), renderer.number = 0;
     renderer.shown.reset();
     // What surfaces throw on each other goes on from frame to frame: some come before the first that counts.
-    const int ahead = options.scene.bounce && !options.reference ? kFramesAhead : 0;
-    for (int frame = -ahead; frame < options.samples; ++frame) {
-        const int i = std::max(frame, 0);
+    const int ahead = options.scene.bounce && !options.reference && first == 0 ? kFramesAhead : 0;
+    for (int frame = first - ahead; frame < last; ++frame) {
+        const int i = std::max(frame, first);
         if (options.progress) options.progress(100 * i / options.samples);
         gpu::View view = middle;
         view.jitter = jitterOf(i, options);
         if (lens) {
-            view = throughLens(view, *options.scene.camera, onDisc(i, options.samples));
+            // Each moment has places from all over the lens.
+            const int place = (i - first) * options.moments + options.moment;
+            view = throughLens(view, *options.scene.camera,
+                               onDisc(std::min(place, options.samples - 1), options.samples));
             fw::forgetHistory(renderer.ambient);  // each frame sees other places
         }
         renderer.shadowStands = false;
         Commands commands(*renderer.device);
         commands.parted = true;
         commands.cancel = options.cancel;
-        if (!drawFrame(commands, renderer, scene, options, view, frame > -ahead && !lens, i))
+        if (!drawFrame(commands, renderer, scene, options, view, frame > first - ahead && !lens, i))
             return Error{.message = "cancelled"};
-        if (frame + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
+        if (frame + 1 == last) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);
     }
-    return readPicture(renderer);
+    if (options.light && last == options.samples) options.light->color = readLight(renderer, options);
+    Picture picture = readPicture(renderer);
+    picture.alpha = options.cutout;
+    return picture;
 }
 
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& wishes,
@@ -254,13 +251,18 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     if (const Done fits = checkPictureSize(wishes.width, wishes.height); !fits) return fits.error();
     RenderOptions options = wishes;
     options.samples = 1;
-    const Shown shows = {viewOf(scene, options), options.scene,
-                         scene.content,          {uint32_t(options.width), uint32_t(options.height), 1},
-                         options.show,           options.slice};
+    const Shown shows = {viewOf(scene, options),
+                         options.scene,
+                         options.environment,
+                         scene.content,
+                         {uint32_t(options.width), uint32_t(options.height), 1},
+                         options.show,
+                         options.slice};
     const std::optional<Shown>& shown = renderer.shown;
+    useEnvironment(*renderer.device, renderer.environment, options.environment);
     const bool sameField = shown && shown->content == shows.content;
-    const bool rests = sameField && shown->scene == shows.scene && sameView(shown->view, shows.view) &&
-                       shown->extent.width == shows.extent.width &&
+    const bool rests = sameField && shown->scene == shows.scene && shown->environment == shows.environment &&
+                       sameView(shown->view, shows.view) && shown->extent.width == shows.extent.width &&
                        shown->extent.height == shows.extent.height && shown->show == shows.show &&
                        shown->slice == shows.slice;
     if (rests && renderer.rested >= kRestFrames) return false;
@@ -275,6 +277,13 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     renderer.ambient.options = ambient;
     gpu::View view = shows.view;
     view.jitter = jitterOf(renderer.rested, options);
+    const bool lens = rests && options.scene.camera && options.scene.camera->aperture > 0.0;
+    if (lens) {
+        // Each frame sees other places, from the first one that counts on.
+        view = throughLens(view, *options.scene.camera, onDisc(renderer.rested - 1, kRestFrames));
+        fw::forgetHistory(renderer.ambient);
+        options.samples = kRestFrames;
+    }
     if (options.primary == Primary::measured && !renderer.tracing && !mustDraw(scene, options)) {
         renderer.described = describeFrame(renderer, scene, options, view, false, 0, kShadowSize);
         measurePrimary(renderer, scene);
@@ -291,7 +300,8 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     const std::tuple<gpu::RenderFrame, uint32_t, uint32_t, int, bool, uint32_t, bool, uint32_t, bool> before =
         state();
     // The mean begins with the first frame that rests.
-    if (!drawFrame(commands, renderer, scene, options, view, rests, std::max(renderer.rested - 1, 0))) {
+    if (!drawFrame(commands, renderer, scene, options, view, rests && !lens,
+                   std::max(renderer.rested - 1, 0))) {
         // As if it had not begun: what it wrote is written anew by the next one, the mean it did not touch.
         state() = before;
         renderer.shadowStands = false;

@@ -26,8 +26,11 @@
 #include <string>
 
 #include "runtime/render/ambient.h"
+#include "runtime/render/bloom.h"
 #include "runtime/render/draft.h"
+#include "runtime/render/environment.h"
 #include "runtime/render/fog.h"
+#include "runtime/render/light_picture.h"
 #include "runtime/render/paths.h"
 #include "runtime/render/picture.h"
 #include "runtime/render/places.h"
@@ -77,23 +80,44 @@ struct Slice {
 };
 
 struct RenderOptions {
-    int width = 1280, height = 720;  ///< pixels
-    Scene scene = {};                ///< as it is at the time of the picture
+    int width = 1280, height = 720;      ///< pixels
+    Scene scene = {};                    ///< as it is at the time of the picture
+    EnvironmentMapPtr environment = {};  ///< that scene.sky names, if it names one
     /// The solid's points, by which the picture is framed, stands on the ground and scales its light. There
     /// is at least one, unless the scene has a camera.
     std::span<const gpu::MeshVertex> framed = {};
     int samples = 16;  ///< frames that a still picture is the mean of, 1 to kMostSamples
+    /// A picture of what moves is made moment by moment, each with its part of the samples, in order: which
+    /// one this is, and of how many. The last one makes the picture.
+    int moment = 0, moments = 1;
+    double framesPerSecond = 0.0;  ///< by which Player counts the camera's shutter; 0: the timeline's
     Primary primary = Primary::traced;
     bool reference = false;    ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
     int bounces = 0;           ///< of the reference, if above 0: whole paths of light (paths.h), one a sample
     PathSums* sums = nullptr;  ///< where paths go on from, and what they are left in, if given
     std::function<void()> keepSums = {};  ///< called now and then, with `sums` as they are
+    bool cutout = false;                  ///< a still picture of the solid alone, with alpha
+    LightPicture* light = nullptr;        ///< gets a still picture as light, if given
     uint32_t show = RENDER_PICTURE;       ///< or one of the views that shaders/render/render.h lists
     Slice slice = {};
     /// Looked at within a frame; that of a live view can be drawn again as if this one had not begun.
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
 };
+
+/// Light that spills from bright places, if the picture has some.
+inline const Bloom* bloomOf(const RenderOptions& options) {
+    const bool shown = options.show == RENDER_PICTURE && options.scene.bloom;
+    return shown && options.scene.bloom->strength > 0.0 ? &*options.scene.bloom : nullptr;
+}
+
+/// The first sample of a moment: where that before ends.
+inline int firstOf(const RenderOptions& options, int moment) {
+    return int(int64_t(options.samples) * moment / options.moments);
+}
+
+/// Whether the sky is a picture's.
+inline bool hasEnvironment(const RenderOptions& options) { return options.scene.sky && options.environment; }
 
 inline constexpr int kMostSamples = 4096;
 inline constexpr int kMostBounces = 64;
@@ -102,6 +126,7 @@ inline constexpr int kMostBounces = 64;
 struct Shown {
     gpu::View view;
     Scene scene;
+    EnvironmentMapPtr environment;
     uint64_t content = 0;
     VkExtent3D extent = {};
     uint32_t show = RENDER_PICTURE;
@@ -140,7 +165,9 @@ struct Renderer {
     Sprites sprites;  ///< ditto
     Clusters clusters;
     Places places;
+    Environment environment;
     PathTracer paths;
+    BloomPasses bloom;
     GBuffer gbuffer;
     Ambient ambient;
     Secondary secondary;

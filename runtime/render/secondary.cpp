@@ -31,18 +31,21 @@ void recordFilter(Commands& commands, Secondary& secondary, const GBuffer& gbuff
 
 std::optional<SecondaryKinds> secondaryKinds(const Scene& scene, bool transmits) {
     if (!(scene.bounce || scene.reflections || transmits)) return std::nullopt;
-    return SecondaryKinds{scene.bounce, scene.reflections, !scene.lights.empty()};
+    return SecondaryKinds{scene.bounce, scene.reflections, !scene.lights.empty(),
+                          scene.sky && !scene.sky->image.empty()};
 }
 
 ShaderOptions secondaryShader(std::string_view field, const SecondaryKinds& kinds) {
     ShaderOptions shader{.name = "render/secondary.comp", .field = field};
     defineKinds(shader, kinds);
     if (kinds.lamps) shader.defines.push_back("LAMPS");
+    if (kinds.environment) shader.defines.push_back("ENVIRONMENT");
     return shader;
 }
 
 void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuffer, const Image& shadowMap,
-                   const Buffer& frame, const FieldBuffers& field, bool transmits) {
+                   const Buffer& frame, const Buffer& environment, const FieldBuffers& field,
+                   bool transmits) {
     const VkExtent3D extent = gbuffer.now().extent;
     const auto ready = [&](Image& image) {
         return resizeImage(commands, image, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
@@ -70,6 +73,7 @@ void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuf
     if (secondary.kinds.reflections) history(20, secondary.reflection[before], secondary.rawReflection);
     if (transmits)
         bound.insert(bound.end(), {storage(22, secondary.passed), storage(23, secondary.sunlight)});
+    if (secondary.kinds.environment) bound.push_back({25, environment});
     addField(bound, field);
     dispatchTiles(commands, secondary.trace, gbuffer, RENDER_NEAR, nullptr, 0, bound);
     barrier(commands);

@@ -14,7 +14,8 @@ namespace fw {
 /// Which rays there are beside those that a field that transmits needs.
 struct SecondaryKinds {
     bool bounce = false, reflections = false;
-    bool lamps = false;  ///< whether what is hit is lit by lamps
+    bool lamps = false;        ///< whether what is hit is lit by lamps
+    bool environment = false;  ///< the sky is a picture's
     bool operator==(const SecondaryKinds&) const = default;
 };
 
@@ -36,9 +37,10 @@ struct Secondary {
 ShaderOptions secondaryShader(std::string_view field, const SecondaryKinds& kinds);
 
 /// Records one frame, after the shadow map and the G-buffer. `frame` is a uniform buffer of a
-/// gpu::RenderFrame. If the commands are cancelled, what it made is not to be used.
+/// gpu::RenderFrame; `environment` has the words of Environment, if the kinds ask for it. If the commands are
+/// cancelled, what it made is not to be used.
 void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuffer, const Image& shadowMap,
-                   const Buffer& frame, const FieldBuffers& field, bool transmits);
+                   const Buffer& frame, const Buffer& environment, const FieldBuffers& field, bool transmits);
 
 /// What it made, as light.comp reads it.
 void addSecondary(std::vector<Descriptor>& bound, const Secondary& secondary, bool transmits);

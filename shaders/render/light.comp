@@ -2,7 +2,7 @@
 // lamps, fog; tone map, mean over frames, sRGB. It samples no field, so its pipelines serve all graphs.
 // Where no surface is there is the sky, or a studio's wall, on which the ground, not drawn itself, catches the solid's shadow.
 // Defined as needed: LIST, the kind of tiles that are done; SKY rather than the studio; LAMPS; FOG; BOUNCE,
-// REFLECTIONS and TRANSMITS, of secondary.comp; TRACED_SUN, of lamps.comp; MEAN where the picture is the
+// REFLECTIONS and TRANSMITS, of secondary.comp; TRACED_SUN, of lamps.comp; CUTOUT where the solid alone is shown; MEAN where the picture is the
 // mean of frames, of what a display shows, or, LINEAR, of the light itself, whose noise would darken what is shown; NEUTRAL, of tone.glsl.
 #define SHADOW_MAP
 #include "shared.h"
@@ -24,12 +24,12 @@ layout(binding = 7, r32ui) readonly uniform uimage2D history;  // ambient.comp
 layout(binding = 8, r32f) readonly uniform image2D shadowMap;
 #ifdef MEAN
 #ifdef LINEAR
-layout(binding = 9, rgba32f) uniform image2D means;  // of radiance
+layout(binding = 9, rgba32f) uniform image2D means;  // of radiance, times alpha, and of alpha
 #else
-layout(binding = 9, rg32ui) uniform uimage2D means;  // of what a display shows, linear, 16 bits a channel
+layout(binding = 9, rg32ui) uniform uimage2D means;  // of what a display shows, linear, times alpha, and of alpha: 16 bits a channel
 #endif
 #endif
-layout(binding = 10, r32ui) writeonly uniform uimage2D pixels;  // sRGB, red in the lowest byte
+layout(binding = 10, r32ui) writeonly uniform uimage2D pixels;  // sRGB, red in the lowest byte; alpha, not multiplied with, in the highest
 #if defined(LAMPS) || defined(TRACED_SUN)
 layout(binding = 11, rgba16f) readonly uniform image2D lamps;  // light; share of the sun
 #endif
@@ -177,20 +177,34 @@ void main() {
     vec4 veil = fogAt(at);
     color = color * veil.a + veil.rgb;
 #endif
+    bool solid = there && !s.ground;
+    float alpha = 1.0;
+#ifdef CUTOUT
+    alpha = solid ? 1.0 : 0.0;
+    color *= alpha;
+#endif
 #if defined(MEAN) && defined(LINEAR)
-    color = mix(min(color, vec3(1e6)), imageLoad(means, at).rgb, float(frame.mean) / float(frame.mean + 1));
-    if (inPicture) imageStore(means, at, vec4(color, 1.0));
+    vec4 mean = mix(vec4(min(color, vec3(1e6)), alpha), imageLoad(means, at), float(frame.mean) / float(frame.mean + 1));
+    if (inPicture) imageStore(means, at, mean);
+    color = mean.rgb;
+#ifdef CUTOUT
+    alpha = mean.a;
+    color /= max(alpha, 1e-4);
+#endif
 #endif
     vec3 linear = toneMap(color);
-    bool solid = there && !s.ground;
     linear = frame.show == RENDER_AMBIENT ? vec3(open) : frame.show == RENDER_SHADOW ? vec3(sunlit) : linear;
     linear = frame.show == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
     linear = frame.show == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
 #if defined(MEAN) && !defined(LINEAR)
     uvec2 words = imageLoad(means, at).xy;
-    vec3 before = vec3(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y).x);
-    linear = mix(linear, before, float(frame.mean) / float(frame.mean + 1));
-    if (inPicture) imageStore(means, at, uvec4(packUnorm2x16(linear.xy), packUnorm2x16(vec2(linear.z, 0.0)), 0, 0));
+    vec4 before = vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y)), mean = mix(vec4(linear * alpha, alpha), before, float(frame.mean) / float(frame.mean + 1));
+    if (inPicture) imageStore(means, at, uvec4(packUnorm2x16(mean.xy), packUnorm2x16(mean.zw), 0, 0));
+    linear = mean.rgb;
+#ifdef CUTOUT
+    alpha = mean.a;
+    linear /= max(alpha, 1e-4);
 #endif
-    if (inPicture) imageStore(pixels, at, uvec4(displayed(linear, pixel)));
+#endif
+    if (inPicture) imageStore(pixels, at, uvec4(displayed(linear, alpha, pixel)));
 }

@@ -77,6 +77,15 @@ float chalkDensity(float facing, vec3 d, float ior) {
 // Share of the sphere that the sun takes, steradians; 0: it is a point.
 float sunSpread() { return 6.2831853 * push.sunWide; }
 
+// Of how many lights one is asked for: lamps, the sun, an environment map.
+uint lampsAsked() {
+    uint lamps = frame.lightCount + (push.sunWide >= 0.0 ? 1 : 0);
+#ifdef ENVIRONMENT
+    ++lamps;
+#endif
+    return lamps;
+}
+
 // A lamp's ball from o: in w the cosine of its edge less than 1, in xyz the direction to its middle.
 vec4 lampBall(Light lamp, vec3 o) {
     vec3 v = lamp.position - o;
@@ -96,6 +105,7 @@ void main() {
 
     uint at = pixel.y * frame.size.x + pixel.x;
     vec4 sum = push.path == 0 ? vec4(0.0) : sums[at];
+    float shown = 0.0, allShown = 0.0;  // whether the path met something that is shown, and how many did
     uint state, path = push.path, bounces = 0, turn = 0, purpose = kPath, after = kPath;
     vec3 total = sum.rgb, light = vec3(0.0), through = vec3(1.0), o = vec3(0.0), d = vec3(0.0);
     vec3 pending = vec3(0.0), onward = vec3(0.0);  // what the lamp's ray brings if nothing is in its way, and where the path goes on
@@ -108,6 +118,8 @@ void main() {
         if (!alive && purpose != kLamp) {
             // The next path, from the eye or a place on the lens.
             total += any(isnan(light)) || any(isinf(light)) ? vec3(0.0) : light;
+            allShown += shown;
+            shown = 1.0;
             state = randomStart(at, path);
             // Not left by a break: some drivers let such a lane go on beside its neighbours. It does nothing more that counts.
             done = path++ == push.path + push.paths;
@@ -176,10 +188,15 @@ void main() {
             continue;
         }
         through *= left;
+        if (push.cutout != 0 && turn == 1 && !hit) {
+            shown = 0.0;
+            alive = false;
+            continue;
+        }
 
         // Lamps that the path goes through, and the sun if it ends there. Not seen from the eye as such.
         if (!straight) {
-            float chances = float(frame.lightCount + (push.sunWide >= 0.0 ? 1 : 0));
+            float chances = float(lampsAsked());
             float reached = hit ? t : hitsGround ? toGround : 1e30;
             for (uint k = 0; k < frame.lightCount; ++k) {
                 Light lamp = frame.lights[k];
@@ -194,7 +211,11 @@ void main() {
             }
         }
         if (!blocked) {
-            light += through * (straight ? backdrop(d) : surroundings(d, 0.0));
+            vec3 sky = straight ? backdrop(d) : surroundings(d, 0.0);
+#ifdef ENVIRONMENT
+            sky *= density < 0.0 ? 1.0 : density / (density + skyDensity(d) / float(lampsAsked()));
+#endif
+            light += through * sky;
             alive = false;
             continue;
         }
@@ -313,7 +334,7 @@ void main() {
         o = p + n * bias;
 
         // One lamp, or the sun.
-        uint lamps = frame.lightCount + (push.sunWide >= 0.0 ? 1 : 0);
+        uint lamps = lampsAsked();
         bool asks = false;
         if (lamps > 0 && bounces < push.bounces) {
             uint k = min(uint(random(state) * float(lamps)), lamps - 1);
@@ -321,6 +342,14 @@ void main() {
             vec3 toLamp, radiance;
             float asked;  // density; 0: a single direction, whose irradiance `radiance` is
             float limit = 1e30;
+#ifdef ENVIRONMENT
+            if (k == lamps - 1) {
+                toLamp = skyDirection(u);
+                asked = skyDensity(toLamp) / float(lamps);
+                radiance = asked > 0.0 ? skyAt(0, toLamp) : vec3(0.0);
+                asked = max(asked, 1e-30);
+            } else
+#endif
             if (k == frame.lightCount) {
                 toLamp = inCone(push.sun, 1.0 - push.sunWide, u);
                 asked = push.sunWide > 0.0 ? 1.0 / (sunSpread() * float(lamps)) : 0.0;
@@ -383,5 +412,5 @@ void main() {
         onward = next;
     } while (!done);
 
-    sums[at] = vec4(total, sum.w + float(push.paths));
+    sums[at] = vec4(total, sum.w + allShown);
 }

@@ -10,6 +10,7 @@ namespace fw::gpu {
 #define RENDER_CONE 8        // pixels along each side of a cone of trace.comp
 #define RENDER_MOST_RAYS 16  // of ambient occlusion, of a pixel in one frame
 #define RENDER_MOST_LIGHTS 16
+#define RENDER_MOST_SKIES 12  // levels of an environment map
 
 // Lists of tiles.
 #define RENDER_SOLID 0   // that show some of the solid
@@ -65,6 +66,13 @@ struct Light {
     uint directional;          // 1: parallel light, without a position
 };
 
+// Of an environment map: texels, rows from the top.
+struct SkyLevel {
+    uint start;  // the word of the first
+    uint width, height;
+    float roughness;  // of the mirror that shows it
+};
+
 // Everything about one frame, in one uniform block.
 struct RenderFrame {
     View now, before;
@@ -114,6 +122,12 @@ struct RenderFrame {
     float fogFalloff;  // with height, 1 / metre
     float fogEnd;      // metres from the eye, where fog ends if nothing is hit
     uint fogKept;      // frames that it is the mean of, at most; 0 where the picture is a mean itself
+
+    float skyScale;  // factor of the environment map, if there is one
+    float skyTurn;   // of it, whole turns
+    uint skyChances, skyColumns, skyRows;
+    uint skyLevels;  // behind them is the one of matt surfaces
+    SkyLevel sky[RENDER_MOST_SKIES];
 
     uint lightCount;
     Light lights[RENDER_MOST_LIGHTS];
@@ -189,7 +203,13 @@ struct PathPush {
     float lens;     // its radius, metres; 0: a pinhole
     float focus;    // metres along the view's direction
     vec3 sun;       // towards the middle of its disc
+    uint cutout;    // 1: what is behind the solid is left out
     float sunWide;  // how much the cosine of its edge is less than 1; 0: it is a point; -1: there is none
+};
+
+struct BloomPush {
+    float plain, blurred, smaller;  // weights of the picture, of it blurred, and of the one below it
+    float variance;                 // of the blur, texels
 };
 
 struct PlacesPush {

@@ -266,6 +266,11 @@ void main() {
 #endif
                 bool wall = kind == kPassed && hitsGround && frame.studio != 0;
                 vec3 behind = surroundings(d, 0.0);
+#ifdef ENVIRONMENT
+                // Rays that are spread see it blurred a little: less noise, and no wider lobe to speak of (Krivanek and Colbert,
+                // "Real-time shading with filtered importance sampling", 2008).
+                if (kind != kPassed) behind = environment(d, kind == kBounce ? 0.4 : 0.5 * s.roughness);
+#endif
 #ifdef FIELD_TRANSMITS
                 behind = straight ? backdrop(d) : behind;
                 if (wall) lit = behind * mix(vec3(0.46, 0.50, 0.58), vec3(1.0), sunlit) * mix(0.35, 1.0, open);

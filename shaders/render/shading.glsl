@@ -1,6 +1,11 @@
 // Light on a surface: microfacets (GGX), the sky, the studio. After gbuffer.glsl; `frame` is the RenderFrame.
+// If ENVIRONMENT is defined, the sky is that of environment.glsl.
 
 const float kPi = 3.14159265;
+
+#ifdef ENVIRONMENT
+#include "render/environment.glsl"
+#endif
 
 vec3 skyColor(vec3 d) {
     vec3 sky = mix(frame.horizon, frame.zenith, smoothstep(0.0, 0.9, d.y));
@@ -9,6 +14,9 @@ vec3 skyColor(vec3 d) {
 
 // The sky as it is looked at: with a glow about the sun, which has its disc.
 vec3 skySeen(vec3 d) {
+#ifdef ENVIRONMENT
+    return skyAt(0, d);
+#endif
     float toSun = max(dot(d, frame.sun), 0.0);
     vec3 up = mix(frame.horizon, frame.zenith, smoothstep(0.0, 0.6, d.y));
     vec3 sky = mix(frame.groundColor, up, smoothstep(-0.12, 0.02, d.y));
@@ -17,6 +25,9 @@ vec3 skySeen(vec3 d) {
 
 // What a mirror sees. In the studio the light falls off to the right, and a large soft lamp stands on the left.
 vec3 surroundings(vec3 d, float roughness) {
+#ifdef ENVIRONMENT
+    return environment(d, roughness);
+#endif
     float lamp = dot(d, normalize(vec3(-0.75, 0.45, 0.45))), blur = 0.05 + 0.4 * roughness;
     vec3 studio = skyColor(d) * mix(1.1, 0.35, smoothstep(-0.6, 0.9, d.x)) +
                   1.6 * smoothstep(0.80 - blur, 0.80 + 0.5 * blur, lamp);
@@ -37,6 +48,9 @@ vec3 backdrop(vec3 d) {
 
 // Light of the sky on a surface that sees `open` of it, as an average over its hemisphere.
 vec3 skylight(vec3 n) {
+#ifdef ENVIRONMENT
+    return skyAt(frame.skyLevels, n);
+#endif
     // The cosine-weighted mean of skyColor, which changes with the height alone: fitted by its value a little flatter.
     float up = n.y;
     vec3 above = mix(frame.horizon, frame.zenith, 0.35 + 0.25 * up);

@@ -17,8 +17,8 @@ vec3 toneMap(vec3 x) {
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-// sRGB in four bytes, red in the lowest.
-uint displayed(vec3 linear, uvec2 pixel) {
+// sRGB in four bytes, red in the lowest, and alpha in the highest.
+uint displayed(vec3 linear, float alpha, uvec2 pixel) {
     // sRGB's curve, fitted to 0.16 of a step of eight bits.
     vec3 root = sqrt(linear), encoded = (root * (root * 1.66847 + 1.41553) - 0.03867) / (root * 2.04346 + 1.0);
     encoded = mix(12.92 * linear, encoded, greaterThan(linear, vec3(0.0031308)));
@@ -27,5 +27,5 @@ uint displayed(vec3 linear, uvec2 pixel) {
     float rank = float((bits & 1u) << 3 | (pixel.y & 1u) << 2 | (bits & 2u) | (pixel.y & 2u) >> 1);
     float noise = (rank + 0.5) / 16.0 - 0.5;
     uvec3 bytes = uvec3(clamp(255.0 * encoded + noise + 0.5, 0.0, 255.0));
-    return bytes.x | bytes.y << 8 | bytes.z << 16 | 255u << 24;
+    return bytes.x | bytes.y << 8 | bytes.z << 16 | uint(255.0 * alpha + 0.5) << 24;
 }

@@ -25,7 +25,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"graph/language", "base library ir"},
     {"graph/compile", "base assets library document rules ir evaluate language"},
     {"graph/emit", "compile"},
-    {"graph/check", "library document rules language compile"},
+    {"graph/check", "base assets library document rules language compile"},
     {"graph/nodes", "assets library compile"},
 
     {"runtime/system", "graph"},
@@ -36,7 +36,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/mesher", "graph system gpu mesh"},
     {"runtime/stages", "graph system gpu mesh measure mesher"},
     {"runtime/particles", "graph gpu bake"},
-    {"runtime/render", "graph system gpu mesher particles"},
+    {"runtime/render", "graph system gpu mesh mesher particles"},
     {"runtime/export", "graph system mesh measure mesher"},
     {"runtime/play", "graph system gpu mesh measure bake mesher stages particles render export"},
     {"runtime/window", "graph gpu render"},

@@ -93,13 +93,15 @@ TEST(Scene, ReadsEveryKey) {
 TEST(Scene, SwitchesOnAndOff) {
     const Scene off = sceneOf(R"({"sun": false, "sky": false, "ao": false, "ground": false, "fog": false})");
     EXPECT_FALSE(off.sun || off.sky || off.ao || off.ground || off.fog);
-    const Scene on = sceneOf(R"({"sun": true, "sky": true, "ao": true, "ground": true, "fog": true})");
+    const Scene on =
+        sceneOf(R"({"sun": true, "sky": true, "ao": true, "ground": true, "fog": true, "bloom": true})");
     EXPECT_EQ(on.sun, Sun{});
     EXPECT_EQ(on.sky, Sky{});
     EXPECT_EQ(on.ao, AmbientOcclusion{});
     EXPECT_EQ(on.ground, Ground{});
     EXPECT_EQ(on.fog, Fog{});
-    for (const char* key : {"sun", "sky", "ao", "ground", "fog"}) {
+    EXPECT_EQ(on.bloom, Bloom{});
+    for (const char* key : {"sun", "sky", "ao", "ground", "fog", "bloom"}) {
         for (const char* wrong : {"null", "0", "\"off\"", "[]"}) {
             const std::string text = refusal({{key, Json::parse(wrong)}});
             EXPECT_NE(text.find("the scene's " + std::string(key) + " must be an object such as {"),
@@ -146,6 +148,13 @@ TEST(Scene, TheSchemaKnowsWhatIsRead) {
     int values = 0;
     forValues(schema, "", [&](const std::string& path, const Json& value) {
         ++values;
+        if (path == "/sky/image") {
+            for (const char* wrong : {"null", "true", "3", "[]", "{}", "\"\""})
+                EXPECT_NE(refusal(sceneWith(path, Json::parse(wrong))).find("the scene's sky.image"),
+                          std::string::npos);
+            EXPECT_TRUE(readScene(sceneWith(path, "maps/harbour.hdr")));
+            return;
+        }
         if (value.contains("default")) {
             const Result<Scene> given = readScene(sceneWith(path, value["default"]));
             EXPECT_TRUE(given) << path;
@@ -191,7 +200,7 @@ TEST(Scene, TheSchemaKnowsWhatIsRead) {
             expectRefused(written(limit + outward * 1e-6));
         }
     });
-    EXPECT_EQ(values, 5 + 6 + 4 + 2 + 1 + 3 + 8 + 4);
+    EXPECT_EQ(values, 6 + 6 + 6 + 2 + 1 + 3 + 2 + 8 + 4);
 }
 
 TEST(Scene, NothingStandsOnItsTarget) {

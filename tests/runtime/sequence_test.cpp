@@ -121,7 +121,7 @@ TEST_F(Sequence, RefusesWhatMakesNoSequence) {
     refuse(frames, {"--fps", "0"}, "--fps");
     refuse(folder.path("a.png"), {"--to", "1"}, "a sequence goes into a folder");
     refuse(graph, {"--to", "1"}, "this is a file");
-    refuse(frames, {}, "give a name that ends in .png, or the times of a sequence");
+    refuse(frames, {}, "give a name that ends in .png or .exr, or the times of a sequence");
     refuse(folder.path("a.png"), {"--overwrite"}, "--overwrite is for a sequence");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.field.json"});
     EXPECT_EQ(render(frames, {"--to", "0.5"}).status, 0);
