@@ -17,6 +17,9 @@ namespace {
 constexpr double kFewRadiusCells = 1.7, kManyRadiusCells = 8.0;
 /// Cells along a drop's radius for what they show of it to be round, and cells along a grid, of blobs.
 constexpr double kDropCells = 2.0, kBlobResolution = 96;
+/// Texels of a grid whose cells are chosen, at most: few devices bind fewer than 2^23 (128 MiB), and other
+/// fields want some of them.
+constexpr double kMostChosenTexels = 7.8e6;
 
 std::vector<double> valuesOf(const std::vector<LiveParameter>& live) {
     std::vector<double> values;
@@ -215,14 +218,24 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
     }
     for (std::size_t axis = 0; axis < 3; ++axis) region.lo[axis] -= *margin, region.hi[axis] += *margin;
     const bool blobs = makesBlobs(*own);
-    if (*resolution == 0.0)
+    const bool chosen = *resolution == 0.0;
+    if (chosen)
         resolution = blobs ? kBlobResolution
                            : std::clamp(std::ceil(kDropCells * longestSide(region) / leastDrop),
                                         double(kLeastParticleResolution), double(kMostParticleResolution));
     if (found && blobs)
         resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / most));
-    const Result<FieldVolumePtr> volume =
-        particleVolume(lowering.state.ir, *from.particles, *own, region, static_cast<int>(*resolution));
+    const auto volumeOf = [&](double cells) {
+        return particleVolume(lowering.state.ir, *from.particles, *own, region, static_cast<int>(cells));
+    };
+    Result<FieldVolumePtr> volume = volumeOf(*resolution);
+    bool coarser = false;
+    while (chosen && volume && double(texelCount(**volume)) > kMostChosenTexels) {
+        const double share = std::cbrt(kMostChosenTexels / double(texelCount(**volume)));
+        resolution = std::floor(*resolution * share);
+        volume = volumeOf(*resolution);
+        coarser = true;
+    }
     if (!volume) {
         lowering.report(at, found ? "particles" : "region_min", volume.error());
         return lowering.failure(at.type.outputs);
@@ -235,9 +248,11 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
             at, "resolution",
             "cells of " + shortNumber(cell) + " m are wide for " +
                 (blobs ? "particles that reach " : "drops with a radius of ") + shortNumber(fine) + " m: " +
-                (enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
-                 : blobs                           ? "raise the radius"
-                                                   : "raise drop") +
+                (coarser ? "finer ones would take more than " +
+                               std::to_string(int(kTexelBytes * kMostChosenTexels) >> 20) + " MiB; raise drop"
+                 : enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
+                 : blobs                             ? "raise the radius"
+                                                     : "raise drop") +
                 ", or give the grid a smaller region");
     if (inputOf(*inputs, "distance").text == "near") lowering.nearFields.insert(at.path());
     return sampledVolume(lowering, at, *inputs, *volume, tricubicChannel);

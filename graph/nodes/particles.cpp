@@ -165,11 +165,11 @@ std::vector<NodeType> particleNodes() {
                   "for offsets, shells and blends that reach far: beyond it they are rough."),
               length("margin", 0.0,
                      "How much farther the grid reaches, to every side: room for true distances."),
-              integer(
-                  "resolution", 0, 0, kMostParticleResolution,
-                  "Cells along the grid's longest side; 0: 96 of blobs, and of other surfaces as many as "
-                  "make them half a drop's radius. A blob's radius is best two to six cells, and is eight at "
-                  "most in a grid that is found."),
+              integer("resolution", 0, 0, kMostParticleResolution,
+                      "Cells along the grid's longest side; 0: 96 of blobs, and of other surfaces as many as "
+                      "make them half a drop's radius, or as fit into 119 MiB. A blob's radius is best two "
+                      "to six cells, and is eight at "
+                      "most in a grid that is found."),
               corner(
                   "region_min",
                   "Lowest corner of the grid; found from where the particles come from, at all times of the "

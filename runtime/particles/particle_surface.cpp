@@ -106,17 +106,18 @@ Done recordSurface(Commands& commands, const DensityKernels& sorting, const Surf
                   uint32_t(push.buckets.x * push.buckets.y * push.buckets.z) + 1);
     }
     beginStage(commands, "blocks");
-    reserve(device, b.grid, 4ull * (blocks + 1));
-    fill(commands, b.grid, 0, 0, 4);
+    reserve(device, b.grid, 16 + 4ull * blocks);
+    fill(commands, b.grid, 0, 0, 8);
+    fill(commands, b.grid, 1, 8, 4);
+    fill(commands, b.grid, 0, 12, 4);
     barrier(commands);
     const Descriptor starts{1, b.buckets.starts}, distances{2, b.density}, listed{4, b.grid};
     run(kernels.blocks, groupsFor(blocks, DENSITY_GROUP), std::array{starts, distances, listed});
     beginStage(commands, "surface");
-    if (shaped)
-        run(kernels.anisotropic, blocks,
-            std::array{Descriptor{0, shapes}, starts, distances, Descriptor{3, b.order}, listed});
-    else
-        run(kernels.average, blocks, std::array{Descriptor{0, b.sorted}, starts, distances, listed});
+    dispatchIndirect(commands, shaped ? kernels.anisotropic : kernels.average, b.grid, 0, push,
+                     std::array{Descriptor{0, shaped ? shapes : b.sorted}, starts, distances,
+                                Descriptor{3, b.order}, listed});
+    barrier(commands);
     return done();
 }
 

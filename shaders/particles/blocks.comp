@@ -3,7 +3,7 @@
 
 layout(local_size_x = DENSITY_GROUP) in;
 layout(binding = 2, scalar) writeonly buffer Distance { vec4 distances[]; };  // cells; rows padded to texels
-layout(binding = 4, scalar) buffer Blocks { uint blocks[]; };                 // how many, and which
+layout(binding = 4, scalar) buffer Blocks { uvec3 groups; uint count, blocks[]; };  // how many, and which
 
 // Whether it is far from the surface.
 bool deep(Block block) {
@@ -29,7 +29,10 @@ void main() {
     Block block = blockOf(index);
     bool empty = alone(block);
     if (!empty && !deep(block)) {
-        blocks[1 + atomicAdd(blocks[0], 1)] = index;
+        uint place = atomicAdd(count, 1);
+        blocks[place] = index;
+        atomicMax(groups.x, min(place + 1, MOST_GROUPS));
+        atomicMax(groups.y, place / MOST_GROUPS + 1);
         return;
     }
     float value = ((empty ? push.none : 0.0) - push.drop) / block.cell;

@@ -50,7 +50,8 @@ Rows rowsAround(Block block) {
 }
 // The particles within reach in a row, in the order of buckets: the first, and the first behind them.
 uvec2 particlesOf(Block block, Rows rows, int row) {
-    ivec2 b = rows.first + ivec2(row % rows.count.x, row / rows.count.x);
+    int z = int((float(row) + 0.5) / float(rows.count.x));  // a division of whole numbers takes far longer on software devices
+    ivec2 b = rows.first + ivec2(row - z * rows.count.x, z);
     vec2 away = max(max(vec2(b) - block.hi.yz, block.lo.yz - vec2(b + 1)), 0.0);
     float left = kReach * kReach - dot(away, away), far = sqrt(max(left, 0.0));
     int from = max(int(floor(block.lo.x - far)), 0), to = min(int(floor(block.hi.x + far)), push.buckets.x - 1);

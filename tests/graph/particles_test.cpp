@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "graph/base/words.h"
 #include "graph/check/check.h"
 #include "graph/compile/compile.h"
 #include "graph/compile/particle_recipe.h"
@@ -225,6 +226,22 @@ TEST(Particles, ASmoothSurfaceFindsItsDropAndItsCells) {
                   std::string::npos)
             << given.notes[0].message;
         EXPECT_NE(program.ir.volumes()[0]->hash, compiled("").ir.volumes()[0]->hash);
+        // As many as fit, told with what they are; more only where they are asked for.
+        const Program large = compiled(std::string(surface) + R"(, "drop": 0.01)");
+        const FieldVolume& most = *large.ir.volumes()[0];
+        EXPECT_LE(kTexelBytes * texelCount(most), std::size_t(119) << 20);
+        EXPECT_GT(kTexelBytes * texelCount(most), std::size_t(115) << 20);
+        ASSERT_EQ(large.notes.size(), 1u);
+        EXPECT_NE(
+            large.notes[0].message.find("drops with a radius of 0.01 m: finer ones would take more than 119 "
+                                        "MiB; raise drop, or give the grid a smaller region"),
+            std::string::npos)
+            << large.notes[0].message;
+        EXPECT_EQ(large.notes[0].message.find("cells of " + shortNumber(most.grid.cell)), 0u);
+        EXPECT_GT(
+            texelCount(
+                *compiled(std::string(surface) + R"(, "drop": 0.01, "resolution": 300)").ir.volumes()[0]),
+            texelCount(most));
     }
     // Of other particles, and of blobs, the one of a blob alone.
     const double blob = 0.15 * std::sqrt(1.0 - std::cbrt(0.3));
