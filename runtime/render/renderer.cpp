@@ -276,7 +276,9 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     if (!sameField) ambient.mostKept = 8;
     renderer.ambient.options = ambient;
     gpu::View view = shows.view;
-    view.jitter = jitterOf(renderer.rested, options);
+    const bool smooths =
+        !rests && options.antialias.value_or(!renderer.device->software) && options.show == RENDER_PICTURE;
+    view.jitter = jitterOf(smooths ? int(renderer.number) % kAntialiasPlaces : renderer.rested, options);
     const bool lens = rests && options.scene.camera && options.scene.camera->aperture > 0.0;
     if (lens) {
         // Each frame sees other places, from the first one that counts on.
@@ -311,6 +313,10 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
             renderer.shown.reset(), forgetHistory(renderer);
         return false;
     }
+    if (smooths)
+        antialias(commands, renderer.antialias, renderer.pixels, renderer.seen.depth, renderer.frame);
+    else
+        renderer.antialias.hasHistory = false;
     if (picture) recordReading(commands, renderer.pixels, renderer.readback);
     submit(commands);
     renderer.slow = millisecondsSince(start) > kSlowFrame;

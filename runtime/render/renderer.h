@@ -26,6 +26,7 @@
 #include <string>
 
 #include "runtime/render/ambient.h"
+#include "runtime/render/antialias.h"
 #include "runtime/render/bloom.h"
 #include "runtime/render/draft.h"
 #include "runtime/render/environment.h"
@@ -92,6 +93,8 @@ struct RenderOptions {
     int moment = 0, moments = 1;
     double framesPerSecond = 0.0;  ///< by which Player counts the camera's shutter; 0: the timeline's
     Primary primary = Primary::traced;
+    /// Of a live view that moves; none: unless the device is software, which has no time to spare.
+    std::optional<bool> antialias = {};
     bool reference = false;    ///< trace primary rays, and 64 rays of ambient occlusion a sample, none kept
     int bounces = 0;           ///< of the reference, if above 0: whole paths of light (paths.h), one a sample
     PathSums* sums = nullptr;  ///< where paths go on from, and what they are left in, if given
@@ -172,6 +175,7 @@ struct Renderer {
     Ambient ambient;
     Secondary secondary;
     FogLight fog;
+    Antialias antialias;
     std::map<std::vector<std::string>, Pipeline> light;  ///< by what light.comp defines; made when needed
     Pipeline lamps, reference, show, wireframe;          ///< ditto
     bool tracesSun = false;                              ///< `lamps` does

@@ -467,6 +467,48 @@ TEST(Render, LampsLightAllOfTheGround) {
         }
 }
 
+TEST(Render, AViewThatMovesIsAntialiased) {
+    // A fence before the sky, that moves by a third of a pixel a frame; then it rests, and edges converge.
+    const Result<Graph> graph = parseGraph(graphText(R"(
+        {"id": "bar", "type": "box", "inputs": {"half_extents": [0.02, 1, 0.02]}},
+        {"id": "row", "type": "repeat", "inputs": {"surface": {"from": "bar"}, "period": [0.1, 0, 0], "count": [18, 1, 1]}},
+        {"id": "black", "type": "material", "inputs": {"surface": {"from": "row"}, "base_color": [0, 0, 0], "roughness": 1}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "black"}}})"),
+                                           "", nullptr);
+    ASSERT_TRUE(graph) << format(graph.error());
+    const auto moved = [&](bool antialias, bool ghosts) {
+        Result<Device> device = createDevice({.validation = true});
+        EXPECT_TRUE(device);
+        const auto record = device->record;
+        double off = 0;
+        {
+            Session session(std::move(*device));
+            session.setProgram(*compile(*graph));
+            const Result<MesherResult> mesh = session.polygonise({{}, 64});
+            EXPECT_TRUE(mesh) << format(mesh.error());
+            RenderOptions options{.width = kWidth, .height = kHeight, .antialias = antialias};
+            options.scene.sky = Sky{};
+            options.scene.ground.reset();
+            Picture shown, rested;
+            for (int i = 0; i < 24; ++i) {
+                const double x = (i - 23) * (ghosts && i == 23 ? 0.2 : 0.015) + (ghosts ? 0.4 * (i < 23) : 0);
+                options.scene.camera = {.position = {x, 0.3, 4}, .target = {x, 0, 0}, .fov = 30};
+                EXPECT_TRUE(session.renderLive(*mesh, options, &shown));
+            }
+            for (int i = 0; i < 40; ++i) EXPECT_TRUE(session.renderLive(*mesh, options, &rested));
+            for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+                off += std::abs(shown.pixels[i] - rested.pixels[i]) / 255.0 / double(shown.pixels.size());
+        }
+        for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+        return off;
+    };
+    const double jagged = moved(false, false), smooth = moved(true, false), jumped = moved(true, true);
+    std::printf("from where it comes to rest: %.4f without, %.4f with, %.4f after a jump\n", jagged, smooth,
+                jumped);
+    EXPECT_LT(smooth, 0.7 * jagged);
+    EXPECT_LT(jumped, 1.3 * jagged);
+}
+
 TEST(Render, SizesOutOfRangeAndCancelling) {
     EXPECT_TRUE(checkPictureSize(16, 16));
     EXPECT_TRUE(checkPictureSize(7680, 4320));
