@@ -49,6 +49,7 @@ namespace {
 
 gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     static const FluidLattice lattice = fluidLattice();
+    const float volume = config.spacing * config.spacing * config.spacing;
     gpu::FluidPush push{};
     push.support = kFluidSupport * config.spacing;
     push.near = (config.farOnce ? kFluidNear : 1.0f) * push.support;
@@ -65,7 +66,8 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     push.slope = -20.0f * push.weight / (push.support * push.support);
     push.relaxation = kFluidRelaxation;
     push.viscosity = std::min(config.viscosity * step, 1.0f);
-    push.tension = config.tension * step;
+    const float tension = std::min(config.tension, kFluidMostTension * volume / (step * step));
+    push.tension = tension * step / (kTensionOfPairs * config.spacing * config.spacing);
     push.soft = lattice.soft / (config.spacing * config.spacing);
     push.vorticity = config.vorticity * step * config.spacing;
     push.error = config.error;
@@ -107,12 +109,14 @@ FluidKernels createFluidKernels(const Device& device, std::string_view obstacle)
         ShaderOptions{.name = "particles/velocity.comp"},
         ShaderOptions{.name = "particles/curl.comp"},
         ShaderOptions{.name = "particles/confine.comp"},
-        ShaderOptions{.name = "particles/smooth_velocity.comp"}};
+        ShaderOptions{.name = "particles/smooth_velocity.comp"},
+        ShaderOptions{.name = "particles/density_gradient.comp"},
+        ShaderOptions{.name = "particles/smooth_velocity.comp", .defines = {"TENSION"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createCountingSort(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
-            std::move(made[3]),         std::move(made[4]), std::move(made[5]), std::move(made[6]),
-            std::move(made[7]),         std::move(made[8]), std::move(made[9]), std::move(made[10]),
-            std::move(made[11])};
+    return {createCountingSort(device), std::move(made[0]),  std::move(made[1]), std::move(made[2]),
+            std::move(made[3]),         std::move(made[4]),  std::move(made[5]), std::move(made[6]),
+            std::move(made[7]),         std::move(made[8]),  std::move(made[9]), std::move(made[10]),
+            std::move(made[11]),        std::move(made[12]), std::move(made[13])};
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -241,9 +245,15 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
             std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.curls}, Descriptor{2, b.lists},
                        Descriptor{3, b.counts}, Descriptor{4, b.guesses}});
     }
-    run(kernels.smoothVelocity,
-        std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.guesses}, Descriptor{2, b.lists},
-                   Descriptor{3, b.counts}, Descriptor{4, b.velocities}});
+    std::vector<Descriptor> smoothed = {
+        {0, b.sortedGuesses}, {1, b.guesses}, {2, b.lists}, {3, b.counts}, {4, b.velocities}};
+    if (config.tension > 0.0f) {
+        run(kernels.densityGradient,
+            std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.sortedPlanes}, Descriptor{2, b.lists},
+                       Descriptor{3, b.counts}, Descriptor{4, b.weighed}});
+        smoothed.insert(smoothed.end(), {{5, b.sortedPlanes}, {6, b.weighed}});
+    }
+    run(config.tension > 0.0f ? kernels.drawTogether : kernels.smoothVelocity, smoothed);
     std::swap(b.places, b.sortedGuesses);
     return done();
 }

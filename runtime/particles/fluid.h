@@ -19,6 +19,17 @@
 // Swirls can be fed by vorticity confinement, as in the paper. What two particles then do to each other is
 // not opposite: momentum is kept no more than about.
 //
+// Surface tension is the gradient of an energy, so that it makes none: E = sum over pairs of Phi(r) +
+// share support^3 / 2 sum |grad density|^2, in units of the greatest force of Phi. Phi is that of the
+// cohesion of Akinci, Akinci and Teschner, "Versatile Surface Tension and Adhesion for SPH Fluids" (ACM TOG
+// 32(6), 2013). The second sum is that of a diffuse interface (He et al., "Robust Simulation of Sparsely
+// Sampled Thin Features in SPH-Based Free Surface Flows", ACM TOG 34(1), 2014); it stands for Akinci's
+// differences of normals, which are no gradient. Without it bars stay bars; without cohesion the fluid
+// evaporates. Drops swing as Rayleigh has it ("On the Capillary Phenomena of Jets", 1879), which gives the
+// scale. What is left is of a solid: a drop at rest may stay some per cent from round. Walls count as full of
+// fluid for densities, and attract nothing: drops meet them at about a right angle. Tension above
+// kFluidMostTension is cut: it would blow up.
+//
 // Far neighbours are felt once a step, as they were when it began (FluidConfig::farOnce). Swoboda ("Advanced
 // Procedural Rendering in DirectX 11", GDC 2012) takes them for the mean of their cell, which pays where
 // cells hold many. With some 33 neighbours they do not: with cells of half the support nearly as many means
@@ -54,7 +65,7 @@ namespace fw {
 struct FluidKernels {
     CountingSort sort;
     Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
-        velocity, curl, confine, smoothVelocity;
+        velocity, curl, confine, smoothVelocity, densityGradient, drawTogether;
 };
 /// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
 /// for none.
@@ -65,7 +76,7 @@ struct FluidConfig {
     glm::vec3 lo{-1.0f}, hi{1.0f};  ///< the tank
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
-    float tension = 0.0f;    ///< 1/s^2: what draws neighbours together, for each metre between them
+    float tension = 0.0f;    ///< m^3/s^2: of the surface, over the density: 7.3e-5 for water
     int iterations = 4;      ///< turns of a step, at most
     float vorticity = 0.0f;  ///< 1/s: how fast swirls gain what a spacing of them has of speed
     float error = 0.0f;   ///< at which turns end: the mean of how far densities exceed that at rest; 0: never
@@ -96,6 +107,12 @@ inline constexpr float kFluidNear = 0.9f;
 /// make more of a correction than each asked for, more than twice as much in a full lattice: then turns with
 /// a whole share diverge.
 inline constexpr float kFluidRelaxation = 0.6f;
+
+/// The greatest tension that a step can take, times its square, in cubed spacings.
+inline constexpr float kFluidMostTension = 0.04f;
+/// Tension over the greatest acceleration that two particles give each other by it, in squared spacings: what
+/// gives drops the period of Rayleigh.
+inline constexpr float kTensionOfPairs = 2.9f;
 
 /// What the solver knows of particles at rest: a cubic lattice of spacing 1.
 struct FluidLattice {

@@ -298,10 +298,10 @@ double wayOf(const Program& obstacle, const glm::dvec3& lo, const glm::dvec3& hi
 }  // namespace
 
 /// Parts of a step: as many as are asked for, or else so many that neither the end of a fall through the tank
-/// nor what the obstacle moves is more than half a spacing in each.
+/// nor what the obstacle moves is more than half a spacing in each, and that each can take the tension.
 int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& before,
                         const std::vector<double>& now) const {
-    constexpr double kMostForFalls = 8.0, kMostForObstacles = 16.0;
+    constexpr double kMostForFalls = 8.0, kMostForObstacles = 16.0, kMostForTension = 16.0;
     const double asked = StageNumbers(field->ir, source(), now).scalar("substeps"),
                  half = 0.5 * config.spacing;
     if (asked >= 1.0) return int(std::min(asked, kMostSubsteps));
@@ -309,7 +309,11 @@ int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& be
     const double falls = std::min(std::max(1.0, std::ceil(speed * kSimulationStep / half)), kMostForFalls);
     const double way =
         fluid->obstacle ? wayOf(*fluid->obstacle->program, config.lo, config.hi, before, now) : 0.0;
-    return int(std::max(falls, std::min(std::ceil(way / half), kMostForObstacles)));
+    const double drawn =
+        kSimulationStep *
+        std::sqrt(config.tension / (kFluidMostTension * std::pow(double(config.spacing), 3)));
+    return int(std::max({falls, std::min(std::ceil(way / half), kMostForObstacles),
+                         std::min(std::ceil(drawn), kMostForTension)}));
 }
 
 Done Simulation::flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values) {
