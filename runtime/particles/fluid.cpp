@@ -74,6 +74,13 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     return push;
 }
 
+/// Particles that buffers are made for: a few more, of what grows. All have the same room, for a step
+/// exchanges them.
+uint64_t roomFor(uint64_t count) {
+    constexpr uint64_t kTogether = 8 * FLUID_GROUP;
+    return (count + kTogether - 1) / kTogether * kTogether;
+}
+
 Done fits(const Device& device, const FluidConfig& config, uint32_t count, float step) {
     const auto positive = [](float value) { return std::isfinite(value) && value > 0.0f; };
     const glm::vec3 size = config.hi - config.lo;
@@ -81,7 +88,7 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
         return Error{.message = "a fluid's spacing, its tank's sides and its step must be greater than 0"};
     const DeviceLimits& limits = device.limits;
     const uint64_t most = limits.texels() / (FLUID_MOST_NEIGHBOURS / 4);
-    if (count > most)
+    if (roomFor(count) > most)
         return Error{.message = "this device can list the neighbours of " + std::to_string(most) +
                                 " particles at most: raise the fluid's spacing"};
     const glm::dvec3 cells(cellsOf(config));
@@ -94,10 +101,10 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
 
 }  // namespace
 
-FluidKernels createFluidKernels(const Device& device, std::string_view obstacle) {
+FluidKernels createFluidKernels(const Device& device, std::string_view obstacle, std::string_view outflow) {
     ShaderOptions predict{.name = "particles/predict.comp", .field = obstacle};
     if (!obstacle.empty()) predict.defines = {"OBSTACLE", "FIELD_GRADIENT"};
-    const std::array shaders = {
+    std::vector<ShaderOptions> shaders = {
         predict,
         ShaderOptions{.name = "particles/reorder.comp"},
         ShaderOptions{.name = "particles/neighbours.comp"},
@@ -112,11 +119,15 @@ FluidKernels createFluidKernels(const Device& device, std::string_view obstacle)
         ShaderOptions{.name = "particles/smooth_velocity.comp"},
         ShaderOptions{.name = "particles/density_gradient.comp"},
         ShaderOptions{.name = "particles/smooth_velocity.comp", .defines = {"TENSION"}}};
+    if (!outflow.empty()) shaders.push_back({.name = "particles/drain.comp", .field = outflow});
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createCountingSort(device), std::move(made[0]),  std::move(made[1]), std::move(made[2]),
-            std::move(made[3]),         std::move(made[4]),  std::move(made[5]), std::move(made[6]),
-            std::move(made[7]),         std::move(made[8]),  std::move(made[9]), std::move(made[10]),
-            std::move(made[11]),        std::move(made[12]), std::move(made[13])};
+    FluidKernels kernels{createCountingSort(device), std::move(made[0]),  std::move(made[1]),
+                         std::move(made[2]),         std::move(made[3]),  std::move(made[4]),
+                         std::move(made[5]),         std::move(made[6]),  std::move(made[7]),
+                         std::move(made[8]),         std::move(made[9]),  std::move(made[10]),
+                         std::move(made[11]),        std::move(made[12]), std::move(made[13])};
+    if (!outflow.empty()) kernels.drain = std::move(made[14]);
+    return kernels;
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -128,17 +139,69 @@ std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, floa
     return places;
 }
 
+void reserveFluid(const Device& device, FluidParticles& fluid, uint32_t count) {
+    fluid.count = count;
+    for (Buffer* each : {&fluid.places, &fluid.velocities})
+        reserve(device, *each, 16 * std::max<uint64_t>(roomFor(count), 1));
+}
+
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities) {
-    fluid.count = uint32_t(places.size());
-    const auto write = [&](Buffer& buffer, const std::vector<glm::vec3>& from) {
+    reserveFluid(device, fluid, uint32_t(places.size()));
+    const auto write = [&](const Buffer& buffer, const std::vector<glm::vec3>& from) {
         std::vector<glm::vec4> padded(std::max<std::size_t>(places.size(), 1), glm::vec4(0.0f));
         for (std::size_t i = 0; i < from.size(); ++i) padded[i] = glm::vec4(from[i], 0.0f);
-        reserve(device, buffer, 16 * padded.size());
         upload(device, buffer, padded);
     };
     write(fluid.places, places);
     write(fluid.velocities, velocities);
+}
+
+void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
+                const glm::vec3& velocity) {
+    const uint32_t old = std::exchange(fluid.count, fluid.count + uint32_t(places.size()));
+    const auto add = [&](Buffer& buffer, auto&& of) {
+        if (buffer.size < 16 * roomFor(fluid.count)) {
+            Buffer larger = createBuffer(device, 16 * roomFor(fluid.count + fluid.count / 4));
+            Commands commands(device);
+            if (old > 0) copy(commands, buffer, 0, larger, 0, 16ull * old);
+            submit(commands);
+            buffer = std::move(larger);
+        }
+        std::vector<glm::vec4> added;
+        for (const glm::vec3& place : places) added.emplace_back(of(place), 0.0f);
+        uploadBytes(device, buffer, added.data(), 16 * added.size(), 16ull * old);
+    };
+    add(fluid.places, [](const glm::vec3& place) { return place; });
+    add(fluid.velocities, [&](const glm::vec3&) { return velocity; });
+}
+
+void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles& b,
+                const FieldBuffers& outflow) {
+    if (b.count == 0) return;
+    const Device& device = commands.device;
+    gpu::FluidPush push{};
+    push.particles = b.count;
+    for (Buffer* each : {&b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes})
+        reserve(device, *each, 16 * roomFor(b.count));
+    reserve(device, b.keys, 4 * roomFor(b.count));
+    const uint32_t blocks = groupsFor(b.count, FLUID_DRAIN_BLOCK);
+    const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
+        dispatch(commands, kernel, spread(device, groupsFor(b.count, FLUID_GROUP)), push, bound);
+        barrier(commands);
+    };
+    std::vector<Descriptor> drained = {{0, b.places}, {1, b.keys}};
+    addField(drained, outflow);
+    run(*kernels.drain, drained);
+    sortByKey(commands, kernels.sort, b.cells, b.keys, b.order, b.count, blocks + 1);
+    run(kernels.reorder,
+        std::array{Descriptor{0, b.order}, Descriptor{1, b.places}, Descriptor{2, b.velocities},
+                   Descriptor{3, b.velocities}, Descriptor{4, b.sortedPlaces}, Descriptor{5, b.sortedGuesses},
+                   Descriptor{6, b.sortedPlanes}});
+    submit(commands);
+    std::swap(b.places, b.sortedPlaces);
+    std::swap(b.velocities, b.sortedGuesses);
+    b.count = download<uint32_t>(device, b.cells.starts, 1, 4ull * blocks)[0];
 }
 
 namespace {
@@ -188,13 +251,14 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     if (const Done fit = fits(device, config, b.count, step); !fit) return fit.error();
     if (b.count == 0) return done();
     gpu::FluidPush push = pushOf(config, b.count, step);
+    const uint64_t room = roomFor(b.count);
     for (Buffer* each :
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
-        reserve(device, *each, 16ull * b.count);
-    for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4ull * b.count);
-    if (config.vorticity > 0.0f) reserve(device, b.curls, 16ull * b.count);
+        reserve(device, *each, 16 * room);
+    for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4 * room);
+    if (config.vorticity > 0.0f) reserve(device, b.curls, 16 * room);
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
-    reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
+    reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * room);
     const bool many = b.count > kParticlesSentTogether;
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
         dispatch(commands, kernel, spread(device, groups), push, bound);

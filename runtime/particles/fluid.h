@@ -45,6 +45,10 @@
 // weighs densities, and the groups of all turns behind are read from where it then writes none: the host
 // waits for nothing. Errors are added up as whole numbers, so that every run takes the same turns.
 //
+// Particles may be added and taken away between steps. Those in an outflow are sorted behind the others,
+// which keep their order: by their numbers' blocks, so that no key has more than the sort puts in order. How
+// many are left, the host asks.
+//
 // What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
 // half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
 // the bottom.
@@ -55,6 +59,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string_view>
 
 #include "runtime/gpu/counting_sort.h"
@@ -66,10 +71,12 @@ struct FluidKernels {
     CountingSort sort;
     Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
         velocity, curl, confine, smoothVelocity, densityGradient, drawTogether;
+    std::optional<Pipeline> drain = {};
 };
-/// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
-/// for none.
-FluidKernels createFluidKernels(const Device& device, std::string_view obstacle);
+/// Texts that answer #include "field.glsl", empty for none: of the field that the fluid stays out of, and of
+/// that in which it is taken away.
+FluidKernels createFluidKernels(const Device& device, std::string_view obstacle,
+                                std::string_view outflow = {});
 
 struct FluidConfig {
     float spacing = 0.05f;          ///< of particles at rest
@@ -125,10 +132,23 @@ FluidLattice fluidLattice();
 /// Particles at even spacing in a box, at rest.
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing);
 
+/// Makes room for so many particles, whose places and velocities are then undefined. The device must not be
+/// using the fluid.
+void reserveFluid(const Device& device, FluidParticles& fluid, uint32_t count);
+
 /// Sets all there is of the state: what was read from `places` and `velocities` goes on to the same bytes. No
 /// velocities: all at rest. The device must not be using it.
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities);
+
+/// Adds particles behind all others. The device must not be using the fluid.
+void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
+                const glm::vec3& velocity);
+
+/// Takes away what is in the outflow that the kernels were made with, which reads `outflow`; the others keep
+/// their order. Ends the recording and waits for it.
+void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                const FieldBuffers& outflow);
 
 /// Records one step of so many seconds; of many particles it is sent in parts. Errors: sizes or a step that
 /// are not greater than 0; more cells or particles than the device can bind what belongs to.
