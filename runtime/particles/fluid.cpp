@@ -158,9 +158,9 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 }
 
 void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
-                const glm::vec3& velocity) {
+                const std::vector<glm::vec3>& velocities) {
     const uint32_t old = std::exchange(fluid.count, fluid.count + uint32_t(places.size()));
-    const auto add = [&](Buffer& buffer, auto&& of) {
+    const auto add = [&](Buffer& buffer, const std::vector<glm::vec3>& from) {
         if (buffer.size < 16 * roomFor(fluid.count)) {
             Buffer larger = createBuffer(device, 16 * roomFor(fluid.count + fluid.count / 4));
             Commands commands(device);
@@ -169,11 +169,11 @@ void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<g
             buffer = std::move(larger);
         }
         std::vector<glm::vec4> added;
-        for (const glm::vec3& place : places) added.emplace_back(of(place), 0.0f);
+        for (const glm::vec3& each : from) added.emplace_back(each, 0.0f);
         uploadBytes(device, buffer, added.data(), 16 * added.size(), 16ull * old);
     };
-    add(fluid.places, [](const glm::vec3& place) { return place; });
-    add(fluid.velocities, [&](const glm::vec3&) { return velocity; });
+    add(fluid.places, places);
+    add(fluid.velocities, velocities);
 }
 
 void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles& b,

@@ -143,7 +143,7 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 
 /// Adds particles behind all others. The device must not be using the fluid.
 void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
-                const glm::vec3& velocity);
+                const std::vector<glm::vec3>& velocities);
 
 /// Takes away what is in the outflow that the kernels were made with, which reads `outflow`; the others keep
 /// their order. Ends the recording and waits for it.

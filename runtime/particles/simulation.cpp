@@ -370,16 +370,25 @@ Done Simulation::inflow(const std::vector<double>& before, const std::vector<dou
     Result<std::vector<glm::vec3>> places = placesIn(
         *found->second, fluid->obstacle ? fluid->obstacle->program.get() : nullptr, numbers, now, drift);
     if (!places) return Error{.message = places.error().message, .node = source().node};
-    std::vector<Point> origins;
-    for (const glm::dvec3 p : *places) origins.push_back({p.x - way.x, p.y - way.y, p.z - way.z});
-    std::vector<double> distances(origins.size());
+    std::vector<Point> origins, ends;
+    for (const glm::dvec3 p : *places) {
+        origins.push_back({p.x - way.x, p.y - way.y, p.z - way.z});
+        ends.push_back({p.x, p.y, p.z});
+    }
+    std::vector<double> distances(origins.size()), within(origins.size());
     TapeMachine<double> machine;
     machine.evaluate(distanceTape(*found->second, before), origins, distances);
-    std::vector<glm::vec3> entered;
+    machine.evaluate(distanceTape(*found->second, now), ends, within);
+    std::vector<glm::vec3> entered, fast;
+    const glm::dvec3 gravity = numbers.vector("gravity");
     const double most = std::clamp(numbers.scalar("most"), 0.0, double(kMostParticles));
     for (std::size_t i = 0; i < places->size() && fluid->particles.count + entered.size() < most; ++i)
-        if (distances[i] >= 0.0) entered.push_back((*places)[i]);
-    if (!entered.empty()) addToFluid(*device, fluid->particles, entered, velocity);
+        if (distances[i] >= 0.0) {  // and has fallen since
+            const double age = kSimulationStep * within[i] / std::min(within[i] - distances[i], -1e-30);
+            entered.emplace_back(glm::dvec3((*places)[i]) + 0.5 * age * age * gravity);
+            fast.emplace_back(velocity + age * gravity);
+        }
+    if (!entered.empty()) addToFluid(*device, fluid->particles, entered, fast);
     state.slots = fluid->particles.count;
     return done();
 }
