@@ -173,9 +173,10 @@ Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at) {
 Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at) {
     std::optional<ParticleStage> stage = stageOf(lowering, at, ParticleStage::Kind::fluid);
     if (!stage) return lowering.failure(at.type.outputs);
-    if (!stage->fields.contains("source")) {
-        lowering.report(at, "source",
-                        {.message = "nothing is fluid: link the surface that is full of it at the start"});
+    if (!stage->fields.contains("source") && !stage->fields.contains("inflow")) {
+        lowering.report(
+            at, "source",
+            {.message = "nothing is fluid: link the surface that is full of it at the start, or an inflow"});
         return lowering.failure(at.type.outputs);
     }
     const std::vector<double> values = valuesOf(lowering.live);

@@ -98,7 +98,9 @@ std::vector<NodeType> particleNodes() {
               measured(vector("velocity", {0, 0, 0}, "How the fluid moves at the start."), "m/s"), gravity,
               amount("viscosity", 2, "1/s",
                      "How fast neighbours come to move alike: 0.5 for water, 20 for honey."),
-              amount("tension", 0, "1/s²", "How much neighbours draw together: drops get round."),
+              amount("tension", 0, "m³/s²",
+                     "Of the surface, over the density: drops get round. Water has 0.00007, which is seen in "
+                     "drops of millimetres; a drop of radius R swings with a period of 2.2 √(R³ / tension)."),
               amount("vorticity", 0, "1/s",
                      "How much swirls are fed, against what the solver loses of them."),
               collide,
@@ -117,7 +119,16 @@ std::vector<NodeType> particleNodes() {
                   "hardly seen to sink. It takes as many turns as that asks for; 0: always the same number."),
               integer("turns", 0, 0, 256,
                       "How often particles move apart in a part of a step; where an error is given, at most. "
-                      "0: four times, or up to 32 where an error is given.")},
+                      "0: four times, or up to 32 where an error is given."),
+              asWhole(surfaceInput("inflow",
+                                   "Where fluid comes in, as from a tap: its particles begin at the side of "
+                                   "it from which they come, and as many as its cross-section and their "
+                                   "speed ask for. It must be in the tank, and thicker than they move in a "
+                                   "sixtieth of a second.")),
+              measured(vector("inflow_velocity", {0, -1, 0}, "How what flows in moves."), "m/s"),
+              asWhole(surfaceInput("outflow", "Where fluid leaves: particles in it are taken away.")),
+              integer("most", 200'000, 1, 4'000'000,
+                      "Particles at a time, at most: beyond it, nothing flows in.")},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerFluid,
          .aliases = {"water", "liquid", "fluid"}},

@@ -49,6 +49,7 @@ namespace {
 
 gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     static const FluidLattice lattice = fluidLattice();
+    const float volume = config.spacing * config.spacing * config.spacing;
     gpu::FluidPush push{};
     push.support = kFluidSupport * config.spacing;
     push.near = (config.farOnce ? kFluidNear : 1.0f) * push.support;
@@ -65,11 +66,19 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     push.slope = -20.0f * push.weight / (push.support * push.support);
     push.relaxation = kFluidRelaxation;
     push.viscosity = std::min(config.viscosity * step, 1.0f);
-    push.tension = config.tension * step;
+    const float tension = std::min(config.tension, kFluidMostTension * volume / (step * step));
+    push.tension = tension * step / (kTensionOfPairs * config.spacing * config.spacing);
     push.soft = lattice.soft / (config.spacing * config.spacing);
     push.vorticity = config.vorticity * step * config.spacing;
     push.error = config.error;
     return push;
+}
+
+/// Particles that buffers are made for: a few more, of what grows. All have the same room, for a step
+/// exchanges them.
+uint64_t roomFor(uint64_t count) {
+    constexpr uint64_t kTogether = 8 * FLUID_GROUP;
+    return (count + kTogether - 1) / kTogether * kTogether;
 }
 
 Done fits(const Device& device, const FluidConfig& config, uint32_t count, float step) {
@@ -79,7 +88,7 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
         return Error{.message = "a fluid's spacing, its tank's sides and its step must be greater than 0"};
     const DeviceLimits& limits = device.limits;
     const uint64_t most = limits.texels() / (FLUID_MOST_NEIGHBOURS / 4);
-    if (count > most)
+    if (roomFor(count) > most)
         return Error{.message = "this device can list the neighbours of " + std::to_string(most) +
                                 " particles at most: raise the fluid's spacing"};
     const glm::dvec3 cells(cellsOf(config));
@@ -92,10 +101,10 @@ Done fits(const Device& device, const FluidConfig& config, uint32_t count, float
 
 }  // namespace
 
-FluidKernels createFluidKernels(const Device& device, std::string_view obstacle) {
+FluidKernels createFluidKernels(const Device& device, std::string_view obstacle, std::string_view outflow) {
     ShaderOptions predict{.name = "particles/predict.comp", .field = obstacle};
     if (!obstacle.empty()) predict.defines = {"OBSTACLE", "FIELD_GRADIENT"};
-    const std::array shaders = {
+    std::vector<ShaderOptions> shaders = {
         predict,
         ShaderOptions{.name = "particles/reorder.comp"},
         ShaderOptions{.name = "particles/neighbours.comp"},
@@ -107,12 +116,18 @@ FluidKernels createFluidKernels(const Device& device, std::string_view obstacle)
         ShaderOptions{.name = "particles/velocity.comp"},
         ShaderOptions{.name = "particles/curl.comp"},
         ShaderOptions{.name = "particles/confine.comp"},
-        ShaderOptions{.name = "particles/smooth_velocity.comp"}};
+        ShaderOptions{.name = "particles/smooth_velocity.comp"},
+        ShaderOptions{.name = "particles/density_gradient.comp"},
+        ShaderOptions{.name = "particles/smooth_velocity.comp", .defines = {"TENSION"}}};
+    if (!outflow.empty()) shaders.push_back({.name = "particles/drain.comp", .field = outflow});
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    return {createCountingSort(device), std::move(made[0]), std::move(made[1]), std::move(made[2]),
-            std::move(made[3]),         std::move(made[4]), std::move(made[5]), std::move(made[6]),
-            std::move(made[7]),         std::move(made[8]), std::move(made[9]), std::move(made[10]),
-            std::move(made[11])};
+    FluidKernels kernels{createCountingSort(device), std::move(made[0]),  std::move(made[1]),
+                         std::move(made[2]),         std::move(made[3]),  std::move(made[4]),
+                         std::move(made[5]),         std::move(made[6]),  std::move(made[7]),
+                         std::move(made[8]),         std::move(made[9]),  std::move(made[10]),
+                         std::move(made[11]),        std::move(made[12]), std::move(made[13])};
+    if (!outflow.empty()) kernels.drain = std::move(made[14]);
+    return kernels;
 }
 
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing) {
@@ -124,17 +139,69 @@ std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, floa
     return places;
 }
 
+void reserveFluid(const Device& device, FluidParticles& fluid, uint32_t count) {
+    fluid.count = count;
+    for (Buffer* each : {&fluid.places, &fluid.velocities})
+        reserve(device, *each, 16 * std::max<uint64_t>(roomFor(count), 1));
+}
+
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities) {
-    fluid.count = uint32_t(places.size());
-    const auto write = [&](Buffer& buffer, const std::vector<glm::vec3>& from) {
+    reserveFluid(device, fluid, uint32_t(places.size()));
+    const auto write = [&](const Buffer& buffer, const std::vector<glm::vec3>& from) {
         std::vector<glm::vec4> padded(std::max<std::size_t>(places.size(), 1), glm::vec4(0.0f));
         for (std::size_t i = 0; i < from.size(); ++i) padded[i] = glm::vec4(from[i], 0.0f);
-        reserve(device, buffer, 16 * padded.size());
         upload(device, buffer, padded);
     };
     write(fluid.places, places);
     write(fluid.velocities, velocities);
+}
+
+void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
+                const std::vector<glm::vec3>& velocities) {
+    const uint32_t old = std::exchange(fluid.count, fluid.count + uint32_t(places.size()));
+    const auto add = [&](Buffer& buffer, const std::vector<glm::vec3>& from) {
+        if (buffer.size < 16 * roomFor(fluid.count)) {
+            Buffer larger = createBuffer(device, 16 * roomFor(fluid.count + fluid.count / 4));
+            Commands commands(device);
+            if (old > 0) copy(commands, buffer, 0, larger, 0, 16ull * old);
+            submit(commands);
+            buffer = std::move(larger);
+        }
+        std::vector<glm::vec4> added;
+        for (const glm::vec3& each : from) added.emplace_back(each, 0.0f);
+        uploadBytes(device, buffer, added.data(), 16 * added.size(), 16ull * old);
+    };
+    add(fluid.places, places);
+    add(fluid.velocities, velocities);
+}
+
+void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles& b,
+                const FieldBuffers& outflow) {
+    if (b.count == 0) return;
+    const Device& device = commands.device;
+    gpu::FluidPush push{};
+    push.particles = b.count;
+    for (Buffer* each : {&b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes})
+        reserve(device, *each, 16 * roomFor(b.count));
+    reserve(device, b.keys, 4 * roomFor(b.count));
+    const uint32_t blocks = groupsFor(b.count, FLUID_DRAIN_BLOCK);
+    const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
+        dispatch(commands, kernel, spread(device, groupsFor(b.count, FLUID_GROUP)), push, bound);
+        barrier(commands);
+    };
+    std::vector<Descriptor> drained = {{0, b.places}, {1, b.keys}};
+    addField(drained, outflow);
+    run(*kernels.drain, drained);
+    sortByKey(commands, kernels.sort, b.cells, b.keys, b.order, b.count, blocks + 1);
+    run(kernels.reorder,
+        std::array{Descriptor{0, b.order}, Descriptor{1, b.places}, Descriptor{2, b.velocities},
+                   Descriptor{3, b.velocities}, Descriptor{4, b.sortedPlaces}, Descriptor{5, b.sortedGuesses},
+                   Descriptor{6, b.sortedPlanes}});
+    submit(commands);
+    std::swap(b.places, b.sortedPlaces);
+    std::swap(b.velocities, b.sortedGuesses);
+    b.count = download<uint32_t>(device, b.cells.starts, 1, 4ull * blocks)[0];
 }
 
 namespace {
@@ -184,13 +251,14 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     if (const Done fit = fits(device, config, b.count, step); !fit) return fit.error();
     if (b.count == 0) return done();
     gpu::FluidPush push = pushOf(config, b.count, step);
+    const uint64_t room = roomFor(b.count);
     for (Buffer* each :
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})
-        reserve(device, *each, 16ull * b.count);
-    for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4ull * b.count);
-    if (config.vorticity > 0.0f) reserve(device, b.curls, 16ull * b.count);
+        reserve(device, *each, 16 * room);
+    for (Buffer* each : {&b.keys, &b.counts, &b.far, &b.densities}) reserve(device, *each, 4 * room);
+    if (config.vorticity > 0.0f) reserve(device, b.curls, 16 * room);
     const uint32_t groups = groupsFor(b.count, FLUID_GROUP);
-    reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * FLUID_GROUP * groups);
+    reserve(device, b.lists, 4ull * FLUID_MOST_NEIGHBOURS * room);
     const bool many = b.count > kParticlesSentTogether;
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
         dispatch(commands, kernel, spread(device, groups), push, bound);
@@ -241,9 +309,15 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
             std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.curls}, Descriptor{2, b.lists},
                        Descriptor{3, b.counts}, Descriptor{4, b.guesses}});
     }
-    run(kernels.smoothVelocity,
-        std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.guesses}, Descriptor{2, b.lists},
-                   Descriptor{3, b.counts}, Descriptor{4, b.velocities}});
+    std::vector<Descriptor> smoothed = {
+        {0, b.sortedGuesses}, {1, b.guesses}, {2, b.lists}, {3, b.counts}, {4, b.velocities}};
+    if (config.tension > 0.0f) {
+        run(kernels.densityGradient,
+            std::array{Descriptor{0, b.sortedGuesses}, Descriptor{1, b.sortedPlanes}, Descriptor{2, b.lists},
+                       Descriptor{3, b.counts}, Descriptor{4, b.weighed}});
+        smoothed.insert(smoothed.end(), {{5, b.sortedPlanes}, {6, b.weighed}});
+    }
+    run(config.tension > 0.0f ? kernels.drawTogether : kernels.smoothVelocity, smoothed);
     std::swap(b.places, b.sortedGuesses);
     return done();
 }

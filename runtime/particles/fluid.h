@@ -19,6 +19,17 @@
 // Swirls can be fed by vorticity confinement, as in the paper. What two particles then do to each other is
 // not opposite: momentum is kept no more than about.
 //
+// Surface tension is the gradient of an energy, so that it makes none: E = sum over pairs of Phi(r) +
+// share support^3 / 2 sum |grad density|^2, in units of the greatest force of Phi. Phi is that of the
+// cohesion of Akinci, Akinci and Teschner, "Versatile Surface Tension and Adhesion for SPH Fluids" (ACM TOG
+// 32(6), 2013). The second sum is that of a diffuse interface (He et al., "Robust Simulation of Sparsely
+// Sampled Thin Features in SPH-Based Free Surface Flows", ACM TOG 34(1), 2014); it stands for Akinci's
+// differences of normals, which are no gradient. Without it bars stay bars; without cohesion the fluid
+// evaporates. Drops swing as Rayleigh has it ("On the Capillary Phenomena of Jets", 1879), which gives the
+// scale. What is left is of a solid: a drop at rest may stay some per cent from round. Walls count as full of
+// fluid for densities, and attract nothing: drops meet them at about a right angle. Tension above
+// kFluidMostTension is cut: it would blow up.
+//
 // Far neighbours are felt once a step, as they were when it began (FluidConfig::farOnce). Swoboda ("Advanced
 // Procedural Rendering in DirectX 11", GDC 2012) takes them for the mean of their cell, which pays where
 // cells hold many. With some 33 neighbours they do not: with cells of half the support nearly as many means
@@ -34,6 +45,14 @@
 // weighs densities, and the groups of all turns behind are read from where it then writes none: the host
 // waits for nothing. Errors are added up as whole numbers, so that every run takes the same turns.
 //
+// Particles may be added and taken away between steps. Those in an outflow are sorted behind the others,
+// which keep their order: by their numbers' blocks, so that no key has more than the sort puts in order. How
+// many are left, the host asks.
+//
+// Turns begin from nothing. From a share of the last step's corrections (a warm start) there are fewer, a
+// third at a share of 0.7; but what no longer holds of them becomes speed, and a column that breaks gains
+// several times the energy that it had.
+//
 // What a turn can mend reaches as far as the kernel: in a step a particle should fall or fly no farther than
 // half a spacing, and what is deep, in particles, wants shorter steps or more turns, or it is too dense at
 // the bottom.
@@ -44,6 +63,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string_view>
 
 #include "runtime/gpu/counting_sort.h"
@@ -54,18 +74,20 @@ namespace fw {
 struct FluidKernels {
     CountingSort sort;
     Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
-        velocity, curl, confine, smoothVelocity;
+        velocity, curl, confine, smoothVelocity, densityGradient, drawTogether;
+    std::optional<Pipeline> drain = {};
 };
-/// `obstacle` is the text that answers #include "field.glsl": the field that the fluid stays out of; empty
-/// for none.
-FluidKernels createFluidKernels(const Device& device, std::string_view obstacle);
+/// Texts that answer #include "field.glsl", empty for none: of the field that the fluid stays out of, and of
+/// that in which it is taken away.
+FluidKernels createFluidKernels(const Device& device, std::string_view obstacle,
+                                std::string_view outflow = {});
 
 struct FluidConfig {
     float spacing = 0.05f;          ///< of particles at rest
     glm::vec3 lo{-1.0f}, hi{1.0f};  ///< the tank
     glm::vec3 gravity{0.0f, -9.81f, 0.0f};
     float viscosity = 2.0f;  ///< 1/s: how fast the velocities of neighbours draw level
-    float tension = 0.0f;    ///< 1/s^2: what draws neighbours together, for each metre between them
+    float tension = 0.0f;    ///< m^3/s^2: of the surface, over the density: 7.3e-5 for water
     int iterations = 4;      ///< turns of a step, at most
     float vorticity = 0.0f;  ///< 1/s: how fast swirls gain what a spacing of them has of speed
     float error = 0.0f;   ///< at which turns end: the mean of how far densities exceed that at rest; 0: never
@@ -97,6 +119,12 @@ inline constexpr float kFluidNear = 0.9f;
 /// a whole share diverge.
 inline constexpr float kFluidRelaxation = 0.6f;
 
+/// The greatest tension that a step can take, times its square, in cubed spacings.
+inline constexpr float kFluidMostTension = 0.04f;
+/// Tension over the greatest acceleration that two particles give each other by it, in squared spacings: what
+/// gives drops the period of Rayleigh.
+inline constexpr float kTensionOfPairs = 2.9f;
+
 /// What the solver knows of particles at rest: a cubic lattice of spacing 1.
 struct FluidLattice {
     float weight;  ///< of the kernel at distance 0, for the lattice's density to be 1
@@ -108,10 +136,23 @@ FluidLattice fluidLattice();
 /// Particles at even spacing in a box, at rest.
 std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, float spacing);
 
+/// Makes room for so many particles, whose places and velocities are then undefined. The device must not be
+/// using the fluid.
+void reserveFluid(const Device& device, FluidParticles& fluid, uint32_t count);
+
 /// Sets all there is of the state: what was read from `places` and `velocities` goes on to the same bytes. No
 /// velocities: all at rest. The device must not be using it.
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities);
+
+/// Adds particles behind all others. The device must not be using the fluid.
+void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
+                const std::vector<glm::vec3>& velocities);
+
+/// Takes away what is in the outflow that the kernels were made with, which reads `outflow`; the others keep
+/// their order. Ends the recording and waits for it.
+void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles& fluid,
+                const FieldBuffers& outflow);
 
 /// Records one step of so many seconds; of many particles it is sent in parts. Errors: sizes or a step that
 /// are not greater than 0; more cells or particles than the device can bind what belongs to.

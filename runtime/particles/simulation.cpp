@@ -25,6 +25,9 @@ constexpr VkDeviceSize kCheckpointBufferBytes = 4u << 20;  // that several share
 constexpr double kLeastSpacing = 1e-6;                     // metres
 constexpr double kMostSubsteps = 64, kMostTurns = 256;
 constexpr int kTurnsToAnError = 32;
+/// Spacings that what flows in is off the tank's lattice, so that none of its places comes to lie just on the
+/// inflow's side, where rounding would lose it.
+constexpr glm::dvec3 kDriftAside(0.62e-3, 0.75e-3, 0.57e-3);
 
 using Kind = ParticleStage::Kind;
 
@@ -76,7 +79,12 @@ Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
         flowing.obstacle = obstacleOf(*device, found->second);
         obstacle = emitField(*found->second);
     }
-    flowing.kernels = createFluidKernels(*device, obstacle);
+    std::string outflow;
+    if (const auto found = source().fields.find("outflow"); found != source().fields.end()) {
+        flowing.outflow = obstacleOf(*device, found->second);
+        outflow = emitField(*found->second);
+    }
+    flowing.kernels = createFluidKernels(*device, obstacle, outflow);
 }
 
 namespace {
@@ -87,19 +95,22 @@ Tape distanceTape(const Program& surface, const std::vector<double>& values) {
     return makeTape(surface.ir, surface.distance(), live);
 }
 
-/// A fluid's places at the start: even spacing in the tank, where the source is, and no nearer to the
-/// obstacle, if there is one, than each other's half.
+/// Places for a fluid: even spacing in the tank, where the source is, and no nearer to the obstacle, if there
+/// is one, than each other's half. The lattice begins at the tank's corner, and so far from it.
 Result<std::vector<glm::vec3>> placesIn(const Program& source, const Program* obstacle,
-                                        const StageNumbers& numbers, const std::vector<double>& values) {
+                                        const StageNumbers& numbers, const std::vector<double>& values,
+                                        const glm::dvec3& drift = glm::dvec3(0.0)) {
     constexpr double kMostPlaces = 64e6;  // that are looked at
     const std::span<const double> live(values.data(), std::min(source.live.size(), values.size()));
     const double spacing = std::max(numbers.scalar("spacing"), kLeastSpacing);
-    const glm::dvec3 lo = numbers.vector("tank_min"), hi = numbers.vector("tank_max");
+    const glm::dvec3 lo = numbers.vector("tank_min") + drift, hi = numbers.vector("tank_max"),
+                     corner = lo - drift;
     const Region region = findRegion(source.ir, source.distance(), live);
     glm::dvec3 first, count;
     for (int axis = 0; axis < 3; ++axis) {
         const bool bounded = region.extent == Extent::bounded;
-        const double least = bounded ? std::max(lo[axis], region.box.lo[std::size_t(axis)]) : lo[axis],
+        const double least =
+                         bounded ? std::max(corner[axis], region.box.lo[std::size_t(axis)]) : corner[axis],
                      most = bounded ? std::min(hi[axis], region.box.hi[std::size_t(axis)]) : hi[axis];
         first[axis] = std::floor((least - lo[axis]) / spacing);
         const double last = std::min(std::ceil((most - lo[axis]) / spacing),
@@ -125,14 +136,10 @@ Result<std::vector<glm::vec3>> placesIn(const Program& source, const Program* ob
             if (std::ranges::none_of(distances, [](double distance) { return distance < 0.0; })) continue;
             if (obstacle) machine.evaluate(inObstacle, row, room);
             for (std::size_t x = 0; x < row.size(); ++x)
-                if (distances[x] < 0.0 && room[x] >= 0.5 * spacing)
+                if (distances[x] < 0.0 && room[x] >= 0.5 * spacing &&
+                    glm::all(glm::greaterThanEqual(glm::dvec3(row[x][0], row[x][1], row[x][2]), corner)))
                     places.emplace_back(row[x][0], row[x][1], row[x][2]);
         }
-    if (places.empty())
-        return Error{
-            .message =
-                "no place of the source is in the tank and free: move or enlarge one of them, or lower the "
-                "spacing"};
     if (places.size() > kMostParticles)
         return Error{.message = "the source holds " + std::to_string(places.size()) + " particles, and " +
                                 std::to_string(kMostParticles) + " is the most: raise the spacing"};
@@ -207,6 +214,14 @@ Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
     Commands commands(*device);
     if (fluid) {
         if (const Done flowed = flow(commands, now, values); !flowed) return flowed.error();
+        if (source().fields.contains("inflow") || fluid->outflow) {
+            submit(commands);
+            if (const Done entered = inflow(values(state.steps * kSimulationStep), now); !entered)
+                return entered.error();
+            outflow(now);
+            Commands kept(*device);
+            return taken(kept);
+        }
         return taken(commands);
     }
     if (source().kind != Kind::emitter) {
@@ -227,10 +242,18 @@ Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
 Done Simulation::fill(const std::vector<double>& values) {
     const StageNumbers numbers(field->ir, source(), values);
     const Program* const obstacle = fluid->obstacle ? fluid->obstacle->program.get() : nullptr;
-    const Result<std::vector<glm::vec3>> places =
-        placesIn(*source().fields.find("source")->second, obstacle, numbers, values);
+    const auto full = source().fields.find("source");
+    Result<std::vector<glm::vec3>> places = std::vector<glm::vec3>();
+    if (full != source().fields.end()) places = placesIn(*full->second, obstacle, numbers, values);
     if (!places) return Error{.message = places.error().message, .node = source().node};
+    if (places->empty() && !source().fields.contains("inflow"))
+        return Error{
+            .message =
+                "no place of the source is in the tank and free: move or enlarge one of them, or lower the "
+                "spacing",
+            .node = source().node};
     state.slots = uint32_t(places->size());
+    drifts.assign(1, kDriftAside * std::max(numbers.scalar("spacing"), kLeastSpacing));
     setFluid(*device, fluid->particles, *places, {});
     Commands commands(*device);
     if (const Done settled =
@@ -239,7 +262,8 @@ Done Simulation::fill(const std::vector<double>& values) {
         return Error{.message = settled.error().message, .node = source().node};
     submit(commands);
     upload(*device, fluid->particles.velocities,
-           std::vector(places->size(), glm::vec4(glm::vec3(numbers.vector("velocity")), 0.0f)));
+           std::vector(std::max<std::size_t>(places->size(), 1),
+                       glm::vec4(glm::vec3(numbers.vector("velocity")), 0.0f)));
     Commands first(*device);
     return taken(first);
 }
@@ -298,10 +322,10 @@ double wayOf(const Program& obstacle, const glm::dvec3& lo, const glm::dvec3& hi
 }  // namespace
 
 /// Parts of a step: as many as are asked for, or else so many that neither the end of a fall through the tank
-/// nor what the obstacle moves is more than half a spacing in each.
+/// nor what the obstacle moves is more than half a spacing in each, and that each can take the tension.
 int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& before,
                         const std::vector<double>& now) const {
-    constexpr double kMostForFalls = 8.0, kMostForObstacles = 16.0;
+    constexpr double kMostForFalls = 8.0, kMostForObstacles = 16.0, kMostForTension = 16.0;
     const double asked = StageNumbers(field->ir, source(), now).scalar("substeps"),
                  half = 0.5 * config.spacing;
     if (asked >= 1.0) return int(std::min(asked, kMostSubsteps));
@@ -309,7 +333,11 @@ int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& be
     const double falls = std::min(std::max(1.0, std::ceil(speed * kSimulationStep / half)), kMostForFalls);
     const double way =
         fluid->obstacle ? wayOf(*fluid->obstacle->program, config.lo, config.hi, before, now) : 0.0;
-    return int(std::max(falls, std::min(std::ceil(way / half), kMostForObstacles)));
+    const double drawn =
+        kSimulationStep *
+        std::sqrt(config.tension / (kFluidMostTension * std::pow(double(config.spacing), 3)));
+    return int(std::max({falls, std::min(std::ceil(way / half), kMostForObstacles),
+                         std::min(std::ceil(drawn), kMostForTension)}));
 }
 
 Done Simulation::flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values) {
@@ -326,6 +354,52 @@ Done Simulation::flow(Commands& commands, const std::vector<double>& now, const 
         !recorded)
         return Error{.message = recorded.error().message, .node = source().node};
     return done();
+}
+
+/// Adds what has flown in at the end of a step.
+Done Simulation::inflow(const std::vector<double>& before, const std::vector<double>& now) {
+    const auto found = source().fields.find("inflow");
+    if (found == source().fields.end()) return done();
+    const StageNumbers numbers(field->ir, source(), now);
+    const double spacing = std::max(numbers.scalar("spacing"), kLeastSpacing);
+    const glm::dvec3 velocity = numbers.vector("inflow_velocity"), way = kSimulationStep * velocity,
+                     gone = drifts[std::size_t(state.steps)] + way,
+                     drift = gone - spacing * glm::floor(gone / spacing);
+    drifts.resize(std::max(drifts.size(), std::size_t(state.steps) + 2));
+    drifts[std::size_t(state.steps) + 1] = drift;
+    Result<std::vector<glm::vec3>> places = placesIn(
+        *found->second, fluid->obstacle ? fluid->obstacle->program.get() : nullptr, numbers, now, drift);
+    if (!places) return Error{.message = places.error().message, .node = source().node};
+    std::vector<Point> origins, ends;
+    for (const glm::dvec3 p : *places) {
+        origins.push_back({p.x - way.x, p.y - way.y, p.z - way.z});
+        ends.push_back({p.x, p.y, p.z});
+    }
+    std::vector<double> distances(origins.size()), within(origins.size());
+    TapeMachine<double> machine;
+    machine.evaluate(distanceTape(*found->second, before), origins, distances);
+    machine.evaluate(distanceTape(*found->second, now), ends, within);
+    std::vector<glm::vec3> entered, fast;
+    const glm::dvec3 gravity = numbers.vector("gravity");
+    const double most = std::clamp(numbers.scalar("most"), 0.0, double(kMostParticles));
+    for (std::size_t i = 0; i < places->size() && fluid->particles.count + entered.size() < most; ++i)
+        if (distances[i] >= 0.0) {  // and has fallen since
+            const double age = kSimulationStep * within[i] / std::min(within[i] - distances[i], -1e-30);
+            entered.emplace_back(glm::dvec3((*places)[i]) + 0.5 * age * age * gravity);
+            fast.emplace_back(velocity + age * gravity);
+        }
+    if (!entered.empty()) addToFluid(*device, fluid->particles, entered, fast);
+    state.slots = fluid->particles.count;
+    return done();
+}
+
+/// Takes away what is in the outflow at the end of a step.
+void Simulation::outflow(const std::vector<double>& now) {
+    if (!fluid->outflow) return;
+    Commands commands(*device);
+    setParameters(commands, *fluid->outflow, now);
+    drainFluid(commands, fluid->kernels, fluid->particles, fluid->outflow->buffers());
+    state.slots = fluid->particles.count;
 }
 
 Done Simulation::makeRoom(const StageNumbers& emitter, double all) {
@@ -455,8 +529,10 @@ void Simulation::keep(Commands& commands) {
     if (place != checkpoints.end() && place->steps == state.steps) return;
     Checkpoint made = roomFor(state.slots);
     made.steps = state.steps;
-    copy(commands, places(), 0, *made.kept, made.at, made.bytes() / 2);
-    copy(commands, motion(), 0, *made.kept, made.at + made.bytes() / 2, made.bytes() / 2);
+    if (made.slots > 0) {
+        copy(commands, places(), 0, *made.kept, made.at, made.bytes() / 2);
+        copy(commands, motion(), 0, *made.kept, made.at + made.bytes() / 2, made.bytes() / 2);
+    }
     checkpoints.insert(place, std::move(made));
     VkDeviceSize bytes = 0;
     for (const Checkpoint& each : checkpoints) bytes += each.bytes();
@@ -476,10 +552,13 @@ void Simulation::forget() {
 void Simulation::restore(const Checkpoint& from) {
     state.steps = from.steps;
     state.slots = from.slots;
-    if (!fluid) {
+    if (fluid) {
+        reserveFluid(*device, fluid->particles, from.slots);
+    } else {
         reserve(*device, state.places, 16ull * from.slots);
         reserve(*device, state.velocities, 16ull * from.slots);
     }
+    if (from.slots == 0) return;
     Commands commands(*device);
     copy(commands, *from.kept, from.at, places(), 0, from.bytes() / 2);
     copy(commands, *from.kept, from.at + from.bytes() / 2, motion(), 0, from.bytes() / 2);

@@ -10,6 +10,11 @@
 //
 // A fluid takes a step in parts, in each of which an obstacle that moves with the time has gone on.
 //
+// What flows into a fluid stands on a lattice that drifts with its speed: a place of it that was outside of
+// the inflow a step ago and is inside now is a particle, so that they come as dense as at rest, and as many
+// as the speed and the inflow's cross-section ask for. The host counts what comes, and asks how many the
+// outflow took: with either it waits for each step.
+//
 // Emitted particles are numbered in the order of their births; number n stands in slot n % slots, so that the
 // last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
 // is not a number.
@@ -19,6 +24,7 @@
 
 #include <deque>
 #include <functional>
+#include <glm/vec3.hpp>
 
 #include "graph/compile/particle_recipe.h"
 #include "runtime/gpu/field_buffers.h"
@@ -77,7 +83,7 @@ class Simulation {
 
     struct Fluid {
         FluidKernels kernels;
-        std::optional<Obstacle> obstacle;
+        std::optional<Obstacle> obstacle, outflow;
         FluidParticles particles;
     };
 
@@ -90,6 +96,8 @@ class Simulation {
     FluidConfig configOf(Commands& commands, const std::vector<double>& values) const;
     int partsOf(const FluidConfig& config, const std::vector<double>& before,
                 const std::vector<double>& now) const;
+    Done inflow(const std::vector<double>& before, const std::vector<double>& now);
+    void outflow(const std::vector<double>& now);
     Done flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values);
     Done step(const std::vector<double>& now, const ValuesAt& values);
     void move(Commands& commands, const std::vector<double>& values);
@@ -114,6 +122,7 @@ class Simulation {
     std::optional<Fluid> fluid;
     State state;
     std::vector<double> born;            ///< how many were, after each step
+    std::vector<glm::dvec3> drifts;      ///< of what flows in, after each step, metres
     std::deque<Checkpoint> checkpoints;  ///< by their steps
     std::vector<Checkpoint> dropped;     ///< whose room is free
     std::shared_ptr<const Buffer> open;  ///< has room from here on

@@ -37,11 +37,23 @@ Walls wallsAt(vec3 d) {
     return Walls(mix(beyond, 1.0 - beyond, lessThan(d, vec3(0.0))), 21.0 * push.perSupport * (u5 - u6 * (1.5 - (4.0 / 7.0) * u)));
 }
 
+// How the fall of that falls off with d, 1/m^2.
+vec3 bendAt(vec3 d) {
+    vec3 u = clamp(1.0 - abs(d) * push.perSupport, 0.0, 1.0), u2 = u * u;
+    return 21.0 * push.perSupport * push.perSupport * u2 * u2 * (1.0 - u) * (5.0 - 4.0 * u) * sign(d);
+}
+
 // The gradient of the density of all walls, and that density. `plane` is the obstacle's nearest: its normal, and how far it is
 // from the origin.
 vec4 wallsAt(vec3 p, vec4 plane) {
     Walls low = wallsAt(p - push.lo), high = wallsAt(push.hi - p), own = wallsAt(vec3(dot(plane.xyz, p) - plane.w));
     return vec4(high.fall - low.fall - own.fall.x * plane.xyz, dot(low.density + high.density, vec3(1.0)) + own.density.x);
+}
+
+// The second derivatives of the density of all walls, times a vector.
+vec3 wallsBent(vec3 p, vec4 plane, vec3 by) {
+    vec3 bent = (bendAt(p - push.lo) + bendAt(push.hi - p)) * by;
+    return bent + bendAt(vec3(dot(plane.xyz, p) - plane.w)).x * dot(plane.xyz, by) * plane.xyz;
 }
 
 vec3 inTank(vec3 p) { return clamp(p, push.lo, push.hi); }

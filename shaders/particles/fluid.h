@@ -8,10 +8,16 @@ namespace fw::gpu {
 #define FLUID_GROUP 256           // particles of a work group
 #define FLUID_MOST_NEIGHBOURS 64  // that a particle feels; more than that are only where it is far too dense
 
+#define FLUID_DRAIN_BLOCK 1024  // particles of a key where they keep their order; the sort keeps that of 2048
+
 // Errors of densities are added up as whole numbers, whose sums are the same in any order, in so many sums.
 // No sum is too great: an error counts as 1 at most.
 #define FLUID_ERROR_SUMS 256
 #define FLUID_ERROR_UNIT 131072.0
+
+// Share of the squared gradients of the density in the energy of surface tension: with more, a particle of the
+// surface would rather be alone; with less, lattices yield too late for drops to get round.
+#define FLUID_LEVELLING 1.75
 
 // What the groups of a step's turns are read from.
 struct FluidTurns {
@@ -37,7 +43,7 @@ struct FluidPush {
     float soft;        // added to the sum of squared gradients, 1/m^2
     float relaxation;
     float viscosity;  // share of the difference of velocities that this step takes away
-    float tension;    // 1/s: velocity for each metre of offset
+    float tension;    // m/s: velocity that pairs gain where they attract each other most
     float vorticity;  // metres: velocity that swirls gain for each 1/s of the curl
     float error;      // the mean of densities above that at rest, at which turns end
 };

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "tests/support/fluid.h"
 #include "tests/support/gpu.h"
@@ -43,7 +44,7 @@ TEST_F(FluidExperiments, WaterComesToRestInATank) {
         ASSERT_TRUE(recordSettling(commands, kernelsFor(), fluid, config));
         submit(commands);
         const double first = energyOf(fluid, config);
-        double sprung = 0.0, least = 2.0 * first, growth = 0.0;
+        double sprung = 0.0, least = first, growth = 0.0;
         test::Curve& curve =
             curves.emplace_back(test::Curve{.name = collapses ? "a column that collapses" : "a layer at rest",
                                             .color = collapses ? "#d55e00" : "#1771a0",
@@ -53,7 +54,6 @@ TEST_F(FluidExperiments, WaterComesToRestInATank) {
             const double now = energyOf(fluid, config);
             sprung = std::max(sprung, now / first - 1.0);
             if (i <= 60) curve.points.emplace_back(i / 12.0, now / (0.5 * 9.81 * height));
-            if (i < 6) continue;
             growth = std::max(growth, now / least - 1.0);
             least = std::min(now, least);
         }
@@ -80,7 +80,7 @@ TEST_F(FluidExperiments, WaterComesToRestInATank) {
             "water %s for 10 s: surface at %.3f m of %.1f, filled volume %.3f, density %.4f, speed %.4f m/s "
             "rms, "
             "%.3f at most; energy sprang up by %.4f before it was let go and by %.4f then, grew by %.4f at "
-            "most after half a second\n",
+            "most in a twelfth of a second\n",
             collapses ? "collapsed and left" : "left", top, height, filled, density, rms, fastest,
             first / lattice - 1.0, sprung, growth);
         EXPECT_NEAR(density, 1.0, 0.03);
@@ -177,7 +177,8 @@ double spreadAlong(const std::vector<glm::vec3>& places, int axis) {
 
 /// Monaghan, "Simulating Free Surface Flows with SPH" (JCP 110, 1994): a disc with the velocity (-A x, A y)
 /// becomes an ellipse with a' = -A a, b' = A b, A' = A^2 (a^2 - b^2) / (a^2 + b^2). Two walls without
-/// friction make the space flat.
+/// friction make the space flat. Particles begin a little off the lattice: the columns of one stay columns,
+/// however they are stretched, which the kernel takes for denser than they are: the short axis was 26 % off.
 TEST_F(FluidExperiments, ADropBecomesTheEllipse) {
     const float spacing = 0.05f, thickness = 4 * spacing, step = 1.0f / 120;
     const FluidConfig config{.spacing = spacing,
@@ -186,6 +187,9 @@ TEST_F(FluidExperiments, ADropBecomesTheEllipse) {
                              .gravity = glm::vec3(0.0f)};
     std::vector<glm::vec3> places = fluidBlock({-1.0f, -1.0f, 0.0f}, {1.0f, 1.0f, thickness}, spacing);
     std::erase_if(places, [](const glm::vec3& p) { return p.x * p.x + p.y * p.y > 1.0f; });
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> off(-0.05f * spacing, 0.05f * spacing);
+    for (glm::vec3& p : places) p += glm::vec3(off(random), off(random), off(random));
     FluidParticles fluid;
     setFluid(device(), fluid, places, {});
     for (int i = 0; i < 60; ++i) {  // a lattice between walls is too dense: it parts without gaining speed
@@ -220,6 +224,7 @@ TEST_F(FluidExperiments, ADropBecomesTheEllipse) {
         std::printf("drop after %.1f s: b %.4f, %+.1f %%; a %.4f, %+.1f %%; energy grew by %.4f at most\n",
                     double(step) * (i + 1), b, 100 * (ratioB - 1), a, 100 * (ratioA - 1), growth);
         EXPECT_NEAR(ratioB, 1.0, 0.03);
+        EXPECT_NEAR(ratioA, 1.0, 0.1);
     }
     test::plot("fluid_drop", "seconds", "semi-axis", {longAxis, wantedLong, shortAxis, wantedShort});
     EXPECT_NEAR(a, 0.43946, 2e-3);  // the reference's own figures for 1 s

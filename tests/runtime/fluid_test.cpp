@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <map>
 #include <numbers>
 #include <random>
@@ -376,25 +378,136 @@ TEST_F(Fluid, FarCellsByTheirMeansWouldNotPay) {
     }
 }
 
-TEST_F(Fluid, TensionRoundsABlock) {
-    for (const float tension : {0.0f, 400.0f}) {
-        FluidParticles fluid;
-        const FluidConfig config{
-            .spacing = 0.1f, .gravity = glm::vec3(0.0f), .viscosity = 10.0f, .tension = tension};
-        setFluid(device(), fluid, fluidBlock(glm::vec3(-0.5f), glm::vec3(0.5f), 0.1f), {});
-        run(fluid, config, 240, 1.0f / 120);
-        double most = 0.0, squares = 0.0;
-        const std::vector<glm::vec3> places = read(fluid.places, fluid.count);
-        for (const glm::vec3& p : places) {
-            const double far = glm::length(glm::dvec3(p) - mean(places));
-            most = std::max(most, far), squares += far * far;
+/// Energy of the surface, over the tension's pull of pairs: fluid.h has it.
+double surfaceEnergy(const std::vector<glm::vec3>& places, float spacing) {
+    const double support = kFluidSupport * spacing,
+                 slope = 20.0 * fluidLattice().weight / (support * support);
+    const auto fall = [](double q) {  // the integral of 64 q^3 (1 - q)^3
+        return 64.0 * q * q * q * q * (0.25 + q * (-0.6 + q * (0.5 - q / 7.0)));
+    };
+    const auto attraction = [&](double q) {
+        const double far = fall(kFluidNear) - fall(std::max(q, 0.5));
+        return far + (q < 0.5 ? 2.0 * (fall(0.5) - fall(q)) - (0.5 - q) : 0.0);
+    };
+    double sum = 0.0;
+    for (const glm::dvec3 p : places) {
+        glm::dvec3 gradient(0.0);
+        for (const glm::dvec3 other : places) {
+            const double q = glm::distance(p, other) / support, u = 1.0 - q;
+            if (q >= kFluidNear || q == 0.0) continue;
+            sum -= 0.5 * support * attraction(q);
+            gradient -= slope * u * u * u * (p - other);
         }
-        const double shape =
-            most / std::sqrt(squares / double(places.size()));  // a ball's is 1.29, a cube's 1.73
-        std::printf("tension %.0f: farthest over mean distance %.3f\n", tension, shape);
-        if (tension == 0.0f) { EXPECT_GT(shape, 1.5); }
-        if (tension > 0.0f) { EXPECT_LT(shape, 1.45); }
+        sum += 0.5 * FLUID_LEVELLING * support * support * support * glm::dot(gradient, gradient);
     }
+    return sum / double(places.size());
+}
+
+/// Root mean squares along the principal axes, the least first.
+glm::dvec3 axesOf(const std::vector<glm::vec3>& places) {
+    glm::dmat3 m(0.0);
+    const glm::dvec3 middle = mean(places);
+    for (const glm::dvec3 p : places) m += glm::outerProduct(p - middle, p - middle) / double(places.size());
+    // The roots of its characteristic polynomial, after Smith (1961).
+    const double third = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
+    const glm::dmat3 rest = m - glm::dmat3(third);
+    double squares = 0.0;
+    for (int i = 0; i < 3; ++i) squares += glm::dot(rest[i], rest[i]);
+    const double size = std::sqrt(squares / 6.0);
+    if (size < 1e-12 * third) return glm::dvec3(std::sqrt(third));
+    const double turn =
+        std::acos(std::clamp(glm::determinant(rest) / (2.0 * size * size * size), -1.0, 1.0)) / 3.0;
+    const auto root = [&](int k) {
+        return std::sqrt(third + 2.0 * size * std::cos(turn + k * 2.0 * std::numbers::pi / 3.0));
+    };
+    return {root(1), root(2), root(0)};
+}
+
+TEST_F(Fluid, TensionMakesABallOfABarAndNoEnergy) {
+    for (const float tension : {0.0f, 0.4f, 1e6f}) {  // the last is cut to what a step can take
+        const FluidConfig config{.spacing = 0.1f,
+                                 .lo = glm::vec3(-2.0f),
+                                 .hi = glm::vec3(2.0f),
+                                 .gravity = glm::vec3(0.0f),
+                                 .tension = tension};
+        const float step = 1.0f / 120;
+        const double most = kFluidMostTension * std::pow(config.spacing, 3) / (step * step),
+                     pull = std::min<double>(tension, most) /
+                            (kTensionOfPairs * config.spacing * config.spacing);
+        FluidParticles fluid;
+        setFluid(device(), fluid, fluidBlock({-1.6f, -0.4f, -0.4f}, {1.6f, 0.4f, 0.4f}, config.spacing), {});
+        const glm::dvec3 middle = mean(read(fluid.places, fluid.count));
+        const auto energy = [&] {
+            return energyOf(fluid, config) +
+                   pull * surfaceEnergy(read(fluid.places, fluid.count), config.spacing);
+        };
+        run(fluid, config, 1, step);  // of whose end velocities are, and places of its beginning
+        const double first = energy();
+        double grown = 0.0, swing = 0.0;
+        for (int i = 0; i < 60; ++i) {
+            run(fluid, config, i < 8 ? 5 : 24, step);
+            grown = std::max(grown, energy() - first);
+            swing = std::max(swing, glm::length(mean(read(fluid.velocities, fluid.count))));
+        }
+        const std::vector<glm::vec3> places = read(fluid.places, fluid.count);
+        const glm::dvec3 axes = axesOf(places);
+        const double off = glm::length(mean(places) - middle);
+        std::printf(
+            "tension %.2f: axes %.3f %.3f %.3f m, longest over shortest %.3f; energy %.3f, grew from %.3f by "
+            "%.1e "
+            "at most; the middle moved by %.1e m, at %.1e m/s at most\n",
+            tension, axes.x, axes.y, axes.z, axes.z / axes.x, energy(), first, grown, off, swing);
+        EXPECT_LE(grown, 1e-6 + 1e-4 * std::abs(first));
+        EXPECT_LT(off, 1e-3 * config.spacing);
+        if (tension == 0.0f) { EXPECT_GT(axes.z / axes.x, 3.9); }
+        if (tension > 0.0f) { EXPECT_LT(axes.z / axes.x, 1.15); }
+    }
+}
+
+/// Rayleigh, "On the Capillary Phenomena of Jets" (Proc. R. Soc. 29, 1879): a ball of radius R that is pulled
+/// long swings with the period 2 pi sqrt(R^3 / (8 tension)).
+TEST_F(Fluid, DropsSwingAsRayleighHasIt) {
+    double sum = 0.0;
+    for (const float spacing : {0.13f, 0.1f, 0.08f}) {
+        FluidConfig config{.spacing = spacing,
+                           .lo = glm::vec3(-2.0f),
+                           .hi = glm::vec3(2.0f),
+                           .gravity = glm::vec3(0.0f),
+                           .viscosity = 5.0f,
+                           .tension = 0.3f};
+        const double radius = 0.8, step = 1.0 / 240,
+                     wanted =
+                         2.0 * std::numbers::pi * std::sqrt(std::pow(radius, 3) / (8.0 * config.tension));
+        std::vector<glm::vec3> places = fluidBlock(glm::vec3(-1.0f), glm::vec3(1.0f), spacing);
+        std::erase_if(places, [&](const glm::vec3& p) { return glm::length(p) > radius; });
+        FluidParticles fluid;
+        setFluid(device(), fluid, places, {});
+        run(fluid, config, 720, float(step));
+        places = read(fluid.places, fluid.count);
+        std::vector<glm::vec3> velocities;
+        for (const glm::vec3& p : places) velocities.push_back(0.25f * glm::vec3(-p.x, -p.y, 2.0f * p.z));
+        setFluid(device(), fluid, places, velocities);
+        config.viscosity = 0.0f;
+        // Half a period is from when it is round to when it is so again.
+        const auto length = [&] {
+            glm::dvec3 squares(0.0);
+            for (const glm::dvec3 p : read(fluid.places, fluid.count)) squares += p * p;
+            return std::log(2.0 * squares.z / (squares.x + squares.y));
+        };
+        const double round = length();
+        double before = round, half = 0.0;
+        for (int i = 4; i < 800 && half == 0.0; i += 4) {
+            run(fluid, config, 4, float(step));
+            const double now = length();
+            if (before > round && now <= round) half = step * (i - 4 * (round - now) / (before - now));
+            before = now;
+        }
+        std::printf("spacing %.2f: period %.2f s, %.2f of Rayleigh's\n", spacing, 2.0 * half,
+                    2.0 * half / wanted);
+        EXPECT_NEAR(2.0 * half / wanted, 1.0, 0.15);
+        sum += 2.0 * half / wanted;
+    }
+    EXPECT_NEAR(sum / 3.0, 1.0, 0.1);
 }
 
 TEST_F(Fluid, TheCurlOfWhatTurnsIsTwiceItsTurning) {

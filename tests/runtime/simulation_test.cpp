@@ -502,6 +502,112 @@ TEST(Simulation, ATankWhoseSidesMeetIsRefusedWithTheTime) {
     EXPECT_NE(gone.error().message.find("(at 0.5 s)"), std::string::npos) << gone.error().message;
 }
 
+/// A tap of 0.2 by 0.2 m in a tank of 0.8 by 1 by 0.8 m, from which water falls at 1.5 m/s: 16 particles a
+/// layer.
+LiveProgram tap(const std::string& inputs, const std::string& speed = "1.5",
+                const std::string& spacing = "0.05") {
+    const std::string text = R"({"fieldwright": 1, "nodes": [
+        {"id": "block", "type": "box", "inputs": {"half_extents": [0.1, 0.05, 0.1]}},
+        {"id": "tap", "type": "translate", "inputs": {"surface": {"from": "block"}, "offset": [0, 0.9, 0]}},
+        {"id": "lake", "type": "expression", "code": "p.y - 0.5"},
+        {"id": "hole", "type": "sphere", "inputs": {"radius": 0.2}},
+        {"id": "fluid", "type": "sph_fluid", "inputs": {"inflow_velocity": [0, -)" +
+                             speed + R"(, 0], "spacing": )" + spacing +
+                             R"(, "tank_min": [-0.4, 0, -0.4], "tank_max": [0.4, 1, 0.4], )" + inputs + R"(}},
+        {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "fluid"}, "radius": 0.1}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}}}]})";
+    Result<Graph> graph = parseGraph(text, "test.field.json", nullptr);
+    if (!graph) throw SystemError(format(graph.error()));
+    Result<LiveProgram> live = compileLive(std::move(*graph), {});
+    if (!live) throw SystemError(format(live.error()));
+    return std::move(*live);
+}
+constexpr const char* kTap = R"("inflow": {"from": "tap"})";
+constexpr const char* kHole = R"("outflow": {"from": "hole"})";
+constexpr const char* kLake = R"("source": {"from": "lake"})";
+
+TEST(Simulation, ATapFillsATankAtItsRate) {
+    for (const double speed : {1.5, 0.7, 4.0}) {
+        Played player(tap(kTap, std::to_string(speed)));
+        player.goTo(0.0);
+        EXPECT_EQ(player.simulation.slots(), 0u);
+        for (const double time : {0.0, 0.02, 1.0, 2.0, 3.0}) {
+            player.goTo(time);
+            const double wanted = 0.2 * 0.2 * speed * time / std::pow(0.05, 3), layer = 16.0;
+            EXPECT_NEAR(double(player.simulation.slots()), wanted, std::max(0.005 * wanted, layer)) << time;
+            for (const glm::vec4& p : player.alive())
+                ASSERT_TRUE(std::abs(p.x) <= 0.4f && p.y >= 0.0f && p.y <= 1.0f && std::abs(p.z) <= 0.4f);
+        }
+        EXPECT_NEAR(player.simulation.slots() * std::pow(0.05, 3) / (0.2 * 0.2 * speed * 3.0), 1.0, 0.02);
+    }
+}
+
+TEST(Simulation, WhatFlowsInIsAsDenseAsAtRest) {
+    // Without weight, and before anything is met: a lattice that drifts.
+    Played player(tap(std::string(kTap) + R"(, "gravity": [0, 0, 0])"));
+    player.goTo(0.5);
+    const std::vector<glm::vec4> alive = player.alive();
+    ASSERT_GT(alive.size(), 200u);
+    for (const glm::vec4& p : alive) {
+        float nearest = 1.0f;
+        for (const glm::vec4& other : alive)
+            if (&other != &p) nearest = std::min(nearest, glm::distance(glm::vec3(p), glm::vec3(other)));
+        ASSERT_NEAR(nearest, 0.05f, 0.003f);
+    }
+}
+
+TEST(Simulation, ADrainEmptiesATank) {
+    Played player(tap(std::string(kLake) + ", " + kHole));
+    player.goTo(0.0);
+    uint32_t left = player.simulation.slots();
+    EXPECT_EQ(left, 16u * 10u * 16u);
+    for (const double time : {1.0 / 60, 0.25, 0.5, 1.0, 3.0, 5.0}) {
+        player.goTo(time);
+        EXPECT_LT(player.simulation.slots(), left) << time;
+        left = player.simulation.slots();
+        for (const glm::vec4& p : player.alive()) ASSERT_GE(glm::length(glm::vec3(p)), 0.2f - 1e-5f);
+    }
+    EXPECT_LT(left, 16u * 10u * 16u / 20);
+}
+
+TEST(Simulation, NoMoreFlowsInThanMayBe) {
+    Played player(tap(std::string(kTap) + R"(, "most": 300)"));
+    for (const double time : {0.5, 1.0, 2.0}) {
+        player.goTo(time);
+        EXPECT_LE(player.simulation.slots(), 300u);
+    }
+    EXPECT_EQ(player.simulation.slots(), 300u);
+}
+
+TEST(Simulation, WhatFlowsInAndOutIsTheSameHoweverATimeIsReached) {
+    const std::string inputs = std::string(kTap) + ", " + kHole + R"(, "most": 500)";
+    Played player(tap(inputs));
+    player.goTo(3.0);
+    const std::vector<glm::vec4> last = player.places();
+    EXPECT_GT(last.size(), 100u);
+    EXPECT_LT(last.size(), 500u);
+    player.goTo(0.0);
+    EXPECT_TRUE(player.places().empty());
+    for (const double time : {0.7, 0.3, 3.0}) player.goTo(time);
+    expectSame(player.places(), last);
+    Played other(tap(inputs));
+    other.goTo(3.0);
+    expectSame(other.places(), last);
+    other.simulation.valuesChanged();
+    other.goTo(1.0);
+    other.goTo(3.0);
+    expectSame(other.places(), last);
+}
+
+TEST(Simulation, ManyKeepTheirOrderWhereSomeLeave) {
+    // More than a sort puts in order of one key.
+    Played player(tap(std::string(kLake) + ", " + kHole, "1", "0.03"));
+    Played other(tap(std::string(kLake) + ", " + kHole, "1", "0.03"));
+    for (Played* each : {&player, &other}) each->goTo(0.2);
+    EXPECT_GT(player.simulation.slots(), 5000u);
+    expectSame(player.places(), other.places());
+}
+
 TEST(Simulation, WaterThatCannotBeIsRefused) {
     const auto says = [](const std::string& inputs, const std::string& source, const std::string& what) {
         std::string message;
