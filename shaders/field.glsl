@@ -21,7 +21,9 @@
 // If the field has families, FIELD_FAMILIES is their number, and rows are FieldColumn fieldColumn(FieldRow row, float at[9]);
 // float fieldAt(FieldRow row, FieldColumn column, uint k, float at), where at is at[k].
 // A shader, with any of them, calls fieldBegin() first in main: it loads the live parameters once per invocation.
-// Live parameters stand in the storage buffer at binding FIELD_PARAMETERS (15), images in the one at
+//   FIELD_BEFORE    fieldBeginBefore(), which loads those of the frame before in their place; only if FIELD_MOVES is defined then,
+//                   for else there are none
+// Live parameters stand in the storage buffer at binding FIELD_PARAMETERS (15), those of the frame before at FIELD_PARAMETERS_BEFORE (26), images in the one at
 // FIELD_IMAGES (14), those of volumes at FIELD_VOLUMES (16), each only if the field has some; the families' tables follow the live parameters. With FIELD_PRUNED and families the tables are also at FIELD_TABLES (9), the lists
 // at FIELD_LISTS (11), and where each place has its own at FIELD_HEADS (12).
 

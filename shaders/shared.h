@@ -21,6 +21,7 @@ using vec4 = glm::vec4;
 #endif
 
 #define FIELD_PARAMETERS 15  // binding of the live parameters, in every shader that includes field.glsl
+#define FIELD_PARAMETERS_BEFORE 26  // of those of the frame before
 #define FIELD_IMAGES \
     14  // binding of the images that the field samples, likewise; no shader has another there
 

@@ -57,10 +57,19 @@ class Emitter : GlslStatements {
         if (listsAlone) text += "#endif\n";
         for (std::size_t slot = 0; slot < program.live.size(); ++slot)
             text += "float fieldP" + std::to_string(slot) + ";\n";
-        text += "void fieldBegin() {\n";
+        begin("fieldBegin", "fieldParameters");
+        if (program.live.empty()) return;
+        text += "#ifdef FIELD_BEFORE\n#define FIELD_MOVES\nlayout(set = 0, binding = " +
+                std::to_string(kFieldParametersBeforeBinding) +
+                ", std430) readonly buffer FieldParametersBefore { float fieldParametersBefore[]; };\n";
+        begin("fieldBeginBefore", "fieldParametersBefore");
+        text += "#endif\n";
+    }
+    /// A function that loads the live parameters from a buffer.
+    void begin(const char* name, const char* from) {
+        text += "void " + std::string(name) + "() {\n";
         for (std::size_t slot = 0; slot < program.live.size(); ++slot)
-            text +=
-                "    fieldP" + std::to_string(slot) + " = fieldParameters[" + std::to_string(slot) + "];\n";
+            text += "    fieldP" + std::to_string(slot) + " = " + from + "[" + std::to_string(slot) + "];\n";
         text += "}\n";
     }
     /// Two functions for each layer that is sampled, its place, size and bounds folded in.

@@ -15,7 +15,7 @@
 namespace fw {
 
 /// Binding (set 0) of the storage buffer with the live parameters, one float a slot.
-inline constexpr int kFieldParametersBinding = 15;
+inline constexpr int kFieldParametersBinding = 15, kFieldParametersBeforeBinding = 26;
 /// Binding of the storage buffer with the words of all images, one image after the other in the order of
 /// Ir::images().
 inline constexpr int kFieldImagesBinding = 14;

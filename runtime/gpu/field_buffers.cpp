@@ -39,7 +39,10 @@ void reserveLists(const Device& device, FieldLists& lists, const Families& famil
 }
 
 void addField(std::vector<Descriptor>& bound, const FieldBuffers& field) {
-    if (field.parameters) bound.emplace_back(FIELD_PARAMETERS, *field.parameters);
+    if (field.parameters) {
+        bound.emplace_back(FIELD_PARAMETERS, *field.parameters);
+        bound.emplace_back(FIELD_PARAMETERS_BEFORE, field.before ? *field.before : *field.parameters);
+    }
     if (field.images) bound.emplace_back(FIELD_IMAGES, *field.images);
     if (field.volumes) bound.emplace_back(FIELD_VOLUMES, *field.volumes);
     if (!field.lists) return;

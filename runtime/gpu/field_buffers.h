@@ -37,6 +37,7 @@ struct FieldBuffers {
     const Buffer* images = nullptr;      ///< that it samples, where it does
     const Buffer* volumes = nullptr;     ///< likewise
     const FieldLists* lists = nullptr;   ///< for kernels with FIELD_PRUNED, where families of it have lists
+    const Buffer* before = nullptr;      ///< live parameters of the frame before; none: they are the same
 };
 
 /// Adds them to what a kernel is given.

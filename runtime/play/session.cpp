@@ -144,6 +144,8 @@ void Session::take(Program program) {
     const std::vector<float> values = current.numbers();
     reserve(*gpu, parameters, values.size() * sizeof(float), Memory::upload);
     upload(*gpu, parameters, values);
+    reserve(*gpu, parametersBefore, values.size() * sizeof(float), Memory::upload);
+    upload(*gpu, parametersBefore, values);
 }
 
 bool Session::tapesAreSooner(int resolution) const {
@@ -454,9 +456,12 @@ Result<Picture> Session::render(const MesherResult& result, const RenderOptions&
 }
 
 Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost) {
-    return draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
-        return fw::renderLive(with, scene, wishes, onHost);
-    });
+    Result<bool> drawn =
+        draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+            return fw::renderLive(with, scene, wishes, onHost);
+        });
+    if (drawn && *drawn && !current.live.empty()) upload(*gpu, parametersBefore, current.numbers());
+    return drawn;
 }
 
 }  // namespace fw

@@ -137,7 +137,10 @@ class Session {
     glm::vec3 constantVector(int component) const;
     /// The program with the samples of its particles, for the host to evaluate.
     Program onHost() const;
-    FieldBuffers fieldBuffers() const { return {&parameters, &images, &volumes}; }
+    FieldBuffers fieldBuffers() const {
+        return {
+            .parameters = &parameters, .images = &images, .volumes = &volumes, .before = &parametersBefore};
+    }
     bool hasMesherKernels() const { return built && builtHash == current.structureHash; }
     bool tapesAreSooner(int resolution) const;
     /// Of its field at a point, in additions.
@@ -175,6 +178,7 @@ class Session {
     Image lastPicture;                 ///< of the renderer before, which had another field
     uint64_t content = 0;              ///< counts changes of mesh and parameters
     Buffer parameters, images, volumes;
+    Buffer parametersBefore;                  ///< of the live view's last frame
     std::optional<ParticleFields> particles;  ///< of a program that has some
     std::future<MesherPipelines> next;        ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;

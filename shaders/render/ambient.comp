@@ -6,6 +6,7 @@
 // pixels get and is listed, and ambient_holes.comp adds the rest.
 // Deviations: history is rejected as reproject.glsl has it; it remembers how many rays it stands for, so that a resting view converges to their plain mean.
 #define FIELD_VALUE
+#define FIELD_BEFORE
 #include "shared.h"
 #include "render/render.h"
 #include "render/places.glsl"
@@ -40,7 +41,7 @@ void main() {
     surface = surface && nearSolid(p, 0.0);
 
     uvec2 was;
-    bool kept = surface && pixelSeenBefore(p, n, here, was);
+    bool kept = surface && pixelSeenBefore(words.w >> 24 == 0 ? p : placeBefore(p, n), n, here, was);
     uint past = imageLoad(historyBefore, ivec2(was)).x;
     uint known = kept ? min(past >> 16, frame.mostKept) : 0;
     bool hole = surface && known == 0, shares = frame.balance != 0;

@@ -19,6 +19,19 @@ layout(push_constant, scalar) uniform Push { uint known; };  // 1: shownBefore i
 const float kNew = 0.12;       // share of the frame in what is shown
 const float kDeviations = 1.25;
 
+// By Catmull and Rom's splines: what is sampled again with each frame would blur soon between straight lines.
+vec4 sampleBefore(vec2 at, ivec2 last) {
+    ivec2 corner = ivec2(floor(at));
+    vec2 f = at - vec2(corner);
+    vec2 weights[4] = vec2[4](f * (f * (1.0 - 0.5 * f) - 0.5), 1.0 + f * f * (1.5 * f - 2.5), f * (0.5 + f * (2.0 - 1.5 * f)), f * f * (0.5 * f - 0.5));
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 16; ++i) {
+        ivec2 step = ivec2(i & 3, i >> 2);
+        sum += imageLoad(shownBefore, clamp(corner + step - 1, ivec2(0), last)) * (weights[step.x].x * weights[step.y].y);
+    }
+    return sum;
+}
+
 void main() {
     ivec2 last = ivec2(frame.size) - 1, at = min(ivec2(gl_GlobalInvocationID.xy), last);
     vec4 own = vec4(0.0), sum = vec4(0.0), squares = vec4(0.0);
@@ -42,12 +55,7 @@ void main() {
     vec2 from = vec2(at) + 0.5 * vec2(moved.x, -moved.y) * vec2(frame.size);
     bool inBefore = known != 0 && was.z > 0.0 && all(greaterThan(from, vec2(-0.5))) && all(lessThan(from, vec2(last) + 0.5));
     from = inBefore ? from : vec2(0.0);
-    ivec2 corner = ivec2(floor(from));
-    vec2 part = from - vec2(corner);
-    vec4 texels[4];
-    for (int i = 0; i < 4; ++i) texels[i] = imageLoad(shownBefore, clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last));
-    vec4 old = mix(mix(texels[0], texels[1], part.x), mix(texels[2], texels[3], part.x), part.y);
-
+    vec4 old = sampleBefore(from, last);
     old = clamp(old, mean - deviation, mean + deviation);
     vec4 shown = mix(own, old, inBefore ? 1.0 - kNew : 0.0);
     if (any(greaterThanEqual(gl_GlobalInvocationID.xy, frame.size))) return;

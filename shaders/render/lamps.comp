@@ -47,14 +47,11 @@ void main() {
     vec3 from = p + s.n * frame.bias, sum = vec3(0.0);
     for (uint i = 0; i < frame.lightCount; ++i) {
         Light light = frame.lights[i];
-        bool parallel = light.directional != 0;
-        vec3 v = parallel ? -light.direction * (4.0 * frame.radius) : light.position - from;
-        float far = length(v);
-        vec3 d = v / far;
-        float cone = smoothstep(light.cosOuter, light.cosInner, dot(-d, light.direction));
-        float reach = parallel ? 1.0 : cone / max(far * far, light.size * light.size);
-        float seen = lampSeen(from, d, far, parallel ? 0.02 * far : light.size, kSteps);
-        sum += reflected(s, toEye, d, light.color * (reach * seen));
+        vec3 d;
+        float far;
+        vec3 sent = lampSends(light, from, d, far);
+        float seen = lampSeen(from, d, far, light.directional != 0 ? 0.02 * far : light.size, kSteps);
+        sum += reflected(s, toEye, d, sent * seen);
     }
     float sunlit = 1.0;
 #ifdef TRACED_SUN

@@ -56,8 +56,8 @@ layout(binding = 23, rgba16f) readonly uniform image2D sunlight;
 
 // How much of the sun p sees: two places opposite of each other in a disc of two texels, others for each pixel and frame.
 float sunSeen(vec3 p, vec3 n, uvec2 pixel) {
-    vec3 at = inShadowMap(p + n * (1.5 * frame.shadowTexel) + frame.sun * (0.75 * frame.shadowTexel));
-    vec2 u = evenly(pixel, frame.number), spot = vec2(cos(6.2831853 * u.x), sin(6.2831853 * u.x)) * (1.5 * sqrt(u.y));
+    vec3 at = surfaceInShadowMap(p, n);
+    vec2 spot = spotInMap(evenly(pixel, frame.number));
     return 0.5 * (sunReaches(at, spot) + sunReaches(at, -spot));
 }
 
@@ -123,9 +123,7 @@ void main() {
     sunlit = (sunned.r + sunned.g + sunned.b) / 3.0;
 #endif
 
-    // The ground fades into what is behind it; of the wall's light a shadow on it leaves that of the sky.
-    float away = length(p.xz - frame.centre.xz) / frame.radius;
-    float fade = s.ground && there ? 1.0 - smoothstep(0.43 * frame.groundEnd, frame.groundEnd, away) : 0.0;
+    float fade = s.ground && there ? groundLeft(p) : 0.0;
     vec3 lamplight = vec3(0.0);
 #ifdef LAMPS
     lamplight = there ? imageLoad(lamps, at).rgb : vec3(0.0);
@@ -141,8 +139,7 @@ void main() {
     vec3 onGround = s.base * (frame.sunLight * sunned * (max(frame.sun.y, 0.0) / kPi) + around);
     vec3 color = mix(behind, onGround + lamplight, fade);
 #else
-    vec3 dimmed = mix(vec3(0.46, 0.50, 0.58), vec3(1.0), sunlit) * mix(0.35, 1.0, open);
-    vec3 color = behind * mix(vec3(1.0), dimmed, fade) + fade * lamplight;
+    vec3 color = behind * mix(vec3(1.0), wallDimmed(vec3(sunlit), open), fade) + fade * lamplight;
 #endif
 #if LIST == RENDER_SOLID
     vec3 behindIt = vec3(0.0);

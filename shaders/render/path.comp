@@ -150,10 +150,9 @@ void main() {
         // Where the ray meets the ground, and the region's box.
         bool groundCounts = frame.studio == 0 || (purpose == kPath && straight);
         float toGround = d.y < 0.0 && groundCounts ? max(frame.ground - o.y, -1e30) / d.y : -1.0;
-        float away = length(o.xz + d.xz * toGround - frame.centre.xz) / frame.radius;
-        float fade = 1.0 - smoothstep(0.43 * frame.groundEnd, frame.groundEnd, away);
+        float fade = groundLeft(o + d * toGround);
         bool solidGround = frame.studio != 0 || random(state) < fade;
-        toGround = toGround > 0.0 && away < frame.groundEnd && solidGround ? toGround : 1e30;
+        toGround = toGround > 0.0 && fade > 0.0 && solidGround ? toGround : 1e30;
         vec3 a = (frame.lo - o) / d, b = (frame.hi - o) / d, first = min(a, b), last = max(a, b);
         float t = max(max(first.x, max(first.y, first.z)), 0.0);
         float end = min(min(last.x, min(last.y, last.z)) + close, min(far, toGround));
@@ -177,8 +176,8 @@ void main() {
         if (purpose != kPath) {
             // A ray to a lamp has done its work, or one that says how dark the studio's ground is.
             if (purpose == kLamp && !blocked) light += pending * left;
-            if (purpose == kShade) through *= blocked ? vec3(0.46, 0.50, 0.58) : vec3(1.0);
-            if (purpose == kOpen) light += through * mix(1.0, blocked ? 0.35 : 1.0, frame.ambientStrength);
+            if (purpose == kShade) through *= wallDimmed(vec3(blocked ? 0.0 : 1.0), 1.0);
+            if (purpose == kOpen) light += through * wallDimmed(vec3(1.0), blocked ? 1.0 - frame.ambientStrength : 1.0);
             alive = alive && purpose != kOpen;
             if (purpose == kLamp) o = start, ior = startIor, absorption = startAbsorption;
             purpose = after;

@@ -23,7 +23,22 @@ bool seenBefore(vec3 p, vec3 n, out uvec2 was) {
     return inBefore && sameBefore(p, n, was);
 }
 
-// The same of what a pixel shows: in a view that rests it stays where it is.
+#ifdef FIELD_BEFORE
+// Where a place on the solid's surface was: its field then is how far the surface has moved along the normal since.
+vec3 placeBefore(vec3 p, vec3 n) {
+#ifdef FIELD_MOVES
+    fieldBeginBefore();
+    chooseMembers(fromMiddle(p));
+    float moved = fieldValue(p) * frame.stepScale;
+    fieldBegin();
+    return p - n * clamp(moved, -frame.ambientRadius, frame.ambientRadius);
+#else
+    return p;
+#endif
+}
+#endif
+
+// The same of what a pixel shows, at p in the frame before: in a view that rests it stays where it is.
 bool pixelSeenBefore(vec3 p, vec3 n, uvec2 here, out uvec2 was) {
     if (frame.resting == 0) return seenBefore(p, n, was);
     was = here;

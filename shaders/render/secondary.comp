@@ -13,6 +13,7 @@
 #define FIELD_GRADIENT
 #define FIELD_MATERIAL
 #define FIELD_OPAQUE
+#define FIELD_BEFORE
 #define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
@@ -99,7 +100,38 @@ bool reaches(Bounds bounds, vec3 p, vec3 d, float far) {
     } while (h > 0.0 && t < far && ++i < 24);
     return h > 0.0;
 }
+
+// One of the lamps, for all of them.
+vec3 lamplight(Bounds bounds, Surface s, vec3 p, vec3 toEye, float choice) {
+    vec3 toLamp;
+    float far;
+    vec3 sent = lampSends(frame.lights[min(uint(choice * float(frame.lightCount)), frame.lightCount - 1)], p, toLamp, far);
+    bool arrives = any(greaterThan(sent, vec3(0.0))) && dot(s.n, toLamp) > 0.0 && reaches(bounds, p + s.n * frame.bias, toLamp, far);
+    return arrives ? reflected(s, toEye, toLamp, sent * float(frame.lightCount)) : vec3(0.0);
+}
 #endif
+
+// What a ray of this kind in direction d hits, m being its normal.
+Surface surfaceHit(FieldMaterial material, vec3 m, vec3 d, uint kind) {
+    Surface s = groundSurface(0.0);
+    s.base = clamp(material.baseColor, 0.0, 1.0);
+    s.metallic = clamp(material.metallic, 0.0, 1.0);
+    // What chalk sees in a mirror is rare and bright: it is spread.
+    s.roughness = clamp(material.roughness, kind == kBounce ? 0.6 : 0.25, 1.0);
+    s.emission = clamp(material.emission, 0.0, kMostEmission);
+    s.n = dot(m, d) > 0.0 ? -m : m;
+    return s;
+}
+
+// What the surface at p sends towards the eye of the sun, of what is `around`, mirrored and by itself, and of lamps.
+vec3 sentBy(Bounds bounds, Surface s, vec3 p, vec3 toEye, vec3 sunlit, float open, vec3 around, float choice) {
+    vec3 sent = reflected(s, toEye, frame.sun, frame.sunLight * sunlit) + s.base * (1.0 - s.metallic) * around +
+                open * mirrored(s) * surroundings(reflect(-toEye, s.n), s.roughness) + s.emission;
+#ifdef LAMPS
+    sent += lamplight(bounds, s, p, toEye, choice);
+#endif
+    return sent;
+}
 
 void main() {
     fieldBegin();
@@ -113,7 +145,7 @@ void main() {
     axesAcross(n, x, y);
     vec3 from = vec3(dot(-view, x), dot(-view, y), max(dot(-view, n), 1e-3));
     uvec2 was;
-    bool kept = surface && pixelSeenBefore(p, n, here, was);
+    bool kept = surface && pixelSeenBefore(s.ground ? p : placeBefore(p, n), n, here, was);
     Bounds bounds = solidBounds();
     float bias = frame.bias;
     vec2 u, v;
@@ -181,8 +213,8 @@ void main() {
 #endif
             // Along the ray to where it ends.
             float toGround = d.y < 0.0 && frame.groundEnd > 0.0 && (frame.studio == 0 || kind == kPassed) ? (frame.ground - o.y) / d.y : 1e30;
-            float away = length(o.xz + d.xz * min(toGround, 1e6) - frame.centre.xz) / frame.radius;
-            toGround = away < frame.groundEnd ? toGround : 1e30;
+            float fade = groundLeft(o + d * min(toGround, 1e6));
+            toGround = fade > 0.0 ? toGround : 1e30;
             vec3 a = (frame.lo - o) / d, b = (frame.hi - o) / d, last = max(a, b), first = min(a, b);
             float t = max(max(first.x, max(first.y, first.z)), 0.0), end = min(min(last.x, min(last.y, last.z)) + bias, toGround);
             Way way = follow(bounds, o, d, t, end, within, ior, absorption, kHit * bias, kSteps);
@@ -227,19 +259,10 @@ void main() {
 #endif
             if (going && !passes && !way.changes) {
                 Surface seen = groundSurface(0.0);
-                if (hit) {
-                    seen.base = clamp(material.baseColor, 0.0, 1.0);
-                    seen.metallic = clamp(material.metallic, 0.0, 1.0);
-                    // What chalk sees in a mirror is rare and bright: it is spread.
-                    seen.roughness = clamp(material.roughness, kind == kBounce ? 0.6 : 0.25, 1.0);
-                    seen.emission = clamp(material.emission, 0.0, kMostEmission);
-                    seen.n = dot(m, d) > 0.0 ? -m : m;
-                }
+                if (hit) seen = surfaceHit(material, m, d, kind);
                 bool sees = hit || hitsGround;
-                vec2 spot = vec2(cos(6.2831853 * u.y), sin(6.2831853 * u.y)) * (1.5 * sqrt(u.x));
-                vec3 inMap = inShadowMap(q + seen.n * (1.5 * frame.shadowTexel) + frame.sun * (0.75 * frame.shadowTexel));
                 float open = openness(bounds, q, seen.n);
-                vec3 sunlit = vec3(frame.shadowSize != 0 ? sunReaches(inMap, spot) : 1.0);
+                vec3 sunlit = vec3(frame.shadowSize != 0 ? sunReaches(surfaceInShadowMap(q, seen.n), spotInMap(u.yx)) : 1.0);
 #ifdef FIELD_TRANSMITS
                 if (frame.shadowSize != 0) sunlit = sunThrough(bounds, q + seen.n * bias);
 #endif
@@ -251,19 +274,7 @@ void main() {
                 cached = cached.w > 0.0 || kind != kBounce ? cached : ownBounce;
                 around = cached.w > 0.0 ? min(cached.rgb, vec3(8.0)) : around;
 #endif
-                vec3 lit = reflected(seen, -d, frame.sun, frame.sunLight * sunlit) + seen.base * (1.0 - seen.metallic) * around +
-                           open * mirrored(seen) * surroundings(reflect(d, seen.n), seen.roughness) + seen.emission;
-#ifdef LAMPS
-                uint k = min(uint(v.x * float(frame.lightCount)), frame.lightCount - 1);
-                Light lamp = frame.lights[k];
-                vec3 to = lamp.directional != 0 ? -lamp.direction * (4.0 * frame.radius) : lamp.position - q;
-                float far = length(to);
-                to /= far;
-                float cone = smoothstep(lamp.cosOuter, lamp.cosInner, dot(-to, lamp.direction));
-                float arrives = lamp.directional != 0 ? 1.0 : cone / max(far * far, lamp.size * lamp.size);
-                bool lamplit = arrives > 0.0 && dot(seen.n, to) > 0.0 && reaches(bounds, q + seen.n * bias, to, far);
-                lit += lamplit ? reflected(seen, -d, to, lamp.color * (arrives * float(frame.lightCount))) : vec3(0.0);
-#endif
+                vec3 lit = sentBy(bounds, seen, q, -d, sunlit, open, around, v.x);
                 bool wall = kind == kPassed && hitsGround && frame.studio != 0;
                 vec3 behind = surroundings(d, 0.0);
 #ifdef ENVIRONMENT
@@ -273,10 +284,9 @@ void main() {
 #endif
 #ifdef FIELD_TRANSMITS
                 behind = straight ? backdrop(d) : behind;
-                if (wall) lit = behind * mix(vec3(0.46, 0.50, 0.58), vec3(1.0), sunlit) * mix(0.35, 1.0, open);
+                if (wall) lit = behind * wallDimmed(sunlit, open);
 #endif
-                float fade = hitsGround ? 1.0 - smoothstep(0.43 * frame.groundEnd, frame.groundEnd, away) : 1.0;
-                radiance = through * (sees ? mix(behind, lit, fade) : behind);
+                radiance = through * (sees ? mix(behind, lit, hitsGround ? fade : 1.0) : behind);
             }
 #ifdef FIELD_TRANSMITS
             // Through the interface, or back from it.

@@ -39,6 +39,9 @@ vec3 wallAt(vec2 place) {
     return mix(vec3(0.76, 0.745, 0.72), vec3(0.36, 0.43, 0.53), smoothstep(-1.0, 1.2, place.y)) * (1.0 - 0.10 * dot(place, place));
 }
 
+// What a shadow on the ground leaves of the wall's light: that of the sky, and of that what is not hidden.
+vec3 wallDimmed(vec3 sunlit, float open) { return mix(vec3(0.46, 0.50, 0.58), vec3(1.0), sunlit) * mix(0.35, 1.0, open); }
+
 // What a ray that goes straight from the eye ends at, though it may have been bent: the wall as it is where it would be seen.
 vec3 backdrop(vec3 d) {
     if (frame.studio == 0) return skySeen(d);
@@ -90,3 +93,13 @@ vec3 mirroredShare(Surface s, vec3 toEye) {
 
 // The middle of what a surface mirrors: the rougher, the nearer to its normal.
 vec3 mirrorAxis(Surface s, vec3 toEye) { return normalize(mix(reflect(-toEye, s.n), s.n, s.roughness * s.roughness)); }
+
+// Irradiance of a surface at p that faces the lamp, if nothing is between; and where the lamp is.
+vec3 lampSends(Light lamp, vec3 p, out vec3 toLamp, out float far) {
+    bool parallel = lamp.directional != 0;
+    vec3 v = parallel ? -lamp.direction * (4.0 * frame.radius) : lamp.position - p;
+    far = length(v);
+    toLamp = v / far;
+    float cone = smoothstep(lamp.cosOuter, lamp.cosInner, dot(-toLamp, lamp.direction));
+    return lamp.color * (parallel ? 1.0 : cone / max(far * far, lamp.size * lamp.size));
+}

@@ -8,6 +8,12 @@ vec3 inShadowMap(vec3 p) {
     return vec3((0.5 * place + 0.5) * float(frame.shadowSize), 0.5 - 0.5 * dot(frame.shadowForward, v));
 }
 
+// The same of a place on a surface, as far off it as keeps it out of its own shadow.
+vec3 surfaceInShadowMap(vec3 p, vec3 n) { return inShadowMap(p + n * (1.5 * frame.shadowTexel) + frame.sun * (0.75 * frame.shadowTexel)); }
+
+// A place in a disc of three texels, of a pair of numbers from 0 to 1.
+vec2 spotInMap(vec2 u) { return vec2(cos(6.2831853 * u.x), sin(6.2831853 * u.x)) * (1.5 * sqrt(u.y)); }
+
 #ifdef SHADOW_MAP
 // 1 if the sun reaches the point, 0 if not.
 float sunReaches(vec3 at, vec2 offset) {

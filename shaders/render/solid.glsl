@@ -22,6 +22,12 @@ float groundAlong(View view, vec3 ray) {
     return ray.y < 0.0 && distance(p.xz, frame.centre.xz) < frame.groundEnd * frame.radius ? along : 0.0;
 }
 
+// How much there is of the ground at p: in the distance it fades into what is behind it.
+float groundLeft(vec3 p) {
+    float away = length(p.xz - frame.centre.xz) / frame.radius;
+    return away < frame.groundEnd ? 1.0 - smoothstep(0.43 * frame.groundEnd, frame.groundEnd, away) : 0.0;
+}
+
 #ifdef FIELD_PRUNED
 // Of places.glsl.
 vec3 fromMiddle(vec3 p) { return (p - 0.5 * (frame.lo + frame.hi)) * 2.0 / (frame.hi - frame.lo); }

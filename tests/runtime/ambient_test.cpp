@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -25,6 +26,7 @@ namespace fw::ambient_test {
 constexpr uint32_t kWidth = 96, kHeight = 80;
 constexpr VkExtent3D kExtent = {kWidth, kHeight, 1};
 constexpr uint32_t kUpwards = 32767u << 16;  // +y, octahedral
+constexpr uint32_t kRough = 0xffu << 24;     // no ground
 
 std::string fieldOf(const std::string& code) {
     const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
@@ -78,7 +80,7 @@ class Floor {
             points[i] = view.eye + ray * along;
             if (!seen(points[i])) continue;
             depths[i] = view.near / along;
-            surfaces[i] = {std::bit_cast<uint32_t>(depths[i]), kUpwards, 0, 0};
+            surfaces[i] = {std::bit_cast<uint32_t>(depths[i]), kUpwards, 0, kRough};
         }
         const Buffer depthBytes = createBuffer(device, 4 * depths.size(), Memory::upload);
         const Buffer surfaceBytes = createBuffer(device, 16 * depths.size(), Memory::upload);
@@ -104,7 +106,7 @@ class Floor {
         copy(commands, surfaceBytes, gbuffer.now(), true);
         barrier(commands);
         listTiles(commands, gbuffer, depth, block);
-        drawAmbient(commands, ambient, gbuffer, frame, block, {});
+        drawAmbient(commands, ambient, gbuffer, frame, block, live);
         submit(commands);
     }
 
@@ -114,15 +116,23 @@ class Floor {
     }
 
     std::vector<float> openness() {
+        std::vector<float> result;
+        for (const uint32_t word : history()) result.push_back(float(word & 0xffff) / 65535.0f);
+        return result;
+    }
+    /// Share of the pixels that are known by more than these rays.
+    double knownBy(uint32_t rays) {
+        const std::vector<uint32_t> words = history();
+        return double(std::ranges::count_if(words, [&](uint32_t word) { return word >> 16 > rays; })) /
+               double(words.size());
+    }
+    std::vector<uint32_t> history() {
         const Buffer bytes = createBuffer(device, 4ull * kWidth * kHeight, Memory::readback);
         Commands commands(device);
         copy(commands, bytes, ambient.now(), false);
         barrier(commands);
         submit(commands);
-        std::vector<float> result;
-        for (const uint32_t word : download<uint32_t>(device, bytes, kWidth * kHeight))
-            result.push_back(float(word & 0xffff) / 65535.0f);
-        return result;
+        return download<uint32_t>(device, bytes, kWidth * kHeight);
     }
 
     /// Mean and greatest difference from a closed form of the openness.
@@ -153,6 +163,7 @@ class Floor {
     std::optional<gpu::View> before;
     uint32_t number = 0;  ///< of the frame
     float level = 0;      ///< y of the floor
+    FieldBuffers live;    ///< its parameters
 
   private:
     void copy(Commands& commands, const Buffer& buffer, const Image& image, bool toImage) {
@@ -269,6 +280,35 @@ TEST(Ambient, AHistoryOfAnotherSurfaceIsRejected) {
     moved.draw(viewFrom(0));
     fresh.draw(viewFrom(0));
     EXPECT_EQ(moved.openness(), fresh.openness());
+}
+
+TEST(Ambient, ASurfaceThatMovesAlongItsNormalKeepsItsHistory) {
+    // The floor sinks by a fifth of a metre a frame, farther than a plane of then may be from one of now.
+    const Result<Graph> graph = parseGraph(R"({"fieldwright": 1, "nodes": [
+        {"id": "ground", "type": "plane"},
+        {"id": "floor", "type": "translate", "inputs": {"surface": {"from": "ground"}, "offset": [0, 0, 0]}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "floor"}}}]})",
+                                           "", nullptr);
+    ASSERT_TRUE(graph) << format(graph.error());
+    const Result<Program> program = compile(*graph, {.live = {"floor.offset"}});
+    ASSERT_TRUE(program) << format(program.error());
+    const AmbientOptions options{.bias = 0.002f};
+    const auto known = [&](bool toldBefore) {
+        Floor floor("return p.y;", options);
+        floor.ambient = createAmbient(floor.device, emitField(*program), options);
+        const Buffer now = createBuffer(floor.device, 12, Memory::upload),
+                     before = createBuffer(floor.device, 12, Memory::upload);
+        floor.live = {.parameters = &now, .before = toldBefore ? &before : nullptr};
+        for (int i = 0; i < 5; ++i) {
+            floor.level = -0.2f * float(i);
+            upload(floor.device, now, std::vector{0.0f, floor.level, 0.0f});
+            upload(floor.device, before, std::vector{0.0f, std::min(floor.level + 0.2f, 0.0f), 0.0f});
+            floor.draw(viewFrom(0.02f * float(i)));
+        }
+        return floor.knownBy(uint32_t(options.raysNew));
+    };
+    EXPECT_EQ(known(false), 0.0);
+    EXPECT_GT(known(true), 0.6);  // all but what was beyond the picture's edge
 }
 
 TEST(Ambient, AForgottenHistoryIsOfNoEffect) {
