@@ -22,6 +22,9 @@ struct MeshStage {
     int times = 1;        ///< iterations of smooth, levels of subdivide, at least 0
     bool project = true;  ///< of subdivide: new vertices are led onto the field
     double error = 0.0;   ///< of decimate: metres that the result may be away from the field
+    /// Of smooth, metres: the radius of balls that stay as they are, and how far a vertex may get; 0: none,
+    /// any.
+    double spare = 0.0, within = 0.0;
     bool operator==(const MeshStage&) const = default;
 };
 /// Whether the stage needs the field.

@@ -154,8 +154,13 @@ Lowered lowerPolygonize(GraphLowering& lowering, const NodeAt& at) {
 Lowered lowerSmooth(GraphLowering& lowering, const NodeAt& at) {
     return lowerStage(lowering, at, [&](const std::vector<NodeInput>& inputs) -> std::optional<MeshStage> {
         const auto times = lowering.knownNumber(at, inputs, "iterations");
-        if (!times) return std::nullopt;
-        return MeshStage{.kind = MeshStage::Kind::smooth, .times = static_cast<int>(*times)};
+        const auto spare = lowering.knownNumber(at, inputs, "spare");
+        const auto within = lowering.knownNumber(at, inputs, "within");
+        if (!times || !spare || !within) return std::nullopt;
+        return MeshStage{.kind = MeshStage::Kind::smooth,
+                         .times = static_cast<int>(*times),
+                         .spare = *spare,
+                         .within = *within};
     });
 }
 

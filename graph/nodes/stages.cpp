@@ -37,7 +37,12 @@ std::vector<NodeType> stageNodes() {
          .category = Category::mesh,
          .doc = "Evens out a mesh: each vertex moves toward the mean of its neighbours. Edges get round, and "
                 "thin parts thinner.",
-         .inputs = {mesh, integer("iterations", 1, 0, 100, "How often; more is smoother.")},
+         .inputs = {mesh, integer("iterations", 1, 0, 100, "How often; more is smoother."),
+                    length(
+                        "spare", 0,
+                        "What is as round as a ball of this radius, or rounder, stays as it is: half as much "
+                        "again as a drop's radius keeps drops that have left a fluid. 0: nothing stays."),
+                    length("within", 0, "The farthest that a vertex may get from where it was; 0: any way.")},
          .outputs = {{"mesh", Type::mesh}},
          .lower = lowerSmooth},
         {.id = "subdivide",

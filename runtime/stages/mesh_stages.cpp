@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <limits>
+#include <span>
 #include <string>
 
 #include "runtime/mesh/creases.h"
@@ -86,19 +88,52 @@ void sortCorners(Commands& commands, Run& run) {
     barrier(commands);
 }
 
-void smooth(Commands& commands, Run& run, int iterations) {
+/// Copies `size` bytes from the start of one buffer to that of another.
+void copy(Commands& commands, const Buffer& from, const Buffer& to, VkDeviceSize size) {
+    const VkBufferCopy region{0, 0, size};
+    vkCmdCopyBuffer(commands.handle, from.handle, to.handle, 1, &region);
+}
+
+/// How round the mesh is at each vertex, where `spare` is 1, into buffers.roundness[0].
+void findRoundness(Commands& commands, Run& run, const gpu::MeshPush& push) {
+    constexpr int kRings = 8;
+    MeshStageBuffers& b = run.buffers;
+    for (Buffer& each : b.roundness) reserve(run.device, each, 4ull * push.vertices);
+    const auto go = [&](const Pipeline& kernel) {
+        const Descriptor bound[] = {
+            {0, run.mesh.vertices}, {1, b.corners.counts}, {2, b.corners.starts}, {3, b.next},
+            {4, b.previous},        {6, b.roundness[0]},   {7, b.roundness[1]}};
+        dispatchGroups(commands, kernel, groupsOf(push.vertices), push, bound);
+        barrier(commands);
+        std::swap(b.roundness[0], b.roundness[1]);
+    };
+    go(run.config.pipelines->roundness);
+    for (int i = 0; i < kRings; ++i) go(run.config.pipelines->spread);
+}
+
+void smooth(Commands& commands, Run& run, const MeshStage& stage) {
     sortCorners(commands, run);
     MeshStageBuffers& b = run.buffers;
-    const gpu::MeshPush push = run.push();
+    gpu::MeshPush push = run.push();
+    push.spare = float(stage.spare);
+    push.within = stage.within > 0.0 ? float(stage.within) : std::numeric_limits<float>::max();
     beginStage(commands, "smooth");
-    reserve(run.device, b.vertices, sizeof(gpu::MeshVertex) * uint64_t(push.vertices));
-    for (int i = 0; i < iterations; ++i) {
-        const Descriptor bound[] = {{0, run.mesh.vertices},
-                                    {1, b.corners.counts},
-                                    {2, b.corners.starts},
-                                    {3, b.next},
-                                    {5, b.vertices, 0, sizeof(gpu::MeshVertex) * uint64_t(push.vertices)}};
-        dispatchGroups(commands, run.config.pipelines->smooth, groupsOf(push.vertices), push, bound);
+    const bool sparing = stage.spare > 0.0 || stage.within > 0.0;
+    const VkDeviceSize bytes = sizeof(gpu::MeshVertex) * uint64_t(push.vertices);
+    reserve(run.device, b.vertices, bytes);
+    if (sparing) {
+        findRoundness(commands, run, push);
+        reserve(run.device, b.placed, bytes);
+        copy(commands, run.mesh.vertices, b.placed, bytes);
+        barrier(commands);
+    }
+    for (int i = 0; i < stage.times; ++i) {
+        const Descriptor bound[] = {
+            {0, run.mesh.vertices},    {1, b.corners.counts}, {2, b.corners.starts}, {3, b.next},
+            {5, b.vertices, 0, bytes}, {6, b.roundness[0]},   {7, b.placed}};
+        const MeshStagePipelines& pipelines = *run.config.pipelines;
+        dispatchGroups(commands, sparing ? pipelines.smoothSparing : pipelines.smooth,
+                       groupsOf(push.vertices), push, std::span(bound).first(sparing ? 7 : 5));
         barrier(commands);
         std::swap(run.mesh.vertices, b.vertices);
     }
@@ -120,12 +155,6 @@ void findNormals(Commands& commands, Run& run) {
                                 {5, run.mesh.vertices, 0, sizeof(gpu::MeshVertex) * uint64_t(push.vertices)}};
     dispatchGroups(commands, run.config.pipelines->normals, groupsOf(push.vertices), push, bound);
     barrier(commands);
-}
-
-/// Copies `size` bytes from the start of one buffer to that of another.
-void copy(Commands& commands, const Buffer& from, const Buffer& to, VkDeviceSize size) {
-    const VkBufferCopy region{0, 0, size};
-    vkCmdCopyBuffer(commands.handle, from.handle, to.handle, 1, &region);
 }
 
 void splitEdges(Commands& commands, Run& run, bool project) {
@@ -252,13 +281,17 @@ MeshStagePipelines createMeshStagePipelines(const Device& device) {
     pipelines.counting = createKeyCounting(device);
     const std::array shaders = {ShaderOptions{.name = "mesh/scatter.comp"},
                                 ShaderOptions{.name = "mesh/smooth.comp"},
+                                ShaderOptions{.name = "mesh/smooth.comp", .defines = {"SPARING"}},
+                                ShaderOptions{.name = "mesh/roundness.comp"},
+                                ShaderOptions{.name = "mesh/roundness.comp", .defines = {"SPREAD"}},
                                 ShaderOptions{.name = "mesh/normals.comp"},
                                 ShaderOptions{.name = "mesh/edges.comp"},
                                 ShaderOptions{.name = "mesh/split.comp"},
                                 ShaderOptions{.name = "mesh/split.comp", .defines = {"COLORS"}}};
     std::vector<Pipeline> made = createComputePipelines(device, shaders);
-    Pipeline* const places[] = {&pipelines.scatter, &pipelines.smooth, &pipelines.normals,
-                                &pipelines.edges,   &pipelines.split,  &pipelines.splitColored};
+    Pipeline* const places[] = {&pipelines.scatter,   &pipelines.smooth, &pipelines.smoothSparing,
+                                &pipelines.roundness, &pipelines.spread, &pipelines.normals,
+                                &pipelines.edges,     &pipelines.split,  &pipelines.splitColored};
     for (std::size_t i = 0; i < made.size(); ++i) *places[i] = std::move(made[i]);
     return pipelines;
 }
@@ -300,8 +333,7 @@ Done runMeshStages(const Device& device, MeshStageBuffers& buffers, MesherBuffer
         }
         if (stage.kind == MeshStage::Kind::smooth && stage.times > 0) {
             fit = fits(run, "smooth", result.vertices, result.triangles);
-            if (fit)
-                runNow(run, stage.times, [&](Commands& commands) { smooth(commands, run, stage.times); });
+            if (fit) runNow(run, stage.times, [&](Commands& commands) { smooth(commands, run, stage); });
         }
         for (int level = 1; fit && stage.kind == MeshStage::Kind::subdivide && level <= stage.times;
              ++level) {

@@ -6,6 +6,10 @@
 //    after it in its triangle: the next ones are the ends of the vertex's edges, for the mesh is closed and
 //    oriented.
 //  * Laplacian smoothing moves a vertex to (4 v + sum of neighbours) / (4 + number of neighbours).
+//    What is as round as a small ball stays, since that would shrink to nothing: after Löschner, Böttcher,
+//    Jeske and Bender, "Weighted Laplacian Smoothing for Surface Reconstruction of Particle-based Fluids"
+//    (2023), who weigh a vertex by the particles around; here it is by how round the mesh is, its mean
+//    curvature, averaged over some rings of neighbours so that bumps cancel out.
 //  * Subdivision splits each edge by a new vertex, and makes four triangles of each.
 //  * Normals are means over the triangles of a vertex, weighted by their area.
 // Deviations: atomics give buckets in any order, so nothing depends on it: sums are taken in integers
@@ -32,7 +36,7 @@ namespace fw {
 
 struct MeshStagePipelines {
     KeyCounting counting;
-    Pipeline scatter, smooth, normals, edges, split, splitColored;
+    Pipeline scatter, smooth, smoothSparing, roundness, spread, normals, edges, split, splitColored;
     Pipeline project;  ///< of a field: createProjection()
 };
 
@@ -45,6 +49,7 @@ struct MeshStageBuffers {
     Buffer vertices, colors, triangles;  ///< what a stage writes, traded for the mesh's own
     CountingSortBuffers corners;         ///< by vertex
     Buffer next, previous;               ///< of each corner, by vertex
+    Buffer placed, roundness[2];         ///< of sparing: the vertices as they were, and how round it is there
     Buffer edgeCounts, edgeStarts;       ///< edges that begin at a vertex, to one of a higher number
 };
 

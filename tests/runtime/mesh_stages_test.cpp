@@ -151,6 +151,67 @@ TEST(MeshStages, SmoothingIsTheFormula) {
     }
 }
 
+TEST(MeshStages, SmoothingSparesDrops) {
+    // Twenty drops, each two cells in radius, wherever they are.
+    const Graph graph = graphOf(R"({"id": "drops", "type": "expression", "code":
+        "vec3 i = clamp(round(p / 0.37), vec3(-2, -0, -1), vec3(2, 1, 0));\nreturn length(p - 0.37 * i - 0.02 * sin(7 * i + vec3(1, 2, 3))) - 0.05;"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "drops"}}})");
+    const Program program = programOf(graph);
+    const MeshRequest request{.region = Box{{-0.9, -0.2, -0.5}, {0.9, 0.5, 0.2}}, .resolution = 72};
+    Checked checked;
+    const double whole = reportOf(checked.mesh(program, {}, request)).volume;
+    const auto volumeOf = [&](double spare) {
+        const Report report =
+            reportOf(checked.mesh(program, {{.kind = Kind::smooth, .times = 25, .spare = spare}}, request));
+        EXPECT_EQ(report.shells, 20u);
+        expectClosedManifold(report);
+        return report.volume;
+    };
+    std::printf("drops smoothed: %.3f of their volume is left, spared: %.4f\n", volumeOf(0.0) / whole,
+                volumeOf(0.075) / whole);
+    EXPECT_LT(volumeOf(0.0), 0.9 * whole);
+    EXPECT_NEAR(volumeOf(0.075), whole, 0.02 * whole);
+}
+
+/// A slab with bumps of about the size of a drop, above and below.
+const std::string kBumpy = R"({"id": "slab", "type": "expression", "code":
+    "float bump = 0.012 * sin(63 * p.x) * sin(57 * p.z);\nreturn max(abs(p.y - bump) - 0.2, max(abs(p.x), abs(p.z)) - 0.8);"},
+    {"id": "out", "type": "output", "inputs": {"surface": {"from": "slab"}}})";
+
+TEST(MeshStages, SparingSmoothsBumpsOfAPlane) {
+    const Program program = programOf(graphOf(kBumpy));
+    const MeshRequest request{.region = Box{{-0.9, -0.3, -0.9}, {0.9, 0.3, 0.9}}, .resolution = 72};
+    Checked checked;
+    const auto bumps = [&](const std::vector<MeshStage>& stages) {
+        double worst = 0.0;
+        for (const glm::vec3& p : checked.mesh(program, stages, request).positions)
+            if (std::max(std::abs(p.x), std::abs(p.z)) < 0.6f)
+                worst = std::max(worst, std::abs(std::abs(double(p.y)) - 0.2));
+        return worst;
+    };
+    const double rough = bumps({}), all = bumps({smooth(25)}),
+                 spared = bumps({{.kind = Kind::smooth, .times = 25, .spare = 0.075}});
+    std::printf("bumps of %.4f m: %.5f smoothed, %.5f with drops spared\n", rough, all, spared);
+    EXPECT_GT(rough, 0.009);
+    EXPECT_LT(spared, 0.1 * rough);
+}
+
+TEST(MeshStages, NoVertexGetsFartherThanItMay) {
+    const Mesh mesh = unevenTorus();
+    for (const double within : {0.001, 0.01}) {
+        const Mesh kept = changed(mesh, {{.kind = Kind::smooth, .times = 25, .within = within}});
+        double worst = 0.0;
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+            worst = std::max(worst, double(glm::distance(kept.positions[v], mesh.positions[v])));
+        EXPECT_LE(worst, 1.001 * within);
+        EXPECT_GT(worst, 0.99 * within) << "it would go farther";
+    }
+    // Where it would not, it does as without.
+    const Mesh free = changed(mesh, {smooth(5)}),
+               far = changed(mesh, {{.kind = Kind::smooth, .times = 5, .within = 10.0}});
+    EXPECT_EQ(free.positions, far.positions);
+}
+
 TEST(MeshStages, NoIterationsAndNoLevelsChangeNothing) {
     const Mesh mesh = unevenTorus();
     const Mesh same = changed(mesh, {smooth(0), subdivide(0)});
