@@ -15,7 +15,8 @@ namespace fw::editor {
 Graph setSceneValue(const Graph& graph, std::string_view path, Json value);
 /// Without the value at the path: it has its default again.
 Graph clearSceneValue(const Graph& graph, std::string_view path);
-/// "sun", "sky", "ao", "ground", "fog" or "bloom", on or off. Off is `false`; on is an object that keeps defaults.
+/// "sun", "sky", "ao", "ground", "fog" or "bloom", on or off. Off is `false`; on is an object that keeps
+/// defaults.
 Graph switchScene(const Graph& graph, std::string_view part, bool on);
 
 /// The camera; none: the whole solid is framed.

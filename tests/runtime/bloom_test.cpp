@@ -15,7 +15,8 @@ namespace fw::bloom_test {
 std::string graphOf(const std::string& scene) {
     return R"({"fieldwright": 1, "nodes": [
   {"id": "ball", "type": "sphere", "inputs": {"radius": 0.1}},
-  {"id": "glow", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": [0, 0, 0], "emission": [50, 50, 50]}},
+  {"id": "glow", "type": "material", "inputs": {"surface": {"from": "ball"},
+    "base_color": [0, 0, 0], "emission": [50, 50, 50]}},
   {"id": "out", "type": "output", "inputs": {"surface": {"from": "glow"}, "resolution": 24}}],
  "scene": {"camera": {"position": [0, 0, 5], "target": [0, 0, 0], "fov": 30}, "ground": false, "sun": false,
   "sky": {"zenith": [0, 0, 0], "horizon": [0, 0, 0], "ground": [0, 0, 0]}, "ao": false)" +

@@ -38,7 +38,8 @@ void writeMap(const std::string& path, int width, int height, const Light& light
 std::string graphOf(const std::string& shape, const std::string& material, const std::string& scene) {
     return R"({"fieldwright": 1, "nodes": [{"id": "shape", )" + shape +
            R"(}, {"id": "paint", "type": "material", "inputs": {"surface": {"from": "shape"}, )" + material +
-           R"(}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}, "resolution": 24}}],
+           R"(}}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"},
+  "resolution": 24}}],
  "scene": {"ground": false, )" +
            scene + "}}";
 }
@@ -139,7 +140,7 @@ TEST_F(Environment, ABrightPatchIsASun) {
 }
 
 TEST_F(Environment, IsSeenWhereItLies) {
-    // White where x, y and z are positive, from the middle outwards: with the camera's eye, right and up.
+    // White where x, y and z are positive.
     writeMap(map, 512, 256, [](double a, double e) { return a > 0 && a < kPi / 2 && e > 0 ? 1.0 : 0.0; });
     const std::string tiny = R"("type": "sphere", "inputs": {"radius": 0.01})";
     for (const bool paths : {false, true})

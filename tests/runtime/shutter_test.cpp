@@ -24,7 +24,8 @@ const double kScale = kHeight / (2 * (kAway - 0.25) * std::tan(kFov / 2 * std::n
 std::string graphOf(const std::string& camera) {
     return R"({"fieldwright": 1, "nodes": [
   {"id": "block", "type": "box", "inputs": {"half_extents": [0.5, 0.25, 0.25]}},
-  {"id": "glow", "type": "material", "inputs": {"surface": {"from": "block"}, "base_color": [0, 0, 0], "emission": [1, 1, 1]}},
+  {"id": "glow", "type": "material", "inputs": {"surface": {"from": "block"},
+    "base_color": [0, 0, 0], "emission": [1, 1, 1]}},
   {"id": "move", "type": "translate", "inputs": {"surface": {"from": "glow"}}},
   {"id": "out", "type": "output", "inputs": {"surface": {"from": "move"}, "resolution": 48}}],
  "timeline": {"length": 1, "fps": 2, "tracks": [{"node": "move", "input": "offset", "interpolation": "linear",
