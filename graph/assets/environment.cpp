@@ -26,10 +26,11 @@ Error damaged(const std::string& path) {
 }
 
 Done checkSize(const std::string& path, int64_t width, int64_t height) {
-    if (std::max(width, height) <= kMostEnvironmentSide) return done();
+    const int64_t side = kMostEnvironmentSide, half = side / 2;
+    if (std::max(width, height) <= side && width * height <= side * half) return done();
     return mapProblem(path, "has " + std::to_string(width) + " x " + std::to_string(height) +
-                                " pixels: at most " + std::to_string(kMostEnvironmentSide) +
-                                " along a side can be used, so scale it down");
+                                " pixels: at most " + std::to_string(side) + " x " + std::to_string(half) +
+                                " can be used, so scale it down");
 }
 
 /// An OpenEXR file in memory.
@@ -59,8 +60,11 @@ Result<EnvironmentMap> decodeExr(const std::string& bytes, const std::string& pa
         const int64_t width = int64_t(window.max.x) - window.min.x + 1,
                       height = int64_t(window.max.y) - window.min.y + 1;
         if (const Done fits = checkSize(path, width, height); !fits) return fits.error();
-        const bool colored = file.header().channels().findChannel("R") != nullptr;
-        if (!colored && !file.header().channels().findChannel("Y"))
+        if (!file.isComplete()) return damaged(path);
+        const Imf::ChannelList& channels = file.header().channels();
+        const bool colored =
+            channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B");
+        if (!colored && !channels.findChannel("Y"))
             return mapProblem(path, "has no channels R, G and B: save it with them");
         EnvironmentMap map{int(width), int(height), std::vector<Radiance>(std::size_t(width * height))};
         Imf::FrameBuffer pixels;

@@ -277,6 +277,14 @@ void Player::seek(double to) {
     }
 }
 
+void Player::goBack(double to) noexcept {
+    try {
+        seek(to);
+    } catch (const SystemError&) {
+        seconds = to;  // whoever goes on with this device hears of it
+    }
+}
+
 int Player::askedResolution() const {
     return options.resolution > 0 ? options.resolution : now.program.resolution;
 }
@@ -374,10 +382,10 @@ Result<std::span<const gpu::MeshVertex>> Player::outline() {
             Player& player;
             const double seconds = player.seconds;
             const int resolution = std::exchange(player.options.resolution, kOutlineResolution);
-            ~Rest() {  // also where the device fails
+            ~Rest() {
                 player.options.resolution = resolution;
                 player.meshed.reset();
-                player.seek(seconds);
+                player.goBack(seconds);
             }
         } rest{*this};
         for (int i = 0; i <= kOutlineSteps && added; ++i) {
@@ -416,9 +424,12 @@ auto Player::look(RenderOptions wishes, Draw draw) -> decltype(draw(MesherResult
 
 std::pair<int, double> Player::shutter(const RenderOptions& wishes) const {
     const Result<Scene> scene = this->scene();
-    const double open = scene && scene->camera ? scene->camera->shutter / 360.0 : 0.0;
+    const std::optional<Camera> camera = wishes.scene.camera || !scene ? wishes.scene.camera : scene->camera;
+    const double open = camera ? camera->shutter / 360.0 : 0.0;
     if (!moves() || open == 0.0) return {1, 0.0};
-    const int moments = std::clamp(wishes.samples, 1, kMostMoments);
+    // As many samples each, or nearly.
+    const int samples = std::max(wishes.samples, 1), each = (samples + kMostMoments - 1) / kMostMoments;
+    const int moments = samples / each;
     const double rate = wishes.framesPerSecond > 0.0 ? wishes.framesPerSecond : now.timeline.framesPerSecond;
     return {moments, open / rate / moments};
 }
@@ -429,8 +440,8 @@ Result<Picture> Player::frame(const RenderOptions& options_) {
     const struct Rest {
         Player& player;
         const double seconds = player.seconds;
-        ~Rest() {  // also where the device fails
-            if (player.seconds != seconds) player.seek(seconds);
+        ~Rest() {
+            if (player.seconds != seconds) player.goBack(seconds);
         }
     } rest{*this};
     part.moments = moments;

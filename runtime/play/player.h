@@ -202,6 +202,9 @@ class Player {
     Session session;
     MeshFieldBaker bake;  ///< on the session's device
     PlayerOptions options;
+    /// seek() to where it was, for destructors: also if the device is lost.
+    void goBack(double to) noexcept;
+
     Prepared now;
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;

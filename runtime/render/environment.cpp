@@ -170,9 +170,9 @@ glm::vec3 meanOfRow(const EnvironmentMap& map, int y) {
 
 void useEnvironment(const Device& device, Environment& environment, const EnvironmentMapPtr& map) {
     if (environment.map == map) return;
-    environment.map = map;
+    environment.map.reset();  // until there is room for the other
     if (!map) return;
-    const std::vector<Level> levels = levelsOf(*map);
+    const std::vector<Level> levels = levelsOf(atMost(*map, kMostEnvironmentWidth));
     float most = kMostPacked;
     for (const Radiance& texel : map->texels) most = std::max({most, texel[0], texel[1], texel[2]});
     environment.scale = most / kMostPacked;
@@ -193,6 +193,7 @@ void useEnvironment(const Device& device, Environment& environment, const Enviro
     for (const float end : chancesOf(coarse)) words.push_back(std::bit_cast<uint32_t>(end));
     reserve(device, environment.words, 4 * words.size());
     upload(device, environment.words, words);
+    environment.map = map;
 }
 
 void describeEnvironment(const Environment& environment, const Sky& sky, gpu::RenderFrame& frame) {

@@ -87,6 +87,8 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
         beginStage(commands, "fog");
         drawFog(commands, renderer.fog, renderer.seen.depth, renderer.shadow.depth, renderer.frame, extent);
         bound.push_back(storage(12, renderer.fog.now()));
+    } else {
+        renderer.fog.hasHistory = false;
     }
     std::optional<SecondaryKinds> secondary =
         scene.draft ? std::nullopt : secondaryKinds(options.scene, scene.transmits);

@@ -177,10 +177,13 @@ bool readSurfaces(Renderer& renderer, const RenderScene& scene, const RenderOpti
                .id = std::vector(pixels, kNothingId)};
     for (std::size_t i = 0; i < pixels; ++i) {
         const float depth = std::bit_cast<float>(surfaces[i].x);
-        if (depth > 0.0f) {
+        const uint32_t id = idOf(surfaces[i]);
+        if (depth > 0.0f && !(options.cutout && id == kGroundId)) {
             picture.depth[i] = view.near / depth;
             picture.normal[i] = unpackOctahedral(surfaces[i].y);
-            picture.id[i] = idOf(surfaces[i]);
+            picture.id[i] = id;
+        } else if (options.cutout) {
+            continue;
         } else if (const auto along = alongToGround(frame, int(i) % options.width, int(i) / options.width)) {
             picture.depth[i] = *along;
             picture.normal[i] = glm::vec3(0, 1, 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <tuple>
 
 #include "runtime/render/describe.h"
@@ -49,10 +50,18 @@ glm::vec2 onDisc(int number, int count) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+/// The numbers below `count`, each once, in an order in which any few that follow each other lie far apart.
+int scattered(int number, int count) {
+    int step = std::max(int(0.618 * count), 1);
+    while (std::gcd(step, count) != 1) ++step;
+    return int(int64_t(number) * step % count);
+}
+
 void forgetHistory(Renderer& renderer) {
     fw::forgetHistory(renderer.ambient);
     renderer.secondary.hasHistory = false;
     renderer.fog.hasHistory = false;
+    renderer.antialias.hasHistory = false;
 }
 
 bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -225,10 +234,8 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         gpu::View view = middle;
         view.jitter = jitterOf(i, options);
         if (lens) {
-            // Each moment has places from all over the lens.
-            const int place = (i - first) * options.moments + options.moment;
             view = throughLens(view, *options.scene.camera,
-                               onDisc(std::min(place, options.samples - 1), options.samples));
+                               onDisc(scattered(i, options.samples), options.samples));
             fw::forgetHistory(renderer.ambient);  // each frame sees other places
         }
         renderer.shadowStands = false;
@@ -282,7 +289,8 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     const bool lens = rests && options.scene.camera && options.scene.camera->aperture > 0.0;
     if (lens) {
         // Each frame sees other places, from the first one that counts on.
-        view = throughLens(view, *options.scene.camera, onDisc(renderer.rested - 1, kRestFrames));
+        view = throughLens(view, *options.scene.camera,
+                           onDisc(scattered(renderer.rested - 1, kRestFrames), kRestFrames));
         fw::forgetHistory(renderer.ambient);
         options.samples = kRestFrames;
     }

@@ -51,9 +51,8 @@ void drawSecondary(Commands& commands, Secondary& secondary, const GBuffer& gbuf
         return resizeImage(commands, image, extent, VK_FORMAT_R16G16B16A16_SFLOAT);
     };
     const auto forget = [&](Image& raw, Image(&images)[2]) {
-        ready(raw);
-        for (Image& image : images)
-            if (!ready(image) && !secondary.hasHistory) clearImage(commands, image);
+        for (Image* image : {&raw, &images[0], &images[1]})
+            if (!ready(*image) && !secondary.hasHistory) clearImage(commands, *image);
     };
     if (secondary.kinds.bounce) forget(secondary.rawBounce, secondary.bounce);
     if (secondary.kinds.reflections) forget(secondary.rawReflection, secondary.reflection);

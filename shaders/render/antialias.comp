@@ -16,7 +16,7 @@ layout(binding = 4, rgba16f) writeonly uniform image2D shownNow;
 layout(binding = 5, r32ui) writeonly uniform uimage2D pixels;
 layout(push_constant, scalar) uniform Push { uint known; };  // 1: shownBefore is of the frame before
 
-const float kNew = 0.12;       // share of the frame in what is shown
+const float kNew = 0.15;       // share of the frame in what is shown
 const float kDeviations = 1.25;
 
 // By Catmull and Rom's splines: what is sampled again with each frame would blur soon between straight lines.

@@ -22,6 +22,8 @@ layout(binding = 20, rgba16f) readonly uniform image2D reflectionFrom;
 layout(binding = 21, rgba16f) writeonly uniform image2D reflectionTo;
 #endif
 
+#include "render/solid.glsl"
+
 const float kFew = 64.0;          // rays, of which a pixel's neighbours count for half
 const float kSamePlane = 0.004;   // of the distance to the eye
 const float kRough = 0.35;        // roughness from which reflections are blurred like light from all around
@@ -34,6 +36,8 @@ void main() {
     bool surface = all(equal(ivec2(pixel), at)) && s.depth > 0.0;
     float depth = max(s.depth, 1e-6);
     vec3 ray = rayOf(frame.now, placeOf(uvec2(at), frame.size)), p = ray * (frame.now.near / depth);
+    // Elsewhere there are no rays.
+    surface = surface && nearSolid(frame.now.eye + p, 0.0);
     float perPlane = 1.0 / (kSamePlane * length(p));
 #ifdef BOUNCE
     vec4 ownBounce = imageLoad(bounceFrom, at);
@@ -58,7 +62,7 @@ void main() {
         facing *= facing;
         facing *= facing;
         facing *= facing;
-        float weight = inside && otherDepth > 0.0 ? facing * facing * exp(-off * off) : 0.0;
+        float weight = inside && otherDepth > 0.0 && nearSolid(frame.now.eye + q, 0.0) ? facing * facing * exp(-off * off) : 0.0;
 #ifdef BOUNCE
         vec4 otherBounce = imageLoad(bounceFrom, there);
         bounce += otherBounce.rgb * (weight * bounceTaken);

@@ -60,7 +60,8 @@ void main() {
     }
     imageStore(to, at, push.plain * imageLoad(to, at) + push.blurred / weights * sum + push.smaller * enlarged(at));
 #else
-    sum = push.plain * imageLoad(light, at) + push.smaller * enlarged(at);
+    vec4 own = imageLoad(light, at);
+    sum = vec4(push.plain * own.rgb + push.smaller * enlarged(at).rgb, own.a);  // what glows does not cover
     imageStore(to, at, sum);
     float alpha = 1.0;
 #ifdef CUTOUT

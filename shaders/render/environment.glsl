@@ -12,7 +12,7 @@ vec3 fromMap(vec2 at) {
 vec3 skyTexel(SkyLevel level, ivec2 at) {
     ivec2 size = ivec2(level.width, level.height);
     at.x += at.x < 0 ? size.x : at.x >= size.x ? -size.x : 0;
-    at.y = clamp(at.y, 0, size.y - 1);
+    at = clamp(at, ivec2(0), size - 1);
     uint word = skyWords[level.start + uint(at.y * size.x + at.x)];  // three numbers of 9 bits with one exponent
     return vec3(word & 511, word >> 9 & 511, word >> 18 & 511) * exp2(float(word >> 27) - 24.0);
 }

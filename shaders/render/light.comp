@@ -181,7 +181,8 @@ void main() {
     color *= alpha;
 #endif
 #if defined(MEAN) && defined(LINEAR)
-    vec4 mean = mix(vec4(min(color, vec3(1e6)), alpha), imageLoad(means, at), float(frame.mean) / float(frame.mean + 1));
+    vec4 mean = vec4(any(isnan(color)) ? vec3(0.0) : min(color, vec3(1e6)), alpha);
+    if (frame.mean > 0) mean = mix(mean, imageLoad(means, at), float(frame.mean) / float(frame.mean + 1));
     if (inPicture) imageStore(means, at, mean);
     color = mean.rgb;
 #ifdef CUTOUT

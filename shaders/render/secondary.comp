@@ -313,7 +313,7 @@ void main() {
         } while (going && ++interfaces < kMostInterfaces);
 #endif
 
-        radiance = min(radiance, vec3(6e4));
+        radiance = any(isnan(radiance)) ? vec3(0.0) : min(radiance, vec3(6e4));  // the filter would spread it
         if (kind == kBounce) bounced += vec4(min(radiance, vec3(frame.resting != 0 ? 6e4 : 8.0)), 1.0);
         if (kind == kReflection) mirrorSum += vec4(radiance, 1.0);
 #ifdef FIELD_TRANSMITS

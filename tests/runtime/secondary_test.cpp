@@ -219,6 +219,24 @@ TEST_F(Secondary, GlassWithoutEndHasAPicture) {
     EXPECT_LT(difference(quick, paths), 0.05);
 }
 
+TEST_F(Secondary, APictureDoesNotDependOnThoseBefore) {
+    // A floor that goes beyond what rays reach, from where the ball is near and from afar.
+    const std::string nodes =
+        R"({"id": "ball", "type": "sphere", "inputs": {"radius": 0.4}},
+           {"id": "lamp", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": [1, 0.5, 0.2], "emission": [8, 3, 1]}},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "lamp"}, "resolution": 32}})";
+    const std::string scene = R"("sky": {}, "bounce": true, "reflections": true)";
+    const auto from = [](Triple position) {
+        RenderOptions options{.width = kWidth, .height = kHeight, .samples = 3};
+        options.scene.camera = Camera{.position = position, .target = {0, 0, 0}, .fov = 40};
+        return options;
+    };
+    const RenderOptions near = from({1, 0.6, 1.4}), afar = from({-3, 1, 2});
+    Player fresh = playerOf(parsed(nodes, scene)), used = playerOf(parsed(nodes, scene));
+    drawn(used, near);
+    EXPECT_EQ(drawn(fresh, afar).pixels, drawn(used, afar).pixels);
+}
+
 /// What people write: a picture, never a crash.
 TEST_F(Secondary, AnyMediumHasAPicture) {
     for (const char* medium :
