@@ -101,7 +101,8 @@ int runRender(const RenderCommandOptions& options) {
             stderr,
             "fieldwright render: %s: a picture is a PNG or an OpenEXR file: give a name that ends in "
             "%s, or the times of a sequence (--from, --to, --fps)\n",
-            options.output.c_str(), options.format ? ("." + nameOf(format)).c_str() : ".png or .exr");
+            options.output.c_str(),
+            options.format ? ("." + nameOf(format) + ", or leave out --format").c_str() : ".png or .exr");
         return kBadUsage;
     }
     if (options.overwrite) {

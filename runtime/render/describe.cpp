@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kGroundEnd = 2.8f;  // where the ground has faded, in the solid's radii
 constexpr float kExposure = 0.66f;
-constexpr uint32_t kFogKept = 8;  // frames that a moving view's fog is the mean of
+constexpr uint32_t kFogKept = 4;  // frames that a moving view's fog is the mean of
 constexpr float kFogEnd = 12.0f;  // in the solid's radii
 
 gpu::Light describe(const Lamp& lamp) {

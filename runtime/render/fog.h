@@ -10,7 +10,8 @@ namespace fw {
 struct FogLight {
     Pipeline march;
     Image light[2];  ///< RGBA16_SFLOAT: what it sends, and the share of light that it lets through
-    Image ways[2];   ///< RG32_SFLOAT: metres that were marched, and the frames that this is the mean of
+    Image ways[2];  ///< RG32_SFLOAT: metres to where the light comes from, and the frames that it is the mean
+                    ///< of
     uint32_t current = 0;
     bool hasHistory = false;
 

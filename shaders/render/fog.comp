@@ -1,7 +1,7 @@
 // Fog with the sun's rays in it, at half the picture's width and height: marched from the eye to what is seen, the sun's shadow
 // map asked at each step. One step is taken somewhere in each of kSteps parts of the way, which grow with the distance, so that
-// bands dissolve in the mean over frames: of the picture, or, while the view moves, of the fog itself, found again by where the
-// way ends. Upwards the way ends where the fog has thinned out. Phase function: Henyey and Greenstein's.
+// bands dissolve in the mean over frames: of the picture, or, while the view moves, of the fog itself, found again by the
+// middle of what sends the light. Upwards the way ends where the fog has thinned out. Phase function: Henyey and Greenstein's.
 #define SHADOW_MAP
 #include "shared.h"
 #include "render/render.h"
@@ -12,7 +12,7 @@ layout(binding = 0, scalar) uniform Frame { RenderFrame frame; };
 layout(binding = 1, r32f) readonly uniform image2D seen;
 layout(binding = 8, r32f) readonly uniform image2D shadowMap;
 layout(binding = 12, rgba16f) writeonly uniform image2D fog;
-layout(binding = 14, rg32f) writeonly uniform image2D ways;  // metres marched, frames that are known
+layout(binding = 14, rg32f) writeonly uniform image2D ways;  // metres to the middle of what sends the light, frames that are known
 layout(binding = 15, rgba16f) readonly uniform image2D fogBefore;
 layout(binding = 16, rg32f) readonly uniform image2D waysBefore;
 
@@ -21,6 +21,7 @@ layout(binding = 16, rg32f) readonly uniform image2D waysBefore;
 
 const uint kSteps = 32;
 const float kSameWay = 0.1;  // share by which ways may differ
+const float kDark = 0.1;     // what fog in shadow counts for beside fog in the sun
 const float kThin = 7.0;     // heights of the fog, above which there is next to none
 const float kForward = 0.6;  // how much of the light goes on: 0 equally everywhere, 1 straight on
 
@@ -41,17 +42,9 @@ void main() {
     float densest = frame.fogDensity, falloff = frame.fogFalloff, low = max(frame.ground, frame.centre.y - frame.radius);
     bool shadows = frame.shadowSize != 0;
     if (falloff > 0.0 && d.y > 0.0) end = min(end, max(kThin / falloff + low - eye.y, 0.0) / d.y);
-    // Where the end of the way was seen.
-    vec3 last = eye + d * end, was = project(frame.before, last);
-    vec2 place = (vec2(0.5) + 0.5 * vec2(was.x, -was.y)) * vec2(half2);
-    bool inBefore = frame.fogKept > 0 && was.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(half2)));
-    ivec2 texel = ivec2(inBefore ? place : vec2(0.0));
-    vec2 old = imageLoad(waysBefore, texel).xy;
-    vec4 fogOld = imageLoad(fogBefore, texel);
-    float way = distance(frame.before.eye, last);
-    float known = inBefore && abs(old.x - way) < kSameWay * way ? min(old.y, float(frame.fogKept) - 1.0) : 0.0;
     float start = evenly(pixel, frame.number).x, through = 1.0, step = 1.0 / float(kSteps);
     vec3 sum = vec3(0.0);
+    float far = 0.0, shares = 1e-9;  // of where the light comes from, sums
     uint i = 0;
     do {
         float u = (float(i) + start) * step;
@@ -59,13 +52,26 @@ void main() {
         float density = densest * exp(-max(p.y - low, 0.0) * falloff);
         float lit = shadows ? sunReaches(inShadowMap(p), vec2(0.0)) : 1.0;
         float kept = exp(-density * (2.0 * end * step) * u);
-        sum += through * (1.0 - kept) * (sunshine * lit + sky);
+        float share = through * (1.0 - kept);
+        sum += share * (sunshine * lit + sky);
+        far += share * (lit + kDark) * end * u * u;
+        shares += share * (lit + kDark);
         through *= kept;
     } while (++i < kSteps);
+    // Where the middle of what sends the light was seen.
+    far /= shares;
+    vec3 middle = eye + d * far, was = project(frame.before, middle);
+    vec2 place = (vec2(0.5) + 0.5 * vec2(was.x, -was.y)) * vec2(half2);
+    bool inBefore = frame.fogKept > 0 && was.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(half2)));
+    ivec2 texel = ivec2(inBefore ? place : vec2(0.0));
+    vec2 old = imageLoad(waysBefore, texel).xy;
+    vec4 fogOld = imageLoad(fogBefore, texel);
+    float way = distance(frame.before.eye, middle);
+    float known = inBefore && abs(old.x - way) < kSameWay * way ? min(old.y, float(frame.fogKept) - 1.0) : 0.0;
     vec4 made = vec4(sum * frame.fogColor, through);
-    if (known > 0.0) made = (made + fogOld * known) / (known + 1.0);
+    if (known > 0.0) made.rgb = (made.rgb + fogOld.rgb * known) / (known + 1.0);
     if (all(lessThan(pixel, half2))) {
         imageStore(fog, ivec2(pixel), made);
-        imageStore(ways, ivec2(pixel), vec4(end, known + 1.0, 0.0, 0.0));
+        imageStore(ways, ivec2(pixel), vec4(far, known + 1.0, 0.0, 0.0));
     }
 }
