@@ -15,7 +15,7 @@ namespace fw::cli {
 namespace {
 
 struct Head {
-    char name[8] = {'F', 'W', 'P', 'A', 'T', 'H', 'S', '1'};
+    char name[8] = {'F', 'W', 'P', 'A', 'T', 'H', 'S', '2'};
     uint64_t key = 0;
     int64_t paths = 0;
 };

@@ -15,8 +15,8 @@ namespace fw::gpu {
 #define FLUID_ERROR_SUMS 256
 #define FLUID_ERROR_UNIT 131072.0
 
-// Share of the squared gradients of the density in the energy of surface tension: with more, a particle of the
-// surface would rather be alone; with less, lattices yield too late for drops to get round.
+// Share of the squared gradients of the density in the energy of surface tension: with more, a particle of
+// the surface would rather be alone; with less, lattices yield too late for drops to get round.
 #define FLUID_LEVELLING 1.75
 
 // What the groups of a step's turns are read from.
