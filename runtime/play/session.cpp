@@ -450,9 +450,14 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
 }
 
 Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
+    rememberParameters();
     return draw(result, options, [](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
         return renderPicture(with, scene, wishes);
     });
+}
+
+void Session::rememberParameters() {
+    if (!current.live.empty()) upload(*gpu, parametersBefore, current.numbers());
 }
 
 Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost) {
@@ -460,7 +465,7 @@ Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions
         draw(result, options, [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
             return fw::renderLive(with, scene, wishes, onHost);
         });
-    if (drawn && *drawn && !current.live.empty()) upload(*gpu, parametersBefore, current.numbers());
+    if (drawn && *drawn) rememberParameters();
     return drawn;
 }
 

@@ -141,6 +141,8 @@ class Session {
         return {
             .parameters = &parameters, .images = &images, .volumes = &volumes, .before = &parametersBefore};
     }
+    /// As those of the frame before the next one.
+    void rememberParameters();
     bool hasMesherKernels() const { return built && builtHash == current.structureHash; }
     bool tapesAreSooner(int resolution) const;
     /// Of its field at a point, in additions.
@@ -178,7 +180,7 @@ class Session {
     Image lastPicture;                 ///< of the renderer before, which had another field
     uint64_t content = 0;              ///< counts changes of mesh and parameters
     Buffer parameters, images, volumes;
-    Buffer parametersBefore;                  ///< of the live view's last frame
+    Buffer parametersBefore;                  ///< of the live view's last frame, or of a still
     std::optional<ParticleFields> particles;  ///< of a program that has some
     std::future<MesherPipelines> next;        ///< being compiled, for the structure nextHash
     uint64_t nextHash = 0;

@@ -234,8 +234,9 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         gpu::View view = middle;
         view.jitter = jitterOf(i, options);
         if (lens) {
-            view = throughLens(view, *options.scene.camera,
-                               onDisc(scattered(i, options.samples), options.samples));
+            // Each moment has places from all over the lens.
+            const int place = options.moments > 1 ? scattered(i, options.samples) : i;
+            view = throughLens(view, *options.scene.camera, onDisc(place, options.samples));
             fw::forgetHistory(renderer.ambient);  // each frame sees other places
         }
         renderer.shadowStands = false;
