@@ -7,6 +7,7 @@
 #include "graph/document/json.h"
 #include "runtime/play/player.h"
 #include "runtime/render/bloom.h"
+#include "tests/support/drawn.h"
 #include "tests/support/gpu.h"
 
 namespace fw::bloom_test {
@@ -40,19 +41,7 @@ Drawn draw(const std::string& scene, int width, int height, RenderOptions option
     Drawn drawn;
     options.width = width, options.height = height;
     if (withLight) options.light = &drawn.light;
-    Result<Graph> graph = parseGraph(graphOf(scene), "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    Result<Device> device = createDevice({.validation = true});
-    EXPECT_TRUE(device);
-    const auto record = device->record;
-    {
-        Result<Player> player = Player::create(std::move(*graph), std::move(*device), {});
-        EXPECT_TRUE(player) << format(player.error());
-        Result<Picture> picture = player->frame(options);
-        EXPECT_TRUE(picture) << format(picture.error());
-        if (picture) drawn.picture = std::move(*picture);
-    }
-    for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+    drawn.picture = test::drawnBy(graphOf(scene), options);
     return drawn;
 }
 

@@ -10,6 +10,7 @@
 #include "graph/document/json.h"
 #include "runtime/play/player.h"
 #include "tests/support/command.h"
+#include "tests/support/drawn.h"
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
 
@@ -38,19 +39,7 @@ Drawn draw(const std::string& scene, RenderOptions options, bool withLight = fal
     Drawn drawn;
     options.width = options.height = kSide;
     if (withLight) options.light = &drawn.light;
-    Result<Graph> graph = parseGraph(graphOf(scene), "", nullptr);
-    EXPECT_TRUE(graph) << format(graph.error());
-    Result<Device> device = createDevice({.validation = true});
-    EXPECT_TRUE(device);
-    const auto record = device->record;
-    {
-        Result<Player> player = Player::create(std::move(*graph), std::move(*device), {});
-        EXPECT_TRUE(player) << format(player.error());
-        Result<Picture> picture = player->frame(options);
-        EXPECT_TRUE(picture) << format(picture.error());
-        if (picture) drawn.picture = std::move(*picture);
-    }
-    for (const std::string& message : record->messages) ADD_FAILURE() << "validation layer: " << message;
+    drawn.picture = test::drawnBy(graphOf(scene), options);
     return drawn;
 }
 
