@@ -56,4 +56,7 @@ vec3 wallsBent(vec3 p, vec4 plane, vec3 by) {
     return bent + bendAt(vec3(dot(plane.xyz, p) - plane.w)).x * dot(plane.xyz, by) * plane.xyz;
 }
 
+// Of a kilogramme at p, kinetic and potential, m^2/s^2.
+float energyAt(vec3 p, float squaredSpeed) { return 0.5 * squaredSpeed - dot(push.gravity, p); }
+
 vec3 inTank(vec3 p) { return clamp(p, push.lo, push.hi); }

@@ -19,6 +19,10 @@ namespace fw::gpu {
 // the surface would rather be alone; with less, lattices yield too late for drops to get round.
 #define FLUID_LEVELLING 1.75
 
+// Gradient of the pressure, in weights of the fluid and pulls of its tension, by which a particle may gain
+// energy that none of its neighbours has. With twice as much, drops leap.
+#define FLUID_MOST_PRESSURE 1.0
+
 // What the groups of a step's turns are read from.
 struct FluidTurns {
     uvec3 groups;  // of kernels for all particles; none once the error is small enough,

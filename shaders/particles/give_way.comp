@@ -15,7 +15,8 @@ void main() {
     if (index >= push.particles) return;
     vec4 own = uintBitsToFloat(imageLoad(weighed, int(index)));
     vec4 plane = uintBitsToFloat(imageLoad(planes, int(index)));
-    vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz), shift = vec3(0.0);
+    vec4 guess = uintBitsToFloat(imageLoad(guesses, int(index)));
+    vec3 p = guess.xyz, shift = vec3(0.0);
     uint texels = (counts[index] + 3) / 4, turns = subgroupMax(texels), t = 0;  // all lanes end together
     int texel = firstTexel(index);
     do {
@@ -29,5 +30,5 @@ void main() {
     } while (++t < turns);
     p = inTank(p + push.slope * shift + own.w * wallsAt(p, plane).xyz);
     p += max(plane.w - dot(plane.xyz, p), 0.0) * plane.xyz;
-    moved[index] = vec4(inTank(p), 0.0);
+    moved[index] = vec4(inTank(p), guess.w);
 }

@@ -6,7 +6,7 @@
 layout(local_size_x = FLUID_GROUP) in;
 layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer places;      // floats: metres
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer velocities;  // floats: m/s
-layout(binding = 2, scalar) writeonly buffer Guesses { vec4 guesses[]; };
+layout(binding = 2, scalar) writeonly buffer Guesses { vec4 guesses[]; };  // and the energy
 layout(binding = 3, scalar) writeonly buffer Planes { vec4 planes[]; };  // floats: the normal, and the distance from the origin
 layout(binding = 4, scalar) writeonly buffer Keys { uint keys[]; };
 
@@ -26,7 +26,8 @@ void main() {
     plane = vec4(normal, dot(normal, p) - distance);
     p = inTank(p + max(-distance, 0.0) * normal);
 #endif
-    guesses[index] = vec4(p, 0.0);
+    vec3 pushed = (p - place) / push.step;  // by walls and the obstacle too
+    guesses[index] = vec4(p, energyAt(p, max(dot(velocity, velocity), dot(pushed, pushed))));
     planes[index] = plane;
     keys[index] = cellIndex(cellOf(p));
 }

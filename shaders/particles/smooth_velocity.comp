@@ -1,6 +1,6 @@
 // Viscosity: each pair's velocities come nearer to each other. With TENSION, surface tension too: the step's share of minus the
 // gradient of its energy (runtime/particles/fluid.h), by which pairs attract each other and densities level. All by equal and
-// opposite amounts.
+// opposite amounts. And no particle gains more energy than runtime/particles/fluid.h allows.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "particles/fluid.glsl"
 
@@ -30,7 +30,9 @@ vec3 bentAlong(vec3 off, float u, vec3 by) {
 void main() {
     uint index = item();
     if (index >= push.particles) return;
-    vec3 p = uintBitsToFloat(imageLoad(guesses, int(index)).xyz), v = uintBitsToFloat(imageLoad(velocities, int(index)).xyz);
+    vec4 own = uintBitsToFloat(imageLoad(guesses, int(index)));
+    float most = own.w;  // energy
+    vec3 p = own.xyz, v = uintBitsToFloat(imageLoad(velocities, int(index)).xyz);
     vec3 change = vec3(0.0);
 #ifdef TENSION
     vec3 gradient = uintBitsToFloat(imageLoad(gradients, int(index)).xyz), pull = vec3(0.0), level = vec3(0.0);
@@ -41,7 +43,9 @@ void main() {
         uvec4 four = t < texels ? imageLoad(lists, texel) : uvec4(index);
         for (int k = 0; k < 4; ++k) {
             int other = int(four[k]);
-            vec3 off = p - uintBitsToFloat(imageLoad(guesses, other).xyz);
+            vec4 its = uintBitsToFloat(imageLoad(guesses, other));
+            vec3 off = p - its.xyz;
+            most = max(most, its.w);
             vec3 faster = uintBitsToFloat(imageLoad(velocities, other).xyz) - v;
             float u = leftOf(dot(off, off));
             change += weightShape(u) * (push.viscosity * faster);
@@ -53,6 +57,9 @@ void main() {
         texel += kNextTexel;
     } while (++t < turns);
     v += push.weight * change;
+    float weight = length(push.gravity), squared = dot(v, v), pressure = FLUID_MOST_PRESSURE * (push.step * weight + push.tension);
+    float gained = weight > 0.0 ? max(energyAt(p, squared) - most - pressure * sqrt(squared), 0.0) : 0.0;
+    v *= sqrt(max(squared - 2.0 * gained, 0.0) / max(squared, 1e-30));
 #ifdef TENSION
     level = push.slope * level + wallsBent(p, uintBitsToFloat(imageLoad(planes, int(index))), gradient);
     v -= push.tension * (pull + FLUID_LEVELLING * push.support * push.support * push.support * level);

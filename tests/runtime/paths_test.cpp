@@ -305,6 +305,59 @@ TEST_F(Paths, AWhiteRoomGathersWhatItSends) {
     }
 }
 
+/// How much of what a small part of the floor sees is a wall that stands on it: the wall's height, how far
+/// its two edges are to the sides, and how far it is away (Howell, "A Catalog of Radiation Heat Transfer
+/// Configuration Factors", B-4).
+double shareOfWall(double high, double left, double right, double away) {
+    const auto half = [&](double wide) {
+        const double slanted = std::hypot(away, high);
+        return (std::atan(wide / away) - away / slanted * std::atan(wide / slanted)) / (2 * std::numbers::pi);
+    };
+    return half(left) + half(right);
+}
+
+/// A wall of 1 m by 1 m that sends out the red of the Cornell box, and a white floor before it, seen from
+/// above.
+const std::string kRedWall =
+    R"({"id": "upright", "type": "box", "inputs": {"half_extents": [0.05, 0.5, 0.5]}},
+       {"id": "wall", "type": "translate", "inputs": {"surface": {"from": "upright"}, "offset": [-0.05, 0.5, 0]}},
+       {"id": "glow", "type": "material", "inputs": {"surface": {"from": "wall"}, "base_color": [0, 0, 0], "roughness": 1,
+            "emission": [0.63, 0.065, 0.05]}},
+       {"id": "plate", "type": "box", "inputs": {"half_extents": [0.5, 0.05, 0.5]}},
+       {"id": "floor", "type": "translate", "inputs": {"surface": {"from": "plate"}, "offset": [0.5, -0.05, 0]}},
+       {"id": "white", "type": "material", "inputs": {"surface": {"from": "floor"}, "base_color": [1, 1, 1], "roughness": 1}},
+       {"id": "room", "type": "union", "inputs": {"a": {"from": "glow"}, "b": {"from": "white"}}},
+       {"id": "out", "type": "output", "inputs": {"surface": {"from": "room"}}})";
+
+TEST_F(Paths, AWallBleedsByWhatTheFloorSeesOfIt) {
+    double all = 0;
+    for (int x = 0; x < 100; ++x)
+        for (int z = 0; z < 100; ++z)
+            all += 1e-4 * shareOfWall(1, 0.01 * (z + 0.5), 1 - 0.01 * (z + 0.5), 0.01 * (x + 0.5));
+    EXPECT_NEAR(all, 0.20004, 2e-4);  // as published of two squares with an edge in common
+    constexpr double kFov = 18.0;
+    const Traced seen =
+        trace(kRedWall,
+              filled(R"("camera": {"position": [0.5, 3, 0.3], "target": [0.5, 0, 0], "fov": $}, )", {kFov}) +
+                  R"("sun": false, "ground": false, "ao": false, "sky": {"strength": 0})",
+              1024, 1);
+    const double across =
+        2 * std::hypot(3, 0.3) * std::tan(kFov / 360 * std::numbers::pi) / kSide;  // a pixel
+    for (const int column : {3, 8, 16, 26, 36, 43}) {
+        glm::dvec3 sum(0);
+        double wanted = 0;
+        for (int x = column - 2; x < column + 2; ++x)
+            for (int y = kSide / 2 - 8; y < kSide / 2 + 8; ++y) {
+                const double z = across * (y + 0.5 - kSide / 2), away = 0.5 + across * (x + 0.5 - kSide / 2);
+                wanted += shareOfWall(1, 0.5 - z, 0.5 + z, away);
+                for (int k = 0; k < 3; ++k) sum[k] += seen.at(x, y, k);
+            }
+        EXPECT_NEAR(sum.r / (0.63 * wanted), 1.0, 0.03) << column;
+        EXPECT_NEAR(sum.g / sum.r, 0.065 / 0.63, 1e-3) << column;
+        EXPECT_NEAR(sum.b / sum.r, 0.05 / 0.63, 1e-3) << column;
+    }
+}
+
 /// A post on a plate, which is wider than all that is put beside it.
 const std::string kStand =
     R"({"id": "post", "type": "box", "inputs": {"half_extents": [0.2, 2, 0.2]}},
