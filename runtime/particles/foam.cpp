@@ -81,7 +81,8 @@ void recordFoamStep(Commands& commands, const FoamKernels& kernels, FoamParticle
         run(kernels.vacant, foam.slots + 1,
             std::array{Descriptor{0, foam.numbers}, Descriptor{1, foam.velocities},
                        Descriptor{2, foam.vacant}});
-        sumCounts(commands, kernels.counting, foam.sums, foam.vacant, foam.vacantBefore, foam.slots + 1);
+        sumCounts(commands, kernels.counting, foam.vacantSums, foam.vacant, foam.vacantBefore,
+                  foam.slots + 1);
         run(kernels.free, foam.slots,
             std::array{Descriptor{0, foam.numbers}, Descriptor{1, foam.vacant},
                        Descriptor{2, foam.vacantBefore}, Descriptor{3, foam.free}});

@@ -51,7 +51,7 @@ struct FoamParticles {
     uint32_t slots = 0;
     Buffer places, velocities;
     Buffer shown;  ///< places of one kind
-    Buffer numbers, normals, given, before, vacant, vacantBefore, free, sums;
+    Buffer numbers, normals, given, before, sums, vacant, vacantBefore, vacantSums, free;
 };
 
 /// Makes so many slots, all of them empty: as many as there may be particles at a time. The device must not
