@@ -13,8 +13,8 @@
 // walls left out of the ball that it is measured in, and not by how many neighbours they have; bubbles come
 // to their speed of rising, 0.25 m/s under the earth's gravity, exactly; lives vary between a half and three
 // halves of the lifetime. Spray dies at the tank's walls and in the obstacle, where it would be water again;
-// foam and bubbles stay out of them. The fluid's cells are those of its last step: before its particles moved
-// apart, by some hundredths of the support, which matters at the kernel's rim alone.
+// foam and bubbles stay out of them. The fluid's cells are those from before its particles moved apart, which
+// matters at the kernel's rim alone.
 //
 // A step is as long as the whole step of the simulation, however many parts the fluid takes it in. Where
 // particles of foam come from, what they are and which slots they take is decided by prefix sums and by
