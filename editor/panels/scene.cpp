@@ -10,6 +10,7 @@
 #include "editor/document/scene_edits.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "graph/base/file_kind.h"
 
 namespace fw::editor {
 
@@ -163,6 +164,14 @@ void showSky(Editor& editor, const Scene& scene) {
     color(editor, "sky.horizon", "Horizon", scene.sky->horizon);
     color(editor, "sky.ground", "Ground", scene.sky->ground);
     number(editor, "sky.strength", "Strength", "A factor on all of it.", scene.sky->strength, kStrengthRange);
+    propertyRow("Picture", "An environment map, in the folder of the graph's file or in one below it.");
+    editText(
+        editor, "##image", scene.sky->image, ("the path of " + anyOf(kEnvironmentFile)).c_str(),
+        [](Editor& in, const std::string& text) {
+            const Graph& graph = in.document.graph();
+            set(in, "Sky's Picture",
+                text.empty() ? clearSceneValue(graph, "sky.image") : setSceneValue(graph, "sky.image", text));
+        });
     if (!scene.sky->image.empty())
         number(editor, "sky.rotation", "Rotation", "Degrees that the map is turned, from +z towards +x.",
                scene.sky->rotation, {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5});

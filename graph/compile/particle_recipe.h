@@ -29,6 +29,8 @@ namespace fw {
 
 struct Program;
 
+inline constexpr double kSimulationStep = 1.0 / 60.0;  ///< seconds
+
 /// One node of the chain.
 struct ParticleStage {
     enum class Kind : unsigned char { emitter, file, dynamics, fluid, foam } kind = Kind::emitter;

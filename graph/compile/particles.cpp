@@ -1,6 +1,7 @@
 // Particles: each node a stage of a recipe, and the field that is made of all of them.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "graph/base/words.h"
 #include "graph/compile/graph_lowering.h"
@@ -130,6 +131,41 @@ Reach reachOf(const GraphLowering& lowering, const ParticleStage& own, const Par
     return reach;
 }
 
+/// Warns of an inflow from which nothing can come: of numbers that never change.
+void warnOfDryInflow(GraphLowering& lowering, const NodeAt& at, const ParticleStage& fluid) {
+    const auto inflow = fluid.fields.find("inflow");
+    if (inflow == fluid.fields.end()) return;
+    const Ir& ir = lowering.state.ir;
+    for (const char* input : {"inflow_velocity", "tank_min", "tank_max"})
+        for (const IrId id : fluid.numbers.find(input)->second)
+            if (!ir.isConstant(id)) return;
+    const std::vector<double> values = valuesOf(lowering.live);
+    const StageNumbers numbers(ir, fluid, values);
+    const glm::dvec3 way = kSimulationStep * numbers.vector("inflow_velocity"),
+                     lo = numbers.vector("tank_min"), hi = numbers.vector("tank_max");
+    if (glm::length(way) == 0.0)
+        return lowering.warn(at, "inflow_velocity", "nothing flows in that has no speed");
+    const Program& field = *inflow->second;
+    for (IrId id = 0; id < field.ir.size(); ++id)
+        if (field.ir[id].op == Op::parameter) return;
+    const Region region = findRegion(field.ir, field.distance(), {});
+    if (region.extent == Extent::unbounded) return;
+    bool outside = region.extent == Extent::empty, thin = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = region.box.lo[std::size_t(axis)], high = region.box.hi[std::size_t(axis)];
+        outside |= high <= lo[axis] || low >= hi[axis];
+        thin |= high - low < std::abs(way[axis]);
+    }
+    if (outside)
+        lowering.warn(at, "inflow",
+                      "is outside of the tank, so that nothing flows in: move it, or enlarge the tank");
+    else if (thin)
+        lowering.warn(at, "inflow",
+                      "is thinner than what flows in moves in a sixtieth of a second (" +
+                          shortNumber(glm::length(way)) +
+                          " m), so that less comes than should: make it thicker");
+}
+
 }  // namespace
 
 Lowered lowerEmitter(GraphLowering& lowering, const NodeAt& at) {
@@ -188,6 +224,7 @@ Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at) {
                             {.message = "must be above tank_min along " + std::string(1, "xyz"[axis])});
             return lowering.failure(at.type.outputs);
         }
+    warnOfDryInflow(lowering, at, *stage);
     return particlesOf(at, {{std::move(*stage)}});
 }
 

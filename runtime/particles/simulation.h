@@ -35,7 +35,6 @@
 
 namespace fw {
 
-inline constexpr double kSimulationStep = 1.0 / 60.0;  ///< seconds
 inline constexpr double kMostSimulated = 36'000.0;     ///< seconds
 inline constexpr uint32_t kMostParticles = 4'000'000;  ///< at a time
 

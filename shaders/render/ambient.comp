@@ -44,7 +44,7 @@ void main() {
     bool kept = surface && pixelSeenBefore(words.w >> 24 == 0 ? p : placeBefore(p, n), n, here, was);
     uint past = imageLoad(historyBefore, ivec2(was)).x;
     uint known = kept ? min(past >> 16, frame.mostKept) : 0;
-    bool hole = surface && known == 0, shares = frame.balance != 0;
+    bool hole = surface && known == 0, shares = unfolded(frame.balance) != 0;
     uint need = hole && !shares ? frame.raysNew : frame.raysKept;
 
     float opened = 0.0;

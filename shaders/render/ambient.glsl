@@ -12,7 +12,7 @@ const float kLift = 16.0;      // biases that a start below the surface is lifte
 float openRay(vec3 p, vec3 n, uvec2 pixel, uint number) {
     vec3 d = cosineDirection(n, evenly(pixel, number));
     Bounds bounds = solidBounds();
-    uint samples = frame.ambientSamples;
+    uint samples = unfolded(frame.ambientSamples);
     float radius = frame.ambientRadius, bias = frame.bias;
     // Above the ground also where a bevelled edge looks down on it.
     float foot = bounds.ground + bias;

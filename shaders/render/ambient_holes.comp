@@ -25,7 +25,7 @@ shared uint opened[AMBIENT_HOLES];  // of the rays of each
 void main() {
     fieldBegin();
     uint lane = gl_LocalInvocationIndex, mine = lane / AMBIENT_LANES, total = count.holes;
-    uint first = frame.raysKept, end = frame.raysNew;
+    uint first = frame.raysKept, end = unfolded(frame.raysNew);
     uint at = gl_WorkGroupID.x * AMBIENT_HOLES;
     do {
         bool valid = at + mine < total;

@@ -28,9 +28,9 @@ vec3 skyAt(uint i, vec3 d) {
 
 // What a mirror of this roughness sees in this direction.
 vec3 environment(vec3 d, float roughness) {
-    uint i = 0;
+    uint i = 0, levels = unfolded(frame.skyLevels);
     do {
-    } while (frame.sky[i + 1].roughness < roughness && ++i + 2 < frame.skyLevels);
+    } while (frame.sky[i + 1].roughness < roughness && ++i + 2 < levels);
     float low = frame.sky[i].roughness, high = frame.sky[i + 1].roughness;
     return mix(skyAt(i, d), skyAt(i + 1, d), clamp((roughness - low) / (high - low), 0.0, 1.0));
 }

@@ -40,7 +40,7 @@ void main() {
     // Read once: no compiler moves loads of uniforms out of a loop.
     vec3 eye = frame.now.eye;
     float densest = frame.fogDensity, falloff = frame.fogFalloff, low = max(frame.ground, frame.centre.y - frame.radius);
-    bool shadows = frame.shadowSize != 0;
+    bool shadows = unfolded(frame.shadowSize) != 0;
     if (falloff > 0.0 && d.y > 0.0) end = min(end, max(kThin / falloff + low - eye.y, 0.0) / d.y);
     float start = evenly(pixel, frame.number).x, through = 1.0, step = 1.0 / float(kSteps);
     vec3 sum = vec3(0.0);
@@ -62,7 +62,7 @@ void main() {
     far /= shares;
     vec3 middle = eye + d * far, was = project(frame.before, middle);
     vec2 place = (vec2(0.5) + 0.5 * vec2(was.x, -was.y)) * vec2(half2);
-    bool inBefore = frame.fogKept > 0 && was.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(half2)));
+    bool inBefore = unfolded(frame.fogKept) > 0 && was.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(half2)));
     ivec2 texel = ivec2(inBefore ? place : vec2(0.0));
     vec2 old = imageLoad(waysBefore, texel).xy;
     vec4 fogOld = imageLoad(fogBefore, texel);

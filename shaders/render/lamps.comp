@@ -45,7 +45,8 @@ void main() {
     bool there = s.depth > 0.0;
     vec3 p = pointAt(frame.now, placeOf(here, frame.size), there ? s.depth : 1.0), toEye = normalize(frame.now.eye - p);
     vec3 from = p + s.n * frame.bias, sum = vec3(0.0);
-    for (uint i = 0; i < frame.lightCount; ++i) {
+    uint lights = unfolded(frame.lightCount);
+    for (uint i = 0; i < lights; ++i) {
         Light light = frame.lights[i];
         vec3 d;
         float far;

@@ -112,14 +112,14 @@ void main() {
 #ifdef TRACED_SUN
     float sunlit = there ? imageLoad(lamps, at).w : 1.0;
 #else
-    float sunlit = frame.shadowSize != 0 && there ? sunSeen(p, s.n, pixel) : 1.0;
+    float sunlit = unfolded(frame.shadowSize) != 0 && there ? sunSeen(p, s.n, pixel) : 1.0;
 #endif
     vec3 sunned = vec3(sunlit);
 #ifdef TRANSMITS
     // Through what transmits, which the map takes for opaque.
     vec3 fromIt = max(max(frame.lo - p, p - frame.hi), 0.0);
     float far = smoothstep(0.5, 1.0, length(fromIt) / frame.ambientRadius);
-    if (frame.shadowSize != 0 && occluded) sunned = mix(imageLoad(sunlight, at).rgb, sunned, far);
+    if (unfolded(frame.shadowSize) != 0 && occluded) sunned = mix(imageLoad(sunlight, at).rgb, sunned, far);
     sunlit = (sunned.r + sunned.g + sunned.b) / 3.0;
 #endif
 
@@ -182,7 +182,7 @@ void main() {
 #endif
 #if defined(MEAN) && defined(LINEAR)
     vec4 mean = vec4(any(isnan(color)) ? vec3(0.0) : min(color, vec3(1e6)), alpha);
-    if (frame.mean > 0) mean = mix(mean, imageLoad(means, at), float(frame.mean) / float(frame.mean + 1));
+    if (unfolded(frame.mean) > 0) mean = mix(mean, imageLoad(means, at), float(frame.mean) / float(frame.mean + 1));
     if (inPicture) imageStore(means, at, mean);
     color = mean.rgb;
 #ifdef CUTOUT
@@ -191,9 +191,9 @@ void main() {
 #endif
 #endif
     vec3 linear = toneMap(color);
-    linear = frame.show == RENDER_AMBIENT ? vec3(open) : frame.show == RENDER_SHADOW ? vec3(sunlit) : linear;
-    linear = frame.show == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
-    linear = frame.show == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
+    linear = unfolded(frame.show) == RENDER_AMBIENT ? vec3(open) : unfolded(frame.show) == RENDER_SHADOW ? vec3(sunlit) : linear;
+    linear = unfolded(frame.show) == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
+    linear = unfolded(frame.show) == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
 #if defined(MEAN) && !defined(LINEAR)
     uvec2 words = imageLoad(means, at).xy;
     vec4 before = vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y)), mean = mix(vec4(linear * alpha, alpha), before, float(frame.mean) / float(frame.mean + 1));

@@ -104,7 +104,7 @@ void main() {
     float close = kClose * frame.radius;
 
     uint at = pixel.y * frame.size.x + pixel.x;
-    vec4 sum = push.path == 0 ? vec4(0.0) : sums[at];
+    vec4 sum = unfolded(push.path) == 0 ? vec4(0.0) : sums[at];
     float shown = 0.0, allShown = 0.0;  // whether the path met something that is shown, and how many did
     uint state, path = push.path, bounces = 0, turn = 0, purpose = kPath, after = kPath;
     vec3 total = sum.rgb, light = vec3(0.0), through = vec3(1.0), o = vec3(0.0), d = vec3(0.0);
@@ -148,10 +148,10 @@ void main() {
             through /= kGoesOn;
         }
         // Where the ray meets the ground, and the region's box.
-        bool groundCounts = frame.studio == 0 || (purpose == kPath && straight);
+        bool groundCounts = unfolded(frame.studio) == 0 || (purpose == kPath && straight);
         float toGround = d.y < 0.0 && groundCounts ? max(frame.ground - o.y, -1e30) / d.y : -1.0;
         float fade = groundLeft(o + d * toGround);
-        bool solidGround = frame.studio != 0 || random(state) < fade;
+        bool solidGround = unfolded(frame.studio) != 0 || random(state) < fade;
         toGround = toGround > 0.0 && fade > 0.0 && solidGround ? toGround : 1e30;
         vec3 a = (frame.lo - o) / d, b = (frame.hi - o) / d, first = min(a, b), last = max(a, b);
         float t = max(max(first.x, max(first.y, first.z)), 0.0);
@@ -187,7 +187,7 @@ void main() {
             continue;
         }
         through *= left;
-        if (push.cutout != 0 && turn == 1 && !hit) {
+        if (unfolded(push.cutout) != 0 && turn == 1 && !hit) {
             shown = 0.0;
             alive = false;
             continue;
@@ -197,7 +197,8 @@ void main() {
         if (!straight) {
             float chances = float(lampsAsked());
             float reached = hit ? t : hitsGround ? toGround : 1e30;
-            for (uint k = 0; k < frame.lightCount; ++k) {
+            uint lights = unfolded(frame.lightCount);
+            for (uint k = 0; k < lights; ++k) {
                 Light lamp = frame.lights[k];
                 vec4 ball = lampBall(lamp, o);
                 bool found = lamp.directional == 0 && dot(ball.xyz, d) > 1.0 - ball.w && distance(lamp.position, o) < reached;
@@ -305,7 +306,7 @@ void main() {
             continue;
         }
 
-        if (s.ground && frame.studio != 0) {
+        if (s.ground && unfolded(frame.studio) != 0) {
             // Not drawn itself: the wall, dimmed where the sun or the sky is hidden.
             vec3 wall = backdrop(d);
             light += through * wall * (1.0 - fade);
@@ -349,7 +350,7 @@ void main() {
                 asked = max(asked, 1e-30);
             } else
 #endif
-            if (k == frame.lightCount) {
+            if (k == unfolded(frame.lightCount)) {
                 toLamp = inCone(push.sun, 1.0 - push.sunWide, u);
                 asked = push.sunWide > 0.0 ? 1.0 / (sunSpread() * float(lamps)) : 0.0;
                 radiance = push.sunWide > 0.0 ? frame.sunLight / sunSpread() : frame.sunLight * float(lamps);

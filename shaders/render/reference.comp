@@ -31,7 +31,7 @@ void main() {
     vec3 n = unpackOctahedral(words.y), p = pointAt(frame.now, placeOf(here, frame.size), surface ? depth : 1.0) + n * frame.bias;
     Bounds bounds = solidBounds();
     float radius = frame.ambientRadius, close = radius * kLeastStep, open = 0.0;
-    uint state = (here.y * frame.size.x + here.x) * 9781u + frame.number * 6271u + 1u, ray = 0;
+    uint state = (here.y * frame.size.x + here.x) * 9781u + frame.number * 6271u + 1u, ray = 0, all = unfolded(rays);
     do {
         vec2 u = vec2(random(state), random(state));
         vec3 d = cosineDirection(n, u);
@@ -42,6 +42,6 @@ void main() {
             t += max(h, close);
         } while (least > 0.0 && t < radius);
         open += least > 0.0 ? 1.0 : 0.0;
-    } while (++ray < rays);
+    } while (++ray < all);
     if (surface) imageStore(historyNow, ivec2(here), uvec4(packHistory(open / float(rays), rays)));
 }

@@ -40,7 +40,7 @@ vec3 placeBefore(vec3 p, vec3 n) {
 
 // The same of what a pixel shows, at p in the frame before: in a view that rests it stays where it is.
 bool pixelSeenBefore(vec3 p, vec3 n, uvec2 here, out uvec2 was) {
-    if (frame.resting == 0) return seenBefore(p, n, was);
+    if (unfolded(frame.resting) == 0) return seenBefore(p, n, was);
     was = here;
     return sameBefore(p, n, was);
 }

@@ -161,7 +161,7 @@ void main() {
 #endif
 
     vec4 bounced = vec4(0.0), mirrorSum = vec4(0.0);  // sums; in w of how many rays
-    uint rays = frame.secondaryRays, ray = 0;
+    uint rays = unfolded(frame.secondaryRays), ray = 0;
 #ifdef BOUNCE
     vec4 ownBounce = kept ? imageLoad(bounceBefore, ivec2(was)) : vec4(0.0);
 #endif
@@ -205,14 +205,14 @@ void main() {
         }
         if (kind == kSun) {
             d = frame.sun;
-            going = surface && frame.shadowSize != 0 && dot(n, d) > 0.0;
+            going = surface && unfolded(frame.shadowSize) != 0 && dot(n, d) > 0.0;
         }
         bool straight = kind == kPassed;
         uint interfaces = 0;
         do {
 #endif
             // Along the ray to where it ends.
-            float toGround = d.y < 0.0 && frame.groundEnd > 0.0 && (frame.studio == 0 || kind == kPassed) ? (frame.ground - o.y) / d.y : 1e30;
+            float toGround = d.y < 0.0 && frame.groundEnd > 0.0 && (unfolded(frame.studio) == 0 || kind == kPassed) ? (frame.ground - o.y) / d.y : 1e30;
             float fade = groundLeft(o + d * min(toGround, 1e6));
             toGround = fade > 0.0 ? toGround : 1e30;
             vec3 a = (frame.lo - o) / d, b = (frame.hi - o) / d, last = max(a, b), first = min(a, b);
@@ -262,9 +262,9 @@ void main() {
                 if (hit) seen = surfaceHit(material, m, d, kind);
                 bool sees = hit || hitsGround;
                 float open = openness(bounds, q, seen.n);
-                vec3 sunlit = vec3(frame.shadowSize != 0 ? sunReaches(surfaceInShadowMap(q, seen.n), spotInMap(u.yx)) : 1.0);
+                vec3 sunlit = vec3(unfolded(frame.shadowSize) != 0 ? sunReaches(surfaceInShadowMap(q, seen.n), spotInMap(u.yx)) : 1.0);
 #ifdef FIELD_TRANSMITS
-                if (frame.shadowSize != 0) sunlit = sunThrough(bounds, q + seen.n * bias);
+                if (unfolded(frame.shadowSize) != 0) sunlit = sunThrough(bounds, q + seen.n * bias);
 #endif
                 vec3 around = open * skylight(seen.n);
 #ifdef BOUNCE
@@ -275,7 +275,7 @@ void main() {
                 around = cached.w > 0.0 ? min(cached.rgb, vec3(8.0)) : around;
 #endif
                 vec3 lit = sentBy(bounds, seen, q, -d, sunlit, open, around, v.x);
-                bool wall = kind == kPassed && hitsGround && frame.studio != 0;
+                bool wall = kind == kPassed && hitsGround && unfolded(frame.studio) != 0;
                 vec3 behind = surroundings(d, 0.0);
 #ifdef ENVIRONMENT
                 // Rays that are spread see it blurred a little: less noise, and no wider lobe to speak of (Krivanek and Colbert,
@@ -314,7 +314,7 @@ void main() {
 #endif
 
         radiance = any(isnan(radiance)) ? vec3(0.0) : min(radiance, vec3(6e4));  // the filter would spread it
-        if (kind == kBounce) bounced += vec4(min(radiance, vec3(frame.resting != 0 ? 6e4 : 8.0)), 1.0);
+        if (kind == kBounce) bounced += vec4(min(radiance, vec3(unfolded(frame.resting) != 0 ? 6e4 : 8.0)), 1.0);
         if (kind == kReflection) mirrorSum += vec4(radiance, 1.0);
 #ifdef FIELD_TRANSMITS
         if (kind == kPassed && surface) imageStore(passed, ivec2(here), vec4(transmission * radiance, transmission));
@@ -329,7 +329,7 @@ void main() {
 #endif
 #ifdef REFLECTIONS
     vec4 oldMirror = imageLoad(reflectionBefore, ivec2(was));
-    float remembered = frame.resting != 0 ? most : min(mix(kMirrorKept, most, smoothstep(0.15, 0.6, s.roughness)), most);
+    float remembered = unfolded(frame.resting) != 0 ? most : min(mix(kMirrorKept, most, smoothstep(0.15, 0.6, s.roughness)), most);
     remembered = kept ? min(oldMirror.w, remembered) : 0.0;
     if (surface)
         imageStore(reflectionNow, ivec2(here), vec4((mirrorSum.rgb + oldMirror.rgb * remembered) / (mirrorSum.w + remembered), mirrorSum.w + remembered));

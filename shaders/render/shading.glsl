@@ -31,7 +31,7 @@ vec3 surroundings(vec3 d, float roughness) {
     float lamp = dot(d, normalize(vec3(-0.75, 0.45, 0.45))), blur = 0.05 + 0.4 * roughness;
     vec3 studio = skyColor(d) * mix(1.1, 0.35, smoothstep(-0.6, 0.9, d.x)) +
                   1.6 * smoothstep(0.80 - blur, 0.80 + 0.5 * blur, lamp);
-    return frame.studio != 0 ? studio : skyColor(d);
+    return unfolded(frame.studio) != 0 ? studio : skyColor(d);
 }
 
 // The studio's wall at a place in the picture.
@@ -44,7 +44,7 @@ vec3 wallDimmed(vec3 sunlit, float open) { return mix(vec3(0.46, 0.50, 0.58), ve
 
 // What a ray that goes straight from the eye ends at, though it may have been bent: the wall as it is where it would be seen.
 vec3 backdrop(vec3 d) {
-    if (frame.studio == 0) return skySeen(d);
+    if (unfolded(frame.studio) == 0) return skySeen(d);
     vec3 at = project(frame.now, frame.now.eye + d);
     return wallAt(at.z > 0.05 ? clamp(at.xy, -1.5, 1.5) : vec2(0.0));
 }

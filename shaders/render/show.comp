@@ -51,21 +51,21 @@ void main() {
     chooseMembers(fromMiddle(onSlice));
     vec4 g = fieldGradient(onSlice);
 
-    if (frame.show == RENDER_STEPS)
+    if (unfolded(frame.show) == RENDER_STEPS)
         color = heat(steps(frame.now.eye, ray, length(frame.centre - frame.now.eye) + 2.0 * frame.radius) / 48.0);
-    if (frame.show == RENDER_SLICE && inSlice) {
+    if (unfolded(frame.show) == RENDER_SLICE && inSlice) {
         float period = 0.1 * frame.radius, width = 3.0 * frame.now.pixel * across / period;
         float line = abs(fract(g.w / period + 0.5) - 0.5), far = 1.0 - exp(-2.0 * abs(g.w) / frame.radius);
         color = g.w < 0.0 ? mix(vec3(0.75, 0.88, 1.0), vec3(0.1, 0.3, 0.75), far) : mix(vec3(1.0, 0.9, 0.75), vec3(0.8, 0.35, 0.1), far);
         color *= line < 0.5 * width ? 0.7 : 1.0;
         color = abs(g.w) < 3.0 * frame.now.pixel * across ? vec3(0.0) : color;
     }
-    if (frame.show == RENDER_EXACTNESS && inSlice) {
+    if (unfolded(frame.show) == RENDER_EXACTNESS && inSlice) {
         float off = length(g.xyz) - 1.0;  // white: a distance; red: too steep to trace; blue: flatter than a distance
         color = off > 0.0 ? mix(vec3(1.0), vec3(0.85, 0.1, 0.1), min(off, 1.0)) : mix(vec3(1.0), vec3(0.1, 0.25, 0.85), min(-off, 1.0));
         color = abs(g.w) < 3.0 * frame.now.pixel * across ? vec3(0.0) : color;
     }
-    if (frame.show == RENDER_CELLS && depth > 0.0) {
+    if (unfolded(frame.show) == RENDER_CELLS && depth > 0.0) {
         vec3 cell = (frame.now.eye + ray * (frame.now.near / depth) - frame.lo) / frame.cellSize, index = floor(cell);
         vec3 fromSide = abs(cell - index - 0.5), thin = vec3(0.5 - frame.now.pixel * frame.now.near / depth * 2.0 / frame.cellSize);
         bool line = fromSide.x > thin.x || fromSide.y > thin.y || fromSide.z > thin.z;

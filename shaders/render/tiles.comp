@@ -51,7 +51,7 @@ void main() {
     float margin = 0.5 * float(RENDER_TILE) * 2.0 * frame.now.pixel * along / max(-ray.y, 0.05);
     vec2 shaded = abs(inShadowMap(p).xy / float(max(frame.shadowSize, 1)) - 0.5) - margin / (frame.shadowTexel * float(frame.shadowSize));
     bool ground = along > 0.0, near = ground && nearSolid(p, margin);
-    bool lit = ground && (frame.studio == 0 || frame.lightCount > 0 || near || (frame.shadowSize > 0 && max(shaded.x, shaded.y) < 0.5));
+    bool lit = ground && (unfolded(frame.studio) == 0 || unfolded(frame.lightCount) > 0 || near || (unfolded(frame.shadowSize) > 0 && max(shaded.x, shaded.y) < 0.5));
     uint kinds = (solid ? 3 : 0) | (near ? 2 : 0) | (lit ? 4 : 0), all = subgroupOr(kinds);
     if (all != 0 && subgroupElect()) atomicOr(found, all);
     barrier();

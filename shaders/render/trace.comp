@@ -5,6 +5,7 @@
 #include "shared.h"
 #include "render/render.h"
 #include "render/places.glsl"
+#include "lib/unfolded.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { TracePush push; };
@@ -55,7 +56,7 @@ void main() {
     float end = min(last.x, min(last.y, last.z));
     bool outside = !(t < end);
     float close = push.close, f = 0.0;
-    uint i = 0, steps = push.steps;
+    uint i = 0, steps = unfolded(push.steps);
     // Kept: a ray that has ended goes on beside its neighbours on some drivers, with loads that yield nothing.
     bool hit = false;
     do {

@@ -1,4 +1,5 @@
 // A picture's places, rays and depths. After render.h.
+#include "lib/unfolded.glsl"
 
 // That a lane does of a listed tile.
 uvec2 pixelOf(uint tile, uint lane) { return uvec2(tile & 0xffff, tile >> 16) * RENDER_TILE + uvec2(lane % RENDER_TILE, lane / RENDER_TILE); }

@@ -179,6 +179,24 @@ TEST(Particles, AnOffsetOfDistancesNearTheSurfaceIsWarnedOf) {
     for (const Error& note : notes("true")) EXPECT_NE(note.node, "field") << note.message;
 }
 
+TEST(Particles, AnInflowFromWhichNothingComesIsWarnedOf) {
+    const auto said = [](const std::string& place, const std::string& velocity) {
+        const Result<Program> program = compile(graphOf(
+            R"({"id": "block", "type": "box", "inputs": {"half_extents": [0.1, 0.05, 0.1]}},
+               {"id": "tap", "type": "translate", "inputs": {"surface": {"from": "block"}, "offset": )" +
+            place + R"(}}, {"id": "water", "type": "sph_fluid", "inputs": {"inflow": {"from": "tap"},
+                "inflow_velocity": )" +
+            velocity + "}}," + field("water")));
+        for (const Error& note : program->notes)
+            if (note.node == "water") return note.input + ": " + note.message;
+        return std::string();
+    };
+    EXPECT_EQ(said("[0, 1, 0]", "[0, -5, 0]"), "");
+    EXPECT_EQ(said("[0, 1, 0]", "[0, 0, 0]").substr(0, 16), "inflow_velocity:");
+    EXPECT_NE(said("[0, 3, 0]", "[0, -1, 0]").find("outside of the tank"), std::string::npos);
+    EXPECT_NE(said("[0, 1, 0]", "[0, -7, 0]").find("thinner"), std::string::npos);
+}
+
 TEST(Particles, AGridThatIsFoundIsAsFineAsItsParticlesAsk) {
     const auto grid = [](const std::string& inputs) {
         return compile(graphOf(R"({"id": "drop", "type": "emitter", "inputs": {"shape": "point"}},)" +
