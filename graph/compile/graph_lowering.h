@@ -157,6 +157,7 @@ Lowered lowerEmitter(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerFoam(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at);
 /// The body of `offset`, with a warning about distances that are not true.
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at);

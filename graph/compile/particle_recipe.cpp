@@ -80,7 +80,8 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
         case ParticleStage::Kind::fluid:
             bounds = {numbers.vector("tank_min"), numbers.vector("tank_max")};
             break;
-        case ParticleStage::Kind::dynamics: break;
+        case ParticleStage::Kind::dynamics:
+        case ParticleStage::Kind::foam: break;
     }
     const double margin = std::max(radius, 1e-3);
     Box box;
@@ -93,6 +94,7 @@ SurfaceNumbers surfaceNumbers(const Ir& ir, const ParticleRecipe& recipe, const 
                               std::span<const double> parameters) {
     constexpr double kDropOfCube = 0.6203504908994;  // radius of the ball as large as a cube of side 1
     constexpr double kLeastShare = 0.04;             // of the radius, squared
+    constexpr double kFoamShare = 0.5;               // of the fluid's drop, foam's
     const StageNumbers own(ir, toField, parameters);
     SurfaceNumbers numbers{own.scalar("radius"), own.scalar("threshold"), own.scalar("drop")};
     const double blob = numbers.radius * std::sqrt(std::max(1.0 - std::cbrt(numbers.threshold), kLeastShare));
@@ -101,10 +103,33 @@ SurfaceNumbers surfaceNumbers(const Ir& ir, const ParticleRecipe& recipe, const 
         numbers.drop = blob;
     else if (numbers.drop == 0.0)
         numbers.drop = source.kind == ParticleStage::Kind::fluid
-                           ? kDropOfCube * StageNumbers(ir, source, parameters).scalar("spacing")
+                           ? kDropOfCube * StageNumbers(ir, source, parameters).scalar("spacing") *
+                                 (recipe.endsInFoam() ? kFoamShare : 1.0)
                            : blob;
     return numbers;
 }
+
+namespace {
+
+/// Of what they are, whatever else `ir` holds.
+uint64_t hashOfStages(const Ir& ir, std::span<const ParticleStage> stages) {
+    std::vector<IrId> roots;
+    for (const ParticleStage& stage : stages)
+        for (const auto& [name, ids] : stage.numbers) roots.insert(roots.end(), ids.begin(), ids.end());
+    const Ir own = ir.compact(roots);
+    uint64_t hash = own.hash(roots);
+    const auto mix = [&](uint64_t word) { hash = mixed(hash, word); };
+    for (const ParticleStage& stage : stages) {
+        mix(uint64_t(stage.kind));
+        for (const auto& [name, word] : stage.words) mix(std::hash<std::string>()(word));
+        for (const auto& [name, program] : stage.fields)
+            mix(mixed(std::hash<std::string>()(name), program->structureHash));
+        if (stage.places) mix(stage.places->hash);
+    }
+    return hash;
+}
+
+}  // namespace
 
 Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe,
                                       const ParticleStage& toField, const Box& region, int resolution) {
@@ -145,14 +170,12 @@ Result<FieldVolumePtr> particleVolume(const Ir& ir, const ParticleRecipe& recipe
         for (auto& [name, ids] : stage->numbers)
             for (IrId& id : ids) id = roots[next++];
 
-    uint64_t hash = field->ir.hash(roots);
+    const std::vector<ParticleStage>& all = field->particles.stages;
+    field->stagesHash = hashOfStages(field->ir, all);
+    field->sourceHash =
+        hashOfStages(field->ir, std::span(all).first(all.size() - (recipe.endsInFoam() ? 1 : 0)));
+    uint64_t hash = mixed(field->ir.hash(roots), field->stagesHash);
     const auto mix = [&](uint64_t word) { hash = mixed(hash, word); };
-    for (const ParticleStage& stage : recipe.stages) {
-        mix(uint64_t(stage.kind));
-        for (const auto& [name, word] : stage.words) mix(std::hash<std::string>()(word));
-        for (const auto& [name, program] : stage.fields) mix(program->structureHash);
-        if (stage.places) mix(stage.places->hash);
-    }
     mix((uint64_t(field->surface) * 4 + uint64_t(field->method)) * 2 + uint64_t(field->trueDistance));
     for (int axis = 0; axis < 3; ++axis) {
         mix(std::bit_cast<uint64_t>(grid.origin[axis]));

@@ -33,7 +33,7 @@ inline constexpr double kSimulationStep = 1.0 / 60.0;  ///< seconds
 
 /// One node of the chain.
 struct ParticleStage {
-    enum class Kind : unsigned char { emitter, file, dynamics, fluid } kind = Kind::emitter;
+    enum class Kind : unsigned char { emitter, file, dynamics, fluid, foam } kind = Kind::emitter;
     std::string node = {};  ///< its id, with those of the groups that it is in
     /// By the input's name: its components in the recipe's `ir`.
     std::map<std::string, std::array<IrId, 3>, std::less<>> numbers = {};
@@ -44,8 +44,10 @@ struct ParticleStage {
     ParticlePlacesPtr places = {};  ///< of a file
 };
 
+/// Behind a fluid there may be foam, which does nothing to it.
 struct ParticleRecipe {
     std::vector<ParticleStage> stages;
+    bool endsInFoam() const { return stages.back().kind == ParticleStage::Kind::foam; }
 };
 
 enum class DensityMethod : unsigned char { blur, exact, proxies };
@@ -53,6 +55,8 @@ inline constexpr const char* kDensityMethodNames[] = {"blur", "exact", "proxies"
 
 enum class ParticleSurface : unsigned char { blobs, average, anisotropic };
 inline constexpr const char* kParticleSurfaceNames[] = {"blobs", "average", "anisotropic"};
+
+inline constexpr const char* kFoamKinds[] = {"all", "spray", "foam", "bubbles"};
 
 /// Particles as a field: samples on a grid, of a surface about the particles.
 struct ParticleField {
@@ -64,6 +68,8 @@ struct ParticleField {
     bool trueDistance = false;                   ///< everywhere, and not near the surface alone
     std::string node;                            ///< of the particles_to_field
     uint64_t hash = 0;                           ///< equal for equal recipes, whatever the live values
+    /// The same of the stages alone, and of those but the foam: what equals can be simulated as one.
+    uint64_t stagesHash = 0, sourceHash = 0;
 };
 using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
 
@@ -113,8 +119,9 @@ struct SurfaceNumbers {
 SurfaceNumbers surfaceNumbers(const Ir& ir, const ParticleRecipe& recipe, const ParticleStage& toField,
                               std::span<const double> parameters);
 
-/// Where the particles can be: the box of a file's places, a fluid's tank, or what an emitter's particles
-/// reach in their lives under the gravity behind it, with nothing in their way; enlarged by `radius`.
+/// Where the particles can be: the box of a file's places, a fluid's tank, which its foam does not leave, or
+/// what an emitter's particles reach in their lives under the gravity behind it, with nothing in their way;
+/// enlarged by `radius`.
 Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const double> parameters,
                    double radius);
 

@@ -198,8 +198,8 @@ Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at) {
     if (recipe.stages.front().kind == ParticleStage::Kind::fluid) {
         lowering.report(
             at, "particles",
-            {.message = "a fluid moves itself: give the sph_fluid its gravity and what it collides "
-                        "with"});
+            {.message = (recipe.endsInFoam() ? "foam goes with its fluid" : "a fluid moves itself") +
+                        std::string(": give the sph_fluid its gravity and what it collides with")});
         return lowering.failure(at.type.outputs);
     }
     recipe.stages.push_back(std::move(*stage));
@@ -226,6 +226,24 @@ Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at) {
         }
     warnOfDryInflow(lowering, at, *stage);
     return particlesOf(at, {{std::move(*stage)}});
+}
+
+Lowered lowerFoam(GraphLowering& lowering, const NodeAt& at) {
+    const auto inputs = lowering.inputs(at);
+    std::optional<ParticleStage> stage = inputs ? particleStage(lowering, at, *inputs) : std::nullopt;
+    if (!stage) return lowering.failure(at.type.outputs);
+    stage->kind = ParticleStage::Kind::foam;
+    const Value& from = inputOf(*inputs, "particles");
+    if (!from.particles) return lowering.failure(at.type.outputs);
+    ParticleRecipe recipe = *from.particles;
+    if (recipe.stages.front().kind != ParticleStage::Kind::fluid || recipe.endsInFoam()) {
+        lowering.report(at, "particles",
+                        {.message = "only a fluid gives off foam, and '" + recipe.stages.back().node +
+                                    "' is none: link the sph_fluid itself"});
+        return lowering.failure(at.type.outputs);
+    }
+    recipe.stages.push_back(std::move(*stage));
+    return particlesOf(at, std::move(recipe));
 }
 
 Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {

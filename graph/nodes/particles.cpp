@@ -132,6 +132,38 @@ std::vector<NodeType> particleNodes() {
          .outputs = {{"particles", Type::particles}},
          .lower = lowerFluid,
          .aliases = {"water", "liquid", "fluid"}},
+        {.id = "foam",
+         .label = "Spray, foam and bubbles",
+         .category = Category::particles,
+         .doc = "What a fluid gives off where it is torn, and that alone: spray, which flies; foam, which "
+                "floats on "
+                "the fluid; bubbles, which rise in it. It does nothing to the fluid, and does not leave its "
+                "tank: "
+                "spray ends at the walls, and in what is in the way. A fluid whose own surface is shown too "
+                "flows "
+                "once.",
+         .inputs =
+             {InputSpec{
+                  .name = "particles", .type = Type::particles, .value = {}, .doc = "Those of an sph_fluid."},
+              amount("amount", 50, "1/s",
+                     "How many particles each one of the fluid gives off a second where it is torn."),
+              measured(
+                  positiveLength("speed", 1,
+                                 "How fast water is where it begins to be torn; at three times as much it "
+                                 "gives off most. Less of it makes more foam, as suits small tanks."),
+                  "m/s"),
+              measured(
+                  positiveLength("lifetime", 3,
+                                 "How long a particle is foam on the fluid, on average; spray and bubbles "
+                                 "do not age."),
+                  "s"),
+              choice("kinds", {std::begin(kFoamKinds), std::end(kFoamKinds)},
+                     "Which of them there are: spray, foam or bubbles alone are those of all, so that three "
+                     "nodes can show each in another way."),
+              integer("most", 50'000, 1, 4'000'000, "Particles at a time, of all kinds, at most."), seed},
+         .outputs = {{"particles", Type::particles}},
+         .lower = lowerFoam,
+         .aliases = {"spray", "bubbles", "whitewater"}},
         {.id = "particles_to_field",
          .label = "Particles to field",
          .category = Category::particles,
@@ -149,11 +181,12 @@ std::vector<NodeType> particleNodes() {
                   "places of particles; flat where a fluid is, with drops around. Anisotropic: a density of "
                   "particles that are flattened as their neighbours lie, for thin sheets and sharp edges; it "
                   "takes longest."),
-              length(
-                  "drop", 0.0,
-                  "The radius of a particle alone, where the surface is average or anisotropic. 0: of a "
-                  "fluid, what gives it its volume at rest, 0.62 of its spacing; of other particles, that of "
-                  "their blob."),
+              length("drop", 0.0,
+                     "The radius of a particle alone, where the surface is average or anisotropic. 0: of a "
+                     "fluid, what gives it its volume at rest, 0.62 of its spacing; of its foam half of "
+                     "that; of "
+                     "other particles, that of "
+                     "their blob."),
               positiveLength("radius", 0.15, "R: how far a blob's density reaches."),
               [] {
                   InputSpec threshold =

@@ -64,6 +64,7 @@ struct ExportOptions : MeshOutput {
     bool manifold = false;  ///< as fw::ExportOptions has it
     int tiles = 0;          ///< along the longest side; 0: as many as it takes
     std::string share;      ///< "i/n": only this part of the tiles; empty: all
+    std::string particles;  ///< the node whose particles are written in place of a mesh; empty: none
 };
 int runExport(const ExportOptions& options);
 

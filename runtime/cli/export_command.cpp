@@ -1,10 +1,14 @@
-// `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request.
+// `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request; or the
+// particles of a node to a file of points.
 #include <cstdio>
 
+#include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/measured.h"
 #include "runtime/cli/tiled_export.h"
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
+#include "runtime/export/points.h"
+#include "runtime/play/particles_at.h"
 #include "runtime/play/tiled_mesh.h"
 #include "runtime/system/interruption.h"
 
@@ -82,10 +86,45 @@ void note(const ExportOptions& options, const MesherResult& meshed) {
                      options.output.c_str());
 }
 
+int exportParticles(const ExportOptions& options, Progress& progress) {
+    if (const Done fine = checkPointsPath(options.output); !fine) return print(fine.error()), kBadUsage;
+    const GraphOptions& from = options.mesh.graph;
+    if (const Done distinct = checkDistinct(from.path, {options.output}); !distinct)
+        return print(distinct.error()), kBadUsage;
+    OpeningDevice device(std::launch::async, {.pick = options.mesh.device});
+    progress.start("read", 0);
+    const std::optional<Graph> graph = openGraph(from);
+    if (!graph) return kBadInput;
+    if (const Done kept = checkReplacesNone(filesRead(*graph), {options.output}); !kept)
+        return print(kept.error()), kBadUsage;
+    if (const Done gives = checkGivesParticles(*graph, options.particles); !gives)
+        return badInput(options.mesh, gives.error());
+    Result<Device>& opened = device.get();
+    if (!opened) return print(opened.error()), kBadUsage;
+    progress.start("simulate", 10);
+    CompileOptions compiling;
+    compiling.bake = meshFieldBaker([&] { return &*opened; });
+    const Result<ParticlePoints> points =
+        particlesAt(*graph, options.particles, from.time, compiling, *opened, [&](int done, int all) {
+            progress.show(10 + 80 * done / all);
+            return true;
+        });
+    if (!points) return badInput(options.mesh, points.error());
+    progress.start("write", 90);
+    if (const Done written = exportPoints(*points, options.output); !written)
+        return print(written.error()), kSystemFailure;
+    progress.finish();
+    if (points->places.empty())
+        std::fprintf(stderr, "%s: note: node '%s' has no particles at %g s: the file is empty\n",
+                     options.output.c_str(), options.particles.c_str(), from.time);
+    return kDone;
+}
+
 }  // namespace
 
 int runExport(const ExportOptions& options) {
     Progress progress;
+    if (!options.particles.empty()) return exportParticles(options, progress);
     const bool tiled = options.tiles > 0 || !options.share.empty();
     fw::ExportOptions how{.manifold = options.manifold};
     if (const Done fine =

@@ -20,6 +20,7 @@
 #include "runtime/cli/option_words.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
+#include "runtime/export/points.h"
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/drivers.h"
 #include "runtime/system/interruption.h"
@@ -125,18 +126,30 @@ int run(int count, char** arguments) {
         "Try:  fieldwright export samples/tower.field.json -o tower.glb");
 
     ExportOptions exportOptions;
-    CLI::App* exportCommand = app.add_subcommand("export", "Turn a graph into a mesh file");
+    CLI::App* exportCommand =
+        app.add_subcommand("export", "Turn a graph into a mesh file, or its particles into points");
     addMesh(exportCommand, exportOptions.mesh);
     std::string endings;
     for (const ExportFormat& format : exportFormats())
         endings += (endings.empty() ? "" : " ") + std::string(format.ending);
+    std::string pointEndings;
+    for (const char* ending : kPointEndings)
+        pointEndings += (pointEndings.empty() ? "" : " ") + std::string(ending);
     exportCommand
-        ->add_option("-o,--output", exportOptions.output,
-                     "The mesh file; its ending says the format: " + endings)
+        ->add_option(
+            "-o,--output", exportOptions.output,
+            "The mesh file; its ending says the format: " + endings + "; of particles: " + pointEndings)
         ->required();
     exportCommand->add_flag("--manifold", exportOptions.manifold,
                             "Mark the mesh of a .glb or .gltf as a solid (EXT_mesh_manifold), for programs "
                             "that compute with solids; an error if it is none");
+    CLI::Option* particles =
+        exportCommand
+            ->add_option("--particles", exportOptions.particles,
+                         "Write the particles that this node gives at the time, in place of a mesh: their "
+                         "places and velocities, as points that a particle_file reads")
+            ->type_name("NODE")
+            ->check(something());
     addMeasures(exportCommand, exportOptions);
     exportCommand
         ->add_option("--tiles", exportOptions.tiles,
@@ -150,6 +163,9 @@ int run(int count, char** arguments) {
             "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge; a "
             "part that was stopped goes on where it was")
         ->check(something());
+    for (const char* ofMeshes :
+         {"--resolution", "--region", "--method", "--manifold", "--report", "--require", "--tiles", "--tile"})
+        particles->excludes(exportCommand->get_option(ofMeshes));
 
     MergeOptions mergeOptions;
     CLI::App* mergeCommand =

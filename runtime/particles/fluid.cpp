@@ -45,9 +45,7 @@ FluidLattice fluidLattice() {
     return {float(1.0 / density), float(kSoft * slope * slope * squares)};
 }
 
-namespace {
-
-gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
+gpu::FluidPush fluidPush(const FluidConfig& config, uint32_t count, float step) {
     static const FluidLattice lattice = fluidLattice();
     const float volume = config.spacing * config.spacing * config.spacing;
     gpu::FluidPush push{};
@@ -73,6 +71,8 @@ gpu::FluidPush pushOf(const FluidConfig& config, uint32_t count, float step) {
     push.error = config.error;
     return push;
 }
+
+namespace {
 
 /// Particles that buffers are made for: a few more, of what grows. All have the same room, for a step
 /// exchanges them.
@@ -250,7 +250,7 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     const Device& device = commands.device;
     if (const Done fit = fits(device, config, b.count, step); !fit) return fit.error();
     if (b.count == 0) return done();
-    gpu::FluidPush push = pushOf(config, b.count, step);
+    gpu::FluidPush push = fluidPush(config, b.count, step);
     const uint64_t room = roomFor(b.count);
     for (Buffer* each :
          {&b.guesses, &b.planes, &b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes, &b.weighed})

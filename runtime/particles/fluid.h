@@ -77,6 +77,10 @@
 
 namespace fw {
 
+namespace gpu {
+struct FluidPush;
+}
+
 struct FluidKernels {
     CountingSort sort;
     Pipeline predict, reorder, neighbours, nearNeighbours, densityError, addedError, enough, giveWay,
@@ -130,6 +134,9 @@ inline constexpr float kFluidMostTension = 0.04f;
 /// Tension over the greatest acceleration that two particles give each other by it, in squared spacings: what
 /// gives drops the period of Rayleigh.
 inline constexpr float kTensionOfPairs = 2.9f;
+
+/// What the kernels of a step are told of a fluid with so many particles.
+gpu::FluidPush fluidPush(const FluidConfig& config, uint32_t count, float step);
 
 /// What the solver knows of particles at rest: a cubic lattice of spacing 1.
 struct FluidLattice {

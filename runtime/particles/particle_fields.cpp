@@ -67,30 +67,39 @@ bool lacksParticles(const Program& program) {
 
 void ParticleFields::setProgram(const Program& program) {
     std::vector<Part> next;
-    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i) {
-        const ParticleFieldPtr& field = program.ir.volumes()[i]->particles;
-        if (!field || program.ir.volumes()[i]->made()) continue;
-        const auto same = std::ranges::find_if(
-            parts, [&](const Part& part) { return part.simulation.recipe()->hash == field->hash; });
-        if (same == parts.end()) {
-            next.push_back({i, Simulation(*device, field)});
-        } else {
-            next.push_back(std::move(*same));
-            parts.erase(same);
+    for (std::size_t i = 0; i < program.ir.volumes().size(); ++i)
+        if (const ParticleFieldPtr& field = program.ir.volumes()[i]->particles;
+            field && !program.ir.volumes()[i]->made())
+            next.push_back({.volume = i, .field = field, .simulation = {}, .recipe = 0});
+    for (Part& part : next) {
+        if (part.simulation) continue;
+        std::vector<ParticleFieldPtr> together;  // unlike each other
+        for (Part& other : next) {
+            if (other.field->sourceHash != part.field->sourceHash) continue;
+            const auto same =
+                std::ranges::find(together, other.field->stagesHash, &ParticleField::stagesHash);
+            other.recipe = std::size_t(same - together.begin());
+            if (same == together.end()) together.push_back(other.field);
         }
-        next.back().volume = i;
-        next.back().numbers = {};  // the volumes are others
+        const auto known = std::ranges::find_if(parts, [&](const Part& before) {
+            return std::ranges::equal(before.simulation->recipes(), together, {}, &ParticleField::stagesHash,
+                                      &ParticleField::stagesHash);
+        });
+        const auto simulation =
+            known != parts.end() ? known->simulation : std::make_shared<Simulation>(*device, together);
+        for (Part& other : next)
+            if (other.field->sourceHash == part.field->sourceHash) other.simulation = simulation;
     }
     parts = std::move(next);
 }
 
 void ParticleFields::valuesChanged() {
-    for (Part& part : parts) part.simulation.valuesChanged();
+    for (Part& part : parts) part.simulation->valuesChanged();
 }
 
 uint64_t ParticleFields::slots() const {
     uint64_t sum = 0;
-    for (const Part& part : parts) sum += part.simulation.slots();
+    for (const Part& part : parts) sum += part.simulation->slots(part.recipe);
     return sum;
 }
 
@@ -98,9 +107,9 @@ std::vector<ParticleCloud> ParticleFields::clouds(const Program& program) const 
     std::vector<ParticleCloud> made;
     for (const Part& part : parts)
         for (const glm::mat4& toWorld : placesOf(program, part.volume))
-            made.push_back({.places = &part.simulation.places(),
-                            .velocities = part.simulation.velocities(),
-                            .slots = part.simulation.slots(),
+            made.push_back({.places = &part.simulation->places(part.recipe),
+                            .velocities = part.simulation->velocities(part.recipe),
+                            .slots = part.simulation->slots(part.recipe),
                             .radius = float(part.numbers.drop),
                             .toWorld = toWorld});
     return made;
@@ -112,15 +121,20 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
     ParticleChanges changes;
     const std::vector<double> now = parts.empty() ? std::vector<double>() : values(seconds);
     for (Part& part : parts) {
-        const ParticleField& field = *part.simulation.recipe();
+        const Result<bool> moved = part.simulation->goTo(seconds, values, progress);
+        if (moved && !*moved) continue;  // where another part has taken it, if others are there
+        for (Part& other : parts) other.moved |= other.simulation == part.simulation;
+        if (!moved) return atNode(moved.error(), *part.field);
+    }
+    for (Part& part : parts) {
+        const ParticleField& field = *part.field;
         const SurfaceNumbers madeWith =
             std::exchange(part.numbers, {});  // no samples, should anything go wrong
-        const Result<bool> moved = part.simulation.goTo(seconds, values, progress);
-        if (!moved) return atNode(moved.error(), field);
+        const bool moved = std::exchange(part.moved, false);
         const SurfaceNumbers numbers = surfaceNumbers(field.ir, field.particles, field.toField, now);
         const bool same = numbers == madeWith;
-        changes.places |= *moved || !same;
-        if (same && surfaces == part.surface && !(*moved && surfaces)) {
+        changes.places |= moved || !same;
+        if (same && surfaces == part.surface && !(moved && surfaces)) {
             part.numbers = numbers;
             continue;
         }
@@ -134,9 +148,10 @@ Result<ParticleChanges> ParticleFields::make(const Program& program, double seco
                                           .trueDistance = field.trueDistance};
         Commands commands(*device);
         commands.parted = takesLong(config);
-        if (const Done recorded = recordParticleVolume(
-                commands, *kernels, buffers, config, part.simulation.places(),
-                surfaces ? part.simulation.slots() : 0, volumes, firstTexel(program, part.volume));
+        if (const Done recorded = recordParticleVolume(commands, *kernels, buffers, config,
+                                                       part.simulation->places(part.recipe),
+                                                       surfaces ? part.simulation->slots(part.recipe) : 0,
+                                                       volumes, firstTexel(program, part.volume));
             !recorded)
             return atNode(recorded.error(), field);
         send(commands);

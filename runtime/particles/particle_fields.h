@@ -1,5 +1,8 @@
 // The volumes of all particles of a program, at a time: simulated, and made samples.
 //
+// What begins with the same stages is one simulation: a fluid flows once, whether its own surface is shown,
+// its foam, or both.
+//
 // Lifetime: belongs to one device. A program that takes another's place keeps the simulations of recipes that
 // are the same.
 #pragma once
@@ -45,9 +48,12 @@ class ParticleFields {
   private:
     struct Part {
         std::size_t volume;  ///< among the program's
-        Simulation simulation;
-        SurfaceNumbers numbers{};  ///< that its samples were made with; all 0: there are none
-        bool surface = true;       ///< whether they are of the particles
+        ParticleFieldPtr field;
+        std::shared_ptr<Simulation> simulation;  ///< which others may have part in
+        std::size_t recipe;                      ///< among its recipes
+        SurfaceNumbers numbers{};                ///< that its samples were made with; all 0: there are none
+        bool surface = true;                     ///< whether they are of the particles
+        bool moved = false;                      ///< whether these are others since
     };
     const Device* device;
     std::optional<ParticleVolumeKernels> kernels;  ///< made when first used

@@ -54,12 +54,12 @@ void setParameters(Commands& commands, const Obstacle& obstacle, const std::vect
 
 }  // namespace
 
-Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
-    : device(&device_), field(std::move(field_)) {
+Simulation::Simulation(const Device& device_, std::vector<ParticleFieldPtr> recipes)
+    : device(&device_), fields(std::move(recipes)) {
     std::vector<std::string> texts;
-    texts.reserve(field->particles.stages.size());  // the options below point there
+    texts.reserve(field().particles.stages.size());  // the options below point there
     std::vector<ShaderOptions> shaders{{.name = "particles/emit.comp"}, {.name = "particles/move.comp"}};
-    for (const ParticleStage& stage : field->particles.stages) {
+    for (const ParticleStage& stage : field().particles.stages) {
         if (stage.kind != Kind::dynamics) continue;
         ShaderOptions& options = shaders.emplace_back(ShaderOptions{.name = "particles/move.comp"});
         Move& move = moves.emplace_back();
@@ -85,6 +85,34 @@ Simulation::Simulation(const Device& device_, ParticleFieldPtr field_)
         outflow = emitField(*found->second);
     }
     flowing.kernels = createFluidKernels(*device, obstacle, outflow);
+    for (const ParticleFieldPtr& each : fields) {
+        if (!each->particles.endsInFoam()) continue;
+        const auto kind =
+            std::ranges::find(kFoamKinds, each->particles.stages.back().words.find("kinds")->second);
+        foams.push_back({.field = each, .shown = int(kind - kFoamKinds) - 1, .particles = {}});
+    }
+    if (!foams.empty()) foamKernels = createFoamKernels(*device, obstacle);
+}
+
+const Simulation::Foam* Simulation::foamOf(std::size_t recipe) const {
+    const auto found = std::ranges::find(foams, fields[recipe], &Foam::field);
+    return found == foams.end() ? nullptr : &*found;
+}
+
+const Buffer& Simulation::places(std::size_t recipe) const {
+    const Foam* const foam = foamOf(recipe);
+    if (!foam) return sourcePlaces();
+    return foam->shown < 0 ? foam->particles.places : foam->particles.shown;
+}
+
+const Buffer* Simulation::velocities(std::size_t recipe) const {
+    if (const Foam* const foam = foamOf(recipe)) return &foam->particles.velocities;
+    return rests() ? nullptr : &motion();
+}
+
+uint32_t Simulation::slots(std::size_t recipe) const {
+    const Foam* const foam = foamOf(recipe);
+    return foam ? foam->particles.slots : state.slots;
 }
 
 namespace {
@@ -176,6 +204,7 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
         if (progress && state.steps > first && !progress(state.steps - first, wanted - first))
             return Error{.message = "the simulation was cancelled"};
     }
+    showFoam();
     return true;
 }
 
@@ -189,7 +218,7 @@ Done Simulation::start(const std::vector<double>& values) {
     forget();  // a past with other values
     apart = 1;
     if (source().kind == Kind::fluid) return fill(values);
-    const StageNumbers numbers(field->ir, source(), values);
+    const StageNumbers numbers(field().ir, source(), values);
     if (source().kind == Kind::file) {
         const std::vector<glm::vec3>& from = source().places->places;
         state.slots = uint32_t(from.size());
@@ -228,7 +257,7 @@ Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
         move(commands, now);
         return taken(commands);
     }
-    const StageNumbers numbers(field->ir, source(), now);
+    const StageNumbers numbers(field().ir, source(), now);
     const double before = born[std::size_t(state.steps)],
                  after = before + std::max(numbers.scalar("rate"), 0.0) * kSimulationStep;
     born.resize(std::max(born.size(), std::size_t(state.steps) + 2));
@@ -240,7 +269,7 @@ Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
 }
 
 Done Simulation::fill(const std::vector<double>& values) {
-    const StageNumbers numbers(field->ir, source(), values);
+    const StageNumbers numbers(field().ir, source(), values);
     const Program* const obstacle = fluid->obstacle ? fluid->obstacle->program.get() : nullptr;
     const auto full = source().fields.find("source");
     Result<std::vector<glm::vec3>> places = std::vector<glm::vec3>();
@@ -253,6 +282,10 @@ Done Simulation::fill(const std::vector<double>& values) {
                 "spacing",
             .node = source().node};
     state.slots = uint32_t(places->size());
+    for (Foam& foam : foams) {
+        const double most = StageNumbers(foam.field->ir, foam.stage(), values).scalar("most");
+        clearFoam(*device, foam.particles, uint32_t(std::clamp(most, 1.0, double(kMostParticles))));
+    }
     drifts.assign(1, kDriftAside * std::max(numbers.scalar("spacing"), kLeastSpacing));
     setFluid(*device, fluid->particles, *places, {});
     Commands commands(*device);
@@ -269,7 +302,7 @@ Done Simulation::fill(const std::vector<double>& values) {
 }
 
 FluidConfig Simulation::configOf(Commands& commands, const std::vector<double>& values) const {
-    const StageNumbers numbers(field->ir, source(), values);
+    const StageNumbers numbers(field().ir, source(), values);
     FluidConfig config{.spacing = float(std::max(numbers.scalar("spacing"), kLeastSpacing)),
                        .lo = numbers.vector("tank_min"),
                        .hi = numbers.vector("tank_max"),
@@ -326,7 +359,7 @@ double wayOf(const Program& obstacle, const glm::dvec3& lo, const glm::dvec3& hi
 int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& before,
                         const std::vector<double>& now) const {
     constexpr double kMostForFalls = 8.0, kMostForObstacles = 16.0, kMostForTension = 16.0;
-    const double asked = StageNumbers(field->ir, source(), now).scalar("substeps"),
+    const double asked = StageNumbers(field().ir, source(), now).scalar("substeps"),
                  half = 0.5 * config.spacing;
     if (asked >= 1.0) return int(std::min(asked, kMostSubsteps));
     const double speed = std::sqrt(2.0 * glm::dot(glm::abs(config.gravity), glm::abs(config.hi - config.lo)));
@@ -338,6 +371,22 @@ int Simulation::partsOf(const FluidConfig& config, const std::vector<double>& be
         std::sqrt(config.tension / (kFluidMostTension * std::pow(double(config.spacing), 3)));
     return int(std::max({falls, std::min(std::ceil(way / half), kMostForObstacles),
                          std::min(std::ceil(drawn), kMostForTension)}));
+}
+
+FoamConfig Simulation::configOf(const Foam& foam, const std::vector<double>& values) const {
+    const StageNumbers numbers(foam.field->ir, foam.stage(), values);
+    return {.amount = float(std::max(numbers.scalar("amount"), 0.0)),
+            .speed = float(std::max(numbers.scalar("speed"), 1e-6)),
+            .lifetime = float(std::max(numbers.scalar("lifetime"), 0.0)),
+            .seed = uint32_t(int64_t(std::clamp(numbers.scalar("seed"), -1e9, 1e9))),
+            .step = uint32_t(state.steps)};
+}
+
+void Simulation::showFoam() {
+    Commands commands(*device);
+    for (Foam& foam : foams)
+        if (foam.shown >= 0) recordFoamShown(commands, *foamKernels, foam.particles, foam.shown);
+    send(commands);
 }
 
 Done Simulation::flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values) {
@@ -353,6 +402,9 @@ Done Simulation::flow(Commands& commands, const std::vector<double>& now, const 
                                                float(kSimulationStep / parts), parts, moveObstacle);
         !recorded)
         return Error{.message = recorded.error().message, .node = source().node};
+    for (Foam& foam : foams)
+        recordFoamStep(commands, *foamKernels, foam.particles, configOf(foam, now), fluid->particles, config,
+                       float(kSimulationStep));
     return done();
 }
 
@@ -360,7 +412,7 @@ Done Simulation::flow(Commands& commands, const std::vector<double>& now, const 
 Done Simulation::inflow(const std::vector<double>& before, const std::vector<double>& now) {
     const auto found = source().fields.find("inflow");
     if (found == source().fields.end()) return done();
-    const StageNumbers numbers(field->ir, source(), now);
+    const StageNumbers numbers(field().ir, source(), now);
     const double spacing = std::max(numbers.scalar("spacing"), kLeastSpacing);
     const glm::dvec3 velocity = numbers.vector("inflow_velocity"), way = kSimulationStep * velocity,
                      gone = drifts[std::size_t(state.steps)] + way,
@@ -467,7 +519,7 @@ void Simulation::move(Commands& commands, const std::vector<double>& values) {
     push.slots = state.slots;
     push.step = float(kSimulationStep);
     push.time = float((state.steps + 1) * kSimulationStep);
-    push.lifetime = mortal ? float(StageNumbers(field->ir, source(), values).scalar("lifetime"))
+    push.lifetime = mortal ? float(StageNumbers(field().ir, source(), values).scalar("lifetime"))
                            : std::numeric_limits<float>::max();
     push.swirls = 1.0f;
     push.moves = 1;
@@ -482,9 +534,9 @@ void Simulation::move(Commands& commands, const std::vector<double>& values) {
     };
     if (moves.empty()) run(flight, nullptr);
     std::size_t next = 0;
-    for (const ParticleStage& stage : field->particles.stages) {
+    for (const ParticleStage& stage : field().particles.stages) {
         if (stage.kind != Kind::dynamics) continue;
-        const StageNumbers numbers(field->ir, stage, values);
+        const StageNumbers numbers(field().ir, stage, values);
         push.gravity = numbers.vector("gravity");
         push.drag = float(std::max(numbers.scalar("drag"), 0.0));
         push.attractor = numbers.vector("attractor");
@@ -507,14 +559,26 @@ Done Simulation::taken(Commands& commands) {
     return done();
 }
 
-Simulation::Checkpoint Simulation::roomFor(uint32_t slots) {
+VkDeviceSize Simulation::Checkpoint::bytes() const {
+    VkDeviceSize sum = 0;
+    for (const uint32_t each : slots) sum += 32ull * each;
+    return sum;
+}
+
+std::vector<uint32_t> Simulation::allSlots() const {
+    std::vector<uint32_t> all{state.slots};
+    for (const Foam& foam : foams) all.push_back(foam.particles.slots);
+    return all;
+}
+
+Simulation::Checkpoint Simulation::roomFor(std::vector<uint32_t> slots) {
     if (const auto same = std::ranges::find(dropped, slots, &Checkpoint::slots); same != dropped.end()) {
-        const Checkpoint room = *same;
+        Checkpoint room = std::move(*same);
         dropped.erase(same);
         return room;
     }
     dropped.clear();
-    Checkpoint room{.steps = 0, .slots = slots, .kept = open, .at = openFrom};
+    Checkpoint room{.steps = 0, .slots = std::move(slots), .kept = open, .at = openFrom};
     if (!open || openFrom + room.bytes() > open->size) {
         open = std::make_shared<const Buffer>(
             createBuffer(*device, std::max(room.bytes(), kCheckpointBufferBytes)));
@@ -524,15 +588,27 @@ Simulation::Checkpoint Simulation::roomFor(uint32_t slots) {
     return room;
 }
 
+template <class Call>
+void Simulation::forParts(const Checkpoint& of, Call call) const {
+    VkDeviceSize at = of.at;
+    for (std::size_t i = 0; i < of.slots.size(); ++i) {
+        const VkDeviceSize size = 16ull * of.slots[i];
+        for (const Buffer* each : {i == 0 ? &sourcePlaces() : &foams[i - 1].particles.places,
+                                   i == 0 ? &motion() : &foams[i - 1].particles.velocities}) {
+            if (size > 0) call(*each, at, size);
+            at += size;
+        }
+    }
+}
+
 void Simulation::keep(Commands& commands) {
     const auto place = std::ranges::lower_bound(checkpoints, state.steps, {}, &Checkpoint::steps);
     if (place != checkpoints.end() && place->steps == state.steps) return;
-    Checkpoint made = roomFor(state.slots);
+    Checkpoint made = roomFor(allSlots());
     made.steps = state.steps;
-    if (made.slots > 0) {
-        copy(commands, places(), 0, *made.kept, made.at, made.bytes() / 2);
-        copy(commands, motion(), 0, *made.kept, made.at + made.bytes() / 2, made.bytes() / 2);
-    }
+    forParts(made, [&](const Buffer& buffer, VkDeviceSize at, VkDeviceSize size) {
+        copy(commands, buffer, 0, *made.kept, at, size);
+    });
     checkpoints.insert(place, std::move(made));
     VkDeviceSize bytes = 0;
     for (const Checkpoint& each : checkpoints) bytes += each.bytes();
@@ -551,17 +627,19 @@ void Simulation::forget() {
 
 void Simulation::restore(const Checkpoint& from) {
     state.steps = from.steps;
-    state.slots = from.slots;
+    state.slots = from.slots.front();
     if (fluid) {
-        reserveFluid(*device, fluid->particles, from.slots);
+        reserveFluid(*device, fluid->particles, state.slots);
     } else {
-        reserve(*device, state.places, 16ull * from.slots);
-        reserve(*device, state.velocities, 16ull * from.slots);
+        reserve(*device, state.places, 16ull * state.slots);
+        reserve(*device, state.velocities, 16ull * state.slots);
     }
-    if (from.slots == 0) return;
+    for (std::size_t i = 0; i < foams.size(); ++i)
+        reserveFoam(*device, foams[i].particles, from.slots[i + 1]);
     Commands commands(*device);
-    copy(commands, *from.kept, from.at, places(), 0, from.bytes() / 2);
-    copy(commands, *from.kept, from.at + from.bytes() / 2, motion(), 0, from.bytes() / 2);
+    forParts(from, [&](const Buffer& buffer, VkDeviceSize at, VkDeviceSize size) {
+        copy(commands, *from.kept, at, buffer, 0, size);
+    });
     send(commands);
 }
 

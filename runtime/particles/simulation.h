@@ -19,7 +19,10 @@
 // last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
 // is not a number.
 //
-// Lifetime: a simulation belongs to one device and one recipe; buffers grow.
+// Recipes that differ in their foam alone, or of which some have none, are simulated as one: the fluid flows
+// once, and each foam goes along.
+//
+// Lifetime: a simulation belongs to one device and its recipes; buffers grow.
 #pragma once
 
 #include <deque>
@@ -28,7 +31,7 @@
 
 #include "graph/compile/particle_recipe.h"
 #include "runtime/gpu/field_buffers.h"
-#include "runtime/particles/fluid.h"
+#include "runtime/particles/foam.h"
 
 namespace fw {
 
@@ -47,7 +50,9 @@ struct Obstacle {
 
 class Simulation {
   public:
-    Simulation(const Device& device, ParticleFieldPtr field);
+    /// Of recipes with the same source (ParticleField::sourceHash), at least one.
+    Simulation(const Device& device, std::vector<ParticleFieldPtr> recipes);
+    Simulation(const Device& on, ParticleFieldPtr recipe) : Simulation(on, std::vector{std::move(recipe)}) {}
 
     /// Goes to the last step at or before so many seconds, or to the start. `progress`,
     /// which may be empty, is told how many steps there are and how many are done, and ends the work by
@@ -58,12 +63,12 @@ class Simulation {
     /// Of live values that changed otherwise than with the time: what was kept is out of date.
     void valuesChanged();
 
-    /// Where they are: four floats each, the place and, of those that are born, the age.
-    const Buffer& places() const { return fluid ? fluid->particles.places : state.places; }
+    /// Where those of a recipe are: four floats each, the place and, of those that are born, the age.
+    const Buffer& places(std::size_t recipe = 0) const;
     /// How fast they are, likewise, metres per second; null if nothing moves them.
-    const Buffer* velocities() const { return rests() ? nullptr : &motion(); }
-    uint32_t slots() const { return state.slots; }
-    const ParticleFieldPtr& recipe() const { return field; }
+    const Buffer* velocities(std::size_t recipe = 0) const;
+    uint32_t slots(std::size_t recipe = 0) const;
+    const std::vector<ParticleFieldPtr>& recipes() const { return fields; }
 
   private:
     struct State {
@@ -71,13 +76,14 @@ class Simulation {
         Buffer places, velocities;
         uint32_t slots = 0;
     };
-    /// Places, and velocities behind them, from a byte of a buffer that holds several.
+    /// Places, and velocities behind them, of the source and of each foam, from a byte of a buffer that holds
+    /// several.
     struct Checkpoint {
         int steps;
-        uint32_t slots;
+        std::vector<uint32_t> slots;
         std::shared_ptr<const Buffer> kept;
         VkDeviceSize at;
-        VkDeviceSize bytes() const { return 32ull * slots; }
+        VkDeviceSize bytes() const;
     };
 
     struct Fluid {
@@ -86,8 +92,18 @@ class Simulation {
         FluidParticles particles;
     };
 
+    /// Of a recipe that has one.
+    struct Foam {
+        ParticleFieldPtr field;
+        int shown;  ///< the kind; negative: all
+        FoamParticles particles;
+        const ParticleStage& stage() const { return field->particles.stages.back(); }
+    };
+
+    const Buffer& sourcePlaces() const { return fluid ? fluid->particles.places : state.places; }
+    const Foam* foamOf(std::size_t recipe) const;
     const Buffer& motion() const { return fluid ? fluid->particles.velocities : state.velocities; }
-    const ParticleStage& source() const { return field->particles.stages.front(); }
+    const ParticleStage& source() const { return field().particles.stages.front(); }
     /// Whether time changes nothing.
     bool rests() const;
     Done start(const std::vector<double>& values);
@@ -98,6 +114,8 @@ class Simulation {
     Done inflow(const std::vector<double>& before, const std::vector<double>& now);
     void outflow(const std::vector<double>& now);
     Done flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values);
+    FoamConfig configOf(const Foam& foam, const std::vector<double>& values) const;
+    void showFoam();
     Done step(const std::vector<double>& now, const ValuesAt& values);
     void move(Commands& commands, const std::vector<double>& values);
     void emit(Commands& commands, const StageNumbers& emitter, double before, double after);
@@ -106,12 +124,17 @@ class Simulation {
     /// Ends a step.
     Done taken(Commands& commands);
     void keep(Commands& commands);
-    Checkpoint roomFor(uint32_t slots);
+    std::vector<uint32_t> allSlots() const;
+    Checkpoint roomFor(std::vector<uint32_t> slots);
+    /// Calls with what a checkpoint holds: a buffer, its first byte there, and its size.
+    template <class Call>
+    void forParts(const Checkpoint& of, Call call) const;
     void forget();
     void restore(const Checkpoint& from);
 
     const Device* device;
-    ParticleFieldPtr field;
+    const ParticleField& field() const { return *fields.front(); }
+    std::vector<ParticleFieldPtr> fields;
     Pipeline births, flight;
     struct Move {
         Pipeline kernel;
@@ -119,6 +142,8 @@ class Simulation {
     };
     std::vector<Move> moves;  ///< of each stage of dynamics
     std::optional<Fluid> fluid;
+    std::optional<FoamKernels> foamKernels;  ///< where there is foam
+    std::vector<Foam> foams;
     State state;
     std::vector<double> born;            ///< how many were, after each step
     std::vector<glm::dvec3> drifts;      ///< of what flows in, after each step, metres

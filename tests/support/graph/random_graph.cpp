@@ -41,6 +41,18 @@ class Generator {
     }
 
   private:
+    /// The node types that a graph is made of: those that a body says all of. What has none, as particles,
+    /// stages and groups, has no part in the draw, so that a new one of those leaves all graphs as they are.
+    static const std::vector<const NodeType*>& usable() {
+        static const std::vector<const NodeType*> types = [] {
+            std::vector<const NodeType*> list;
+            for (const NodeType& type : nodeTypes())
+                if (!type.outputs.empty() && !type.body.empty() && !type.open) list.push_back(&type);
+            return list;
+        }();
+        return types;
+    }
+
     double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(random); }
     bool chance(double p) { return unit() < p; }
 
@@ -132,10 +144,9 @@ class Generator {
             sources.push_back({id, "", Type::scalar});
             return made;
         }
-        const auto& types = nodeTypes();
+        const std::vector<const NodeType*>& types = usable();
         while (true) {
-            const NodeType& type = types[random() % types.size()];
-            if (type.outputs.empty() || type.body.empty() || type.open) continue;
+            const NodeType& type = *types[random() % types.size()];
             // Repeats copy all that feeds them; a few are enough.
             if ((type.id == "repeat" || type.id == "polar_repeat") && !chance(0.3)) continue;
             made.type = type.id;
