@@ -191,9 +191,9 @@ void main() {
 #endif
 #endif
     vec3 linear = toneMap(color);
-    linear = unfolded(frame.show) == RENDER_AMBIENT ? vec3(open) : unfolded(frame.show) == RENDER_SHADOW ? vec3(sunlit) : linear;
-    linear = unfolded(frame.show) == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
-    linear = unfolded(frame.show) == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
+    linear = frame.show == RENDER_AMBIENT ? vec3(open) : frame.show == RENDER_SHADOW ? vec3(sunlit) : linear;
+    linear = frame.show == RENDER_NORMALS ? solid ? 0.5 + 0.5 * s.n : vec3(0.1) : linear;
+    linear = frame.show == RENDER_BASE ? solid ? s.base : vec3(0.1) : linear;
 #if defined(MEAN) && !defined(LINEAR)
     uvec2 words = imageLoad(means, at).xy;
     vec4 before = vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y)), mean = mix(vec4(linear * alpha, alpha), before, float(frame.mean) / float(frame.mean + 1));

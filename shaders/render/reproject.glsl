@@ -14,12 +14,12 @@ bool sameBefore(vec3 p, vec3 n, uvec2 was) {
            dot(n, unpackOctahedral(old.y)) > kSameNormal && nearSolid(pOld, 0.0);
 }
 
-// Whether the surface at p was seen, and in `was` the pixel.
-bool seenBefore(vec3 p, vec3 n, out uvec2 was) {
+// Whether the surface at p was seen, and in `was` the pixel: `here` if the view rests.
+bool seenBefore(vec3 p, vec3 n, bool rests, uvec2 here, out uvec2 was) {
     vec3 seen = project(frame.before, p);
     vec2 size = vec2(frame.size), place = vec2(0.5 + 0.5 * seen.x, 0.5 - 0.5 * seen.y) * size;
-    bool inBefore = seen.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, size));
-    was = inBefore ? uvec2(place) : uvec2(0);
+    bool inBefore = rests || (seen.z > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, size)));
+    was = rests ? here : inBefore ? uvec2(place) : uvec2(0);
     return inBefore && sameBefore(p, n, was);
 }
 
@@ -39,8 +39,4 @@ vec3 placeBefore(vec3 p, vec3 n) {
 #endif
 
 // The same of what a pixel shows, at p in the frame before: in a view that rests it stays where it is.
-bool pixelSeenBefore(vec3 p, vec3 n, uvec2 here, out uvec2 was) {
-    if (unfolded(frame.resting) == 0) return seenBefore(p, n, was);
-    was = here;
-    return sameBefore(p, n, was);
-}
+bool pixelSeenBefore(vec3 p, vec3 n, uvec2 here, out uvec2 was) { return seenBefore(p, n, unfolded(frame.resting) != 0, here, was); }

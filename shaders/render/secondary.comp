@@ -161,7 +161,17 @@ void main() {
 #endif
 
     vec4 bounced = vec4(0.0), mirrorSum = vec4(0.0);  // sums; in w of how many rays
-    uint rays = unfolded(frame.secondaryRays), ray = 0;
+    // Of the kinds that nobody asks for none, from the first on and to the last: what is left out within goes through the loop.
+    uint rays = unfolded(frame.secondaryRays), ray = 0, all = rays;
+#ifndef BOUNCE
+    ray = rays;
+#endif
+#ifdef REFLECTIONS
+    all = 2 * rays;
+#endif
+#ifdef FIELD_TRANSMITS
+    all = 2 * rays + 2;
+#endif
 #ifdef BOUNCE
     vec4 ownBounce = kept ? imageLoad(bounceBefore, ivec2(was)) : vec4(0.0);
 #endif
@@ -169,14 +179,8 @@ void main() {
         uint kind = ray < rays ? kBounce : ray < 2 * rays ? kReflection : kPassed + ray - 2 * rays;
         u = evenly(here, frame.number * rays + ray % rays);
         v = evenly(here + 57, frame.number * rays + ray % rays);
-#ifndef BOUNCE
-        if (kind == kBounce) continue;
-#endif
 #ifndef REFLECTIONS
         if (kind == kReflection) continue;
-#endif
-#ifndef FIELD_TRANSMITS
-        if (kind >= kPassed) continue;
 #endif
         vec3 d = cosineDirection(n, u), o = p + n * bias, through = vec3(1.0), radiance = vec3(0.0);
         if (kind == kReflection) {
@@ -270,7 +274,7 @@ void main() {
 #ifdef BOUNCE
                 // What the last frame knew: so light is thrown on again with each frame.
                 uvec2 there;
-                vec4 cached = sees && seenBefore(q, seen.n, there) ? imageLoad(bounceBefore, ivec2(there)) : vec4(0.0);
+                vec4 cached = sees && seenBefore(q, seen.n, false, here, there) ? imageLoad(bounceBefore, ivec2(there)) : vec4(0.0);
                 cached = cached.w > 0.0 || kind != kBounce ? cached : ownBounce;
                 around = cached.w > 0.0 ? min(cached.rgb, vec3(8.0)) : around;
 #endif
@@ -320,7 +324,7 @@ void main() {
         if (kind == kPassed && surface) imageStore(passed, ivec2(here), vec4(transmission * radiance, transmission));
         if (kind == kSun && surface) imageStore(sunlight, ivec2(here), vec4(through, 1.0));
 #endif
-    } while (++ray < 2 * rays + 2);
+    } while (++ray < all);
 
     float most = float(frame.mostKept);
 #ifdef BOUNCE

@@ -31,7 +31,7 @@ vec3 surroundings(vec3 d, float roughness) {
     float lamp = dot(d, normalize(vec3(-0.75, 0.45, 0.45))), blur = 0.05 + 0.4 * roughness;
     vec3 studio = skyColor(d) * mix(1.1, 0.35, smoothstep(-0.6, 0.9, d.x)) +
                   1.6 * smoothstep(0.80 - blur, 0.80 + 0.5 * blur, lamp);
-    return unfolded(frame.studio) != 0 ? studio : skyColor(d);
+    return frame.studio != 0 ? studio : skyColor(d);
 }
 
 // The studio's wall at a place in the picture.
