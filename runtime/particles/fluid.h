@@ -48,8 +48,8 @@
 // What is too dense is pushed apart within a step, however far, and its speed would be what that took: single
 // drops would leap several times as high as they fell from. So where there is gravity a particle's energy,
 // kinetic and potential, is cut where it is more than the greatest that a neighbour had when the step began,
-// and than a gradient of the pressure as great as the fluid's weight adds to its own (FLUID_MOST_PRESSURE), by
-// which dams break and fluid climbs walls. Where something is cut, momentum is not kept.
+// and than a gradient of the pressure as great as the fluid's weight adds to its own (FLUID_MOST_PRESSURE),
+// by which dams break and fluid climbs walls. Where something is cut, momentum is not kept.
 //
 // Particles may be added and taken away between steps. Those in an outflow are sorted behind the others,
 // which keep their order: by their numbers' blocks, so that no key has more than the sort puts in order. How
