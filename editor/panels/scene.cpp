@@ -172,7 +172,7 @@ void showSky(Editor& editor, const Scene& scene) {
             set(in, "Sky's Picture",
                 text.empty() ? clearSceneValue(graph, "sky.image") : setSceneValue(graph, "sky.image", text));
         });
-    if (!scene.sky->image.empty())
+    if (scene.sky->isPicture())
         number(editor, "sky.rotation", "Rotation", "Degrees that the map is turned, from +z towards +x.",
                scene.sky->rotation, {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5});
     endProperties();

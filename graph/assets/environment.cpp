@@ -25,8 +25,8 @@ Error damaged(const std::string& path) {
     return mapProblem(path, "is damaged or cut off: save or copy it again");
 }
 
-Done checkSize(const std::string& path, int64_t width, int64_t height) {
-    const int64_t side = kMostEnvironmentSide, half = side / 2;
+Done checkSize(const std::string& path, int64_t width, int64_t height, int64_t side) {
+    const int64_t half = side / 2;
     if (std::max(width, height) <= side && width * height <= side * half) return done();
     return mapProblem(path, "has " + std::to_string(width) + " x " + std::to_string(height) +
                                 " pixels: at most " + std::to_string(side) + " x " + std::to_string(half) +
@@ -52,14 +52,14 @@ class MemoryStream : public Imf::IStream {
     std::size_t at = 0;
 };
 
-Result<EnvironmentMap> decodeExr(const std::string& bytes, const std::string& path) {
+Result<EnvironmentMap> decodeExr(const std::string& bytes, const std::string& path, int mostSide) {
     try {
         MemoryStream stream(bytes);
         Imf::InputFile file(stream, 0);
         const Imath::Box2i window = file.header().dataWindow();
         const int64_t width = int64_t(window.max.x) - window.min.x + 1,
                       height = int64_t(window.max.y) - window.min.y + 1;
-        if (const Done fits = checkSize(path, width, height); !fits) return fits.error();
+        if (const Done fits = checkSize(path, width, height, mostSide); !fits) return fits.error();
         if (!file.isComplete()) return damaged(path);
         const Imf::ChannelList& channels = file.header().channels();
         const bool colored =
@@ -87,13 +87,13 @@ Result<EnvironmentMap> decodeExr(const std::string& bytes, const std::string& pa
 }
 
 /// Radiance's format, and pictures of 8 bits.
-Result<EnvironmentMap> decodeOther(const std::string& bytes, const std::string& path) {
+Result<EnvironmentMap> decodeOther(const std::string& bytes, const std::string& path, int mostSide) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = int(bytes.size());
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, length, &width, &height, &channels) || width < 1 || height < 1)
         return mapProblem(path, "is of no format that is read, or damaged: use " + anyOf(kEnvironmentFile));
-    if (const Done fits = checkSize(path, width, height); !fits) return fits.error();
+    if (const Done fits = checkSize(path, width, height, mostSide); !fits) return fits.error();
     EnvironmentMap map{width, height, std::vector<Radiance>(std::size_t(width) * std::size_t(height))};
     const auto take = [&](const auto* pixels, const auto& radiance) {
         for (std::size_t i = 0; i < 3 * map.texels.size(); ++i)
@@ -111,19 +111,6 @@ Result<EnvironmentMap> decodeOther(const std::string& bytes, const std::string& 
         take(pixels.get(), [](int byte) { return float(linearOfByte(byte)); });
     }
     return map;
-}
-
-Result<EnvironmentMapPtr> decodeMap(const std::string& bytes, const std::string& path,
-                                    const std::string& file) {
-    if (bytes.empty()) return mapProblem(path, "is an empty file");
-    Result<EnvironmentMap> map =
-        bytes.starts_with("\x76\x2f\x31\x01") ? decodeExr(bytes, path) : decodeOther(bytes, path);
-    if (!map) return map.error();
-    for (Radiance& texel : map->texels)
-        for (float& value : texel) value = value > 0.0f ? std::min(value, kMostRadiance) : 0.0f;
-    while (map->width > kMostEnvironmentWidth || map->height > kMostEnvironmentWidth) *map = halved(*map);
-    map->file = file;
-    return std::make_shared<const EnvironmentMap>(std::move(*map));
 }
 
 }  // namespace
@@ -144,10 +131,26 @@ EnvironmentMap halved(const EnvironmentMap& map) {
     return half;
 }
 
+Result<EnvironmentMap> parseEnvironment(const std::string& bytes, const std::string& path, int mostSide) {
+    if (bytes.empty()) return mapProblem(path, "is an empty file");
+    Result<EnvironmentMap> map = bytes.starts_with("\x76\x2f\x31\x01") ? decodeExr(bytes, path, mostSide)
+                                                                       : decodeOther(bytes, path, mostSide);
+    if (!map) return map;
+    for (Radiance& texel : map->texels)
+        for (float& value : texel) value = value > 0.0f ? std::min(value, kMostRadiance) : 0.0f;
+    while (map->width > kMostEnvironmentWidth || map->height > kMostEnvironmentWidth) *map = halved(*map);
+    return map;
+}
+
 Result<EnvironmentMapPtr> readEnvironment(const std::string& graphPath, const std::string& path) {
     return readAsset<EnvironmentMap>(
         graphPath, path, kEnvironmentFile,
-        [&](const std::string& bytes, const std::string& file) { return decodeMap(bytes, path, file); });
+        [&](const std::string& bytes, const std::string& file) -> Result<EnvironmentMapPtr> {
+            Result<EnvironmentMap> map = parseEnvironment(bytes, path);
+            if (!map) return map.error();
+            map->file = file;
+            return std::make_shared<const EnvironmentMap>(std::move(*map));
+        });
 }
 
 }  // namespace fw

@@ -36,7 +36,13 @@ using EnvironmentMapPtr = std::shared_ptr<const EnvironmentMap>;
 /// The map with texels of two by two as one; of an odd row or column the last is left out, unless it is all.
 EnvironmentMap halved(const EnvironmentMap& map);
 
-/// Reads a file of the kind kEnvironmentFile (file_kind.h): Radiance's .hdr, OpenEXR, or a picture in sRGB.
+/// Reads the bytes of a file of the kind kEnvironmentFile (file_kind.h): Radiance's .hdr, OpenEXR, or a
+/// picture in sRGB, of at most `mostSide` by half as many texels. Radiance that is negative or no number is
+/// 0. The Error has a message only, with the path.
+Result<EnvironmentMap> parseEnvironment(const std::string& bytes, const std::string& path,
+                                        int mostSide = kMostEnvironmentSide);
+
+/// Reads such a file.
 /// Path and Error as for readImage().
 Result<EnvironmentMapPtr> readEnvironment(const std::string& graphPath, const std::string& path);
 

@@ -73,6 +73,11 @@ struct ParticleField {
 };
 using ParticleFieldPtr = std::shared_ptr<const ParticleField>;
 
+/// Of a grid whose cells are chosen, at most: few devices bind fewer texels than 128 MiB of them, and other
+/// fields want some.
+inline constexpr double kMostChosenTexels = 7.8e6;
+inline constexpr int kMostChosenMebibytes = int(kTexelBytes * kMostChosenTexels) >> 20;
+
 inline constexpr int kLeastParticleResolution = 8, kMostParticleResolution = 512;
 
 /// A stage's numbers, with the live parameters' values. Must not outlive the stage. Whatever is wired to an

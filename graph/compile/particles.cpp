@@ -18,9 +18,6 @@ namespace {
 constexpr double kFewRadiusCells = 1.7, kManyRadiusCells = 8.0;
 /// Cells along a drop's radius for what they show of it to be round, and cells along a grid, of blobs.
 constexpr double kDropCells = 2.0, kBlobResolution = 96;
-/// Texels of a grid whose cells are chosen, at most: few devices bind fewer than 2^23 (128 MiB), and other
-/// fields want some of them.
-constexpr double kMostChosenTexels = 7.8e6;
 
 std::vector<double> valuesOf(const std::vector<LiveParameter>& live) {
     std::vector<double> values;
@@ -304,8 +301,8 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
             at, "resolution",
             "cells of " + shortNumber(cell) + " m are wide for " +
                 (blobs ? "particles that reach " : "drops with a radius of ") + shortNumber(fine) + " m: " +
-                (coarser ? "finer ones would take more than " +
-                               std::to_string(int(kTexelBytes * kMostChosenTexels) >> 20) + " MiB; raise drop"
+                (coarser ? "finer ones would take more than " + std::to_string(kMostChosenMebibytes) +
+                               " MiB; raise drop"
                  : enough <= kMostParticleResolution ? "raise the resolution to " + shortNumber(enough)
                  : blobs                             ? "raise the radius"
                                                      : "raise drop") +

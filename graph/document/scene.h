@@ -63,6 +63,7 @@ struct Sky {
     std::string image =
         {};  ///< path of an environment map (graph/assets/environment.h) in place of the colours
     double rotation = 0.0;  ///< of it, degrees about y, from +z towards +x
+    bool isPicture() const { return !image.empty(); }
     bool operator==(const Sky&) const = default;
 };
 

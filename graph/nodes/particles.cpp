@@ -135,13 +135,11 @@ std::vector<NodeType> particleNodes() {
         {.id = "foam",
          .label = "Spray, foam and bubbles",
          .category = Category::particles,
-         .doc = "What a fluid gives off where it is torn, and that alone: spray, which flies; foam, which "
-                "floats on "
-                "the fluid; bubbles, which rise in it. It does nothing to the fluid, and does not leave its "
-                "tank: "
-                "spray ends at the walls, and in what is in the way. A fluid whose own surface is shown too "
-                "flows "
-                "once.",
+         .doc =
+             "What a fluid gives off where it is torn, and that alone: spray, which flies; foam, which "
+             "floats on the fluid; bubbles, which rise in it. It does nothing to the fluid, and does not "
+             "leave its tank: spray ends at the walls, and in what is in the way. A fluid whose own surface "
+             "is shown too flows once.",
          .inputs =
              {InputSpec{
                   .name = "particles", .type = Type::particles, .value = {}, .doc = "Those of an sph_fluid."},
@@ -160,7 +158,11 @@ std::vector<NodeType> particleNodes() {
               choice("kinds", {std::begin(kFoamKinds), std::end(kFoamKinds)},
                      "Which of them there are: spray, foam or bubbles alone are those of all, so that three "
                      "nodes can show each in another way."),
-              integer("most", 50'000, 1, 4'000'000, "Particles at a time, of all kinds, at most."), seed},
+              integer(
+                  "most", 50'000, 1, 4'000'000,
+                  "Particles at a time, of all kinds, at most; they take the memory of so many however few "
+                  "there are."),
+              seed},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerFoam,
          .aliases = {"spray", "bubbles", "whitewater"}},
@@ -211,9 +213,11 @@ std::vector<NodeType> particleNodes() {
                      "How much farther the grid reaches, to every side: room for true distances."),
               integer("resolution", 0, 0, kMostParticleResolution,
                       "Cells along the grid's longest side; 0: 96 of blobs, and of other surfaces as many as "
-                      "make them half a drop's radius, or as fit into 119 MiB. A blob's radius is best two "
-                      "to six cells, and is eight at "
-                      "most in a grid that is found."),
+                      "make them half a drop's radius, or as fit into " +
+                          std::to_string(kMostChosenMebibytes) +
+                          " MiB. A blob's radius is best two "
+                          "to six cells, and is eight at "
+                          "most in a grid that is found."),
               corner(
                   "region_min",
                   "Lowest corner of the grid; found from where the particles come from, at all times of the "

@@ -97,15 +97,15 @@ int exportParticles(const ExportOptions& options, Progress& progress) {
     if (!graph) return kBadInput;
     if (const Done kept = checkReplacesNone(filesRead(*graph), {options.output}); !kept)
         return print(kept.error()), kBadUsage;
-    if (const Done gives = checkGivesParticles(*graph, options.particles); !gives)
-        return badInput(options.mesh, gives.error());
+    const Result<Link> link = linkToParticles(*graph, options.particles);
+    if (!link) return badInput(options.mesh, link.error());
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), kBadUsage;
     progress.start("simulate", 10);
     CompileOptions compiling;
     compiling.bake = meshFieldBaker([&] { return &*opened; });
     const Result<ParticlePoints> points =
-        particlesAt(*graph, options.particles, from.time, compiling, *opened, [&](int done, int all) {
+        particlesAt(*graph, *link, from.time, compiling, *opened, [&](int done, int all) {
             progress.show(10 + 80 * done / all);
             return true;
         });
@@ -115,8 +115,8 @@ int exportParticles(const ExportOptions& options, Progress& progress) {
         return print(written.error()), kSystemFailure;
     progress.finish();
     if (points->places.empty())
-        std::fprintf(stderr, "%s: note: node '%s' has no particles at %g s: the file is empty\n",
-                     options.output.c_str(), options.particles.c_str(), from.time);
+        std::fprintf(stderr, "%s: note: node '%s' has no particles then: the file is empty\n",
+                     options.output.c_str(), options.particles.c_str());
     return kDone;
 }
 

@@ -145,9 +145,11 @@ int run(int count, char** arguments) {
                             "that compute with solids; an error if it is none");
     CLI::Option* particles =
         exportCommand
-            ->add_option("--particles", exportOptions.particles,
-                         "Write the particles that this node gives at the time, in place of a mesh: their "
-                         "places and velocities, as points that a particle_file reads")
+            ->add_option(
+                "--particles", exportOptions.particles,
+                "Write the particles that this node of the document itself gives at the time, in place "
+                "of a mesh: their places and velocities, as points that a particle_file reads; "
+                "NODE.OUTPUT of a group that has several outputs")
             ->type_name("NODE")
             ->check(something());
     addMeasures(exportCommand, exportOptions);

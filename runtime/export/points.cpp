@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "graph/base/words.h"
 #include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
 
@@ -55,7 +56,7 @@ Done checkPointsPath(const std::string& path) {
     return Error{.message = "particles are written as points, and " +
                             (ending.empty() ? "the file needs an ending that names its format"
                                             : "'" + ending + "' holds none") +
-                            ": choose .ply, .csv, .xyz or .txt",
+                            ": choose one of " + listed({std::begin(kPointEndings), std::end(kPointEndings)}),
                  .file = path};
 }
 

@@ -1,4 +1,5 @@
-// Writes particles to a file of points, which a particle_file reads again, place for place and bit for bit.
+// Writes particles to a file of points, which a particle_file reads again, place for place and bit for bit,
+// if there are any.
 //
 // Formats: .ply, binary, with the properties x y z vx vy vz; .csv, whose first line names these columns; .xyz
 // and .txt, the same six numbers in each line, between blanks. Metres, +Y up, metres a second. The file

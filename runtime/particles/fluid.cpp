@@ -13,6 +13,7 @@
 #include "shaders/shared.h"
 
 #include "shaders/particles/fluid.h"
+#include "shaders/sort/sort.h"
 
 namespace fw {
 
@@ -185,6 +186,7 @@ void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles&
     for (Buffer* each : {&b.sortedPlaces, &b.sortedGuesses, &b.sortedPlanes})
         reserve(device, *each, 16 * roomFor(b.count));
     reserve(device, b.keys, 4 * roomFor(b.count));
+    static_assert(FLUID_DRAIN_BLOCK <= SORT_MOST_SETTLED);
     const uint32_t blocks = groupsFor(b.count, FLUID_DRAIN_BLOCK);
     const auto run = [&](const Pipeline& kernel, std::span<const Descriptor> bound) {
         dispatch(commands, kernel, spread(device, groupsFor(b.count, FLUID_GROUP)), push, bound);

@@ -49,7 +49,8 @@
 // drops would leap several times as high as they fell from. So where there is gravity a particle's energy,
 // kinetic and potential, is cut where it is more than the greatest that a neighbour had when the step began,
 // and than a gradient of the pressure as great as the fluid's weight adds to its own (FLUID_MOST_PRESSURE),
-// by which dams break and fluid climbs walls. Where something is cut, momentum is not kept.
+// by which dams break and fluid climbs walls. Where something is cut, momentum is not kept. Without gravity
+// nothing leaps, and nothing is cut.
 //
 // Particles may be added and taken away between steps. Those in an outflow are sorted behind the others,
 // which keep their order: by their numbers' blocks, so that no key has more than the sort puts in order. How
@@ -107,8 +108,9 @@ struct FluidConfig {
 
 struct FluidParticles {
     uint32_t count = 0;
-    Buffer places, velocities;  ///< four floats each, in the order of cells after a step
-    Buffer densities;           ///< one each, as they were before the last turn of the step
+    /// Four floats each, in the order of cells after a step; the fourth of a place has no meaning then.
+    Buffer places, velocities;
+    Buffer densities;  ///< one each, as they were before the last turn of the step
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
     Buffer keys, order, lists, counts, far;
     CountingSortBuffers cells;

@@ -44,7 +44,6 @@ namespace {
 void writeNumbers(Commands& commands, FoamParticles& foam, const gpu::FoamNumbers& numbers) {
     reserve(commands.device, foam.numbers, sizeof numbers);
     update(commands, foam.numbers, &numbers, sizeof numbers);
-    barrier(commands);
 }
 
 }  // namespace
@@ -67,8 +66,9 @@ void recordFoamStep(Commands& commands, const FoamKernels& kernels, FoamParticle
     };
     beginStage(commands, "foam");
     if (fluid.count > 0) {
-        reserve(device, foam.normals, 16ull * fluid.count);
-        reserve(device, foam.given, 4ull * (fluid.count + 1));
+        const uint64_t some = fluid.count + fluid.count / 8 + 1;  // of what grows a few more
+        reserve(device, foam.normals, 16ull * some);
+        for (Buffer* each : {&foam.given, &foam.before}) reserve(device, *each, 4ull * some);
         for (Buffer* each : {&foam.vacant, &foam.free}) reserve(device, *each, 4ull * (foam.slots + 1));
         run(kernels.normals, fluid.count,
             std::array{Descriptor{0, fluid.places}, Descriptor{1, fluid.sortedPlanes},

@@ -186,6 +186,13 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
                                 " hours at most: choose an earlier time"};
     const int wanted = rests() ? 0 : int(std::floor(std::max(seconds, 0.0) / kSimulationStep + 1e-6));
     if (wanted == state.steps) return false;
+    const Result<bool> gone = stepTo(wanted, values, progress);
+    showFoam();
+    return gone;
+}
+
+Result<bool> Simulation::stepTo(int wanted, const ValuesAt& values,
+                                const std::function<bool(int done, int all)>& progress) {
     const auto after = std::ranges::upper_bound(checkpoints, wanted, {}, &Checkpoint::steps);
     if (after != checkpoints.begin()) {
         const Checkpoint& last = *(after - 1);
@@ -204,7 +211,6 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
         if (progress && state.steps > first && !progress(state.steps - first, wanted - first))
             return Error{.message = "the simulation was cancelled"};
     }
-    showFoam();
     return true;
 }
 
@@ -284,7 +290,12 @@ Done Simulation::fill(const std::vector<double>& values) {
     state.slots = uint32_t(places->size());
     for (Foam& foam : foams) {
         const double most = StageNumbers(foam.field->ir, foam.stage(), values).scalar("most");
-        clearFoam(*device, foam.particles, uint32_t(std::clamp(most, 1.0, double(kMostParticles))));
+        const auto slots = uint32_t(std::clamp(most, 1.0, double(kMostParticles)));
+        if (slots > device->limits.texels())
+            return Error{.message = "this device can have " + std::to_string(device->limits.texels()) +
+                                    " particles of foam at most: lower most",
+                         .node = foam.stage().node};
+        clearFoam(*device, foam.particles, slots);
     }
     drifts.assign(1, kDriftAside * std::max(numbers.scalar("spacing"), kLeastSpacing));
     setFluid(*device, fluid->particles, *places, {});
@@ -383,6 +394,8 @@ FoamConfig Simulation::configOf(const Foam& foam, const std::vector<double>& val
 }
 
 void Simulation::showFoam() {
+    if (state.steps < 0 || std::ranges::none_of(foams, [](const Foam& foam) { return foam.shown >= 0; }))
+        return;
     Commands commands(*device);
     for (Foam& foam : foams)
         if (foam.shown >= 0) recordFoamShown(commands, *foamKernels, foam.particles, foam.shown);

@@ -115,6 +115,8 @@ class Simulation {
     void outflow(const std::vector<double>& now);
     Done flow(Commands& commands, const std::vector<double>& now, const ValuesAt& values);
     FoamConfig configOf(const Foam& foam, const std::vector<double>& values) const;
+    Result<bool> stepTo(int wanted, const ValuesAt& values,
+                        const std::function<bool(int done, int all)>& progress);
     void showFoam();
     Done step(const std::vector<double>& now, const ValuesAt& values);
     void move(Commands& commands, const std::vector<double>& values);

@@ -105,7 +105,7 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishe
     if (!live) return live.error();
     Prepared made{std::move(*live), {}, false, {}};
     const Result<Scene> scene = readScene(*made.graph.scene);
-    if (scene && scene->sky && !scene->sky->image.empty()) {
+    if (scene && scene->sky && scene->sky->isPicture()) {
         Result<EnvironmentMapPtr> map = readEnvironment(made.graph.path, scene->sky->image);
         if (!map) return problem(made.graph, "the scene's sky.image: " + map.error().message);
         made.environment = std::move(*map);

@@ -132,8 +132,9 @@ Result<Picture> renderPaths(Renderer& renderer, const RenderScene& scene, const 
     }
     const auto all = uint32_t(std::max(known, last));
     keep(int(all));
+    if (last < options.samples) return Picture{};  // of the last moment
     showPaths(renderer, options, bytes, all);
-    if (options.light && last == options.samples) options.light->color = readLight(renderer, options);
+    if (options.light) options.light->color = readLight(renderer, options);
     Picture picture = readPicture(renderer);
     picture.alpha = options.cutout;
     return picture;

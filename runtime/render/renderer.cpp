@@ -245,10 +245,11 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         commands.cancel = options.cancel;
         if (!drawFrame(commands, renderer, scene, options, view, frame > first - ahead && !lens, i))
             return Error{.message = "cancelled"};
-        if (frame + 1 == last) recordReading(commands, renderer.pixels, renderer.readback);
+        if (frame + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);
     }
-    if (options.light && last == options.samples) options.light->color = readLight(renderer, options);
+    if (last < options.samples) return Picture{};  // of the last moment
+    if (options.light) options.light->color = readLight(renderer, options);
     Picture picture = readPicture(renderer);
     picture.alpha = options.cutout;
     return picture;

@@ -32,7 +32,7 @@ void recordFilter(Commands& commands, Secondary& secondary, const GBuffer& gbuff
 std::optional<SecondaryKinds> secondaryKinds(const Scene& scene, bool transmits) {
     if (!(scene.bounce || scene.reflections || transmits)) return std::nullopt;
     return SecondaryKinds{scene.bounce, scene.reflections, !scene.lights.empty(),
-                          scene.sky && !scene.sky->image.empty()};
+                          scene.sky && scene.sky->isPicture()};
 }
 
 ShaderOptions secondaryShader(std::string_view field, const SecondaryKinds& kinds) {

@@ -8,7 +8,7 @@ namespace fw::gpu {
 #define FLUID_GROUP 256           // particles of a work group
 #define FLUID_MOST_NEIGHBOURS 64  // that a particle feels; more than that are only where it is far too dense
 
-#define FLUID_DRAIN_BLOCK 1024  // particles of a key where they keep their order; the sort keeps that of 2048
+#define FLUID_DRAIN_BLOCK 1024  // particles of a key where they keep their order
 
 // Errors of densities are added up as whole numbers, whose sums are the same in any order, in so many sums.
 // No sum is too great: an error counts as 1 at most.

@@ -1,4 +1,4 @@
-// New particles of foam: about the way that a particle of the fluid has come in this step. They take the free slots in their order;
+// New particles of foam: about the way that a particle of the fluid came in the step before, for all foam moves on by a step yet. They take the free slots in their order;
 // where there are fewer slots than births, some of the births all over the fluid.
 #include "particles/foam.glsl"
 #include "lib/random.glsl"
@@ -31,7 +31,7 @@ void main() {
         uint place = uint(float(number) * share);
         if (uint(float(number + 1) * share) == place || place >= room) continue;
         uint slot = free[place];
-        places[slot] = vec4(inTank(p + radius * aside - since * push.step * v), 0.0);
+        places[slot] = vec4(inTank(p + radius * aside - (1.0 + since) * push.step * v), 0.0);
         velocities[slot] = vec4(v + kSpread * fast * aside, float(FOAM_FOAM) + 0.999 * luck);
     }
 }

@@ -6,7 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/system/clock.h"
+#include "shaders/shared.h"
 #include "tests/bench/two_threads.h"
+
+#include "shaders/particles/fluid.h"
 
 namespace fw::bench {
 namespace {
@@ -27,7 +30,7 @@ FluidBaseline::FluidBaseline(const FluidConfig& given, std::vector<glm::vec3> at
     for (auto* each : {&keys, &order, &counts}) each->resize(count);
     for (auto* each : {&guesses, &shifted, &sortedPlaces, &sortedVelocities, &sortedGuesses})
         each->resize(count);
-    lambdas.resize(count), far.resize(count);
+    for (auto* each : {&lambdas, &far, &energies, &sortedEnergies}) each->resize(count);
     lists.resize(kMostNeighbours * count);
 }
 
@@ -58,6 +61,9 @@ void FluidBaseline::sort(float seconds) {
         for (std::size_t i = t * count / 2; i < (t + 1) * count / 2; ++i) {
             const glm::vec3 velocity = velocities[i] + seconds * config.gravity;
             guesses[i] = glm::clamp(places[i] + seconds * velocity, config.lo, config.hi);
+            const glm::vec3 pushed = (guesses[i] - places[i]) / seconds;
+            energies[i] =
+                energyAt(guesses[i], std::max(glm::dot(velocity, velocity), glm::dot(pushed, pushed)));
             const glm::ivec3 c((guesses[i] - first) / support);
             keys[i] = uint32_t((c.z * cells.y + c.y) * cells.x + c.x);
         }
@@ -71,9 +77,11 @@ void FluidBaseline::sort(float seconds) {
             sortedPlaces[i] = places[order[i]];
             sortedVelocities[i] = velocities[order[i]];
             sortedGuesses[i] = guesses[order[i]];
+            sortedEnergies[i] = energies[order[i]];
         }
     });
     places.swap(sortedPlaces), velocities.swap(sortedVelocities), guesses.swap(sortedGuesses);
+    energies.swap(sortedEnergies);
 }
 
 void FluidBaseline::list(std::size_t from, std::size_t to) {
@@ -136,14 +144,26 @@ void FluidBaseline::giveWay(std::size_t from, std::size_t to) {
     }
 }
 
-void FluidBaseline::smooth(std::size_t from, std::size_t to) {
+float FluidBaseline::energyAt(const glm::vec3& p, float squaredSpeed) const {
+    return 0.5f * squaredSpeed - glm::dot(config.gravity, p);
+}
+
+void FluidBaseline::smooth(std::size_t from, std::size_t to, float seconds) {
+    const float pressure = FLUID_MOST_PRESSURE * seconds * glm::length(config.gravity);
     for (std::size_t i = from; i < to; ++i) {
         glm::vec3 change(0.0f);
+        float most = energies[i];
         for (uint32_t k = 0; k < counts[i]; ++k) {
             const uint32_t j = lists[kMostNeighbours * i + k];
             change += weightAt(left(guesses[i] - guesses[j])) * (velocities[j] - velocities[i]);
+            most = std::max(most, energies[j]);
         }
-        sortedVelocities[i] = velocities[i] + config.viscosity * change;
+        const glm::vec3 v = velocities[i] + config.viscosity * change;
+        const float squared = glm::dot(v, v),
+                    gained =
+                        std::max(energyAt(guesses[i], squared) - most - pressure * std::sqrt(squared), 0.0f);
+        sortedVelocities[i] =
+            std::sqrt(std::max(squared - 2.0f * gained, 0.0f) / std::max(squared, 1e-30f)) * v;
     }
 }
 
@@ -172,7 +192,7 @@ FluidBaselineTimes FluidBaseline::step(float seconds) {
     halves([&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) velocities[i] = (guesses[i] - places[i]) / seconds;
     });
-    halves([&](std::size_t from, std::size_t to) { smooth(from, to); });
+    halves([&](std::size_t from, std::size_t to) { smooth(from, to, seconds); });
     velocities.swap(sortedVelocities);
     places.swap(guesses);
     times.velocityMs = lap();

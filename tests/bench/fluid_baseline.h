@@ -34,7 +34,8 @@ class FluidBaseline {
     void list(std::size_t first, std::size_t last);
     void weigh(std::size_t first, std::size_t last);
     void giveWay(std::size_t first, std::size_t last);
-    void smooth(std::size_t first, std::size_t last);
+    void smooth(std::size_t first, std::size_t last, float seconds);
+    float energyAt(const glm::vec3& p, float squaredSpeed) const;
     float left(const glm::vec3& off) const;
     float weightAt(float u) const;
     float slopeAt(float u) const;
@@ -45,7 +46,7 @@ class FluidBaseline {
     glm::ivec3 cells;
     std::vector<uint32_t> keys, starts, order, lists, counts;
     std::vector<glm::vec3> guesses, shifted, sortedPlaces, sortedVelocities, sortedGuesses;
-    std::vector<float> lambdas, far;
+    std::vector<float> lambdas, far, energies, sortedEnergies;
 };
 
 }  // namespace fw::bench

@@ -6,8 +6,11 @@
 #include <glm/vec4.hpp>
 
 #include "runtime/particles/foam.h"
+#include "shaders/shared.h"
 #include "tests/bench/fluid_baseline.h"
 #include "tests/bench/tables.h"
+
+#include "shaders/particles/fluid.h"
 
 namespace fw::bench {
 namespace {
@@ -69,6 +72,57 @@ void foamTable(Bench& bench, const FluidKernels& kernels) {
         const auto there = std::ranges::count_if(velocities, [](const glm::vec4& v) { return v.w >= 0.0f; });
         table.rows.push_back({count(fluid.count), count(uint64_t(there)), count(kSlots), text(without),
                               text(with), number(with.median() / without.median())});
+    }
+    print(table, bench.options.markdown);
+}
+
+/// Steps of a column that breaks: with so many turns each, and with turns that end at the error that those
+/// leave.
+void errorTable(Bench& bench, const FluidKernels& kernels) {
+    constexpr int kSteps = 60;
+    const Device& device = bench.device();
+    Table table{.title = "A step of a fluid at an equal error, the mean of a quarter of a second (ms)",
+                .header = {"particles", "error of four turns", "step", "error where they end at it", "turns",
+                           "step", "of four turns"}};
+    for (const int size : {20'000, 100'000}) {
+        struct Run {
+            Figure times = {};
+            double error = 0.0, turns = 0.0;  ///< means
+        };
+        const auto breaks = [&](float error) {
+            Run run;
+            Scene scene = damBreak(size);
+            scene.config.error = error;
+            if (error > 0.0f) scene.config.iterations = 32;
+            for (int i = 0; i < bench.options.repeats; ++i) {
+                FluidParticles fluid;
+                setFluid(device, fluid, scene.places, {});
+                double milliseconds = 0.0;
+                for (int step = 0; step < kSteps; ++step) {
+                    const auto start = Clock::now();
+                    Commands commands(device);
+                    if (const Done recorded = recordFluidStep(commands, kernels, fluid, scene.config, kStep);
+                        !recorded)
+                        bench.fail(recorded.error().message);
+                    submit(commands);
+                    milliseconds += millisecondsSince(start) / kSteps;
+                    double sum = 0.0;
+                    for (const float density : download<float>(device, fluid.densities, fluid.count))
+                        sum += std::max(density - 1.0f, 0.0f);
+                    run.error += sum / fluid.count / kSteps / bench.options.repeats;
+                    if (error > 0.0f)
+                        run.turns += double(download<gpu::FluidTurns>(device, fluid.turns, 1)[0].taken) /
+                                     kSteps / bench.options.repeats;
+                }
+                run.times.runs.push_back(milliseconds);
+            }
+            std::ranges::sort(run.times.runs);
+            return run;
+        };
+        const Run four = breaks(0.0f), ended = breaks(float(four.error));
+        table.rows.push_back({count(size), number(four.error), text(four.times), number(ended.error),
+                              number(ended.turns), text(ended.times),
+                              number(ended.times.median() / four.times.median())});
     }
     print(table, bench.options.markdown);
 }
@@ -137,6 +191,7 @@ void fluidTable(Bench& bench) {
             ": the longest time of a particle is " + number(most / least) + " times the shortest.");
     }
     print(table, bench.options.markdown);
+    errorTable(bench, kernels);
     foamTable(bench, kernels);
 }
 

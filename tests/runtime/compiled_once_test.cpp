@@ -69,7 +69,8 @@ TEST_P(CompiledOnce, WhateverIsShown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, CompiledOnce,
-                         testing::Values("moving_booleans", "dusk_city", "wet_city", "glass_of_water", "tap"),
+                         testing::Values("moving_booleans", "dusk_city", "wet_city", "glass_of_water", "tap",
+                                         "breaker"),
                          [](const auto& about) { return std::string(about.param); });
 
 TEST(CompiledOnce, TheViewsOfAField) {

@@ -328,6 +328,32 @@ TEST(Foam, ATimeIsTheSameHoweverItIsReached) {
     EXPECT_FALSE(sameBytes(seeded.places(), known[0.5].first));
 }
 
+TEST(Foam, WhatIsShownIsThatOfTheStepAlsoWhereThatWasCancelled) {
+    const std::string text = textOf(kColumn, R"("kinds": "spray")");
+    Played cancelled(text), fresh(text);
+    const Result<bool> gone = cancelled.simulation.goTo(
+        0.5, [&](double at) { return cancelled.live.valuesAt(at); },
+        [](int done, int all) { return done < all; });
+    EXPECT_FALSE(gone);
+    cancelled.goTo(0.5), fresh.goTo(0.5);
+    EXPECT_GT(fresh.slots().size(), 0u);
+    EXPECT_TRUE(sameBytes(cancelled.places(), fresh.places()));
+}
+
+TEST(Foam, ComesWhereItsWaterIs) {
+    // All of the water flies by 0.1 m in the first step.
+    Played player(textOf("p.x - 0.4", R"("amount": 3000)", R"("velocity": [6, 0, 0], "gravity": [0, 0, 0])"));
+    player.goTo(1.0 / 60);
+    const auto slots = player.slots();
+    ASSERT_GT(slots.size(), 100u);
+    float least = 10.0f, most = -10.0f;
+    for (const auto& [slot, foam] : slots)
+        least = std::min(least, foam.place.x), most = std::max(most, foam.place.x);
+    std::printf("water is up to 0.5 m, foam from %.3f m to %.3f m\n", least, most);
+    EXPECT_LT(most, 0.5f);
+    EXPECT_GT(most, 0.42f);
+}
+
 TEST(Foam, KindsArePartsOfOne) {
     Played all(textOf(kColumn));
     all.goTo(0.6);
@@ -509,17 +535,39 @@ TEST_F(PointsOfParticles, AreReadAgainBitForBit) {
               (*readParticlePlaces(graph, "water.ply"))->places);
 }
 
+TEST_F(PointsOfParticles, OfAGroupByTheNameOfItsOutput) {
+    test::writeText(folder.path("sea.field.json"), R"({"fieldwright": 1, "nodes": [
+        {"id": "sea", "type": "group", "group": "sea"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "sea", "output": "solid"}}}],
+      "groups": [{"id": "sea", "outputs": [{"name": "solid", "type": "surface"}, {"name": "wet", "type": "particles"},
+        {"name": "white", "type": "particles"}], "nodes": [
+        {"id": "full", "type": "expression", "code": "p.y - 0.3"},
+        {"id": "water", "type": "sph_fluid", "inputs": {"source": {"from": "full"}, "spacing": 0.1}},
+        {"id": "torn", "type": "foam", "inputs": {"particles": {"from": "water"}}},
+        {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "water"}}},
+        {"id": "ends", "type": "group_output", "inputs": {"solid": {"from": "field"}, "wet": {"from": "water"},
+            "white": {"from": "torn"}}}]}]})");
+    graph = folder.path("sea.field.json");
+    const test::CommandResult wet = exported("sea.wet", "wet.csv", "0");
+    ASSERT_EQ(wet.status, 0) << wet.errors;
+    EXPECT_GT((*readParticlePlaces(graph, "wet.csv"))->places.size(), 1000u);
+    EXPECT_EQ(exported("sea.white", "white.csv", "0").status, 0);
+    expectRefusal(exported("sea", "a.ply", "0"), 1, {"'sea'", "sea.wet, sea.white"});
+    expectRefusal(exported("sea.solid", "a.ply", "0"), 1, {"'sea'", "sea.wet, sea.white"});
+}
+
 TEST_F(PointsOfParticles, NoneAreANote) {
     const test::CommandResult result = exported("white", "none.csv", "0");
     EXPECT_EQ(result.status, 0);
-    EXPECT_NE(result.errors.find("node 'white' has no particles at 0 s"), std::string::npos) << result.errors;
+    EXPECT_NE(result.errors.find("node 'white' has no particles then"), std::string::npos) << result.errors;
     EXPECT_EQ(test::readText(folder.path("none.csv")), "x,y,z,vx,vy,vz\n");
 }
 
 TEST_F(PointsOfParticles, WhatCannotBeIsRefused) {
     expectRefusal(exported("whit", "a.ply"), 1, {"there is no node 'whit'", "did you mean 'white'?"});
     expectRefusal(exported("full", "a.ply"), 1, {"'full'", "gives no particles", "white"});
-    expectRefusal(exported("white", "a.glb"), 2, {"'.glb' holds none", ".ply, .csv, .xyz or .txt"});
+    expectRefusal(exported("white.foam", "a.ply"), 1, {"'white'", "ask for white"});
+    expectRefusal(exported("white", "a.glb"), 2, {"'.glb' holds none", ".ply, .csv, .xyz, .txt"});
     expectRefusal(exported("white", "a"), 2, {"needs an ending"});
     expectRefusal(test::runCommand({"export", graph, "--particles", "white", "-o", folder.path("a.ply"),
                                     "--resolution", "8"}),

@@ -1,5 +1,5 @@
-// Every sample's picture against the one that was looked at and kept (tests/data/golden), and its ambient
-// occlusion, as the fast way finds it, against the reference.
+// Every sample's picture against the one that was looked at and kept (tests/data/golden), and, as the fast
+// way finds it, against the reference: the picture, and its ambient occlusion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,6 +47,7 @@ class Gallery : public testing::TestWithParam<fs::path> {
 
 /// What takes long to compare: of some samples, of all with FIELDWRIGHT_LONG.
 class GalleryAmbient : public Gallery {};
+class GalleryLight : public Gallery {};
 
 std::vector<fs::path> someSamples() {
     std::vector<fs::path> some = samples();
@@ -103,6 +104,38 @@ TEST_P(GalleryAmbient, AmbientOcclusionIsNearTheReference) {
     EXPECT_LT(difference.occluded, 0.05);  // where a mesh's bevelled edges stand in for sharp ones
 }
 
+TEST_P(GalleryLight, IsNearTheReference) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    const Result<Scene> scene = player->scene();
+    ASSERT_TRUE(scene) << format(scene.error());
+    const bool paths = (scene->bounce || scene->reflections || player->program().transmits()) &&
+                       player->program().stages.empty();
+    RenderOptions options{.width = kAmbientWidth, .height = kAmbientHeight};
+    const Result<Picture> fast = player->frame(options);
+    ASSERT_TRUE(fast) << format(fast.error());
+    options.reference = true;
+    if (paths) options.bounces = 8, options.samples = 256;
+    const Result<Picture> reference = player->frame(options);
+    ASSERT_TRUE(reference) << format(reference.error());
+    // Of the means of two by two pixels, for paths have noise.
+    double sum = 0;
+    for (int y = 0; y < kAmbientHeight; y += 2)
+        for (int x = 0; x < kAmbientWidth; x += 2)
+            for (int k = 0; k < 3; ++k) {
+                int off = 0;
+                for (int i = 0; i < 4; ++i) {
+                    const std::size_t at =
+                        4 * std::size_t((y + i / 2) * kAmbientWidth + x + i % 2) + std::size_t(k);
+                    off += fast->pixels[at] - reference->pixels[at];
+                }
+                sum += std::abs(off) / 4.0 / 255.0;
+            }
+    const double difference = sum / (3.0 * kAmbientWidth / 2 * kAmbientHeight / 2);
+    std::printf("%s: differs from the reference%s by %.4f on average\n", nameOf(GetParam()).c_str(),
+                paths ? ", of whole paths," : "", difference);
+    EXPECT_LT(difference, 0.03);
+}
+
 TEST_P(GalleryAmbient, AMovedViewIsSoonRight) {
     ASSERT_NO_FATAL_FAILURE(open({.resolution = 64}));
     // A live view rests until it has converged; then it turns by five degrees.
@@ -137,6 +170,8 @@ TEST_P(GalleryAmbient, AMovedViewIsSoonRight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Gallery, testing::ValuesIn(samples()),
+                         [](const auto& sample) { return nameOf(sample.param); });
+INSTANTIATE_TEST_SUITE_P(Samples, GalleryLight, testing::ValuesIn(someSamples()),
                          [](const auto& sample) { return nameOf(sample.param); });
 INSTANTIATE_TEST_SUITE_P(Samples, GalleryAmbient, testing::ValuesIn(someSamples()),
                          [](const auto& sample) { return nameOf(sample.param); });
