@@ -213,6 +213,7 @@ void main() {
         }
         bool straight = kind == kPassed;
         uint interfaces = 0;
+        vec3 mirrored = vec3(0.0);  // on the way
         do {
 #endif
             // Along the ray to where it ends.
@@ -303,7 +304,11 @@ void main() {
                 bool mirrors = dot(bent, bent) < 0.5;
                 bent = mirrors ? reflect(d, facing) : bent;
                 straight = straight && !mirrors;
-                through *= mirrors ? 1.0 : 1.0 - fresnel(max(-dot(d, facing), 1e-3), other / ior);
+                // One way is followed. What comes along the other is taken for what is around, as far as it is open.
+                float back = mirrors ? 0.0 : fresnel(max(-dot(d, facing), 1e-3), other / ior);
+                vec3 away = reflect(d, facing);
+                if (kind == kPassed) mirrored += through * back * openness(bounds, q + facing * bias, facing) * surroundings(away, 0.0);
+                through *= 1.0 - back;
                 if (kind == kSun && !within) through *= material.transmission;
                 through *= within || mirrors ? vec3(1.0) : clamp(material.baseColor, 0.0, 1.0);
                 o = q + (mirrors ? facing : -facing) * bias;
@@ -315,6 +320,7 @@ void main() {
             if (way.changes) o += d * t;
             going = passes || way.changes;
         } while (going && ++interfaces < kMostInterfaces);
+        radiance += mirrored;
 #endif
 
         radiance = any(isnan(radiance)) ? vec3(0.0) : min(radiance, vec3(6e4));  // the filter would spread it
