@@ -257,7 +257,8 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
                                     ", or 0 for as many cells as are good"});
         return lowering.failure(at.type.outputs);
     }
-    auto [region, least, most, leastDrop] = reachOf(lowering, *own, *from.particles);
+    Reach reach = reachOf(lowering, *own, *from.particles);
+    Box& region = reach.region;
     bool found = true;
     for (const auto& [name, corner] :
          {std::pair("region_min", &region.lo), std::pair("region_max", &region.hi)}) {
@@ -274,10 +275,10 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
     const bool chosen = *resolution == 0.0;
     if (chosen)
         resolution = blobs ? kBlobResolution
-                           : std::clamp(std::ceil(kDropCells * longestSide(region) / leastDrop),
+                           : std::clamp(std::ceil(kDropCells * longestSide(region) / reach.leastDrop),
                                         double(kLeastParticleResolution), double(kMostParticleResolution));
     if (found && blobs)
-        resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / most));
+        resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / reach.most));
     const auto volumeOf = [&](double cells) {
         return particleVolume(lowering.state.ir, *from.particles, *own, region, static_cast<int>(cells));
     };
@@ -294,7 +295,7 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
         return lowering.failure(at.type.outputs);
     }
     const double cell = (*volume)->grid.cell;
-    const double fine = blobs ? least : leastDrop, cells = blobs ? kFewRadiusCells : kDropCells;
+    const double fine = blobs ? reach.least : reach.leastDrop, cells = blobs ? kFewRadiusCells : kDropCells;
     const double enough = std::ceil(*resolution * cell * cells / fine - 1e-6);
     if (enough > *resolution)
         lowering.warn(
