@@ -186,9 +186,7 @@ std::vector<NodeType> particleNodes() {
               length("drop", 0.0,
                      "The radius of a particle alone, where the surface is average or anisotropic. 0: of a "
                      "fluid, what gives it its volume at rest, 0.62 of its spacing; of its foam half of "
-                     "that; of "
-                     "other particles, that of "
-                     "their blob."),
+                     "that; of other particles, that of their blob."),
               positiveLength("radius", 0.15, "R: how far a blob's density reaches."),
               [] {
                   InputSpec threshold =
@@ -215,9 +213,8 @@ std::vector<NodeType> particleNodes() {
                       "Cells along the grid's longest side; 0: 96 of blobs, and of other surfaces as many as "
                       "make them half a drop's radius, or as fit into " +
                           std::to_string(kMostChosenMebibytes) +
-                          " MiB. A blob's radius is best two "
-                          "to six cells, and is eight at "
-                          "most in a grid that is found."),
+                          " MiB. A blob's radius is best two to six cells, and is eight at most in a grid "
+                          "that is found."),
               corner(
                   "region_min",
                   "Lowest corner of the grid; found from where the particles come from, at all times of the "

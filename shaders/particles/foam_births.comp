@@ -1,5 +1,5 @@
-// New particles of foam: about the way that a particle of the fluid came in the step before, for all foam moves on by a step yet. They take the free slots in their order;
-// where there are fewer slots than births, some of the births all over the fluid.
+// New particles of foam: about the way that a particle of the fluid came in the step before, for all foam moves on by a step yet.
+// They take the free slots in their order; where there are fewer slots than births, some of the births all over the fluid.
 #include "particles/foam.glsl"
 #include "lib/random.glsl"
 
