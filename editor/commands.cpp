@@ -175,7 +175,7 @@ bool anyActive(const Editor& editor) { return !editor.canvas.active.empty(); }
 
 /// Its first number on the canvas; what has none there is edited in the inspector.
 void editActive(Editor& editor) {
-    if (typeFirstValue(editor.canvas, *editor.boxes)) return;
+    if (typeFirstValue(editor.canvas, editor.document, *editor.boxes)) return;
     showPanel(editor, "inspector");
 }
 
@@ -195,6 +195,8 @@ constexpr Command kCommands[] = {
     {"file.new", "File", "New", "Ctrl+N", everywhere, always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
     {"file.open", "File", "Open …", "Ctrl+O", everywhere, always, [](Editor& e) { proceed(e, Files::Next::browse); }},
     {"file.samples", "File", "Samples …", "", everywhere, always, [](Editor& e) { proceed(e, Files::Next::samples); }},
+    {"file.recovered", "File", "Recovered work …", "", everywhere,
+     [](const Editor& e) { return !e.files.left.empty(); }, [](Editor& e) { proceed(e, Files::Next::recovered); }},
     {"file.save", "File", "Save", "Ctrl+S", everywhere, always,
      [](Editor& e) { e.files.next = Files::Next::none, save(e); }},
     {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", everywhere, always, saveAs},
@@ -379,9 +381,10 @@ void runShortcuts(Editor& editor) {
     keepMenusClosed();
     if (const Command* chosen = std::exchange(editor.windows.chosen, nullptr); chosen && chosen->can(editor))
         return chosen->run(editor);
-    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || editor.document.inGesture()) return;
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
     if (io.WantTextInput) return leaveTextFor(editor);
-    if (editor.canvas.field.state != FieldEdit::State::none || editor.viewport.drag.busy()) return;
+    if (editor.document.held()) return;
+    if (editor.viewport.drag.busy()) return;
     if (deletesKey(editor) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)))
         return removeSelectedKey(editor);
     // Space asks for the menu when it goes up, if nothing was panned with it.

@@ -25,11 +25,17 @@ void drawAnew(Editor& editor) {
     editor.canvas.follow(*editor.graph);
     editor.boxes.emplace(*editor.graph, editor.canvas.scope);
     editor.drawn = editor.document.revision();
+    const auto exists = [&](const std::string& path) {
+        const auto [scope, id] = placeOf(*editor.graph, path);
+        return findNode(nodesOf(*editor.graph, scope), id) != nullptr;
+    };
+    if (!editor.viewport.pinned.empty() && !exists(editor.viewport.pinned)) editor.viewport.pinned.clear();
+    editor.thumbnails.keepOnly(editor.shell, exists);
 }
 
 /// The inputs under the hand, as the compiler names them: in a group, those of every instance.
 std::set<std::string> heldInputs(const Editor& editor) {
-    std::set<std::string> held = editor.canvas.field.held(), named;
+    std::set<std::string> held = heldBy(editor.canvas.number), named;
     held.merge(editor.panelState.heldInputs());
     held.merge(editor.viewport.gizmo.held(editor.canvas.scope));
     for (const std::string& path : held) {
@@ -142,7 +148,7 @@ bool exchange(Editor& editor) {
         say(editor, format(kept.error()));
     const bool noticed = watchFile(editor);
     const bool thumbnail = editor.thumbnails.follow(editor.shell, editor.graph, editor.drawn,
-                                                    view.shown.particles, !editor.document.inGesture());
+                                                    view.shown.particles, !editor.document.held());
     std::optional<PreviewResult> result = editor.preview.take();
     if (!result || result->document != view.document) return noticed || thumbnail;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
@@ -151,7 +157,8 @@ bool exchange(Editor& editor) {
 }
 
 void showEditor(Editor& editor) {
-    finishLost(editor);
+    editor.document.settleLost();
+    followHands(editor);
     playOn(editor);
     drawAnew(editor);
     const ImGuiViewport* whole = ImGui::GetMainViewport();
@@ -205,8 +212,8 @@ void showEditor(Editor& editor) {
 }
 
 bool moves(const Editor& editor) {
-    return editor.viewport.playing || editor.canvas.gesture != Canvas::Gesture::none ||
-           editor.canvas.field.state != FieldEdit::State::none || flies(editor.viewport);
+    return editor.viewport.playing || editor.canvas.gesture.kind != CanvasGesture::Kind::none ||
+           editor.canvas.number.state != NumberHand::State::none || flies(editor.viewport);
 }
 
 void apply(Editor& editor, std::string name, Edited edited) {
@@ -220,6 +227,7 @@ void say(Editor& editor, std::string words) {
 }
 
 void enter(Editor& editor, std::string scope) {
+    editor.document.settle();
     editor.canvas.scope = std::move(scope);
     editor.canvas.select({});
     editor.canvas.frameNext = true;

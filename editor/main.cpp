@@ -89,7 +89,9 @@ int run(const Options& options) {
             const bool fresh = exchange(editor);
             if (asked || fresh || moves(editor)) draw(shell, editor);
         }
-    } catch (const SystemError& error) { endAtOnce(editor, error.what()); }
+    } catch (const std::exception& error) { endAtOnce(editor, error.what()); } catch (...) {
+        endAtOnce(editor, "the editor failed");
+    }
     onDisplayLost({});
     keepArrangement(editor, preferencesPath());
     if (signal == 0) return editor.files.recovery.discard(), kDone;

@@ -49,8 +49,9 @@ struct CanvasMarks {
     std::map<std::string, std::vector<double>, std::less<>> animated;
 };
 
-struct Canvas {
-    enum class Gesture : unsigned char {
+/// What the mouse has begun on the canvas.
+struct CanvasGesture {
+    enum class Kind : unsigned char {
         none,
         press,
         pan,
@@ -64,26 +65,32 @@ struct Canvas {
         frame,
         corner,
         map
-    };
+    } kind = Kind::none;
+    Hand hand = Hand::none;          ///< of the document, as long as the gesture goes on
+    int button = 0;                  ///< ImGui's, that holds it
+    ImVec2 begin{0, 0};              ///< canvas units, where the button went down
+    std::vector<ImVec2> trail = {};  ///< of a lasso, a cut: canvas units
+    Graph base = {};                 ///< the document when the gesture began
+    std::string node = {};           ///< that was pressed
+    std::size_t frame = 0;           ///< index of the frame that was
+    Plug plug = {};                  ///< the fixed end of the wire under the mouse
+    bool plugIsOutput = false;
+    Area map = {};             ///< that the minimap showed: what is seen by now would widen it ever more
+    bool tookOff = false;      ///< the wire was on an input before
+    std::string refused = {};  ///< why the wire under the mouse cannot be dropped here
+};
 
+struct Canvas {
     CanvasView view;
     std::string scope;                ///< the group shown; empty: the document's nodes
     std::set<std::string> selection;  ///< ids within the scope
     std::string active;               ///< of them the one selected last: what the inspector shows
-    FieldEdit field;
+    NumberHand number;                ///< that is dragged or typed on a node
+    CanvasGesture gesture;
     bool minimap = true;
-
-    Gesture gesture = Gesture::none;
-    ImVec2 begin{0, 0};         ///< canvas units, where the button went down
-    std::vector<ImVec2> trail;  ///< of a lasso, a cut: canvas units
-    Graph base;                 ///< the document when the gesture began
-    Plug plug;                  ///< the fixed end of the wire under the mouse
-    bool plugIsOutput = false;
-    Hit pressed;
     bool spacePans = false;    ///< Space went down and was used to pan: its release asks for nothing
     bool frameNext = true;     ///< show all nodes with the next frame
     double restedSince = 0.0;  ///< seconds of ImGui's clock, when the mouse last moved
-    std::string refused;       ///< why the wire under the mouse cannot be dropped here
 
     /// Selects these alone.
     void select(const NodeIds& nodes);

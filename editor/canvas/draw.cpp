@@ -268,33 +268,34 @@ void drawMinimap(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
 
 /// The wire, box, lasso or cut under the mouse.
 void drawGesture(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
-    using Gesture = Canvas::Gesture;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const ImU32 ink = themeColor(ThemeColor::selected);
+    using Kind = CanvasGesture::Kind;
+    const CanvasGesture& gesture = canvas.gesture;
     const auto trail = [&](ImU32 color, bool closed) {
         std::vector<ImVec2> points;
-        for (ImVec2 p : canvas.trail) points.push_back(pen.view.toScreen(p));
+        for (ImVec2 p : gesture.trail) points.push_back(pen.view.toScreen(p));
         pen.list->AddPolyline(points.data(), int(points.size()), color, closed ? ImDrawFlags_Closed : 0,
                               1.5f * pen.view.scale);
     };
-    if (canvas.gesture == Gesture::box) {
-        Area box{pen.view.toScreen(canvas.begin), pen.view.toScreen(canvas.begin)};
+    if (gesture.kind == Kind::box) {
+        Area box{pen.view.toScreen(gesture.begin), pen.view.toScreen(gesture.begin)};
         box.add(mouse);
         pen.list->AddRectFilled(box.lo, box.hi, faded(ink, 0.1f));
         pen.list->AddRect(box.lo, box.hi, ink);
-    } else if (canvas.gesture == Gesture::lasso) {
-        trail(ink, canvas.trail.size() > 2);  // a line there and back would have no width
-    } else if (canvas.gesture == Gesture::cut) {
+    } else if (gesture.kind == Kind::lasso) {
+        trail(ink, gesture.trail.size() > 2);  // a line there and back would have no width
+    } else if (gesture.kind == Kind::cut) {
         trail(themeColor(ThemeColor::error), false);
-    } else if (canvas.gesture == Gesture::reroute || canvas.gesture == Gesture::lazy) {
+    } else if (gesture.kind == Kind::reroute || gesture.kind == Kind::lazy) {
         trail(ink, false);
-    } else if (canvas.gesture == Gesture::wire) {
-        const NodeBox* box = boxes.find(canvas.plug.node);
-        const Row* row = boxes.row(canvas.plug, canvas.plugIsOutput);
+    } else if (gesture.kind == Kind::wire) {
+        const NodeBox* box = boxes.find(gesture.plug.node);
+        const Row* row = boxes.row(gesture.plug, gesture.plugIsOutput);
         if (!box || !row) return;
         const ImVec2 fixed = box->socket(*row), loose = pen.view.toCanvas(mouse);
-        const ImU32 color = canvas.refused.empty() ? typeColor(row->type) : themeColor(ThemeColor::error);
-        drawWire(pen, canvas.plugIsOutput ? curve(fixed, loose) : curve(loose, fixed), color,
+        const ImU32 color = gesture.refused.empty() ? typeColor(row->type) : themeColor(ThemeColor::error);
+        drawWire(pen, gesture.plugIsOutput ? curve(fixed, loose) : curve(loose, fixed), color,
                  kWireWidth * pen.view.scale);
     }
 }

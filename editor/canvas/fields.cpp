@@ -1,43 +1,16 @@
 #include "editor/canvas/fields.h"
 
-#include <imgui_internal.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 
 #include "editor/shell/theme.h"
-#include "graph/language/lower.h"
 
 namespace fw::editor {
 
 namespace {
 
-using State = FieldEdit::State;
-
-constexpr float kStillInField = 3.0f;  // pixels that a click may move
+constexpr double kLeastPositive = 1e-6;
 constexpr float kFieldRounding = 3.0f;
-
-bool isInteger(const Row& row) { return row.type == Type::integer; }
-
-std::string shorten(const std::string& text, ImFont* font, float size, float width) {
-    if (font->CalcTextSizeA(size, FLT_MAX, 0.0f, text.c_str()).x <= width) return text;
-    std::string cut = text;
-    while (!cut.empty() && font->CalcTextSizeA(size, FLT_MAX, 0.0f, (cut + "…").c_str()).x > width) {
-        do cut.pop_back();
-        while (!cut.empty() && (cut.back() & 0xC0) == 0x80);
-    }
-    return cut + "…";
-}
-
-/// What a pixel of a drag adds.
-double stepOf(const Row& row, double start) {
-    if (isInteger(row)) return 0.1;
-    const double span = row.spec ? row.spec->max - row.spec->min : INFINITY;
-    if (std::isfinite(span)) return span / 250.0;
-    return std::max(std::abs(start), 0.5) / 100.0;
-}
 
 std::string setName(const NodeBox& box, const Row& row) {
     return "Set " + readable(row.name) + " of " + titleOf(box);
@@ -51,95 +24,35 @@ void set(Document& document, std::string_view scope, const NodeBox& box, const R
                    setInput(document.graph(), scope, {box.node->id, row.name}, std::move(value)));
 }
 
-void drawFrame(const Area& place, bool active, bool hovered) {
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const ImU32 fill = ImGui::GetColorU32(active    ? ImGuiCol_FrameBgActive
-                                          : hovered ? ImGuiCol_FrameBgHovered
-                                                    : ImGuiCol_FrameBg);
-    list->AddRectFilled(place.lo, place.hi, fill, kFieldRounding);
-}
-
-void drawText(const Area& place, ImFont* font, float size, const std::string& text, bool toTheRight,
-              ImU32 color) {
-    const float margin = 0.35f * size;
-    const std::string fits = shorten(text, font, size, place.width() - 2 * margin);
-    const ImVec2 extent = font->CalcTextSizeA(size, FLT_MAX, 0.0f, fits.c_str());
-    const ImVec2 at(toTheRight ? place.hi.x - margin - extent.x : place.lo.x + margin,
-                    place.centre().y - 0.5f * extent.y);
-    ImGui::GetWindowDrawList()->AddText(font, size, {std::floor(at.x), std::floor(at.y)}, color,
-                                        fits.c_str());
-}
-
-/// The number field after this one on the node, or before it, is typed next; none beyond its ends.
-void typeNext(FieldEdit& edit, std::string_view scope, const NodeBox& box, const Row& row, int component,
-              int by) {
+/// The number field after this one on the node, or before it: what it takes to type it.
+struct NextField {
+    std::string name, id;
+    int component = 0;
+    double number = 0.0;
+};
+std::optional<NextField> nextField(std::string_view scope, const NodeBox& box, const Row& row, int component,
+                                   int by) {
     std::ptrdiff_t at = &row - box.rows.data();
     component += by;
     const auto next = [&]() -> const Row& { return box.rows[std::size_t(at)]; };
     while (component < 0 || component >= next().fields || !next().typed()) {
         at += by;
-        if (at < 0 || at >= std::ssize(box.rows)) return;
+        if (at < 0 || at >= std::ssize(box.rows)) return std::nullopt;
         component = by > 0 ? 0 : next().fields - 1;
     }
-    edit.type(scope, {box.node->id, next().name}, component, numbersOf(next()).at(std::size_t(component)));
-}
-
-/// The text field over a number; takes the keyboard until Enter, Tab, Escape or a click elsewhere.
-void typeField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const Area& place, ImFont* font) {
-    ImGui::SetCursorScreenPos(place.lo);
-    ImGui::PushFont(font);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                        ImVec2(4, std::max(0.0f, 0.5f * (place.height() - font->FontSize))));
-    const Typed typed = typeNumber(edit.typed, std::max(place.width(), 90.0f));
-    ImGui::PopStyleVar();
-    ImGui::PopFont();
-    if (!typed.ended) return;
-    edit = {};
-    if (typed.tab != 0) typeNext(edit, scope, box, row, component, typed.tab);
-    if (typed.number) set(document, scope, box, row, withComponent(row, component, *typed.number));
-}
-
-void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-                const Row& row, int component) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const float speed = io.KeyShift ? 0.1f : io.KeyAlt ? 10.0f : 1.0f;
-    edit.travelled += io.MouseDelta.x * speed;
-    if (edit.state == State::pressed && std::abs(ImGui::GetMouseDragDelta(0, 0.0f).x) > kStillInField) {
-        edit.state = State::dragging;  // with what it has travelled: a quick hand is there in one frame
-        document.begin(setName(box, row));
-    }
-    if (!ImGui::IsMouseDown(0)) {
-        if (edit.state == State::dragging) {
-            document.end();
-            edit = {};
-            return;
-        }
-        edit.type(edit.scope, edit.input, component, edit.start);
-        return;
-    }
-    if (edit.state == State::dragging && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-        document.cancel();
-        edit = {};
-    } else if (edit.state == State::dragging && io.MouseDelta.x != 0.0f) {
-        const double moved = edit.start + double(edit.travelled) * stepOf(row, edit.start);
-        // To what a person would write: three digits of the step.
-        const double grain =
-            std::pow(10.0, std::floor(std::log10(stepOf(row, edit.start) * (io.KeyShift ? 0.1 : 1.0))));
-        const double number = std::round(moved / grain) * grain;
-        document.update(setInput(document.graph(), scope, {box.node->id, row.name},
-                                 withComponent(row, component, number)));
-    }
+    return NextField{setName(box, next()), inputPath(scope, {box.node->id, next().name}), component,
+                     numbersOf(next()).at(std::size_t(component))};
 }
 
 void showChoice(Document& document, std::string_view scope, const NodeBox& box, const Row& row,
-                const Area& place, ImFont* font, float size, bool enabled) {
-    const bool hovered = enabled && ImGui::IsMouseHoveringRect(place.lo, place.hi);
-    drawFrame(place, false, hovered);
+                const NumberLook& look) {
+    const Area& place = look.place;
+    const bool hovered = look.enabled && ImGui::IsMouseHoveringRect(place.lo, place.hi);
+    drawField(place, false, hovered);
     const auto* given = row.value ? std::get_if<std::string>(&row.value->value) : nullptr;
     const std::string chosen = given ? *given : row.spec->value.text;
-    drawText(place, font, size, readable(chosen) + " ▾", false, ImGui::GetColorU32(ImGuiCol_Text));
-    const std::string popup = box.node->id + "." + row.name;
+    drawFieldText(look, readable(chosen) + " ▾", false);
+    const std::string popup = inputPath(scope, {box.node->id, row.name});
     if (hovered && ImGui::IsMouseClicked(0)) {
         if (ImGui::GetIO().KeyCtrl) return set(document, scope, box, row, std::nullopt);
         ImGui::OpenPopup(popup.c_str());
@@ -153,11 +66,11 @@ void showChoice(Document& document, std::string_view scope, const NodeBox& box, 
 }
 
 void showSwitch(Document& document, std::string_view scope, const NodeBox& box, const Row& row,
-                const Area& place, ImFont* font, float size, bool enabled) {
-    const bool hovered = enabled && ImGui::IsMouseHoveringRect(place.lo, place.hi);
+                const NumberLook& look) {
+    const bool hovered = look.enabled && ImGui::IsMouseHoveringRect(look.place.lo, look.place.hi);
     const bool on = numbersOf(row).at(0) != 0.0;
-    drawFrame(place, on, hovered);
-    drawText(place, font, size, on ? "✓ on" : "off", false, ImGui::GetColorU32(ImGuiCol_Text));
+    drawField(look.place, on, hovered);
+    drawFieldText(look, on ? "✓ on" : "off", false);
     if (!hovered || !ImGui::IsMouseClicked(0)) return;
     if (ImGui::GetIO().KeyCtrl)
         set(document, scope, box, row, std::nullopt);
@@ -167,61 +80,8 @@ void showSwitch(Document& document, std::string_view scope, const NodeBox& box, 
 
 }  // namespace
 
-TypedNumber::TypedNumber(double number) {
-    std::snprintf(text, sizeof text, "%s", numberText(number).c_str());
-}
-
-Typed typeNumber(TypedNumber& edit, float width) {
-    ImGui::SetNextItemWidth(width);
-    if (!edit.opened) ImGui::SetKeyboardFocusHere();
-    // It takes Tab for itself, which would go to whatever comes next; and no blanks, of which Tab is one.
-    const bool entered =
-        ImGui::InputText("##typed", edit.text, sizeof edit.text,
-                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue |
-                             ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CharsNoBlank);
-    const bool left = edit.opened && ImGui::IsItemDeactivated();
-    const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
-    const bool tab = edit.opened && ImGui::IsItemActive() && pressed(ImGuiKey_Tab);
-    edit.opened = true;
-    if (!edit.complaint.empty()) ImGui::SetTooltip("%s", edit.complaint.c_str());
-    if (pressed(ImGuiKey_Escape)) return {.ended = true};
-    if (!entered && !left && !tab) return {};
-    const Result<double> number = numberOf(edit.text);
-    if (!number) {
-        edit.complaint = number.error().message;
-        edit.opened = false;  // and goes on
-        return {.ended = left && !entered};
-    }
-    if (tab) ImGui::ClearActiveID();
-    return {.number = *number, .ended = true, .tab = !tab ? 0 : ImGui::GetIO().KeyShift ? -1 : 1};
-}
-
-void FieldEdit::type(std::string_view of, const Plug& plug, int part, double number) {
-    state = State::typing;
-    scope = std::string(of), input = plug, component = part, start = number;
-    typed = TypedNumber(number);
-}
-
-std::set<std::string> FieldEdit::held() const {
-    if (state != State::dragging) return {};
-    return {(scope.empty() ? "" : scope + "/") + input.node + "." + input.name};
-}
-
-Result<double> numberOf(std::string_view text) {
-    language::Lowering state;
-    const Result<language::Value> value =
-        language::lowerText(state, "return float(" + std::string(text) + ");");
-    if (!value) return value.error();
-    const IrId id = value->id();
-    if (!state.ir.isConstant(id)) return Error{.message = "this depends on the position or the time"};
-    if (!std::isfinite(state.ir.number(id))) return Error{.message = "this is no finite number"};
-    return state.ir.number(id);
-}
-
-std::string numberText(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", number == 0.0 ? 0.0 : number);
-    return text;
+std::string inputPath(std::string_view scope, const Plug& input) {
+    return std::string(scope) + (scope.empty() ? "" : "/") + input.node + "." + input.name;
 }
 
 std::vector<double> numbersOf(const Row& row) {
@@ -238,16 +98,16 @@ std::vector<double> numbersOf(const Row& row) {
     return numbers;
 }
 
-InputValue withComponent(const Row& row, int component, double number) {
-    std::vector<double> numbers = numbersOf(row);
-    if (isInteger(row)) number = std::round(number);
-    if (row.spec) {
-        number = std::clamp(number, row.spec->min, row.spec->max);
-        if (row.spec->positive) number = std::max(number, 1e-6);
-    }
-    numbers.at(std::size_t(component)) = number;
-    if (numbers.size() == 1) return {.value = numbers[0]};
-    return {.value = numbers};
+NumberRange rangeOf(const Row& row, double start) {
+    NumberRange range;
+    range.whole = row.type == Type::integer;
+    if (row.spec) range.min = row.spec->min, range.max = row.spec->max;
+    if (row.spec && row.spec->positive) range.min = std::max(range.min, kLeastPositive);
+    const double span = range.max - range.min;
+    range.speed = range.whole           ? 0.1
+                  : std::isfinite(span) ? span / 250.0
+                                        : std::max(std::abs(start), 0.5) / 100.0;
+    return range;
 }
 
 std::string valueText(const Row& row) {
@@ -262,29 +122,33 @@ std::string valueText(const Row& row) {
     return row.spec->value.text;
 }
 
-void showField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled) {
-    if (row.type == Type::string) return showChoice(document, scope, box, row, place, font, size, enabled);
-    if (row.type == Type::boolean) return showSwitch(document, scope, box, row, place, font, size, enabled);
+void showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
+               const Row& row, int component, const NumberLook& look) {
+    if (row.type == Type::string) return showChoice(document, scope, box, row, look);
+    if (row.type == Type::boolean) return showSwitch(document, scope, box, row, look);
     const Plug plug{box.node->id, row.name};
-    const bool mine = edit.is(scope, plug, component);
-    if (mine && edit.state == State::typing)
-        return typeField(edit, document, scope, box, row, component, place, font);
-    const bool hovered =
-        enabled && edit.state == State::none && ImGui::IsMouseHoveringRect(place.lo, place.hi);
+    const std::string id = inputPath(scope, plug);
     const double number = numbersOf(row).at(std::size_t(component));
-    drawFrame(place, mine, hovered);
-    drawText(place, font, size, numberText(number), true, ImGui::GetColorU32(ImGuiCol_Text));
-    if (hovered || mine) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    if (mine) return dragNumber(edit, document, scope, box, row, component);
-    if (!hovered || !ImGui::IsMouseClicked(0)) return;
-    if (ImGui::GetIO().KeyCtrl) return set(document, scope, box, row, std::nullopt);
-    edit = {};
-    edit.state = State::pressed;
-    edit.scope = scope;
-    edit.input = plug;
-    edit.component = component;
-    edit.start = number;
+    const NumberRange range = rangeOf(row, hand.is(id, component) ? hand.start : number);
+    // Before the change, which ends what `box` and `row` refer to.
+    const bool typed = hand.is(id, component) && hand.state == NumberHand::State::typing;
+    const auto before = typed ? nextField(scope, box, row, component, -1) : std::nullopt,
+               after = typed ? nextField(scope, box, row, component, 1) : std::nullopt;
+    const NumberDone done =
+        showNumber(hand, document, id, component, number, range, setName(box, row), look,
+                   [&document, group = std::string(scope), plug, component](Hand by, double to) {
+                       document.update(by, setNumber(document.graph(), group, plug, component, to));
+                   });
+    if (hand.is(id, component)) hand.moves = id;
+    if (done.reset) return set(document, scope, box, row, std::nullopt);
+    if (const auto& next = done.tab < 0 ? before : after; done.tab != 0 && next)
+        hand.type(document, next->name, next->id, next->component, next->number);
+}
+
+void typeField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
+               const Row& row, int component) {
+    hand.type(document, setName(box, row), inputPath(scope, {box.node->id, row.name}), component,
+              numbersOf(row).at(std::size_t(component)));
 }
 
 std::string describe(const Row& row) {
@@ -305,13 +169,13 @@ std::string describe(const Row& row) {
     return text;
 }
 
-void showMoved(double number, const Area& place, ImFont* font, float size, bool hovered) {
-    drawFrame(place, false, hovered);
-    ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
-    drawText(place, font, size, numberText(std::round(number * 1e4) / 1e4), true,
-             ImGui::GetColorU32(ImGuiCol_Text));
-    if (hovered && ImGui::IsMouseHoveringRect(place.lo, place.hi))
-        ImGui::SetTooltip("The timeline moves it: the inspector sets its key at the time shown");
+void showMoved(double number, const NumberLook& look) {
+    const bool hovered = look.enabled && ImGui::IsMouseHoveringRect(look.place.lo, look.place.hi);
+    drawField(look.place, false, hovered);
+    ImGui::GetWindowDrawList()->AddRect(look.place.lo, look.place.hi, themeColor(ThemeColor::active),
+                                        kFieldRounding);
+    drawFieldText(look, numberText(std::round(number * 1e4) / 1e4), true);
+    if (hovered) ImGui::SetTooltip("The timeline moves it: the inspector sets its key at the time shown");
 }
 
 }  // namespace fw::editor

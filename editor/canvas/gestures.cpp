@@ -8,7 +8,7 @@ namespace fw::editor {
 
 namespace {
 
-using Gesture = Canvas::Gesture;
+using Kind = CanvasGesture::Kind;
 using What = Hit::What;
 
 constexpr float kStill = 4.0f;        // pixels that a click may move
@@ -32,15 +32,16 @@ Plug plugOf(const Boxes& boxes, const Hit& hit) {
 }
 
 /// What one frame of gestures works on.
-struct Hand {
+struct Mouse {
     Canvas& canvas;
     Document& document;
     const Boxes& boxes;
     CanvasWishes wishes = {};
+    CanvasGesture& gesture = canvas.gesture;
 
     const ImGuiIO& io = ImGui::GetIO();
-    ImVec2 mouse = canvas.view.toCanvas(io.MousePos);
-    Hit hit = hitTest(boxes, mouse, kReach / canvas.view.unit());
+    ImVec2 at = canvas.view.toCanvas(io.MousePos);
+    Hit hit = hitTest(boxes, at, kReach / canvas.view.unit());
 
     NodeIds chosen() const { return {canvas.selection.begin(), canvas.selection.end()}; }
 
@@ -70,82 +71,91 @@ struct Hand {
             canvas.active = canvas.selection.empty() ? std::string() : *canvas.selection.rbegin();
     }
 
+    /// `name` is what the step of undo is called, of a gesture that changes the document.
+    void start(Kind kind, int button, const char* name = "") {
+        gesture = {.kind = kind, .hand = document.begin(name), .button = button, .begin = at};
+        gesture.trail = {at};
+        gesture.base = document.graph();
+    }
+    /// What it did is one step.
+    void finish() {
+        const Hand done = gesture.hand;
+        gesture = {};
+        document.end(done);
+    }
+    void giveUp() {
+        const Hand done = gesture.hand;
+        gesture = {};
+        document.cancel(done);
+    }
+
     /// The wire's open end is taken up: of a wired input that wire itself, else a new one.
     void takeWire() {
-        canvas.gesture = Gesture::wire;
-        canvas.refused.clear();
-        canvas.plug = plugOf(boxes, hit);
-        canvas.plugIsOutput = hit.what == What::output;
+        start(Kind::wire, 0, "Connect");
+        gesture.plug = plugOf(boxes, hit);
+        gesture.plugIsOutput = hit.what == What::output;
         const Row& row = boxes.nodes[hit.index].rows[hit.row];
-        document.begin("Connect");
-        if (canvas.plugIsOutput || !row.linked) return;
+        if (gesture.plugIsOutput || !row.linked) return;
         const auto wire = std::find_if(boxes.wires.begin(), boxes.wires.end(), [&](const Wire& each) {
             return each.to == hit.index && each.toRow == hit.row;
         });
         if (wire == boxes.wires.end()) return;
-        const Plug input = canvas.plug;
-        canvas.plug = boxes.output(*wire);
-        canvas.plugIsOutput = true;
-        document.update(disconnect(document.graph(), canvas.scope, input));
-        canvas.base = document.graph();
+        const Plug input = gesture.plug;
+        gesture.plug = boxes.output(*wire);
+        gesture.plugIsOutput = gesture.tookOff = true;
+        document.update(gesture.hand, disconnect(document.graph(), canvas.scope, input));
     }
 
     /// What the loose end would be connected to here, and in `refused` why it may not.
     std::optional<Plug> target() {
-        canvas.refused.clear();
-        const bool wantsInput = canvas.plugIsOutput;
+        gesture.refused.clear();
+        const bool wantsInput = gesture.plugIsOutput;
         if (hit.what == (wantsInput ? What::input : What::output)) {
             const Plug plug = plugOf(boxes, hit);
-            canvas.refused = wantsInput ? refusal(document.graph(), canvas.scope, canvas.plug, plug)
-                                        : refusal(document.graph(), canvas.scope, plug, canvas.plug);
+            gesture.refused = wantsInput ? refusal(document.graph(), canvas.scope, gesture.plug, plug)
+                                         : refusal(document.graph(), canvas.scope, plug, gesture.plug);
             return plug;
         }
         const bool onNode = hit.what == What::node || hit.what == What::title || hit.what == What::field ||
                             hit.what == What::input || hit.what == What::output;
-        if (!onNode || boxes.nodes[hit.index].node->id == canvas.plug.node) return std::nullopt;
+        if (!onNode || boxes.nodes[hit.index].node->id == gesture.plug.node) return std::nullopt;
         const std::string& id = boxes.nodes[hit.index].node->id;
-        const std::optional<Plug> plug = wantsInput
-                                             ? fittingInput(document.graph(), canvas.scope, canvas.plug, id)
-                                             : fittingOutput(document.graph(), canvas.scope, id, canvas.plug);
-        if (!plug) canvas.refused = titleOf(boxes.nodes[hit.index]) + " has no socket that fits";
+        const std::optional<Plug> plug =
+            wantsInput ? fittingInput(document.graph(), canvas.scope, gesture.plug, id)
+                       : fittingOutput(document.graph(), canvas.scope, id, gesture.plug);
+        if (!plug) gesture.refused = titleOf(boxes.nodes[hit.index]) + " has no socket that fits";
         return plug;
     }
 
     void dropWire() {
         const std::optional<Plug> plug = target();
-        if (plug && canvas.refused.empty()) {
-            document.update(canvas.plugIsOutput
-                                ? connect(document.graph(), canvas.scope, canvas.plug, *plug)
-                                : connect(document.graph(), canvas.scope, *plug, canvas.plug));
-        } else if (canvas.refused.empty() && hit.what != What::node && hit.what != What::title &&
+        if (plug && gesture.refused.empty()) {
+            document.update(gesture.hand, gesture.plugIsOutput
+                                              ? connect(document.graph(), canvas.scope, gesture.plug, *plug)
+                                              : connect(document.graph(), canvas.scope, *plug, gesture.plug));
+        } else if (gesture.refused.empty() && hit.what != What::node && hit.what != What::title &&
                    hit.what != What::field) {
             // Over the canvas: a wire that was taken off stays off, a new one asks what is to be added.
-            const bool tookOff = canvas.plugIsOutput && canvas.pressed.what == What::input;
-            if (!tookOff) wishes.add = {mouse, canvas.plug, canvas.plugIsOutput};
-        } else if (!canvas.refused.empty()) {
-            document.cancel();
-            canvas.gesture = Gesture::none;
-            canvas.refused.clear();
-            return;
+            if (!gesture.tookOff) wishes.add = {at, gesture.plug, gesture.plugIsOutput};
+        } else if (!gesture.refused.empty()) {
+            return giveUp();
         }
-        document.end();
-        canvas.gesture = Gesture::none;
-        canvas.refused.clear();
+        finish();
     }
 
+    /// What was pressed is moved from now on.
     void beginMove() {
-        canvas.gesture = Gesture::move;
-        canvas.base = document.graph();
-        document.begin(canvas.selection.size() > 1 ? "Move Nodes" : "Move Node");
+        gesture.kind = Kind::move;
+        gesture.hand = document.begin(canvas.selection.size() > 1 ? "Move Nodes" : "Move Node");
     }
 
     Position moved() const {
-        ImVec2 by(mouse.x - canvas.begin.x, mouse.y - canvas.begin.y);
+        ImVec2 by(at.x - gesture.begin.x, at.y - gesture.begin.y);
         if (io.KeyCtrl) by = {std::round(by.x / 24.0f) * 24.0f, std::round(by.y / 24.0f) * 24.0f};
         return position(by);
     }
 
-    void move() { document.update(moveNodes(canvas.base, canvas.scope, chosen(), moved())); }
+    void move() { document.update(gesture.hand, moveNodes(gesture.base, canvas.scope, chosen(), moved())); }
 
     /// The node goes into the wire, to the right of where it comes from, and what it leads to moves on until
     /// there is room.
@@ -166,7 +176,7 @@ struct Hand {
             const std::set<std::string> after = downstream(nodesOf(made, canvas.scope), NodeIds{to.node->id});
             made = moveNodes(made, canvas.scope, NodeIds(after.begin(), after.end()), {double(on), 0});
         }
-        document.update(std::move(made));
+        document.update(gesture.hand, std::move(made));
     }
 
     /// A single unwired node that was let go of on a wire goes into it.
@@ -189,22 +199,21 @@ struct Hand {
                 }
             }
         }
-        document.end();
-        canvas.gesture = Gesture::none;
+        finish();
     }
 
     /// A frame moves with all that it holds, or changes its size by its corner.
     void dragFrame(bool corner) {
-        const std::vector<Frame> before = framesOf(canvas.base);
-        if (canvas.pressed.index >= before.size()) return;
-        Frame frame = before[canvas.pressed.index];
+        const std::vector<Frame> before = framesOf(gesture.base);
+        if (gesture.frame >= before.size()) return;
+        Frame frame = before[gesture.frame];
         const Position by = moved();
-        Graph next = canvas.base;
+        Graph next = gesture.base;
         if (corner) {
             frame.size = {std::max(80.0, frame.size[0] + by[0]), std::max(60.0, frame.size[1] + by[1])};
         } else {
             NodeIds held;
-            for (const Node& node : nodesOf(canvas.base, canvas.scope)) {
+            for (const Node& node : nodesOf(gesture.base, canvas.scope)) {
                 if (!node.at) continue;
                 const double x = (*node.at)[0] - frame.at[0], y = (*node.at)[1] - frame.at[1];
                 if (x >= 0 && y >= 0 && x < frame.size[0] && y < frame.size[1]) held.push_back(node.id);
@@ -212,7 +221,7 @@ struct Hand {
             next = moveNodes(next, canvas.scope, held, by);
             frame.at = {frame.at[0] + by[0], frame.at[1] + by[1]};
         }
-        document.update(setFrame(next, canvas.pressed.index, frame));
+        document.update(gesture.hand, setFrame(next, gesture.frame, frame));
     }
 
     /// Wires that the trail crosses.
@@ -220,8 +229,8 @@ struct Hand {
         std::vector<Wire> found;
         for (const Wire& wire : boxes.wires) {
             const Curve path = curve(boxes.start(wire), boxes.end(wire));
-            for (std::size_t i = 1; i < canvas.trail.size(); ++i)
-                if (path.crosses(canvas.trail[i - 1], canvas.trail[i])) {
+            for (std::size_t i = 1; i < gesture.trail.size(); ++i)
+                if (path.crosses(gesture.trail[i - 1], gesture.trail[i])) {
                     found.push_back(wire);
                     break;
                 }
@@ -241,8 +250,8 @@ struct Hand {
         for (const Wire& wire : crossed()) {
             const Curve path = curve(boxes.start(wire), boxes.end(wire));
             std::optional<ImVec2> place;
-            for (std::size_t i = 1; i < canvas.trail.size() && !place; ++i)
-                place = path.crossing(canvas.trail[i - 1], canvas.trail[i]);
+            for (std::size_t i = 1; i < gesture.trail.size() && !place; ++i)
+                place = path.crossing(gesture.trail[i - 1], gesture.trail[i]);
             Edited edited = addReroute(next, canvas.scope, boxes.input(wire), position(*place));
             next = std::move(edited.graph);
             made.insert(made.end(), edited.nodes.begin(), edited.nodes.end());
@@ -254,11 +263,11 @@ struct Hand {
 
     /// From the node where the drag began to the one where it ends, by the first sockets that fit.
     void connectLazily() {
-        const Hit start = hitTest(boxes, canvas.begin, kReach / canvas.view.unit());
-        const auto nodeOf = [&](const Hit& at) -> const NodeBox* {
-            const bool none = at.what == What::nothing || at.what == What::wire || at.what == What::frame ||
-                              at.what == What::frameTitle || at.what == What::frameCorner;
-            return none ? nullptr : &boxes.nodes[at.index];
+        const Hit start = hitTest(boxes, gesture.begin, kReach / canvas.view.unit());
+        const auto nodeOf = [&](const Hit& on) -> const NodeBox* {
+            const bool none = on.what == What::nothing || on.what == What::wire || on.what == What::frame ||
+                              on.what == What::frameTitle || on.what == What::frameCorner;
+            return none ? nullptr : &boxes.nodes[on.index];
         };
         const NodeBox *from = nodeOf(start), *to = nodeOf(hit);
         if (!from || !to || from == to) return;
@@ -273,99 +282,85 @@ struct Hand {
     }
 
     void press() {
-        canvas.begin = mouse;
-        canvas.pressed = hit;
-        canvas.trail = {mouse};
-        const bool space = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Space));
         if (hasMinimap(canvas, boxes) && minimapArea(canvas.view).contains(io.MousePos)) {
-            canvas.gesture = Gesture::map;
-        } else if (space) {
-            canvas.gesture = Gesture::pan;
+            start(Kind::map, 0);
+            gesture.map = minimapShows(canvas, boxes);
+        } else if (ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Space))) {
+            start(Kind::pan, 0);
             canvas.spacePans = true;
         } else if (io.KeyAlt) {
-            canvas.gesture = Gesture::lasso;
+            start(Kind::lasso, 0);
         } else if (hit.what == What::output || hit.what == What::input) {
-            canvas.base = document.graph();
             takeWire();
         } else if (hit.what == What::title || hit.what == What::node) {
-            canvas.gesture = Gesture::press;
+            start(Kind::press, 0);
+            gesture.node = boxes.nodes[hit.index].node->id;
         } else if (hit.what == What::frameTitle || hit.what == What::frameCorner) {
-            canvas.gesture = hit.what == What::frameTitle ? Gesture::frame : Gesture::corner;
-            canvas.base = document.graph();
-            document.begin(hit.what == What::frameTitle ? "Move Frame" : "Resize Frame");
+            const bool title = hit.what == What::frameTitle;
+            start(title ? Kind::frame : Kind::corner, 0, title ? "Move Frame" : "Resize Frame");
+            gesture.frame = hit.index;
         } else if (hit.what != What::field) {
-            canvas.gesture = Gesture::box;
+            start(Kind::box, 0);
         }
     }
 
     void pressRight() {
-        canvas.begin = mouse;
-        canvas.trail = {mouse};
-        canvas.gesture = io.KeyCtrl    ? Gesture::cut
-                         : io.KeyShift ? Gesture::reroute
-                         : io.KeyAlt   ? Gesture::lazy
-                                       : Gesture::none;
-        if (canvas.gesture == Gesture::none) wishes.add = {mouse, std::nullopt, false};
+        if (io.KeyCtrl)
+            start(Kind::cut, 1);
+        else if (io.KeyShift)
+            start(Kind::reroute, 1);
+        else if (io.KeyAlt)
+            start(Kind::lazy, 1);
+        else
+            wishes.add = {at, std::nullopt, false};
     }
 
     /// A press that did not become a drag.
     void click() {
-        const std::string id = boxes.nodes[canvas.pressed.index].node->id;
+        const std::string id = gesture.node;
+        finish();
         if (!io.KeyShift) canvas.selection.clear();
         pickNode(id);
         if (io.KeyCtrl && io.KeyShift) wishes.activate = id;
     }
 
     void during() {
-        const ImGuiMouseButton button = canvas.gesture == Gesture::cut ||
-                                                canvas.gesture == Gesture::reroute ||
-                                                canvas.gesture == Gesture::lazy
-                                            ? 1
-                                        : canvas.gesture == Gesture::pan && !canvas.spacePans ? 2
-                                                                                              : 0;
-        const bool up = !ImGui::IsMouseDown(button);
-        const float far = std::hypot(mouse.x - canvas.begin.x, mouse.y - canvas.begin.y) * canvas.view.unit();
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && canvas.gesture != Gesture::pan) {
-            if (document.inGesture()) document.cancel();
-            canvas.gesture = Gesture::none;
-            canvas.refused.clear();
-            return;
-        }
-        switch (canvas.gesture) {
-            case Gesture::none: return;
-            case Gesture::press:
+        const bool up = !ImGui::IsMouseDown(gesture.button);
+        const float far = std::hypot(at.x - gesture.begin.x, at.y - gesture.begin.y) * canvas.view.unit();
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && gesture.kind != Kind::pan)
+            return giveUp();
+        switch (gesture.kind) {
+            case Kind::none: return;
+            case Kind::press:
                 if (far > kStill) {
-                    const std::string& id = boxes.nodes[canvas.pressed.index].node->id;
-                    if (!canvas.selection.contains(id)) pickNode(id);
+                    if (!canvas.selection.contains(gesture.node)) pickNode(gesture.node);
                     beginMove();
                     return move();
                 }
-                if (up) click(), canvas.gesture = Gesture::none;
+                if (up) click();
                 return;
-            case Gesture::pan: canvas.view.pan(io.MouseDelta); break;
-            case Gesture::move:
+            case Kind::pan: canvas.view.pan(io.MouseDelta); break;
+            case Kind::move:
                 if (up) return endMove();
                 return move();
-            case Gesture::frame:
-            case Gesture::corner:
-                dragFrame(canvas.gesture == Gesture::corner);
-                if (up) document.end();
-                break;
-            case Gesture::map: {
-                const Area place = minimapArea(canvas.view), all = minimapShows(canvas, boxes);
+            case Kind::frame:
+            case Kind::corner: dragFrame(gesture.kind == Kind::corner); break;
+            case Kind::map: {
+                const Area place = minimapArea(canvas.view), &all = gesture.map;
                 const float scale = all.width() / place.width();
-                canvas.view.middle = {all.lo.x + (io.MousePos.x - place.lo.x) * scale,
-                                      all.lo.y + (io.MousePos.y - place.lo.y) * scale};
+                const ImVec2 in = place.nearest(io.MousePos);
+                canvas.view.middle = {all.lo.x + (in.x - place.lo.x) * scale,
+                                      all.lo.y + (in.y - place.lo.y) * scale};
                 break;
             }
-            case Gesture::wire:
+            case Kind::wire:
                 if (up) return dropWire();
                 target();
                 return;
-            case Gesture::box: {
+            case Kind::box: {
                 if (!up) return;
-                Area area{canvas.begin, canvas.begin};
-                area.add(mouse);
+                Area area{gesture.begin, gesture.begin};
+                area.add(at);
                 std::set<std::string> found;
                 if (far > kStill)
                     for (const NodeBox& box : boxes.nodes)
@@ -373,36 +368,35 @@ struct Hand {
                 pick(found);
                 break;
             }
-            case Gesture::lasso:
-            case Gesture::cut:
-            case Gesture::reroute:
-            case Gesture::lazy: {
-                const ImVec2 last = canvas.trail.back();
-                if (std::hypot(mouse.x - last.x, mouse.y - last.y) * canvas.view.unit() > 2.0f)
-                    canvas.trail.push_back(mouse);
+            case Kind::lasso:
+            case Kind::cut:
+            case Kind::reroute:
+            case Kind::lazy: {
+                const ImVec2 last = gesture.trail.back();
+                if (std::hypot(at.x - last.x, at.y - last.y) * canvas.view.unit() > 2.0f)
+                    gesture.trail.push_back(at);
                 if (!up) return;
-                const Gesture done = canvas.gesture;
-                canvas.gesture = Gesture::none;
-                if (done == Gesture::cut) return cut();
-                if (done == Gesture::reroute) return rerouteCrossed();
-                if (done == Gesture::lazy) return connectLazily();
-                std::set<std::string> found;
-                for (const NodeBox& box : boxes.nodes)
-                    if (inPolygon(canvas.trail, box.area.centre())) found.insert(box.node->id);
-                return pick(found);
+                if (gesture.kind == Kind::cut) cut();
+                if (gesture.kind == Kind::reroute) rerouteCrossed();
+                if (gesture.kind == Kind::lazy) connectLazily();
+                if (gesture.kind == Kind::lasso) {
+                    std::set<std::string> found;
+                    for (const NodeBox& box : boxes.nodes)
+                        if (inPolygon(gesture.trail, box.area.centre())) found.insert(box.node->id);
+                    pick(found);
+                }
+                break;
             }
         }
-        if (up) canvas.gesture = Gesture::none;
+        if (up) finish();
     }
 
     /// Dragging to the panel's edge shows more of the canvas.
     void moveAtEdge() {
-        if (canvas.gesture != Gesture::wire && canvas.gesture != Gesture::move &&
-            canvas.gesture != Gesture::box)
-            return;
+        if (gesture.kind != Kind::wire && gesture.kind != Kind::move && gesture.kind != Kind::box) return;
         const Area& panel = canvas.view.panel;
-        const auto push = [](float at, float lo, float hi) {
-            return at < lo + kEdge ? lo + kEdge - at : at > hi - kEdge ? hi - kEdge - at : 0.0f;
+        const auto push = [](float place, float lo, float hi) {
+            return place < lo + kEdge ? lo + kEdge - place : place > hi - kEdge ? hi - kEdge - place : 0.0f;
         };
         const float speed = 8.0f * io.DeltaTime;
         canvas.view.pan({speed * std::clamp(push(io.MousePos.x, panel.lo.x, panel.hi.x), -60.0f, 60.0f),
@@ -426,8 +420,8 @@ struct Hand {
     }
 
     void hover(const CanvasMarks& marks) const {
-        if (!canvas.refused.empty()) return ImGui::SetTooltip("%s", canvas.refused.c_str());
-        if (canvas.gesture != Gesture::none || hit.what == What::nothing ||
+        if (!gesture.refused.empty()) return ImGui::SetTooltip("%s", gesture.refused.c_str());
+        if (gesture.kind != Kind::none || hit.what == What::nothing ||
             ImGui::GetTime() - canvas.restedSince < kTooltipWait)
             return;
         if (hit.what == What::wire) { return describeWire(boxes.wires[hit.index], marks); }
@@ -467,13 +461,16 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     canvas.view.panel = {at, {at.x + std::max(room.x, 1.0f), at.y + std::max(room.y, 1.0f)}};
     canvas.view.scale = shell.scale();
     if (canvas.frameNext) canvas.view.frame(boxes.around()), canvas.frameNext = false;
+    CanvasGesture& gesture = canvas.gesture;
+    if (gesture.kind != Kind::none && !document.hold(gesture.hand)) gesture = {};
+    canvas.number.follow(document);
     const uint64_t revision = document.revision();
     drawCanvas(canvas, boxes, marks, shell);
 
     const ImGuiIO& io = ImGui::GetIO();
     const bool hovered = ImGui::IsWindowHovered() && canvas.view.panel.contains(io.MousePos);
     // Fields above the drawing; the first that changes the document ends what the others stand on.
-    const bool idle = canvas.gesture == Gesture::none;
+    const bool idle = gesture.kind == Kind::none;
     const float size = shell.fonts().crisp(kTextSize * canvas.view.unit());
     if (showsFields(canvas.view)) {
         ImGui::PushClipRect(canvas.view.panel.lo, canvas.view.panel.hi, true);
@@ -490,17 +487,16 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
                     const Area field = shown[n]->field(row, i);
                     // Nodes lie above each other in their order, and their fields with them.
                     const auto covers = [&](const NodeBox* above) { return above->area.overlaps(field); };
-                    if (std::any_of(shown.begin() + std::ptrdiff_t(n) + 1, shown.end(), covers)) continue;
-                    const Area place = canvas.view.toScreen(field);
-                    const bool moves = moved != marks.animated.end();
-                    if (moves && canvas.field.is(canvas.scope, {shown[n]->node->id, row.name}, i))
-                        canvas.field = {};
-                    if (moves)
-                        showMoved(moved->second.at(std::size_t(i)), place, shell.fonts().of(size), size,
-                                  hovered && idle);
+                    const bool typed =
+                        canvas.number.is(inputPath(canvas.scope, {shown[n]->node->id, row.name}), i);
+                    if (!typed && std::any_of(shown.begin() + std::ptrdiff_t(n) + 1, shown.end(), covers))
+                        continue;
+                    const NumberLook look{canvas.view.toScreen(field), shell.fonts().of(size), size,
+                                          hovered && idle};
+                    if (moved != marks.animated.end())
+                        showMoved(moved->second.at(std::size_t(i)), look);
                     else
-                        showField(canvas.field, document, canvas.scope, *shown[n], row, i, place,
-                                  shell.fonts().of(size), size, hovered && idle);
+                        showField(canvas.number, document, canvas.scope, *shown[n], row, i, look);
                 }
             }
         ImGui::PopClipRect();
@@ -508,31 +504,31 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     if (document.revision() != revision) return {};
 
     if (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f) canvas.restedSince = ImGui::GetTime();
-    Hand hand{canvas, document, boxes};
-    if (hovered && io.MouseWheel != 0.0f && canvas.field.state == FieldEdit::State::none)
+    Mouse mouse{canvas, document, boxes};
+    const bool editing = canvas.number.state != NumberHand::State::none;
+    if (hovered && io.MouseWheel != 0.0f && !editing)
         canvas.view.zoomTo(canvas.view.zoom * std::pow(kWheel, io.MouseWheel), io.MousePos);
-    if (canvas.gesture != Gesture::none) {
-        hand.moveAtEdge();
-        hand.during();
-        if (canvas.gesture != Gesture::none) hand.hover(marks);  // why a wire cannot be dropped here
-    } else if (hovered && canvas.field.state == FieldEdit::State::none) {
-        hand.hover(marks);
-        if (ImGui::IsMouseDoubleClicked(0) && hand.hit.what == What::frameTitle) {
-            hand.wishes.frame = hand.hit.index;
-        } else if (ImGui::IsMouseDoubleClicked(0) &&
-                   (hand.hit.what == What::title || hand.hit.what == What::node)) {
-            hand.wishes.enter = boxes.nodes[hand.hit.index].node->group;
-            if (hand.wishes.enter.empty()) hand.press();
+    if (gesture.kind != Kind::none) {
+        mouse.moveAtEdge();
+        mouse.during();
+        if (gesture.kind != Kind::none) mouse.hover(marks);  // why a wire cannot be dropped here
+    } else if (hovered && !editing) {
+        const Hit& hit = mouse.hit;
+        mouse.hover(marks);
+        if (ImGui::IsMouseDoubleClicked(0) && hit.what == What::frameTitle) {
+            mouse.wishes.frame = hit.index;
+        } else if (ImGui::IsMouseDoubleClicked(0) && (hit.what == What::title || hit.what == What::node)) {
+            mouse.wishes.enter = boxes.nodes[hit.index].node->group;
+            if (mouse.wishes.enter.empty()) mouse.press();
         } else if (ImGui::IsMouseClicked(0)) {
-            hand.press();
+            mouse.press();
         } else if (ImGui::IsMouseClicked(1)) {
-            hand.pressRight();
+            mouse.pressRight();
         } else if (ImGui::IsMouseClicked(2)) {
-            canvas.gesture = Gesture::pan;
-            canvas.spacePans = false;
+            mouse.start(Kind::pan, 2);
         }
     }
-    return std::move(hand.wishes);
+    return std::move(mouse.wishes);
 }
 
 }  // namespace fw::editor

@@ -68,14 +68,13 @@ ImVec2 freePlace(const Boxes& boxes, ImVec2 place) {
     return place;
 }
 
-bool typeFirstValue(Canvas& canvas, const Boxes& boxes) {
+bool typeFirstValue(Canvas& canvas, Document& document, const Boxes& boxes) {
     const NodeBox* box = boxes.find(canvas.active);
     if (!box || !showsFields(canvas.view)) return false;
     for (const Row& row : box->rows) {
         if (!row.typed()) continue;
         bringIntoSight(canvas.view, box->area);
-        canvas.field = {};
-        canvas.field.type(canvas.scope, {box->node->id, row.name}, 0, numbersOf(row).at(0));
+        typeField(canvas.number, document, canvas.scope, *box, row, 0);
         return true;
     }
     return false;

@@ -22,6 +22,6 @@ void bringIntoSight(CanvasView& view, const Area& area);
 ImVec2 freePlace(const Boxes& boxes, ImVec2 place);
 
 /// Begins to type the first number of the active node; false if it has none that could be seen.
-bool typeFirstValue(Canvas& canvas, const Boxes& boxes);
+bool typeFirstValue(Canvas& canvas, Document& document, const Boxes& boxes);
 
 }  // namespace fw::editor

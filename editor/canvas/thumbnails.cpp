@@ -1,6 +1,7 @@
 #include "editor/canvas/thumbnails.h"
 
 #include <chrono>
+#include <exception>
 
 namespace fw::editor {
 
@@ -16,6 +17,22 @@ void Thumbnails::toggle(Shell& shell, const std::string& node) {
 
 void Thumbnails::clear(Shell& shell) {
     while (!shown.empty()) toggle(shell, std::string(shown.begin()->first));
+    path.clear();
+}
+
+void Thumbnails::rename(const std::string& before, const std::string& after) {
+    if (auto entry = shown.extract(before)) {
+        entry.key() = after;
+        shown.insert(std::move(entry));
+    }
+    if (path == before) path = after;
+}
+
+void Thumbnails::keepOnly(Shell& shell, const std::function<bool(const std::string&)>& exists) {
+    std::vector<std::string> gone;
+    for (const auto& [node, there] : shown)
+        if (!exists(node)) gone.push_back(node);
+    for (const std::string& node : gone) toggle(shell, node);
 }
 
 bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph, uint64_t current,
@@ -42,7 +59,10 @@ bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph,
         if (there.revision == current && !moved) continue;
         path = node, revision = current, given = particles;
         working = std::async(std::launch::async, [graph, particles, node = node, made = there.made] {
-            Result<Thumbnail> result = thumbnail(*graph, node, particles, made);
+            Result<Thumbnail> result = Error{};
+            try {
+                result = thumbnail(*graph, node, particles, made);
+            } catch (const std::exception& error) { result = Error{.message = error.what()}; }
             Shell::wake();
             return result;
         });

@@ -4,6 +4,7 @@
 // Lifetime: part of the Editor; the destructor waits for the picture under way. The textures are the Shell's.
 #pragma once
 
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
@@ -29,6 +30,10 @@ struct Thumbnails {
     void toggle(Shell& shell, const std::string& path);
     /// Takes away all.
     void clear(Shell& shell);
+    /// The node has another path now.
+    void rename(const std::string& before, const std::string& after);
+    /// Takes away those of nodes that are gone.
+    void keepOnly(Shell& shell, const std::function<bool(const std::string&)>& exists);
     /// Takes the picture that was made, and begins the next that is out of date unless `rests` is false.
     /// `particles` are those of the viewport's picture; none while it is being made. Whether there is
     /// something new to be drawn.

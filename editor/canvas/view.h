@@ -20,6 +20,7 @@ struct Area {
     float height() const { return hi.y - lo.y; }
     ImVec2 centre() const { return {0.5f * (lo.x + hi.x), 0.5f * (lo.y + hi.y)}; }
     bool contains(ImVec2 p) const { return p.x >= lo.x && p.x < hi.x && p.y >= lo.y && p.y < hi.y; }
+    ImVec2 nearest(ImVec2 p) const { return {std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y)}; }
     bool overlaps(const Area& other) const {
         return lo.x < other.hi.x && other.lo.x < hi.x && lo.y < other.hi.y && other.lo.y < hi.y;
     }

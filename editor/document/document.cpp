@@ -1,6 +1,7 @@
 #include "editor/document/document.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <nlohmann/json.hpp>
@@ -220,88 +221,119 @@ bool same(const Snapshot& a, const Snapshot& b) {
 
 const std::string kNoName;
 
+/// No number is given twice in a process.
+uint64_t fresh() {
+    static std::atomic<uint64_t> last = 0;
+    return ++last;
+}
+
 }  // namespace
 
-Document::Document(Graph graph) : current(std::move(graph)) {
+Document::Document(Graph graph) : current(std::move(graph)), changes(fresh()) {
     steps.push_back({"", snapshotOf(current, Snapshot{})});
     saved = steps.front().after;
 }
 
-void Document::apply(std::string name, Graph next) {
-    if (inGesture()) return update(std::move(next));
+void Document::push(std::string name, Graph next) {
     auto after = snapshotOf(next, *steps[at].after);
     if (same(*after, *steps[at].after)) return;
     next.path = current.path;
     current = std::move(next);
-    ++changes;
+    changes = fresh();
     steps.resize(at + 1);
     steps.push_back({std::move(name), std::move(after)});
     if (steps.size() > kMostSteps + 1) steps.pop_front();
     at = steps.size() - 1;
 }
 
-void Document::begin(std::string name) {
-    assert(!inGesture());
-    gesture = steps[at].after;
-    gestureName = std::move(name);
+void Document::apply(std::string name, Graph next) {
+    if (std::exchange(hand.changed, false)) push(hand.name, Graph(current));
+    push(std::move(name), std::move(next));
+    settle();
 }
 
-void Document::update(Graph next) {
-    assert(inGesture());
+Hand Document::begin(std::string name) {
+    settle();
+    hand = {.number = Hand(fresh()), .name = std::move(name)};
+    return hand.number;
+}
+
+bool Document::hold(Hand held, std::function<void()> pending) {
+    if (held == Hand::none || held != hand.number) return false;
+    hand.asked = true;
+    hand.pending = std::move(pending);
+    return true;
+}
+
+void Document::update(Hand by, Graph next) {
+    if (by == Hand::none || by != hand.number) return;
     next.path = current.path;
     current = std::move(next);
-    ++changes;
+    changes = fresh();
+    hand.changed = true;
 }
 
-void Document::end() {
-    assert(inGesture());
-    gesture.reset();
-    Graph next = current;
-    apply(std::exchange(gestureName, {}), std::move(next));
+void Document::end(Hand by) {
+    if (by == Hand::none || by != hand.number) return;
+    const Begun ended = std::exchange(hand, {});
+    if (ended.changed) push(ended.name, Graph(current));
 }
 
-void Document::cancel() {
-    assert(inGesture());
-    current = graphOf(*std::exchange(gesture, nullptr), std::move(current.path));
-    ++changes;
+void Document::cancel(Hand by) {
+    if (by == Hand::none || by != hand.number) return;
+    if (!std::exchange(hand, {}).changed) return;
+    current = graphOf(*steps[at].after, std::move(current.path));
+    changes = fresh();
 }
 
-bool Document::canUndo() const { return !inGesture() && at > 0; }
-bool Document::canRedo() const { return !inGesture() && at + 1 < steps.size(); }
+void Document::settle() {
+    const Hand settled = hand.number;
+    if (const auto pending = std::exchange(hand.pending, {})) pending();
+    end(settled);
+}
+
+void Document::settleLost() {
+    if (!std::exchange(hand.asked, false)) settle();
+}
+
+bool Document::canUndo() const { return !held() && at > 0; }
+bool Document::canRedo() const { return !held() && at + 1 < steps.size(); }
 const std::string& Document::undoName() const { return canUndo() ? steps[at].name : kNoName; }
 const std::string& Document::redoName() const { return canRedo() ? steps[at + 1].name : kNoName; }
 
 bool Document::undo() {
     if (!canUndo()) return false;
     current = graphOf(*steps[--at].after, std::move(current.path));
-    ++changes;
+    changes = fresh();
     return true;
 }
 
 bool Document::redo() {
     if (!canRedo()) return false;
     current = graphOf(*steps[++at].after, std::move(current.path));
-    ++changes;
+    changes = fresh();
     return true;
 }
 
 bool Document::unsaved() const {
     if (!saved) return true;
-    if (!inGesture()) return !same(*steps[at].after, *saved);
+    if (!hand.changed) return !same(*steps[at].after, *saved);
     return !same(*snapshotOf(current, *saved), *saved);
 }
 
-void Document::markSaved() { saved = inGesture() ? snapshotOf(current, *gesture) : steps[at].after; }
+void Document::markSaved() { saved = hand.changed ? snapshotOf(current, *steps[at].after) : steps[at].after; }
 
 void Document::markUnsaved() {
     saved.reset();
-    ++changes;  // for whoever keeps what is unsaved
+    changes = fresh();  // for whoever keeps what is unsaved
 }
+
+void Document::outdate() { changes = fresh(); }
 
 void Document::setPath(std::string path) {
     if (path == current.path) return;
     current.path = std::move(path);
-    ++changes;
+    changes = fresh();
 }
 
 }  // namespace fw::editor

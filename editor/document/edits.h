@@ -36,7 +36,8 @@ struct Edited {
     NodeIds nodes;
 };
 
-/// The nodes of a scope; those of the document for an empty one. The group exists.
+/// The nodes of a scope; those of the document for an empty one. Of a group that is gone: none, and what is
+/// done to them changes nothing.
 const std::vector<Node>& nodesOf(const Graph& graph, std::string_view scope);
 std::vector<Node>& nodesOf(Graph& graph, std::string_view scope);
 
@@ -105,6 +106,8 @@ Graph toggleCollapsed(const Graph& graph, std::string_view scope, std::span<cons
 /// not fit it. An expression gets the input if it has none of that name, and loses it without a value.
 Graph setInput(const Graph& graph, std::string_view scope, const Plug& input,
                std::optional<InputValue> value);
+/// One of the numbers of an input, which may stand for its default so far.
+Graph setNumber(const Graph& graph, std::string_view scope, const Plug& input, int component, double number);
 Graph setLabel(const Graph& graph, std::string_view scope, std::string_view node, std::string label);
 Graph setCode(const Graph& graph, std::string_view scope, std::string_view node, std::string code);
 /// Another id for a node; links, parameters and tracks follow. Error: no id, or taken.

@@ -86,13 +86,18 @@ bool takes(const Wiring& wiring, const Plug& input, const InputValue& value) {
 
 const std::vector<Node>& nodesOf(const Graph& graph, std::string_view scope) {
     if (scope.empty()) return graph.nodes;
+    static const std::vector<Node> none;
     const Group* group = graph.group(scope);
-    assert(group && "the group exists");
-    return group->nodes;
+    return group ? group->nodes : none;
 }
 
 std::vector<Node>& nodesOf(Graph& graph, std::string_view scope) {
-    return const_cast<std::vector<Node>&>(nodesOf(std::as_const(graph), scope));
+    if (scope.empty()) return graph.nodes;
+    const auto group = std::ranges::find(graph.groups, scope, &Group::id);
+    if (group != graph.groups.end()) return group->nodes;
+    static thread_local std::vector<Node> none;
+    none.clear();
+    return none;
 }
 
 FreshIds::FreshIds(const std::vector<Node>& nodes) {
@@ -237,6 +242,26 @@ Graph setInput(const Graph& graph, std::string_view scope, const Plug& input,
         renameParameterTracks(result, std::string(*oldName), *newName);
     node.set(input.name, std::move(*value));
     return result;
+}
+
+Graph setNumber(const Graph& graph, std::string_view scope, const Plug& input, int component, double number) {
+    const Wiring wiring(graph, scope);
+    const auto at = wiring.find(input.node);
+    if (!at) return graph;
+    const std::optional<Socket> socket = wiring.input(input);
+    std::vector<double> numbers = inputNumbers(nodesOf(graph, scope)[*at], input.name);
+    const std::size_t count =
+        socket && socket->type ? std::size_t(componentCount(*socket->type)) : numbers.size();
+    if (component < 0 || std::size_t(component) >= count) return graph;
+    // One number stands for a vector of it.
+    numbers.resize(count, numbers.size() == 1 ? numbers[0] : 0.0);
+    numbers[std::size_t(component)] = number;
+    InputValue value;
+    if (count == 1)
+        value.value = number;
+    else
+        value.value = std::move(numbers);
+    return setInput(graph, scope, input, std::move(value));
 }
 
 Graph setLabel(const Graph& graph, std::string_view scope, std::string_view node, std::string label) {

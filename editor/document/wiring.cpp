@@ -1,7 +1,6 @@
 #include "editor/document/wiring.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "graph/base/words.h"
 
@@ -13,10 +12,8 @@ namespace {
 bool takesNoWire(Type type) { return type == Type::string || type == Type::points || type == Type::image; }
 
 const GroupSockets* socketsOf(const Groups& groups, std::string_view scope) {
-    if (scope.empty()) return nullptr;
     const auto found = groups.byId.find(scope);
-    assert(found != groups.byId.end() && "the group exists");
-    return &groups.list[found->second];
+    return scope.empty() || found == groups.byId.end() ? nullptr : &groups.list[found->second];
 }
 
 /// Whether one of the sockets of a group, in its order, has a type for which use() holds.

@@ -10,7 +10,7 @@ namespace fw::editor {
 
 class Wiring {
   public:
-    /// The nodes of the document, or of the group with the id `scope`, which exists.
+    /// The nodes of the document, or of the group with the id `scope`; none if it is gone.
     Wiring(const Graph& graph, std::string_view scope);
     Wiring(const Wiring&) = delete;
     Wiring& operator=(const Wiring&) = delete;

@@ -79,7 +79,7 @@ void showPartly(Editor& editor) {
     ImGui::SameLine();
     if (button(editor, "Replace")) {
         ImGui::CloseCurrentPopup();
-        if (writeFile(editor, editor.document.graph().path)) doNext(editor);
+        if (saveTo(editor, editor.document.graph().path)) doNext(editor);
     }
     ImGui::SameLine();
     if (button(editor, "Cancel") || escaped()) {
@@ -109,14 +109,24 @@ void showOutside(Editor& editor) {
         "Another program changed %s, and there are unsaved changes here. Loading it is one step, which undo "
         "takes back.",
         nameOf(editor).c_str());
+    const std::string waits = files.waits;
     const bool load = files.outside && button(editor, "Load it");
     ImGui::SameLine();
-    const bool keep = button(editor, "Keep mine") || escaped() || !files.outside;
+    const bool keep = button(editor, waits.empty() ? "Keep mine" : "Save mine over it") || !files.outside;
+    bool leave = false;
+    if (!waits.empty()) {
+        ImGui::SameLine();
+        leave = button(editor, "Cancel");
+    }
+    leave = leave || escaped();
     if (load) reload(editor, *files.outside);
-    if (load || keep) {
+    if (load || leave) files.next = Next::none;
+    if (load || keep || leave) {
         files.outside.reset();
+        files.waits.clear();
         ImGui::CloseCurrentPopup();
     }
+    if (keep && !load && !waits.empty() && writeFile(editor, waits)) doNext(editor);
     ImGui::EndPopup();
 }
 
@@ -157,10 +167,11 @@ void showMessage(Editor& editor) {
 
 void showOffer(Editor& editor) {
     Files& files = editor.files;
-    if (files.left.empty() || !files.message.title.empty()) return;
+    if (!files.offers || files.left.empty() || !files.message.title.empty()) return;
     if (!ImGui::IsPopupOpen(kOffer)) ImGui::OpenPopup(kOffer);
     if (!ImGui::BeginPopupModal(kOffer, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
     ImGui::TextUnformatted("The editor ended before these changes were saved:");
+    bool restored = false;
     for (std::size_t i = 0; i < files.left.size(); ++i) {
         const LeftCopy copy = files.left[i];
         ImGui::PushID(int(i));
@@ -171,13 +182,17 @@ void showOffer(Editor& editor) {
         const bool remove = ImGui::Button("Delete");
         ImGui::PopID();
         if (opens) restore(editor, copy);
+        restored = opens;
         if (remove) removeCopy(copy);
         if (!opens && !remove) continue;
         files.left.erase(files.left.begin() + std::ptrdiff_t(i));
         break;
     }
-    if (files.left.empty()) ImGui::CloseCurrentPopup();
-    if (ImGui::Button("Later") || escaped()) files.left.clear(), ImGui::CloseCurrentPopup();
+    // One at a time: the next would take the place of this one before it is saved.
+    if (restored && !files.left.empty())
+        say(editor, "the other recovered work waits under File, Recovered work");
+    if (files.left.empty() || ImGui::Button("Later") || escaped()) files.offers = false;
+    if (!files.offers) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

@@ -1,5 +1,7 @@
 #include "editor/files/files.h"
 
+#include <imgui_internal.h>
+
 #include <filesystem>
 
 #include "editor/document/layout.h"
@@ -126,8 +128,12 @@ std::string workFolder(const Editor& editor) {
 }
 
 void take(Editor& editor, Graph graph) {
+    ImGui::ClearActiveID();  // it would go on with what is typed, over another document
     editor.document = Document(placeAll(graph));
     editor.viewport.forget(editor.shell);
+    editor.panelState = {};
+    editor.add = {};
+    editor.frameMenu = {};
     editor.boxes.reset();
     editor.drawn = 0;
     const bool minimap = editor.canvas.minimap;
@@ -137,6 +143,7 @@ void take(Editor& editor, Graph graph) {
     editor.files.origin = Origin::own;
     editor.files.found.clear();
     editor.files.outside.reset();
+    editor.files.waits.clear();
     editor.files.watch.follow({}, {});
 }
 
@@ -166,6 +173,7 @@ void doNext(Editor& editor) {
         case Next::open: openFile(editor, files.nextPath); break;
         case Next::drop: addDropped(editor, std::exchange(files.dropped, {})); break;
         case Next::samples: files.samples.opening = true; break;
+        case Next::recovered: files.offers = true; break;
         case Next::quit: (exports(editor) ? files.asksExport : editor.quit) = true; break;
     }
 }
@@ -190,6 +198,18 @@ bool writeFile(Editor& editor, const std::string& path) {
     say(editor, joined(told));
     remember(editor, path);
     return true;
+}
+
+bool saveTo(Editor& editor, const std::string& path) {
+    Files& files = editor.files;
+    const std::string& own = editor.document.graph().path;
+    if (!own.empty() && sameFile(path, own) && files.origin != Origin::sample) {
+        if (!files.outside)
+            if (std::optional<FileWatch::Change> change = files.watch.lookNow(); change && !change->gone)
+                files.outside = std::move(change->text);
+        if (files.outside) return files.waits = path, false;
+    }
+    return writeFile(editor, path);
 }
 
 void reload(Editor& editor, const std::string& text) {
@@ -234,6 +254,7 @@ void restore(Editor& editor, const LeftCopy& copy) {
                                                       : Origin::partly;
     }
     if (editor.files.recovery.keepNow(found)) removeCopy(copy);
+    editor.files.offers = false;
 }
 
 void startFiles(Editor& editor, const std::string& path) {
@@ -242,6 +263,7 @@ void startFiles(Editor& editor, const std::string& path) {
     editor.keymap = keymapOf(editor.files.preferences);
     arrange(editor, editor.files.preferences.panels);
     editor.files.left = leftCopies();
+    editor.files.offers = !editor.files.left.empty();
     if (!problem.empty()) editor.notice = problem, editor.noticeUntil = 1e9;
     if (!path.empty()) openFirst(editor, path);
 }
@@ -251,12 +273,12 @@ void showFiles(Editor& editor) {
     if (const auto path = show(files.browser, editor.shell.scale())) {
         if (files.browser.kind == FileBrowser::Kind::open)
             openFile(editor, *path);
-        else if (writeFile(editor, *path))
+        else if (saveTo(editor, *path))
             doNext(editor);
     }
     if (const auto path = show(files.samples, editor.shell)) openFile(editor, *path);
     // Not into what a hand is doing: it waits for that to end.
-    if (!editor.document.inGesture())
+    if (!editor.document.held())
         if (const std::vector<std::string> dropped = editor.shell.takeDropped(); !dropped.empty())
             drop(editor, dropped);
     const std::string& failure = editor.viewport.shown.failure;
@@ -274,12 +296,14 @@ void showFiles(Editor& editor) {
     if (title != files.title) editor.shell.setTitle(files.title = title);
 }
 
-bool watchFile(Editor& editor) {
+bool watchFile(Editor& editor, FileWatch::Clock::time_point now) {
     Files& files = editor.files;
-    if (editor.document.inGesture() || files.outside) return false;
-    const bool assets = files.assets.look(editor.graph);
+    // Not under what is being done: it waits for that to end.
+    if (editor.document.held() || files.outside || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
+        return false;
+    const bool assets = files.assets.look(editor.graph, now);
     if (assets) editor.document.outdate();
-    std::optional<FileWatch::Change> change = files.watch.look();
+    std::optional<FileWatch::Change> change = files.watch.look(now);
     if (!change) return assets;
     const std::string name = fileName(editor.document.graph().path);
     if (change->gone) {
@@ -331,6 +355,7 @@ void showRecent(Editor& editor) {
 }
 
 void proceed(Editor& editor, Next next, std::string path) {
+    editor.document.settle();  // what is being typed is one of the changes
     editor.files.next = next;
     editor.files.nextPath = std::move(path);
     if (editor.document.unsaved())
@@ -340,10 +365,11 @@ void proceed(Editor& editor, Next next, std::string path) {
 }
 
 bool save(Editor& editor) {
+    editor.document.settle();
     const Files& files = editor.files;
     const std::string path = editor.document.graph().path;
     if (files.origin == Origin::partly) return editor.files.asksPartly = true, false;
-    if (!path.empty() && files.origin == Origin::own) return writeFile(editor, path);
+    if (!path.empty() && files.origin == Origin::own) return saveTo(editor, path);
     askForName(editor);
     return false;
 }
@@ -354,6 +380,9 @@ void saveAs(Editor& editor) {
 }
 
 std::string keepForNextTime(Editor& editor) {
+    try {
+        editor.document.settle();
+    } catch (...) {}  // what is being typed is less than all the rest
     if (!editor.document.unsaved()) return {};
     const Done kept = editor.files.recovery.keepNow(editor.document.graph());
     if (!kept) return "The unsaved changes could not be kept: " + format(kept.error());

@@ -30,7 +30,16 @@ struct Message {
 
 struct Files {
     /// What is to happen once the changes are saved or given up.
-    enum class Next : unsigned char { none, fresh, browse, open, drop, samples, quit } next = Next::none;
+    enum class Next : unsigned char {
+        none,
+        fresh,
+        browse,
+        open,
+        drop,
+        samples,
+        recovered,
+        quit
+    } next = Next::none;
     std::string nextPath;  ///< of Next::open
     DroppedFiles dropped;  ///< of Next::drop
     bool asks = false;     ///< the question about changes is to be opened
@@ -47,13 +56,15 @@ struct Files {
     AssetWatch assets;
     std::string copied, copiedFrom;  ///< the last text that was copied here, and the file of its graph
     std::optional<std::string>
-        outside;  ///< what another program wrote, while it is asked what to do about it
+        outside;        ///< what another program wrote, while it is asked what to do about it
+    std::string waits;  ///< where to save once that is answered; empty: nowhere
     Message message;
     FileBrowser browser;
     Samples samples;
     Recovery recovery;
     Preferences preferences;
     std::vector<LeftCopy> left;  ///< of crashes, not yet decided on
+    bool offers = false;         ///< these are shown
     std::string title;           ///< that the window has
     std::string failureTold;     ///< of the preview, last
 };
@@ -64,7 +75,7 @@ void startFiles(Editor& editor, const std::string& path = {});
 /// One frame: browser, gallery, questions, offer; the window's title.
 void showFiles(Editor& editor);
 /// Looks for what happened to the file outside. Whether there is something to show.
-bool watchFile(Editor& editor);
+bool watchFile(Editor& editor, FileWatch::Clock::time_point now = FileWatch::Clock::now());
 /// Takes the text to the clipboard, or from there, with the files that its nodes name brought to the
 /// document.
 void copyText(Editor& editor, std::string text);
@@ -92,6 +103,9 @@ std::string nameOf(const Editor& editor);
 /// Where new files go: the folder of the document's own file, else the one last looked into, or worked in.
 std::string workFolder(const Editor& editor);
 bool writeFile(Editor& editor, const std::string& path);
+/// The same, but for what another program has written there since: then it is asked about, and the answer
+/// may save. Whether the file was written.
+bool saveTo(Editor& editor, const std::string& path);
 /// The step that waited; nothing is lost any more.
 void doNext(Editor& editor);
 /// The text in place of the document, as one step of undo.

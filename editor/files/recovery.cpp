@@ -107,7 +107,11 @@ Done Recovery::keep(const std::shared_ptr<const Graph>& graph, uint64_t revision
     }
     if (revision == kept) return result;
     if (!std::exchange(changed, true)) changedAt = now;
-    if (std::chrono::duration<double>(now - changedAt).count() < kRecoverySeconds) return result;
+    if (std::exchange(seen, revision) != revision) seenAt = now;
+    const auto since = [&](Clock::time_point then) {
+        return std::chrono::duration<double>(now - then).count();
+    };
+    if (since(changedAt) < kRecoverySeconds && since(seenAt) < kRecoveryRest) return result;
     changed = false;
     kept = revision;
     copied = true;

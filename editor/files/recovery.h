@@ -21,7 +21,8 @@
 
 namespace fw::editor {
 
-inline constexpr double kRecoverySeconds = 15.0;  ///< of change until a copy is made
+/// Of change until a copy is made at the latest, and of rest after a change until it is made.
+inline constexpr double kRecoverySeconds = 15.0, kRecoveryRest = 2.0;
 
 /// $XDG_STATE_HOME/fieldwright/recovery, or under ~/.local/state; empty where neither variable is set.
 std::string recoveryFolder();
@@ -37,7 +38,8 @@ class Recovery {
     ~Recovery();
 
     /// To be called now and then, at least every few seconds while the document changes. Starts to write a
-    /// copy if there was none of this revision and the first change that it lacks is kRecoverySeconds old;
+    /// copy if there was none of this revision and the first change that it lacks is kRecoverySeconds old, or
+    /// the last one kRecoveryRest;
     /// takes the copy away if nothing is unsaved. Never waits. An Error says why the last copy could not be
     /// written; each is returned once.
     Done keep(const std::shared_ptr<const Graph>& graph, uint64_t revision, bool unsaved,
@@ -58,7 +60,8 @@ class Recovery {
     bool copied = false;
     uint64_t kept = 0;  ///< the revision of the copy
     bool changed = false;
-    Clock::time_point changedAt = {};
+    uint64_t seen = 0;  ///< the last revision
+    Clock::time_point changedAt = {}, seenAt = {};
     std::future<Done> writing;
 };
 

@@ -19,9 +19,13 @@ void FileWatch::follow(std::string path_, std::string_view text) {
 }
 
 std::optional<FileWatch::Change> FileWatch::look(Clock::time_point now) {
-    if (path.empty() || std::chrono::duration<double>(now - looked).count() < kWatchSeconds)
-        return std::nullopt;
+    if (std::chrono::duration<double>(now - looked).count() < kWatchSeconds) return std::nullopt;
     looked = now;
+    return lookNow();
+}
+
+std::optional<FileWatch::Change> FileWatch::lookNow() {
+    if (path.empty()) return std::nullopt;
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) {
         // What cannot be looked at for another reason may come back: a share that is away.

@@ -24,7 +24,9 @@ class FileWatch {
 
     /// From now on this file, which holds `text` as far as its reader or writer knows. Empty: none.
     void follow(std::string path, std::string_view text);
-    /// What changed since it was last told; nothing if that was looked for less than kWatchSeconds ago.
+    /// What changed since it was last told.
+    std::optional<Change> lookNow();
+    /// The same; nothing if that was looked for less than kWatchSeconds ago.
     std::optional<Change> look(Clock::time_point now = Clock::now());
 
   private:

@@ -90,13 +90,17 @@ void showSettings(Editor& editor) {
     if (ImGui::Checkbox("found from the solid##region", &own)) dialog.givesRegion = !own;
     if (dialog.givesRegion) {
         propertyRow("   least corner, m");
-        dragNumbers(editor, "least", std::span(dialog.region).first(3));
+        dragNumbers(editor, "##least", std::span(dialog.region).first(3), {},
+                    [&dialog](std::span<const double> to) { std::ranges::copy(to, dialog.region.begin()); });
         propertyRow("   greatest corner, m");
-        dragNumbers(editor, "greatest", std::span(dialog.region).last(3));
+        dragNumbers(
+            editor, "##greatest", std::span(dialog.region).last(3), {},
+            [&dialog](std::span<const double> to) { std::ranges::copy(to, dialog.region.begin() + 3); });
     }
     if (!editor.graph->timeline->is_null()) {
         propertyRow("Time, s", "The moment of the timeline that is exported.");
-        dragNumbers(editor, "time", std::span(&dialog.seconds, 1), {.min = 0.0});
+        dragNumbers(editor, "##time", std::span(&dialog.seconds, 1), {.min = 0.0},
+                    [&dialog](std::span<const double> to) { dialog.seconds = to[0]; });
     }
     endProperties();
 }

@@ -42,6 +42,9 @@ void showNames(Editor& editor, const NodeBox& box) {
     editText(editor, "##id", id, "", [scope, id](Editor& in, const std::string& text) {
         Result<Graph> renamed = renameNode(in.document.graph(), scope, id, text);
         if (!renamed) return say(in, "cannot rename: " + renamed.error().message);
+        const std::string path = scope.empty() ? "" : scope + "/";
+        if (in.viewport.pinned == path + id) in.viewport.pinned = path + text;
+        in.thumbnails.rename(path + id, path + text);
         in.document.apply("Rename Node", std::move(*renamed));
         if (in.canvas.scope != scope || in.canvas.active != id) return;
         in.canvas.select({text});

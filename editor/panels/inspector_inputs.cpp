@@ -36,38 +36,19 @@ bool isColor(const Row& row) { return row.spec && row.spec->unit == "color" && r
 
 /// Numbers side by side, each a field as on the canvas.
 void showNumbers(const Input& input, float room) {
-    PanelState& state = input.editor.panelState;
+    NumberHand& hand = input.editor.panelState.number;
+    Document& document = input.editor.document;
     const int count = input.row.type ? componentCount(*input.row.type) : 0;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, high = ImGui::GetFrameHeight();
-    const float whole = std::max(ImGui::GetContentRegionAvail().x - room, 20.0f);
-    const float wide = (whole - gap * float(count - 1)) / float(count);
-    state.fieldFrame =
-        state.field.state == FieldEdit::State::none ? state.fieldFrame : ImGui::GetFrameCount();
+    const std::string id = inputPath(input.scope(), input.plug);
+    const NumberRow row(count, ImGui::GetContentRegionAvail().x - room);
     for (int c = 0; c < count; ++c) {
-        const float x = at.x + float(c) * (wide + gap);
-        const Area place{{x, at.y}, {x + wide, at.y + high}};
-        const bool typed =
-            state.field.is(input.scope(), input.plug, c) && state.field.state == FieldEdit::State::typing;
-        bool hovered = false;
-        ImGui::PushID(c);
-        if (!typed) {
-            ImGui::SetCursorScreenPos(place.lo);
-            const bool pressed = ImGui::InvisibleButton("##number", {wide, high});
-            hovered = ImGui::IsItemHovered();
-            if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)
-                ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), 3.0f);
-            const bool byKey = pressed && !ImGui::IsMouseReleased(0);
-            if (byKey && state.field.state == FieldEdit::State::none)
-                state.field.type(input.scope(), input.plug, c, numbersOf(input.row).at(std::size_t(c)));
-        }
-        showField(state.field, input.editor.document, input.scope(), input.box, input.row, c, place,
-                  ImGui::GetFont(), ImGui::GetFontSize(), hovered);
-        ImGui::PopID();
+        const NumberRow::Place at = row.place(c, hand.types(id, c));
+        if (at.byKey && hand.state == NumberHand::State::none)
+            typeField(hand, document, input.scope(), input.box, input.row, c);
+        showField(hand, document, input.scope(), input.box, input.row, c,
+                  {at.area, ImGui::GetFont(), ImGui::GetFontSize(), at.hovered});
     }
-    if (state.field.state != FieldEdit::State::none) state.fieldFrame = ImGui::GetFrameCount();
-    ImGui::SetCursorScreenPos(at);
-    ImGui::Dummy({whole, high});
+    row.end();
 }
 
 /// A colour's button before its numbers.
@@ -106,12 +87,15 @@ void showPoints(const Input& input) {
             const std::size_t at = 2 * std::size_t(i);
             ImGui::PushID(i);
             ImGui::SetNextItemWidth(-2.6f * ImGui::GetFrameHeight());
-            const Touched touched = dragNumbers(input.editor, "##point", std::span(numbers).subspan(at, 2));
-            follow(input.editor, "##point", touched, input.setName(), [&] {
-                InputValue value{.value = numbers};
-                value.pairs = true;
-                return setInput(input.graph(), input.scope(), input.plug, std::move(value));
-            });
+            editNumbers(input.editor, "##point", std::span(numbers).subspan(at, 2), {}, input.setName(),
+                        [numbers, at, scope = std::string(input.scope()), plug = input.plug](
+                            const Graph& graph, std::span<const double> to) {
+                            InputValue value{.value = numbers};
+                            std::ranges::copy(
+                                to, std::get<std::vector<double>>(value.value).begin() + std::ptrdiff_t(at));
+                            value.pairs = true;
+                            return setInput(graph, scope, plug, std::move(value));
+                        });
             ImGui::SameLine();
             if (ImGui::SmallButton("+")) doubled = at;
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add a point between this one and the next");

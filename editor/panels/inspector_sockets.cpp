@@ -44,16 +44,16 @@ void showDefault(Editor& editor, const std::string& group, const GroupInput& inp
             if (list->size() == value.size()) value = *list;
     }
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const Touched touched = dragNumbers(editor, "##default", value);
+    editNumbers(editor, "##default", value, {}, "Set Default of " + readable(input.name),
+                [group, socket = input.name](const Graph& graph, std::span<const double> to) {
+                    InputValue given;
+                    if (to.size() == 1)
+                        given.value = to[0];
+                    else
+                        given.value = std::vector<double>(to.begin(), to.end());
+                    return setSocketDefault(graph, group, socket, std::move(given));
+                });
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("What instances have that give no value of their own");
-    follow(editor, "##default", touched, "Set Default of " + readable(input.name), [&] {
-        InputValue given;
-        if (value.size() == 1)
-            given.value = value[0];
-        else
-            given.value = value;
-        return setSocketDefault(editor.document.graph(), group, input.name, std::move(given));
-    });
 }
 
 void showSocket(Editor& editor, const std::string& group, GroupSide side, const std::string& name,

@@ -21,31 +21,20 @@ struct Editor;
 /// The one text that is being typed into a panel. It reaches the document when the field loses the keyboard.
 struct TextEdit {
     ImGuiID field = 0;  ///< 0: none
-    int frame = 0;      ///< ImGui's, in which it was last shown
+    Hand hand = Hand::none;
     std::string text;
-    std::function<void(Editor&, const std::string&)> commit;
 };
 
-/// The one number that is being typed where panels drag numbers.
-struct NumberEdit {
-    ImGuiID field = 0;     ///< of dragNumbers(); 0: none
-    int frame = 0;         ///< ImGui's, in which it was last shown
-    std::size_t part = 0;  ///< which of its numbers
-    TypedNumber typed;
-};
-
-/// The one value that a hand drags in a panel: a gesture of the document.
+/// The one value that a hand drags in a panel and that is no number: a colour, a key of the timeline.
 struct HeldValue {
     ImGuiID field = 0;  ///< 0: none
-    int frame = 0;
-    std::set<std::string> inputs;  ///< "node.input" of what it moves, as in FieldEdit::held()
+    Hand hand = Hand::none;
+    std::set<std::string> inputs;  ///< "node.input" of what it moves
 };
 
 struct PanelState {
-    FieldEdit field;     ///< of the inspector's numbers
-    int fieldFrame = 0;  ///< ImGui's, in which it was last shown
+    NumberHand number;
     TextEdit text;
-    NumberEdit number;
     HeldValue held;
     ImGuiID refocus = 0;  ///< a text field that gets the keyboard again in the next frame
 
@@ -70,7 +59,7 @@ struct PanelState {
 
     /// Inputs under the hand in any panel.
     std::set<std::string> heldInputs() const {
-        std::set<std::string> all = field.held();
+        std::set<std::string> all = heldBy(number);
         all.insert(held.inputs.begin(), held.inputs.end());
         return all;
     }

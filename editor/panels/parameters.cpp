@@ -64,17 +64,16 @@ void showValue(Editor& editor, const ExposedParameter& parameter) {
     if (numbers.empty()) return ImGui::TextDisabled("no number");
     if (spec && std::size_t(componentCount(spec->type)) > numbers.size())
         numbers.resize(std::size_t(componentCount(spec->type)), numbers[0]);
-    const Touched touched = dragNumbers(editor, "##value", numbers, range);
-    follow(
-        editor, "##value", touched, "Set " + parameter.name,
-        [&] {
-            if (spec && spec->type == Type::integer) numbers[0] = std::round(numbers[0]);
+    range.whole = spec && spec->type == Type::integer;
+    editNumbers(
+        editor, "##value", numbers, range, "Set " + parameter.name,
+        [plug](const Graph& in, std::span<const double> to) {
             InputValue value;
-            if (numbers.size() == 1)
-                value.value = numbers[0];
+            if (to.size() == 1)
+                value.value = to[0];
             else
-                value.value = numbers;
-            return setInput(editor.document.graph(), "", plug, std::move(value));
+                value.value = std::vector<double>(to.begin(), to.end());
+            return setInput(in, "", plug, std::move(value));
         },
         held);
 }

@@ -26,15 +26,15 @@ double toLinear(float display) {
 void followText(Editor& editor, ImGuiID id, const std::string& before, const std::string& now,
                 std::function<void(Editor&, const std::string&)> commit) {
     TextEdit& edit = editor.panelState.text;
+    Document& document = editor.document;
     if (ImGui::GetActiveID() == id) {
-        // A field further down was left for this one.
-        if (edit.field != id && edit.field != 0 && edit.commit) edit.commit(editor, edit.text);
-        edit.field = id;
-        edit.frame = ImGui::GetFrameCount();
+        if (edit.field != id) edit = {id, document.begin("Type"), {}};
         edit.text = now;
-        edit.commit = std::move(commit);
+        document.hold(edit.hand, [&editor, before, now, commit = std::move(commit)] {
+            if (now != before) commit(editor, now);
+        });
     } else if (edit.field == id) {
-        edit = {};
+        document.end(std::exchange(edit, {}).hand);
         if (now != before) commit(editor, now);
     }
 }
@@ -43,12 +43,6 @@ void followText(Editor& editor, ImGuiID id, const std::string& before, const std
 std::string shownText(const Editor& editor, const char* id, const std::string& text) {
     const TextEdit& edit = editor.panelState.text;
     return edit.field == ImGui::GetID(id) ? edit.text : text;
-}
-
-/// Whether Enter or Space was pressed on it.
-bool chosenByKey(ImGuiID item) {
-    const ImGuiContext& context = *ImGui::GetCurrentContext();
-    return context.NavActivateId == item || context.NavActivateInputId == item;
 }
 
 }  // namespace
@@ -87,47 +81,80 @@ void wrapped(ImU32 color, const std::string& text) {
     ImGui::PopStyleColor();
 }
 
-Touched dragNumbers(Editor& editor, const char* id, std::span<double> numbers, const NumberRange& range) {
-    constexpr float kStill = 3.0f;  // pixels that a click may move
-    const bool least = std::isfinite(range.min), most = std::isfinite(range.max);
-    NumberEdit& edit = editor.panelState.number;
-    const ImGuiID field = ImGui::GetID(id);
-    Touched touched;
+NumberRow::NumberRow(int count_, float whole_)
+    : at(ImGui::GetCursorScreenPos()), whole(std::max(whole_, 20.0f)), count(count_) {}
+
+NumberRow::Place NumberRow::place(int part, bool typed) const {
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, high = ImGui::GetFrameHeight();
+    const float wide = std::max((whole - gap * float(count - 1)) / float(count), 1.0f),
+                x = at.x + float(part) * (wide + gap);
+    Place place{.area = {{x, at.y}, {x + wide, at.y + high}}};
+    if (typed) return place;  // the text field stands there
+    ImGui::SetCursorScreenPos(place.area.lo);
+    ImGui::PushID(part);
+    const bool pressed = ImGui::InvisibleButton("##number", {wide, high});
+    ImGui::PopID();
+    place.hovered = ImGui::IsItemHovered();
+    if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)
+        ImGui::GetWindowDrawList()->AddRect(place.area.lo, place.area.hi, themeColor(ThemeColor::active),
+                                            3.0f);
+    place.byKey = pressed && !ImGui::IsMouseReleased(0);
+    return place;
+}
+
+void NumberRow::end() const {
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({whole, ImGui::GetFrameHeight()});
+}
+
+namespace {
+
+using SetNumbers = std::function<void(Hand, std::span<const double>)>;
+
+void showNumbers(Editor& editor, const char* id, std::span<const double> numbers, const NumberRange& range,
+                 const std::string& name, const SetNumbers& set, const std::string& input, bool animated) {
+    NumberHand& hand = editor.panelState.number;
+    const std::string key = std::to_string(ImGui::GetID(id));
+    const std::vector<double> all(numbers.begin(), numbers.end());
+    const auto count = int(all.size());
+    const NumberRow row(count, ImGui::CalcItemWidth());
     ImGui::PushID(id);
-    ImGui::PushMultiItemsWidths(int(numbers.size()), ImGui::CalcItemWidth());
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (i > 0) ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-        ImGui::PushID(int(i));
-        const double before = numbers[i];
-        if (edit.field == field && edit.part == i) {
-            edit.frame = ImGui::GetFrameCount();
-            const Typed typed = typeNumber(edit.typed, ImGui::CalcItemWidth());
-            if (typed.number) {
-                numbers[i] = std::clamp(*typed.number, range.min, range.max);
-                touched.changed |= numbers[i] != before;
-            }
-            const std::size_t next = i + std::size_t(typed.tab);
-            if (typed.ended) edit = {};
-            if (typed.tab != 0 && next < numbers.size())
-                edit = {field, ImGui::GetFrameCount(), next, TypedNumber(numbers[next])};
-        } else {
-            const bool byKey = chosenByKey(ImGui::GetID("##number"));
-            if (!byKey)
-                touched.changed |= ImGui::DragScalar(
-                    "##number", ImGuiDataType_Double, &numbers[i], float(range.speed),
-                    least ? &range.min : nullptr, most ? &range.max : nullptr, "%.6g",
-                    ImGuiSliderFlags_NoInput | (least || most ? ImGuiSliderFlags_AlwaysClamp : 0));
-            touched.active |= !byKey && ImGui::IsItemActive();
-            const bool clicked = !byKey && ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(0) &&
-                                 ImGui::GetIO().MouseDragMaxDistanceSqr[0] < kStill * kStill;
-            if (byKey || clicked) edit = {field, ImGui::GetFrameCount(), i, TypedNumber(numbers[i])};
-            if (!std::isfinite(numbers[i])) numbers[i] = before;
-        }
-        ImGui::PopItemWidth();
-        ImGui::PopID();
+    for (int i = 0; i < count; ++i) {
+        const NumberRow::Place at = row.place(i, hand.types(key, i));
+        const double number = all[std::size_t(i)];
+        if (at.byKey && hand.state == NumberHand::State::none)
+            hand.type(editor.document, name, key, i, number);
+        const NumberLook look{at.area, ImGui::GetFont(), ImGui::GetFontSize(), at.hovered, animated};
+        const NumberDone done = showNumber(hand, editor.document, key, i, number, range, name, look,
+                                           [set, all, i](Hand by, double to) {
+                                               std::vector<double> now = all;
+                                               now[std::size_t(i)] = to;
+                                               set(by, now);
+                                           });
+        if (hand.is(key, i)) hand.moves = input;
+        if (const int next = i + done.tab; done.tab != 0 && next >= 0 && next < count)
+            hand.type(editor.document, name, key, next, all[std::size_t(next)]);
     }
     ImGui::PopID();
-    return touched;
+    row.end();
+}
+
+}  // namespace
+
+void editNumbers(Editor& editor, const char* id, std::span<const double> numbers, const NumberRange& range,
+                 const std::string& name, const NumbersEdit& edit, const std::string& input, bool animated) {
+    showNumbers(
+        editor, id, numbers, range, name,
+        [&editor, edit](Hand by, std::span<const double> to) {
+            editor.document.update(by, edit(editor.document.graph(), to));
+        },
+        input, animated);
+}
+
+void dragNumbers(Editor& editor, const char* id, std::span<const double> numbers, const NumberRange& range,
+                 const std::function<void(std::span<const double>)>& set) {
+    showNumbers(
+        editor, id, numbers, range, "", [set](Hand, std::span<const double> to) { set(to); }, {}, false);
 }
 
 Touched pickColor(const char* id, std::span<double> linear) {
@@ -172,26 +199,22 @@ bool chooseName(const char* id, std::span<const std::string> names, std::size_t&
 void follow(Editor& editor, const char* id, const Touched& touched, const std::string& name,
             const std::function<Graph()>& next, const std::string& input) {
     HeldValue& held = editor.panelState.held;
+    Document& document = editor.document;
     const ImGuiID field = ImGui::GetID(id);
     if (touched.changed) {
         if (held.field != field) {
-            if (held.field != 0) editor.document.end();
-            editor.document.begin(name);
-            held.field = field;
-            held.inputs.clear();
+            held = {field, document.begin(name), {}};
             if (!input.empty()) held.inputs.insert(input);
         }
-        editor.document.update(next());
+        document.update(held.hand, next());
     }
     if (held.field != field) return;
-    held.frame = ImGui::GetFrameCount();
+    document.hold(held.hand);
     if (touched.active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
         ImGui::ClearActiveID();
-        editor.document.cancel();
-        held = {};
+        document.cancel(std::exchange(held, {}).hand);
     } else if (!touched.active) {
-        editor.document.end();
-        held = {};
+        document.end(std::exchange(held, {}).hand);
     }
 }
 
@@ -244,16 +267,12 @@ bool keyButton(const char* id, bool filled, bool animated, const char* tip) {
 void editAnimated(Editor& editor, const char* id, const Track& track, const NumberRange& range,
                   const std::string& name, const std::string& input) {
     const double now = editor.viewport.seconds;
-    std::vector<double> value = evaluate(track, now);
-    ImGui::PushStyleColor(ImGuiCol_Border, themeColor(ThemeColor::active));
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
-    const Touched touched = dragNumbers(editor, id, value, range);
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-    const Moved moved = movedBy(track);
-    follow(
-        editor, id, touched, "Set Key of " + name,
-        [&] { return setKey(editor.document.graph(), moved, now, value); }, input);
+    editNumbers(
+        editor, id, evaluate(track, now), range, "Set Key of " + name,
+        [moved = movedBy(track), now](const Graph& graph, std::span<const double> value) {
+            return setKey(graph, moved, now, {value.begin(), value.end()});
+        },
+        input, true);
 }
 
 void toggleKey(Editor& editor, const Timeline& timeline, const Moved& moved, std::span<const double> value) {
@@ -268,25 +287,15 @@ void toggleKey(Editor& editor, const Timeline& timeline, const Moved& moved, std
     document.apply("Add Key", setKey(document.graph(), moved, now, there));
 }
 
-void finishLost(Editor& editor) {
-    const int frame = ImGui::GetFrameCount();
-    TextEdit& text = editor.panelState.text;
-    if (text.field != 0 && text.frame < frame - 1) {
-        const TextEdit lost = std::exchange(text, {});
-        if (lost.commit) lost.commit(editor, lost.text);
-    }
-    HeldValue& held = editor.panelState.held;
-    if (held.field != 0 && held.frame < frame - 1) {
-        editor.document.end();
-        held = {};
-    }
-    if (editor.panelState.number.frame < frame - 1) editor.panelState.number = {};
-    // A number that was dragged or typed in a panel that is gone: the button went up elsewhere.
-    FieldEdit& field = editor.panelState.field;
-    if (field.state != FieldEdit::State::none && editor.panelState.fieldFrame < frame - 1) {
-        if (field.state == FieldEdit::State::dragging) editor.document.end();
-        field = {};
-    }
+void followHands(Editor& editor) {
+    PanelState& state = editor.panelState;
+    const Document& document = editor.document;
+    state.number.follow(document);
+    if (state.held.field != 0 && !document.holds(state.held.hand)) state.held = {};
+    if (state.text.field == 0 || document.holds(state.text.hand)) return;
+    // Its words are the document's by now: the field must not go on with them over what came since.
+    if (ImGui::GetActiveID() == state.text.field) ImGui::ClearActiveID();
+    state.text = {};
 }
 
 const Timeline* timelineOf(Editor& editor) {

@@ -18,11 +18,8 @@ struct Touched {
     bool active = false;   ///< still under the hand
 };
 
-/// Bounds of a number. A range that is not finite is none.
-struct NumberRange {
-    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
-    double speed = 0.01;  ///< a pixel of a drag
-};
+/// The graph with these numbers in place of those that it has.
+using NumbersEdit = std::function<Graph(const Graph&, std::span<const double>)>;
 
 /// Begins the two columns; false if they are not seen. Only then endProperties() is called.
 bool beginProperties(const char* id);
@@ -34,16 +31,43 @@ void propertyRow(const std::string& name, const std::string& tip = {}, float roo
 /// Text as wide as the window, in a colour.
 void wrapped(ImU32 color, const std::string& text);
 
-/// Numbers side by side that are dragged, or clicked and typed, as on the canvas (canvas/fields.h).
-Touched dragNumbers(Editor& editor, const char* id, std::span<double> numbers, const NumberRange& range = {});
+/// Numbers side by side in a panel, `whole` pixels wide, to be reached by mouse and keyboard.
+class NumberRow {
+  public:
+    NumberRow(int count, float whole);
+
+    struct Place {
+        Area area;
+        bool hovered = false;
+        bool byKey = false;  ///< it was chosen to be typed
+    };
+    /// Of one of them; `typed`: its text field is to stand there.
+    Place place(int part, bool typed) const;
+    /// The cursor goes on below.
+    void end() const;
+
+  private:
+    ImVec2 at;
+    float whole;
+    int count;
+};
+
+/// Numbers side by side, as everywhere (controls/number.h). `edit` is kept from frame to frame: it refers to
+/// nothing that the frame ends. `input` is "node.input" where it can be live.
+void editNumbers(Editor& editor, const char* id, std::span<const double> numbers, const NumberRange& range,
+                 const std::string& name, const NumbersEdit& edit, const std::string& input = {},
+                 bool animated = false);
+/// Numbers that are not the document's. `set` is kept from frame to frame too.
+void dragNumbers(Editor& editor, const char* id, std::span<const double> numbers, const NumberRange& range,
+                 const std::function<void(std::span<const double>)>& set);
 /// A colour in linear sRGB: a button that opens ImGui's picker. What is brighter than white keeps its
 /// strength.
 Touched pickColor(const char* id, std::span<double> linear);
 /// A choice among names; whether another was taken.
 bool chooseName(const char* id, std::span<const std::string> names, std::size_t& chosen);
 
-/// Hands on to the document what a hand did to the value of `id`: a drag is one step of undo. `next` gives
-/// the document with the value; `input` is "node.input" where it can be live.
+/// Hands on to the document what a hand did to the colour or the key of `id`: a drag is one step of undo.
+/// `next` gives the document with the value; `input` is "node.input" where it can be live.
 void follow(Editor& editor, const char* id, const Touched& touched, const std::string& name,
             const std::function<Graph()>& next, const std::string& input = {});
 
@@ -64,8 +88,8 @@ void editAnimated(Editor& editor, const char* id, const Track& track, const Numb
 /// moves it yet; without the one that is there.
 void toggleKey(Editor& editor, const Timeline& timeline, const Moved& moved, std::span<const double> value);
 
-/// Ends what was under the hand or typed in a field that is not shown any more: called once a frame.
-void finishLost(Editor& editor);
+/// Forgets what the document has ended of what was begun in the panels. Once a frame.
+void followHands(Editor& editor);
 
 /// The document's timeline, read anew when the document changed; nullptr if it cannot be read.
 const Timeline* timelineOf(Editor& editor);

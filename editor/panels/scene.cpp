@@ -46,20 +46,20 @@ void numbersRow(Editor& editor, const std::string& path, const char* label, cons
     const float room = timeline ? 0.8f * side + gap : 0.0f;
     ImGui::PushID(path.c_str());
     propertyRow(label, tip, room);
-    const auto next = [&] {
-        const Graph& graph = editor.document.graph();
-        return sound(graph, setSceneValue(graph, path, jsonOf(value)));
+    const auto with = [path](const Graph& graph, std::span<const double> numbers) {
+        return sound(graph, setSceneValue(graph, path, jsonOf(numbers)));
     };
     if (track) {
         editAnimated(editor, "##animated", *track, range, label);
     } else {
+        const std::string name = std::string("Set ") + label;
         if (color) {
-            follow(editor, "##color", pickColor("##color", value), std::string("Set ") + label, next);
+            follow(editor, "##color", pickColor("##color", value), name,
+                   [&] { return with(editor.document.graph(), value); });
             ImGui::SameLine();
             ImGui::SetNextItemWidth(-std::max(room, FLT_MIN));
         }
-        follow(editor, "##numbers", dragNumbers(editor, "##numbers", value, range),
-               std::string("Set ") + label, next);
+        editNumbers(editor, "##numbers", value, range, name, with);
     }
     if (timeline) {
         ImGui::SameLine();

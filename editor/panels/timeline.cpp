@@ -73,29 +73,26 @@ void showTransport(Editor& editor, const Timeline& timeline) {
     ImGui::SameLine();
     const float em = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(5.0f * em);
-    double seconds = view.seconds;
-    if (dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0, .max = timeline.length}).changed)
-        showTime(editor, seconds);
+    dragNumbers(editor, "##time", std::span(&view.seconds, 1), {.min = 0.0, .max = timeline.length},
+                [&editor](std::span<const double> to) { showTime(editor, to[0]); });
     ImGui::SameLine();
     ImGui::TextUnformatted("of");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5.0f * em);
-    double length = timeline.length;
-    const Touched resized = dragNumbers(editor, "##length", std::span(&length, 1),
-                                        {.min = frame, .max = kMostTimelineLength, .speed = 0.05});
+    editNumbers(
+        editor, "##length", std::span(&timeline.length, 1),
+        {.min = frame, .max = kMostTimelineLength, .speed = 0.05}, "Set Length",
+        [](const Graph& graph, std::span<const double> to) { return setTimelineLength(graph, to[0]); });
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Length, seconds");
-    follow(editor, "##length", resized, "Set Length",
-           [&] { return setTimelineLength(editor.document.graph(), length); });
     ImGui::SameLine();
     ImGui::TextUnformatted("s");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(4.0f * em);
-    double rate = timeline.framesPerSecond;
-    const Touched paced = dragNumbers(editor, "##fps", std::span(&rate, 1),
-                                      {.min = 1.0, .max = kMostFramesPerSecond, .speed = 0.2});
+    editNumbers(
+        editor, "##fps", std::span(&timeline.framesPerSecond, 1),
+        {.min = 1.0, .max = kMostFramesPerSecond, .speed = 0.2}, "Set Frames per Second",
+        [](const Graph& graph, std::span<const double> to) { return setFramesPerSecond(graph, to[0]); });
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Frames per second");
-    follow(editor, "##fps", paced, "Set Frames per Second",
-           [&] { return setFramesPerSecond(editor.document.graph(), rate); });
     ImGui::SameLine();
     ImGui::TextUnformatted("fps");
     ImGui::SameLine();
@@ -148,13 +145,13 @@ void showKey(Editor& editor, const Timeline& timeline) {
     ImGui::Text("Key at %.3g s", key.time);
     ImGui::SameLine();
     ImGui::SetNextItemWidth((3.0f + 3.0f * float(key.value.size())) * em);
-    std::vector<double> value = key.value;
     NumberRange range;
     if (const auto input = animatedInput(document.graph(), track))
         range.min = input->min, range.max = input->max;
-    const Touched touched = dragNumbers(editor, "##keyvalue", value, range);
-    follow(editor, "##keyvalue", touched, "Set Key",
-           [&] { return setKey(document.graph(), moved, key.time, value); });
+    editNumbers(editor, "##keyvalue", key.value, range, "Set Key",
+                [moved, time = key.time](const Graph& graph, std::span<const double> value) {
+                    return setKey(graph, moved, time, {value.begin(), value.end()});
+                });
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6.0f * em);
     auto interpolation = std::size_t(key.interpolation);

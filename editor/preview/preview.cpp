@@ -61,7 +61,8 @@ struct Preview::Shared {
     std::atomic<double> baked = 1.0;      ///< of a mesh that is being made a field; 1: none is
     std::atomic<double> simulated = 1.0;  ///< of the steps of particles up to the time; 1: all
     bool stop = false, working = true;
-    bool renewed = false;  ///< the device was lost since the last result
+    std::optional<PreviewWish> tried;  ///< what is or was worked on last
+    bool renewed = false;              ///< the device was lost since the last result
     std::thread thread;
 
     void publish(PreviewResult result) {
@@ -345,6 +346,10 @@ bool Maker::work() {
 }  // namespace
 
 void Preview::Shared::work() {
+    {
+        std::lock_guard lock(mutex);
+        tried = next;
+    }
     Result<Device> device = createDevice(deviceOptions);
     if (!device) throw SystemError(device.error().message);
     Maker maker(
@@ -366,6 +371,7 @@ void Preview::Shared::work() {
             if (stop) return;
             working = true;
             newer = std::exchange(next, std::nullopt);
+            if (newer) tried = newer;
             overtaken = false;
         }
         if (newer) maker.take(std::move(*newer));
@@ -387,7 +393,8 @@ void Preview::Shared::fail(const std::string& why) {
         if (!ready) ready = told;
         ready->failure = why;
         ready->current = false;
-        next.reset();  // it may be what failed
+        // Not what failed once more; a newer wish may be the remedy.
+        if (next && tried && sameWish(*next, *tried)) next.reset();
         baked = simulated = 1.0;
         renewed = working = false;
     }

@@ -107,6 +107,8 @@ void Input::feed() {
     enum class Act { none, wheel, key, button } act = Act::none;
     std::vector<int> released;
     bool moved = false;
+    // What a button held has to know where it was let go, be that outside of the window.
+    const bool held = mouseHeld();
     const bool rests = keyboardRests();
     const auto fits = [&](const Event& event) {
         switch (event.kind) {
@@ -158,7 +160,7 @@ void Input::feed() {
     ImGuiIO& io = ImGui::GetIO();
     if (act == Act::button)
         sinceButton = keysWaited = 0;  // what was clicked has its time, however quick the hand
-    io.MousePos = inside || mouseHeld() ? ImVec2(float(x), float(y)) : ImVec2(-FLT_MAX, -FLT_MAX);
+    io.MousePos = inside || held || mouseHeld() ? ImVec2(float(x), float(y)) : ImVec2(-FLT_MAX, -FLT_MAX);
     std::ranges::copy(buttons, io.MouseDown);
 }
 

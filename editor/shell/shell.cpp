@@ -180,9 +180,9 @@ void Shell::wake() {
     glfwPostEmptyEvent();
 }
 
-void Shell::frame(const std::function<void()>& show) {
+bool Shell::answer(const std::function<void()>& show) {
     const auto [width, height] = state->size();
-    if (width == 0 || height == 0) return;
+    if (width == 0 || height == 0) return false;
     state->forgotten.clear();
     state->followScale();
     ImGui_ImplGlfw_NewFrame();
@@ -193,7 +193,11 @@ void Shell::frame(const std::function<void()>& show) {
     ImGui::NewFrame();
     show();
     ImGui::Render();
+    return true;
+}
 
+void Shell::frame(const std::function<void()>& show) {
+    if (!answer(show)) return;
     state->fillTextures();
     const SwapchainImage target = state->swapchain->acquire();
     if (!target) {

@@ -43,6 +43,9 @@ class Shell {
     /// One frame: show() builds the interface, which is then drawn over ThemeColor::canvas and presented. A
     /// minimised window draws nothing, and show() is not called.
     void frame(const std::function<void()>& show);
+    /// The first half of a frame: what happened is heard and answered, and nothing drawn. Whether it could
+    /// be.
+    bool answer(const std::function<void()>& show);
     /// After frame() has thrown DeviceLost: opens another device for the same window and the same pictures.
     /// Throws SystemError where none opens, or none that can show pictures.
     void renewDevice();

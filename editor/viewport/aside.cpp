@@ -1,6 +1,9 @@
 #include "editor/viewport/aside.h"
 
+#include <exception>
 #include <utility>
+
+#include "editor/editor.h"
 
 namespace fw::editor {
 
@@ -26,6 +29,12 @@ Aside::Answer Aside::take() {
     return std::exchange(ready, nullptr);
 }
 
+void Aside::forget() {
+    std::lock_guard lock(mutex);
+    next = nullptr, ready = nullptr;
+    forgotten = working;
+}
+
 bool Aside::busy() const {
     std::lock_guard lock(mutex);
     return working || next;
@@ -39,9 +48,15 @@ void Aside::run() {
         const std::function<Answer()> work = std::exchange(next, nullptr);
         working = true;
         lock.unlock();
-        Answer answer = work();
+        Answer answer;
+        try {
+            answer = work();
+        } catch (const std::exception& error) {
+            answer = [why = std::string(error.what())](Editor& editor) { say(editor, why); };
+        }
         lock.lock();
         working = false;
+        if (std::exchange(forgotten, false)) continue;
         ready = std::move(answer);
         if (answered) answered();
     }

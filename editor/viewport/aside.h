@@ -25,6 +25,8 @@ class Aside {
     void ask(std::function<Answer()> work);
     /// What was answered since the last call.
     Answer take();
+    /// What is asked for or under way will have no answer.
+    void forget();
     bool busy() const;
 
   private:
@@ -36,6 +38,7 @@ class Aside {
     std::function<Answer()> next;
     Answer ready;
     bool stop = false, working = false;
+    bool forgotten = false;  ///< what is under way is not wanted any more
     std::thread thread;
 };
 

@@ -70,6 +70,7 @@ struct HandleDrag {
     Handle handle;
     int axis = 0;
     double scale = 1.0;  ///< of the interface
+    Hand hand = Hand::none;
     glm::dvec3 last{0.0};
     glm::dvec3 travelled{0.0};
 };

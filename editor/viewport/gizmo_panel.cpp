@@ -55,7 +55,7 @@ void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
     const ImGuiIO& io = ImGui::GetIO();
     HandleDrag& drag = *gizmo.drag;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-        editor.document.cancel();
+        editor.document.cancel(drag.hand);
         gizmo.drag.reset();
         return;
     }
@@ -67,19 +67,19 @@ void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
             value.value = numbers[0];
         else
             value.value = std::move(numbers);
-        editor.document.update(setInput(editor.document.graph(), editor.canvas.scope,
-                                        {drag.handle.node, drag.handle.input}, std::move(value)));
+        editor.document.update(drag.hand, setInput(editor.document.graph(), editor.canvas.scope,
+                                                   {drag.handle.node, drag.handle.input}, std::move(value)));
     }
     if (ImGui::IsMouseDown(0)) return;
     if (gizmo.numbers == drag.handle.numbers)
-        editor.document.cancel();
+        editor.document.cancel(drag.hand);
     else
-        editor.document.end();
+        editor.document.end(drag.hand);
     gizmo.drag.reset();
 }
 
 void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
-    editor.document.begin(doing(editor, drag.handle));
+    drag.hand = editor.document.begin(doing(editor, drag.handle));
     if (drag.handle.node.empty()) {
         const NodeBox *from = editor.boxes->find(editor.canvas.active),
                       *to = editor.boxes->find(gizmo.grips.ahead->node);
@@ -88,9 +88,9 @@ void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
         Edited added =
             insertOnWire(editor.document.graph(), editor.canvas.scope, *gizmo.grips.ahead,
                          typeFor(gizmo.tool).id, position({0.5f * (a.x + b.x), std::min(a.y, b.y) - kAbove}));
-        if (added.nodes.empty()) return editor.document.cancel();  // the document is full
+        if (added.nodes.empty()) return editor.document.cancel(drag.hand);  // the document is full
         drag.handle.node = added.nodes.front();
-        editor.document.update(std::move(added.graph));
+        editor.document.update(drag.hand, std::move(added.graph));
     }
     gizmo.numbers = drag.handle.numbers;
     gizmo.drag = std::move(drag);
@@ -197,6 +197,7 @@ bool followGizmo(Editor& editor) {
     const Lens lens(view.shown.seen, view.place);
     const double scale = double(editor.shell.scale());
     gizmo.hovered.reset();
+    if (gizmo.drag && !editor.document.hold(gizmo.drag->hand)) gizmo.drag.reset();
     if (gizmo.drag) {
         go(editor, gizmo, lens);
         return true;
@@ -208,7 +209,7 @@ bool followGizmo(Editor& editor) {
     tell(editor, gizmo, *gizmo.hovered);
     if (!ImGui::IsMouseClicked(0)) return false;
     const Handle& handle = gizmo.grips.handles[gizmo.hovered->handle];
-    if (handle.refusal.empty() && !editor.document.inGesture())
+    if (handle.refusal.empty() && !editor.document.held())
         take(editor, gizmo, takeHandle(handle, gizmo.hovered->axis, lens, mouse, scale));
     return true;
 }

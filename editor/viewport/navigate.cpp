@@ -70,6 +70,12 @@ void Viewport::forget(Shell& shell) {
     shown = {};
     pinned.clear();
     ownCamera = false;
+    slice = {};
+    seconds = 0.0;
+    playing = false;
+    drag = {};
+    gizmo.hovered.reset(), gizmo.drag.reset();
+    aside.forget();
     ++document;
 }
 

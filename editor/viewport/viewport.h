@@ -38,7 +38,7 @@ struct Gizmo {
     Tool tool = Tool::move;
     Grips grips;
     std::optional<HandleHit> hovered;
-    std::optional<HandleDrag> drag;  ///< a gesture of the document
+    std::optional<HandleDrag> drag;  ///< with a hand of the document
     std::vector<double> numbers;     ///< that the drag gave last
 
     /// What the grips were made for.
@@ -50,7 +50,7 @@ struct Gizmo {
         bool operator==(const Made&) const = default;
     } made;
 
-    /// What the hand holds, as in FieldEdit::held().
+    /// The input that the hand moves, as heldBy() of numbers.
     std::set<std::string> held(const std::string& scope) const;
 };
 

@@ -4,6 +4,7 @@
 #include "editor/canvas/fields.h"
 #include "editor/document/library.h"
 #include "editor/shortcuts.h"
+#include "graph/document/named_parameters.h"
 #include "tests/editor/graphs.h"
 
 namespace fw::editor::canvas_test {
@@ -185,15 +186,22 @@ TEST(Fields, ValuesStayInRange) {
     const Row* radius = boxes.row({"ball", "radius"}, false);
     ASSERT_TRUE(radius);
     EXPECT_EQ(numbersOf(*radius), std::vector<double>{2.0});
-    EXPECT_GE(std::get<double>(withComponent(*radius, 0, -5.0).value), 0.0);
+    EXPECT_GE(rangeOf(*radius, 2.0).min, 0.0);
+    EXPECT_EQ(inputNumbers(*setNumber(graph, "", {"ball", "radius"}, 0, 3.0).node("ball"), "radius"),
+              std::vector<double>{3.0});
     const Row* half = boxes.row({"block", "half_extents"}, false);
     ASSERT_TRUE(half);
     ASSERT_EQ(half->fields, 3);
-    EXPECT_EQ(std::get<std::vector<double>>(withComponent(*half, 1, 3.0).value).at(1), 3.0);
+    const Graph wider = setNumber(graph, "", {"block", "half_extents"}, 1, 3.0);
+    EXPECT_EQ(inputNumbers(*wider.node("block"), "half_extents").at(1), 3.0);
+    for (const int component : {-1, 3})
+        EXPECT_EQ(setNumber(graph, "", {"block", "half_extents"}, component, 3.0), graph);
+    EXPECT_EQ(setNumber(graph, "", {"nobody", "radius"}, 0, 3.0), graph);
+    EXPECT_EQ(setNumber(graph, "no_group", {"ball", "radius"}, 0, 3.0), graph);
     const Row* cells = boxes.row({"out", "resolution"}, false);
     ASSERT_TRUE(cells);
-    EXPECT_EQ(std::get<double>(withComponent(*cells, 0, 63.6).value), 64.0);
-    EXPECT_EQ(std::get<double>(withComponent(*cells, 0, 1e9).value), cells->spec->max);
+    EXPECT_TRUE(rangeOf(*cells, 64.0).whole);
+    EXPECT_EQ(rangeOf(*cells, 64.0).max, cells->spec->max);
 }
 
 TEST(Library, TheBestMatchIsFirst) {

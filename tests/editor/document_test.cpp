@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/editor/graphs.h"
 #include "tests/editor/random_edits.h"
 
@@ -60,17 +62,19 @@ TEST(Document, TellsZeroFromMinusZero) {
     EXPECT_EQ(writeGraph(document.graph()), after);
 }
 
-TEST(Document, AGestureIsOneStep) {
+Graph moved(const Document& document, const char* node) {
+    return moveNodes(document.graph(), "", NodeIds{node}, {1.0, 2.0});
+}
+
+TEST(Document, WhatAHandDoesIsOneStep) {
     Document document(balls(3));
     const std::string before = writeGraph(document.graph());
-    document.begin("Move");
-    for (int i = 0; i < 50; ++i)
-        document.update(moveNodes(document.graph(), "", NodeIds{"sphere"}, {1.0, 2.0}));
+    const Hand hand = document.begin("Move");
+    for (int i = 0; i < 50; ++i) document.update(hand, moved(document, "sphere"));
     EXPECT_FALSE(document.canUndo()) << "not while a hand moves";
     EXPECT_FALSE(document.undo());
     EXPECT_TRUE(document.unsaved());
-    document.apply("Mute", toggleMuted(document.graph(), "", NodeIds{"sphere_2"}));
-    document.end();
+    document.end(hand);
     const std::string after = writeGraph(document.graph());
     EXPECT_EQ(document.undoName(), "Move");
     EXPECT_TRUE(document.undo());
@@ -80,20 +84,127 @@ TEST(Document, AGestureIsOneStep) {
     EXPECT_EQ(writeGraph(document.graph()), after);
 }
 
-TEST(Document, ACancelledGestureLeavesNothing) {
+TEST(Document, ACancelledHandLeavesNothing) {
     Document document(balls(3));
     const std::string before = writeGraph(document.graph());
-    document.begin("Move");
-    document.update(moveNodes(document.graph(), "", NodeIds{"sphere"}, {1.0, 2.0}));
+    Hand hand = document.begin("Move");
+    document.update(hand, moved(document, "sphere"));
     const uint64_t revision = document.revision();
-    document.cancel();
+    document.cancel(hand);
     EXPECT_EQ(writeGraph(document.graph()), before);
     EXPECT_NE(document.revision(), revision);
     EXPECT_FALSE(document.canUndo());
     EXPECT_FALSE(document.unsaved());
-    document.begin("Move");
-    document.end();
+    hand = document.begin("Move");
+    document.end(hand);
     EXPECT_FALSE(document.canUndo()) << "nothing has moved";
+}
+
+TEST(Document, AnotherChangeEndsTheHand) {
+    Document document(balls(3));
+    const Hand hand = document.begin("Move");
+    document.update(hand, moved(document, "sphere"));
+    const std::string dragged = writeGraph(document.graph());
+    document.apply("Mute", toggleMuted(document.graph(), "", NodeIds{"sphere_2"}));
+    const std::string muted = writeGraph(document.graph());
+    EXPECT_FALSE(document.held());
+    EXPECT_FALSE(document.hold(hand));
+    document.update(hand, balls(1));
+    document.cancel(hand);
+    document.end(hand);
+    EXPECT_EQ(writeGraph(document.graph()), muted) << "a hand that has ended does nothing";
+    EXPECT_EQ(document.undoName(), "Mute");
+    EXPECT_TRUE(document.undo());
+    EXPECT_EQ(writeGraph(document.graph()), dragged) << "what it did is a step before the change";
+    EXPECT_EQ(document.undoName(), "Move");
+}
+
+TEST(Document, AnotherHandEndsTheFirst) {
+    Document document(balls(3));
+    const Hand first = document.begin("Move");
+    document.update(first, moved(document, "sphere"));
+    const Hand second = document.begin("Move Others");
+    EXPECT_FALSE(document.holds(first));
+    EXPECT_TRUE(document.holds(second));
+    document.update(first, balls(1));
+    document.update(second, moved(document, "sphere_2"));
+    document.end(second);
+    EXPECT_EQ(document.undoName(), "Move Others");
+    EXPECT_TRUE(document.undo());
+    EXPECT_EQ(document.undoName(), "Move");
+    EXPECT_TRUE(document.undo());
+    EXPECT_EQ(document.graph(), balls(3));
+}
+
+TEST(Document, WhatIsPendingIsNotLost) {
+    Document document(balls(3));
+    const auto label = [&document](const char* words) {
+        document.apply("Set Label", setLabel(document.graph(), "", "sphere", words));
+    };
+    // The change under it was made of a graph that lacks what is typed: that comes on top.
+    Hand hand = document.begin("Type");
+    document.hold(hand, [&] { label("head"); });
+    document.apply("Mute", toggleMuted(document.graph(), "", NodeIds{"sphere"}));
+    EXPECT_TRUE(document.graph().node("sphere")->muted);
+    EXPECT_EQ(document.graph().node("sphere")->label, "head");
+    EXPECT_EQ(document.undoName(), "Set Label");
+
+    hand = document.begin("Type");
+    document.hold(hand, [&] { label("foot"); });
+    document.settle();
+    EXPECT_EQ(document.graph().node("sphere")->label, "foot");
+    EXPECT_FALSE(document.held());
+
+    hand = document.begin("Type");
+    document.hold(hand,
+                  [&, hand] { document.update(hand, setLabel(document.graph(), "", "sphere", "hand")); });
+    document.begin("Move");
+    EXPECT_EQ(document.graph().node("sphere")->label, "hand");
+
+    hand = document.begin("Type");
+    document.hold(hand, [&] { label("none"); });
+    document.end(hand);
+    EXPECT_EQ(document.graph().node("sphere")->label, "hand") << "its owner has seen to it";
+}
+
+TEST(Document, AHandThatNobodyAsksForEnds) {
+    Document document(balls(3));
+    const Hand hand = document.begin("Move");
+    document.update(hand, moved(document, "sphere"));
+    document.settleLost();  // the frame in which it began
+    for (int frame = 0; frame < 5; ++frame) {
+        EXPECT_TRUE(document.hold(hand));
+        document.settleLost();
+    }
+    EXPECT_TRUE(document.holds(hand));
+    document.settleLost();
+    EXPECT_FALSE(document.holds(hand));
+    EXPECT_EQ(document.undoName(), "Move");
+}
+
+TEST(Document, RevisionsAndHandsAreOfOneDocumentAlone) {
+    std::set<uint64_t> revisions;
+    std::set<Hand> hands;
+    std::size_t count = 0;
+    Document first(balls(2)), second(balls(2));
+    for (Document* each : {&first, &second, &first, &second}) {
+        revisions.insert(each->revision());
+        const Hand hand = each->begin("Move");
+        hands.insert(hand);
+        each->update(hand, moved(*each, "sphere"));
+        revisions.insert(each->revision());
+        each->cancel(hand);
+        each->outdate();
+        count += 2;
+    }
+    EXPECT_EQ(revisions.size(), count);
+    EXPECT_EQ(hands.size(), 4u);
+    const Hand of = first.begin("Move");
+    EXPECT_FALSE(second.holds(of));
+    second.update(of, balls(1));
+    EXPECT_EQ(second.graph(), balls(2));
+    first = Document(balls(1));
+    EXPECT_FALSE(first.holds(of)) << "another document is in its place";
 }
 
 TEST(Document, KnowsWhetherItIsSaved) {
@@ -154,11 +265,11 @@ TEST(Document, UndoAndRedoToBothEndsGiveTheSameBytes) {
         for (int i = 0; i < 60; ++i) {
             std::string name;
             Graph next = edits.next(document.graph(), name);
-            if (i % 7 == 6) {  // as a gesture, with something in between
-                document.begin(name);
-                document.update(edits.next(document.graph(), name));
-                document.update(std::move(next));
-                document.end();
+            if (i % 7 == 6) {  // by a hand, with something in between
+                const Hand hand = document.begin(name);
+                document.update(hand, edits.next(document.graph(), name));
+                document.update(hand, std::move(next));
+                document.end(hand);
             } else {
                 document.apply(name, std::move(next));
             }

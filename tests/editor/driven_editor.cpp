@@ -49,6 +49,14 @@ void DrivenEditor::send(const std::string& words) {
     settle();
 }
 
+void DrivenEditor::during(const std::string& words) {
+    hand(words);
+    for (int frame = 0; frame < 4; ++frame) {
+        shell->waitEvents(0.0);
+        shell->frame([&] { showEditor(*it); });
+    }
+}
+
 void DrivenEditor::moveTo(ImVec2 pixels) { send("mousemove " + pixelsOf(pixels)); }
 void DrivenEditor::moveAway() {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -60,13 +68,8 @@ void DrivenEditor::drag(ImVec2 from, ImVec2 to) {
     const ImVec2 half(0.5f * (from.x + to.x), 0.5f * (from.y + to.y));
     // A gesture goes on as long as the button is held: frames are made between its parts.
     for (const std::string& part : {"mousemove " + pixelsOf(from) + " mousedown 1",
-                                    "mousemove " + pixelsOf(half), "mousemove " + pixelsOf(to)}) {
-        hand(part);
-        for (int frame = 0; frame < 4; ++frame) {
-            shell->waitEvents(0.0);
-            shell->frame([&] { showEditor(*it); });
-        }
-    }
+                                    "mousemove " + pixelsOf(half), "mousemove " + pixelsOf(to)})
+        during(part);
     send("mouseup 1");
 }
 

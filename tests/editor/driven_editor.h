@@ -28,6 +28,8 @@ class DrivenEditor {
 
     /// Words of xdotool, then frames until the interface rests.
     void send(const std::string& words);
+    /// The same with some frames, where a button that is held never lets it rest.
+    void during(const std::string& words);
     /// Keys as xdotool has them, one press after the other: "shift+a Return".
     void keys(const std::string& presses) { send("key --delay 0 " + presses); }
     void type(const std::string& text) { send("type --delay 0 --args 1 '" + text + "'"); }
@@ -53,5 +55,8 @@ class DrivenEditor {
     std::optional<Shell> shell;
     std::optional<Editor> it;
 };
+
+#define NEEDS_EDITOR(editor) \
+    ASSERT_TRUE((editor).works()) << "Xvfb or xdotool is missing: run ./.install test"
 
 }  // namespace fw::editor::test

@@ -82,7 +82,7 @@ TEST(AddFileNodes, MakesPairsAndGivesTheFirstToAFreeOutput) {
 class Dropped : public testing::Test {
   protected:
     void SetUp() override {
-        if (!editor.works()) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+        ASSERT_TRUE(editor.works()) << "Xvfb or xdotool is not installed: run ./.install test";
         fs::create_directories(editor.path("work/sub"));
         fs::create_directories(editor.path("elsewhere"));
         editor->document.setPath(work("g.field.json"));

@@ -43,7 +43,7 @@ ImVec2 onWire(const Program& program, const std::string& from, const std::string
 class EndToEndGestures : public testing::Test {
   protected:
     void SetUp() override {
-        if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+        ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
         original = program.save();
         program.frameAll();
     }

@@ -570,7 +570,8 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
             }
             if (!program) {
                 program.emplace(kDocument);
-                if (!program->works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+                ASSERT_TRUE(program->works())
+                    << "Xvfb, xdotool or xclip is not installed: run ./.install test";
                 original = program->save();
             }
             program->moveTo({200, 60});

@@ -15,7 +15,7 @@ const std::string kTower = FIELDWRIGHT_SOURCE_DIR "/samples/tower.field.json";
 
 TEST(EndToEnd, WorkIsGivenBackAfterTheProgramWasKilled) {
     Program program(readText(kTower));
-    if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+    ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
     program.frameAll();
     program.click(program.title("room"));
     program.keys("Ctrl+D");
@@ -45,7 +45,7 @@ TEST(EndToEnd, WorkIsGivenBackAfterTheProgramWasKilled) {
 
 TEST(EndToEnd, PastesWhatOtherProgramsCopied) {
     Program program;
-    if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+    ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
     program.frameAll();
     program.clipboard(readText(kTower));
     program.moveTo(program.nowhere());
@@ -85,7 +85,7 @@ TEST(EndToEnd, AThousandNodes) {
     }
     const std::string text = writeGraph(graph);
     Program program(text);
-    if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+    ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
     EXPECT_EQ(program.save(), text);
     program.frameAll();
     EXPECT_LT(program.view.zoom, 0.25f);  // all of them are seen
@@ -110,7 +110,7 @@ TEST(EndToEnd, AThousandNodes) {
 
 TEST(EndToEnd, LooksAsItDid) {
     Program program(readText(kTower));
-    if (!program.works()) GTEST_SKIP() << "Xvfb, xdotool or xclip is not installed";
+    ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
     program.frameAll();
     const Area panel = program.view.panel;
     const Area part{panel.lo, {panel.lo.x + 620, panel.lo.y + 560}};

@@ -54,7 +54,7 @@ std::string meshOf(Program& program, const std::string& graph, const std::string
 
 TEST(EndToEnd, BuildsTheTowerFromNothing) {
     Program program;
-    if (!program.works()) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+    ASSERT_TRUE(program.works()) << "Xvfb or xdotool is not installed: run ./.install test";
     Result<Graph> sample = readGraph(kSample, nullptr);
     ASSERT_TRUE(sample);
     const std::string empty = program.save();

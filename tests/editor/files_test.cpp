@@ -91,14 +91,24 @@ TEST(Recovery, CopiesAfterSoManySecondsOfChange) {
         Recovery recovery(folder.folder.string());
         EXPECT_TRUE(recovery.keep(first, 1, false, after(0)));
         EXPECT_TRUE(recovery.keep(second, 2, true, after(100)));
-        EXPECT_TRUE(recovery.keep(second, 2, true, after(100 + 0.9 * kRecoverySeconds)));
+        // It goes on changing; then it rests.
+        uint64_t revision = 2;
+        for (double time = 0; time < 0.9 * kRecoverySeconds; time += 0.9 * kRecoveryRest)
+            EXPECT_TRUE(recovery.keep(second, revision++, true, after(100 + time)));
         EXPECT_EQ(copies(), 0);
-        EXPECT_TRUE(recovery.keep(second, 2, true, after(101 + kRecoverySeconds)));
+        EXPECT_TRUE(recovery.keep(second, revision, true, after(101 + kRecoverySeconds)));
         EXPECT_TRUE(recovery.keepNow(*second));  // waits for the one before
         EXPECT_EQ(copies(), 1);
         EXPECT_TRUE(leftCopies(folder.folder.string()).empty());  // its editor lives
-        EXPECT_TRUE(recovery.keep(first, 3, false, after(130)));
+        EXPECT_TRUE(recovery.keep(first, 90, false, after(130)));
         EXPECT_EQ(copies(), 0);
+        EXPECT_TRUE(recovery.keep(second, 91, true, after(140)));
+        EXPECT_TRUE(recovery.keep(second, 91, true, after(140 + 0.9 * kRecoveryRest)));
+        EXPECT_EQ(copies(), 0);
+        EXPECT_TRUE(recovery.keep(second, 91, true, after(140 + 1.1 * kRecoveryRest)));
+        EXPECT_TRUE(recovery.keepNow(*second));
+        EXPECT_EQ(copies(), 1) << "a change that is followed by nothing is kept soon";
+        EXPECT_TRUE(recovery.keep(first, 92, false, after(150)));
         EXPECT_TRUE(recovery.keepNow(*first));
         recovery.discard();
     }

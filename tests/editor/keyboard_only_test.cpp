@@ -15,9 +15,6 @@
 
 namespace fw::editor::test::keyboard_only_test {
 
-#define NEEDS_EDITOR(driven) \
-    if (!(driven).works()) GTEST_SKIP() << "Xvfb or xdotool is not installed"
-
 const Node* nodeOfType(const Graph& graph, std::string_view type) {
     for (const Node& node : graph.nodes)
         if (node.type == type) return &node;

@@ -86,14 +86,18 @@ TEST(Step, EditsTheFirstNumberOfTheActiveNode) {
     const Boxes boxes(graph, "");
     Canvas canvas;
     canvas.view.panel = {{0, 0}, {400, 300}};
-    EXPECT_FALSE(typeFirstValue(canvas, boxes));
+    Document document(graph);
+    EXPECT_FALSE(typeFirstValue(canvas, document, boxes));
     canvas.select({"ball"});
-    ASSERT_TRUE(typeFirstValue(canvas, boxes));
-    EXPECT_TRUE(canvas.field.is("", {"ball", "radius"}, 0));
-    EXPECT_EQ(std::string(canvas.field.typed.text), "1");
-    canvas.field = {};
+    ASSERT_TRUE(typeFirstValue(canvas, document, boxes));
+    EXPECT_TRUE(canvas.number.types("ball.radius", 0));
+    EXPECT_EQ(std::string(canvas.number.typed.text), "1");
+    EXPECT_TRUE(document.holds(canvas.number.hand));
+    document.settle();
+    canvas.number.follow(document);
+    EXPECT_FALSE(canvas.number.types("ball.radius", 0)) << "the document has ended it";
     canvas.view.zoom = kLeastZoom;
-    EXPECT_FALSE(typeFirstValue(canvas, boxes)) << "too small to be seen";
+    EXPECT_FALSE(typeFirstValue(canvas, document, boxes)) << "too small to be seen";
 }
 
 TEST(Connections, AreThoseWithoutARefusal) {

@@ -188,7 +188,7 @@ TEST_F(ShellTest, RestsUntilSomethingHappens) {
 }
 
 TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
-    if (fw::test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    ASSERT_EQ(fw::test::runProgram("xdotool version").status, 0) << "run ./.install test";
     std::string pressed;
     std::vector<glm::ivec2> clicks;
     const auto show = [&] {
@@ -213,7 +213,7 @@ TEST_F(ShellTest, HearsEveryKeyAndClickOfOneMoment) {
 }
 
 TEST_F(ShellTest, TakesAClickWhereTheMouseHasJustCome) {
-    if (fw::test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    ASSERT_EQ(fw::test::runProgram("xdotool version").status, 0) << "run ./.install test";
     std::string open;
     ImVec2 tab{0, 0}, button{0, 0};
     const auto show = [&] {
@@ -248,7 +248,7 @@ TEST_F(ShellTest, TakesAClickWhereTheMouseHasJustCome) {
 }
 
 TEST_F(ShellTest, KeysWaitForAMenuThatOpens) {
-    if (fw::test::runProgram("xdotool version").status != 0) GTEST_SKIP() << "xdotool is not installed";
+    ASSERT_EQ(fw::test::runProgram("xdotool version").status, 0) << "run ./.install test";
     char typed[32] = {}, after[32] = {};
     int saved = 0;
     const auto show = [&] {

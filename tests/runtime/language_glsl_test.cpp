@@ -43,8 +43,9 @@ void expectAcceptedCompiles(uint32_t seed, Make make) {
         // At 0 s a divisor may be 0, which passes check().
         const Result<Program> program = compile(graph, {.time = 0.3});
         if (!program || hasErrors(findings)) {
-            // What only the whole field tells stops compile() alone.
-            ASSERT_TRUE(hasErrors(findings) || isOfTheWhole(program.error()))
+            // What only the whole field tells stops compile() alone, and what is in range at 0 s may be out
+            // of it later.
+            ASSERT_TRUE(hasErrors(findings) || isOfTheWhole(program.error()) || compile(graph, {.time = 0.0}))
                 << format(program.error()) << "\n"
                 << code.text;
             ++refused;

@@ -34,8 +34,7 @@ class VirtualDisplay {
     int number = -1;
 };
 
-/// Skips the test where there is no X server.
-#define NEEDS_DISPLAY(display) \
-    if (!(display).works()) GTEST_SKIP() << "Xvfb is not installed"
+/// Fails the test where there is no X server: windows are looked at on every machine.
+#define NEEDS_DISPLAY(display) ASSERT_TRUE((display).works()) << "Xvfb is not installed: run ./.install test"
 
 }  // namespace fw::test

@@ -1,0 +1,293 @@
+// What a hand has begun, in a real window: another document, another program, another key comes in its way,
+// and nothing is lost, goes on over what it was not begun on, or leaves the editor deaf.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "editor/commands.h"
+#include "editor/document/parameters.h"
+#include "graph/document/json.h"
+#include "graph/document/named_parameters.h"
+#include "tests/editor/driven_editor.h"
+#include "tests/editor/graphs.h"
+#include "tests/support/graph/temp_dir.h"
+
+namespace fw::editor::hands_test {
+
+using fw::test::writeText;
+using test::DrivenEditor;
+
+constexpr const char* kBall = R"({"fieldwright": 1, "nodes": [
+    {"id": "ball", "type": "sphere", "at": [0, 0], "inputs": {"radius": 1}},
+    {"id": "moved", "type": "translate", "at": [240, 0],
+     "inputs": {"surface": {"from": "ball"}, "offset": [1, 2, 3]}},
+    {"id": "out", "type": "output", "at": [480, 0], "inputs": {"surface": {"from": "moved"}, "resolution": 24}}],
+    "timeline": {"length": 8, "tracks": [
+        {"node": "ball", "input": "radius", "keys": [{"time": 0, "value": 1}, {"time": 8, "value": 2}]}]}})";
+constexpr const char* kBlock = R"({"fieldwright": 1, "nodes": [
+    {"id": "ball", "type": "sphere", "at": [0, 0], "inputs": {"radius": 3}},
+    {"id": "out", "type": "output", "at": [240, 0], "inputs": {"surface": {"from": "ball"}, "resolution": 24}}],
+    "timeline": {"length": 2}})";
+
+std::string to(ImVec2 at) {
+    return "mousemove " + std::to_string(std::lround(at.x)) + " " + std::to_string(std::lround(at.y));
+}
+double radius(DrivenEditor& editor) {
+    return inputNumbers(*editor->document.graph().node("ball"), "radius").at(0);
+}
+
+TEST(Hands, AnotherDocumentHasNothingOfTheOneBefore) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    writeText(editor.path("ball.field.json"), kBall);
+    writeText(editor.path("block.field.json"), kBlock);
+    openFile(*editor, editor.path("ball.field.json"));
+    editor.settle();
+    editor->viewport.seconds = 5.5;
+    editor->viewport.playing = true;
+    editor->panels.timeline = true;
+    editor->panelState.search = "ball";
+    editor->viewport.pinned = "moved";
+    editor->thumbnails.toggle(editor->shell, "ball");
+    const uint64_t revision = editor->document.revision();
+    editor->canvas.select({"ball"});
+    editor.settle();
+    // A number is half typed, and a label.
+    editor.keys("F2");
+    editor.type("half a label");
+    EXPECT_TRUE(editor->document.held());
+    openFile(*editor, editor.path("block.field.json"));
+    editor.settle();
+    EXPECT_NE(editor->document.revision(), revision);
+    EXPECT_FALSE(editor->document.held());
+    EXPECT_FALSE(editor->document.unsaved()) << "what was typed for the other one is in this one";
+    EXPECT_EQ(editor->document.graph().node("ball")->label, "");
+    EXPECT_EQ(editor->viewport.seconds, 0.0);
+    EXPECT_FALSE(editor->viewport.playing);
+    EXPECT_EQ(editor->viewport.pinned, "");
+    EXPECT_TRUE(editor->thumbnails.shown.empty());
+    EXPECT_EQ(editor->panelState.search, "");
+    EXPECT_TRUE(editor->canvas.selection.empty());
+    editor.type("more");  // goes nowhere
+    EXPECT_FALSE(editor->document.unsaved());
+}
+
+TEST(Hands, WhatIsTypedIsAmongTheChangesThatAreAskedAbout) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    writeText(editor.path("ball.field.json"), kBlock);
+    openFile(*editor, editor.path("ball.field.json"));
+    editor->canvas.select({"ball"});
+    editor.settle();
+    editor.keys("F2");
+    editor.type("head");
+    EXPECT_FALSE(editor->document.unsaved());
+    proceed(*editor, Files::Next::fresh);
+    EXPECT_TRUE(editor->document.unsaved());
+    EXPECT_TRUE(editor->files.asks);
+    EXPECT_EQ(editor->document.graph().node("ball")->label, "head");
+}
+
+TEST(Hands, KeysBetweenPressAndReleaseWait) {
+    DrivenEditor editor(test::parsed(kBlock));
+    NEEDS_EDITOR(editor);
+    editor->canvas.select({"ball"});
+    editor.settle();
+    const std::string before = writeGraph(editor->document.graph());
+    editor.during(to(editor.title("ball")) + " mousedown 1");
+    EXPECT_TRUE(editor->document.held());
+    editor.during("key --delay 0 Delete ctrl+a x");
+    EXPECT_EQ(writeGraph(editor->document.graph()), before);
+    editor.send("mouseup 1");
+    EXPECT_FALSE(editor->document.held());
+    EXPECT_EQ(editor->canvas.active, "ball");
+    editor.keys("Delete");
+    EXPECT_FALSE(editor->document.graph().node("ball"));
+}
+
+TEST(Hands, AChangeUnderADragEndsIt) {
+    DrivenEditor editor(test::parsed(kBlock));
+    NEEDS_EDITOR(editor);
+    const ImVec2 title = editor.title("ball");
+    editor.during(to(title) + " mousedown 1");
+    editor.during(to({title.x + 40, title.y + 60}));
+    editor.during(to({title.x + 80, title.y + 90}));
+    EXPECT_EQ(editor->canvas.gesture.kind, CanvasGesture::Kind::move);
+    // The node goes, as a reload would take it.
+    editor->document.apply("Remove", removeNodes(editor->document.graph(), "", NodeIds{"ball"}, false));
+    const std::string after = writeGraph(editor->document.graph());
+    editor.during("");
+    editor.during(to({title.x + 160, title.y + 20}));
+    editor.send("mouseup 1");
+    EXPECT_EQ(editor->canvas.gesture.kind, CanvasGesture::Kind::none);
+    EXPECT_EQ(writeGraph(editor->document.graph()), after);
+    EXPECT_TRUE(editor->document.undo());
+    EXPECT_TRUE(editor->document.graph().node("ball")) << "undo brings it back where it was dragged to";
+    EXPECT_NE((*editor->document.graph().node("ball")->at)[1], 0.0);
+}
+
+TEST(Hands, ANumberThatIsCoveredIsTypedAllTheSame) {
+    // The second ball lies over the first one's radius.
+    DrivenEditor editor(test::parsed(R"({"fieldwright": 1, "nodes": [
+        {"id": "ball", "type": "sphere", "at": [0, 0], "inputs": {"radius": 1}},
+        {"id": "other", "type": "sphere", "at": [4, 20]}]})"));
+    NEEDS_EDITOR(editor);
+    editor->canvas.select({"ball"});
+    editor.settle();
+    editor.keys("Return");
+    editor.type("2.5");
+    editor.keys("Return");
+    EXPECT_EQ(radius(editor), 2.5);
+    EXPECT_FALSE(editor->document.held());
+    // The canvas hears again.
+    editor.keys("ctrl+z");
+    EXPECT_EQ(radius(editor), 1.0);
+    // What is not seen any more ends by itself, with what was typed.
+    editor.keys("Return");
+    editor.type("4");
+    editor->canvas.view.zoom = kLeastZoom;
+    editor.settle();
+    EXPECT_FALSE(editor->document.held());
+    EXPECT_EQ(radius(editor), 4.0);
+}
+
+TEST(Hands, ModifiersMeanTheSameOnTheCanvasAndInThePanels) {
+    constexpr const char* kGraph = R"({"fieldwright": 1, "nodes": [
+        {"id": "ball", "type": "sphere", "at": [0, 0], "inputs": {"radius": 1}}]})";
+    DrivenEditor editor(test::parsed(kGraph));
+    NEEDS_EDITOR(editor);
+    // As a parameter it is in a second panel, where a drag of a pixel counts another step.
+    const auto travelled = [&](ImVec2 from, const char* modifier) {
+        const double before = radius(editor);
+        const std::string down = modifier[0] ? std::string("keydown ") + modifier : "",
+                          up = modifier[0] ? std::string(" keyup ") + modifier : "";
+        editor.during(to(from) + " " + down + " mousedown 1");
+        for (const float by : {20.0f, 40.0f, 60.0f}) editor.during(to({from.x + by, from.y}));
+        editor.send("mouseup 1" + up);
+        const double by = radius(editor) - before;
+        EXPECT_TRUE(editor->document.undo());
+        editor.settle();
+        return by;
+    };
+    const ImVec2 onCanvas = editor.field("ball", "radius", 0);
+    const double plain = travelled(onCanvas, "");
+    EXPECT_GT(plain, 0.0);
+    EXPECT_NEAR(travelled(onCanvas, "shift"), 0.1 * plain, 0.02 * plain);
+    EXPECT_NEAR(travelled(onCanvas, "alt"), 10.0 * plain, 0.2 * plain);
+
+    editor->document.apply("Expose", exposeInput(editor->document.graph(), {"ball", "radius"}));
+    editor->panels.wanted = "parameters";
+    editor.settle();
+    // Where the mouse says that it would drag something.
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImVec2 inPanel(size.x * (1.0f - 0.5f * editor->panels.side), 0.0f);
+    for (float y = editor->panels.top * size.y + 40.0f; y < size.y - 20.0f && inPanel.y == 0.0f; y += 6.0f) {
+        editor.moveTo({inPanel.x, y});
+        if (ImGui::GetMouseCursor() == ImGuiMouseCursor_ResizeEW) inPanel.y = y + 6.0f;
+    }
+    ASSERT_GT(inPanel.y, 0.0f) << "the parameter's value is seen";
+    const double there = travelled(inPanel, "");
+    EXPECT_GT(there, 0.0);
+    EXPECT_NEAR(travelled(inPanel, "shift"), 0.1 * there, 0.02 * there);
+    EXPECT_NEAR(travelled(inPanel, "alt"), 10.0 * there, 0.2 * there);
+}
+
+TEST(Hands, TheMinimapDoesNotFlyAway) {
+    DrivenEditor editor(test::parsed(kBlock));
+    NEEDS_EDITOR(editor);
+    const Area map = minimapArea(editor->canvas.view), shows = minimapShows(editor->canvas, *editor->boxes);
+    editor.during(to(map.centre()) + " mousedown 1");
+    for (int i = 0; i < 30; ++i) editor.during(to({map.hi.x - 1.0f - float(i % 2), map.hi.y - 1.0f}));
+    editor.send("mouseup 1");
+    EXPECT_LE(editor->canvas.view.middle.x, shows.hi.x + 1.0f);
+    EXPECT_LE(editor->canvas.view.middle.y, shows.hi.y + 1.0f);
+}
+
+TEST(Hands, WhatIsShownFollowsItsNode) {
+    DrivenEditor editor(test::parsed(kBall));
+    NEEDS_EDITOR(editor);
+    editor->viewport.pinned = "moved";
+    editor->thumbnails.toggle(editor->shell, "moved");
+    editor->canvas.select({"moved"});
+    editor.settle();
+    editor.keys("F2 Tab ctrl+a");  // from its label to its id
+    editor.type("away");
+    editor.keys("Return");
+    ASSERT_TRUE(editor->document.graph().node("away"));
+    EXPECT_EQ(editor->viewport.pinned, "away");
+    EXPECT_TRUE(editor->thumbnails.shown.contains("away"));
+    EXPECT_FALSE(editor->thumbnails.shown.contains("moved"));
+    editor->document.apply("Remove", removeNodes(editor->document.graph(), "", NodeIds{"away"}, true));
+    editor.settle();
+    EXPECT_EQ(editor->viewport.pinned, "");
+    EXPECT_TRUE(editor->thumbnails.shown.empty());
+}
+
+TEST(Hands, AQuestionAsideThatFailsIsSaid) {
+    DrivenEditor editor(test::parsed(kBall));
+    NEEDS_EDITOR(editor);
+    editor.waitForPicture();
+    editor->viewport.aside.ask([]() -> Aside::Answer { throw std::runtime_error("the moon is down"); });
+    for (int i = 0; i < 500 && editor->notice != "the moon is down"; ++i)
+        editor.settle(), fw::test::rest(0.01);
+    EXPECT_EQ(editor->notice, "the moon is down");
+}
+
+TEST(Hands, AChangeOutsideIsNotSavedOver) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string path = editor.path("ball.field.json");
+    writeText(path, kBall);
+    openFile(*editor, path);
+    editor.settle();
+    editor->document.apply("Set", setNumber(editor->document.graph(), "", {"out", "resolution"}, 0, 32));
+    writeText(path, kBlock);
+    editor.keys("ctrl+s");  // at once: nothing has looked at the file since
+    EXPECT_EQ(fw::test::readText(path), kBlock);
+    EXPECT_TRUE(editor->files.outside);
+    editor.keys("Escape");
+    EXPECT_FALSE(editor->files.outside);
+    EXPECT_EQ(fw::test::readText(path), kBlock) << "neither saved nor loaded";
+    EXPECT_TRUE(editor->document.unsaved());
+    editor.keys("ctrl+s");  // it is known by now
+    EXPECT_NE(fw::test::readText(path), kBlock);
+    EXPECT_FALSE(editor->document.unsaved());
+}
+
+TEST(Hands, TwoCopiesThatWereLeftAreBothRestored) {
+    // As two editors leave them that were killed: copies without a lock.
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string folder = recoveryFolder();
+    std::filesystem::create_directories(folder);
+    writeText(folder + "/1-0.field.json", kBall);
+    writeText(folder + "/2-0.field.json", kBlock);
+    startFiles(*editor, {});
+    editor.settle();
+    ASSERT_EQ(editor->files.left.size(), 2u);
+    ASSERT_TRUE(editor->files.offers);
+    restore(*editor, editor->files.left[0]);
+    editor->files.left.erase(editor->files.left.begin());
+    editor.keys("Escape");
+    editor.settle();
+    const std::string first = writeGraph(editor->document.graph());
+    EXPECT_TRUE(editor->document.unsaved());
+    EXPECT_FALSE(editor->files.offers) << "the offer would put the next one in place of this one";
+    ASSERT_EQ(editor->files.left.size(), 1u);
+    // To the other by the menu: the first is asked about, saved, and stays.
+    ASSERT_TRUE(command("file.recovered").can(*editor));
+    command("file.recovered").run(*editor);
+    EXPECT_TRUE(editor->files.asks);
+    editor->document.setPath(editor.path("first.field.json"));
+    ASSERT_TRUE(save(*editor));
+    doNext(*editor);
+    editor.keys("Escape");
+    restore(*editor, editor->files.left[0]);
+    EXPECT_TRUE(editor->document.unsaved());
+    EXPECT_NE(writeGraph(editor->document.graph()), first);
+    EXPECT_EQ(fw::test::readText(editor.path("first.field.json")), first);
+    EXPECT_EQ(leftCopies(folder).size(), 0u);
+}
+
+}  // namespace fw::editor::hands_test
