@@ -152,6 +152,7 @@ bool exchange(Editor& editor) {
 
 void showEditor(Editor& editor) {
     finishLost(editor);
+    code::finish(editor);
     playOn(editor);
     drawAnew(editor);
     const ImGuiViewport* whole = ImGui::GetMainViewport();

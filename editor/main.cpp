@@ -1,4 +1,5 @@
 // `fieldwright-editor`: reads the command line and runs the editor.
+#include <algorithm>
 #include <atomic>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -43,6 +44,7 @@ void complain(const std::string& words) { std::fprintf(stderr, "fieldwright-edit
 /// it is, since neither a lost device nor a lost display can be taken down in order.
 [[noreturn]] void endAtOnce(Editor& editor, const std::string& why) {
     onDisplayLost({});
+    code::commit(editor);
     const std::string kept = keepForNextTime(editor);
     complain(why + (kept.empty() ? "" : ". " + kept));
     OutputFile::removeUnfinished();
@@ -85,14 +87,16 @@ int run(const Options& options) {
                 shell.keepOpen();
                 proceed(editor, Files::Next::quit);
             }
-            const bool asked = shell.waitEvents(moves(editor) ? 0.0 : kLongestRest);
-            const bool fresh = exchange(editor);
-            if (asked || fresh || moves(editor)) draw(shell, editor);
+            const double next = code::nextFrame(editor);
+            const bool asked = shell.waitEvents(moves(editor) ? 0.0 : std::min(kLongestRest, next));
+            const bool fresh = exchange(editor), due = next < kLongestRest;
+            if (asked || fresh || due || moves(editor)) draw(shell, editor);
         }
     } catch (const SystemError& error) { endAtOnce(editor, error.what()); }
     onDisplayLost({});
     keepArrangement(editor, preferencesPath());
     if (signal == 0) return editor.files.recovery.discard(), kDone;
+    code::commit(editor);
     const std::string kept = keepForNextTime(editor);
     if (kept.empty())
         editor.files.recovery.discard();
