@@ -392,6 +392,11 @@ void showHover(Editor& editor, const Heard& heard) {
         if (const language::NameUse* use = code.names->names.at(offsetOf(code.text, *heard.hovered)))
             entry = entryOfUse(code, *use);
     if (said.empty() && !entry) return;
+    // Below the line, so that it covers nothing of it; above it where there is no room.
+    const ImVec2 word = heard.placeOf(*code.hovered);
+    const bool above = word.y > 0.75f * ImGui::GetMainViewport()->Size.y;
+    ImGui::SetNextWindowPos({word.x, above ? word.y - 4.0f : word.y + heard.cell.y + 4.0f}, ImGuiCond_Always,
+                            {0.0f, above ? 1.0f : 0.0f});
     ImGui::BeginTooltip();
     if (!said.empty()) {
         ImGui::PushTextWrapPos(kDocWidth * ImGui::GetFontSize());

@@ -82,6 +82,7 @@ struct CodeEditor {
 
     // Where it is shown
     float height = 0.0f;       ///< of the field in the inspector, as it was dragged to; 0: by its lines
+    int toggled = 0;           ///< ImGui's frame in which `large` changed
     bool large = false;        ///< in a window over the canvas
     std::string wantedInput;   ///< whose row the inspector shows and marks,
     double wantedUntil = 0.0;  ///< until then
@@ -134,6 +135,8 @@ void goToFinding(Editor& editor, const Error& finding);
 
 /// The field with its heading in the inspector.
 void showInInspector(Editor& editor, const NodeBox& box);
+/// What is wrong with the code, each with its place; a click goes there.
+void showMessages(Editor& editor);
 /// The large window, while it is open.
 void showWindow(Editor& editor);
 /// Opens or closes it, for the active node.

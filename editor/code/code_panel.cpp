@@ -13,7 +13,7 @@ namespace fw::editor::code {
 
 namespace {
 
-constexpr int kLeastLines = 6, kMostLines = 24;  // of a field that was not dragged
+constexpr int kLeastLines = 4, kMostLines = 24;  // of a field that was not dragged
 
 bool isExpression(const NodeBox* box) { return box && roleOf(box->node->type) == NodeRole::expression; }
 
@@ -40,27 +40,8 @@ void showHeading(Editor& editor) {
         ImGui::SetTooltip(code.large ? "Back into the inspector (F4)" : "In a large window (F4)");
 }
 
-/// What is wrong, each with its place; a click goes there.
-void showMessages(Editor& editor) {
-    CodeEditor& code = editor.code;
-    int id = 0;
-    for (const Mark& mark : code.marks) {
-        const std::string words = "Line " + std::to_string(mark.range.from.line + 1) + ", column " +
-                                  std::to_string(columnOf(code.text, mark.range.from) + 1) + ": " +
-                                  mark.message;
-        wrapped(themeColor(mark.error ? ThemeColor::error : ThemeColor::warning), words);
-        ImGui::PushID(id++);
-        if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-        if (ImGui::IsItemClicked()) {
-            place(code.text, mark.range.from);
-            code.view.focus = code.view.follow = true;
-        }
-        ImGui::PopID();
-    }
-}
-
 /// The lower edge of the field, which is dragged to another height.
-void showGrip(Editor& editor, float height) {
+void showGrip(Editor& editor) {
     CodeEditor& code = editor.code;
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
@@ -79,7 +60,6 @@ void showGrip(Editor& editor, float height) {
         if (code.view.inside) code.view.focus = true;
     }
     if (hovered && ImGui::IsMouseDoubleClicked(0)) code.height = 0.0f;
-    (void)height;
 }
 
 bool inside(ImVec2 at, ImVec2 lo, ImVec2 hi) {
@@ -136,6 +116,24 @@ void showField(Editor& editor, const NodeBox& box, ImVec2 size) {
     GImGui->LastItemData.Rect = field;  // for the grip below it
 }
 
+void showMessages(Editor& editor) {
+    CodeEditor& code = editor.code;
+    int id = 0;
+    for (const Mark& mark : code.marks) {
+        const std::string words = "Line " + std::to_string(mark.range.from.line + 1) + ", column " +
+                                  std::to_string(columnOf(code.text, mark.range.from) + 1) + ": " +
+                                  mark.message;
+        wrapped(themeColor(mark.error ? ThemeColor::error : ThemeColor::warning), words);
+        ImGui::PushID(id++);
+        if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+        if (ImGui::IsItemClicked()) {
+            place(code.text, mark.range.from);
+            code.view.focus = code.view.follow = true;
+        }
+        ImGui::PopID();
+    }
+}
+
 void showInInspector(Editor& editor, const NodeBox& box) {
     CodeEditor& code = editor.code;
     takeUp(editor, box);
@@ -152,14 +150,15 @@ void showInInspector(Editor& editor, const NodeBox& box) {
     const float height =
         code.height > 0.0f ? code.height : float(lines) * line + ImGui::GetStyle().ScrollbarSize + 8.0f;
     showField(editor, box, {-FLT_MIN, std::round(height)});
-    showGrip(editor, height);
-    showMessages(editor);
+    showGrip(editor);
 }
 
 void toggleWindow(Editor& editor) {
     CodeEditor& code = editor.code;
     const NodeBox* box = editor.boxes ? editor.boxes->find(editor.canvas.active) : nullptr;
     if (!isExpression(box)) return;
+    // A key is heard by the command and by the text.
+    if (std::exchange(code.toggled, ImGui::GetFrameCount()) == ImGui::GetFrameCount()) return;
     code.large = !code.large;
     code.list.open = false;
     code.view.focus = true;

@@ -247,8 +247,9 @@ void searchOn(View& view, Text& text, bool backward) {
 
 /// The row with the words to be found. Whether the keyboard is in it.
 bool showSearch(View& view, Text& text, float scale) {
+    ImGui::SetCursorPos({std::round(kMargin * scale), std::round(0.5f * kMargin * scale)});
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(" Find");
+    ImGui::TextUnformatted("Find");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(std::max(60.0f * scale, ImGui::GetContentRegionAvail().x - 150.0f * scale));
     if (view.search.focus) ImGui::SetKeyboardFocusHere();
@@ -307,7 +308,9 @@ Heard showText(View& view, const Shown& shown, const char* id, ImVec2 size) {
     ImGui::BeginChild(id, size, true,
                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar |
                           ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NavFlattened);
-    bool searching = view.search.open && showSearch(view, text, shown.scale);
+    const bool searched = view.search.open;
+    bool searching = searched && showSearch(view, text, shown.scale);
+    const bool closed = searched && !view.search.open;  // by a key that has been heard
     const uint64_t before = text.version;
     const Spot cursorBefore = text.cursor;
 
@@ -356,7 +359,7 @@ Heard showText(View& view, const Shown& shown, const char* id, ImVec2 size) {
         g.WantTextInputNextFrame = 1;
         g.ActiveIdAllowOverlap = !io.MouseDown[0];  // what lies elsewhere can be clicked at once
         followMouse(view, shown, page, hovered, heard);
-        if (!view.dragging) hearKeys(view, shown, page.lines(), heard);
+        if (!view.dragging && !closed) hearKeys(view, shown, page.lines(), heard);
         active = g.ActiveId == view.id;
     }
     if (view.search.focus) searching = true;

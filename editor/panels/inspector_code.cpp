@@ -45,6 +45,8 @@ void showExpression(Editor& editor, const NodeBox& box) {
     }
     ImGui::SameLine();
     if ((ImGui::Button("Add input") || entered) && !state.newInput.empty()) addInput(editor, id);
+    // Behind what would move with each letter otherwise.
+    if (!editor.code.large) code::showMessages(editor);
 }
 
 }  // namespace fw::editor
