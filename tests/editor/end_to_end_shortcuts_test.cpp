@@ -293,6 +293,7 @@ const std::map<std::string, Case>& cases() {
              p.waitFor("Code of Expression");
              p.keys("Escape");
              p.waitUntilGone("Code of Expression");
+             p.keys("Escape");  // out of the field that it went back to
          }},
         {"node.mute",
          [](Program& p, const std::string& keys) {
