@@ -99,9 +99,7 @@ void askForFindings(Editor& editor, std::shared_ptr<const std::string> text) {
 
 }  // namespace
 
-bool pending(const CodeEditor& editor) {
-    return !editor.node.empty() && stringOf(editor.text) != editor.base;
-}
+bool pending(const CodeEditor& editor) { return !editor.node.empty() && !is(editor.text, editor.base); }
 
 bool commit(Editor& editor) {
     CodeEditor& code = editor.code;

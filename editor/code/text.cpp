@@ -79,6 +79,18 @@ std::string stringOf(const Text& text, Range range) {
 
 std::string stringOf(const Text& text) { return stringOf(text, {{}, endOf(text)}); }
 
+bool is(const Text& text, std::string_view string) {
+    for (std::size_t i = 0; i < text.lines.size(); ++i) {
+        if (i > 0) {
+            if (!string.starts_with('\n')) return false;
+            string.remove_prefix(1);
+        }
+        if (!string.starts_with(text.lines[i])) return false;
+        string.remove_prefix(text.lines[i].size());
+    }
+    return string.empty();
+}
+
 Spot endOf(const Text& text) { return {int(text.lines.size()) - 1, int(text.lines.back().size())}; }
 
 Spot clamped(const Text& text, Spot spot) {

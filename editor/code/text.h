@@ -61,6 +61,8 @@ struct Text {
 /// Without carriage returns.
 Text textOf(std::string_view string);
 std::string stringOf(const Text& text);
+/// Whether stringOf() is this, without making it.
+bool is(const Text& text, std::string_view string);
 std::string stringOf(const Text& text, Range range);
 
 /// The end of the text; the nearest spot that is in it, between two characters.

@@ -308,6 +308,7 @@ Heard showText(View& view, const Shown& shown, const char* id, ImVec2 size) {
     ImGui::BeginChild(id, size, true,
                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar |
                           ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NavFlattened);
+    ImGui::PopStyleColor();
     const bool searched = view.search.open;
     bool searching = searched && showSearch(view, text, shown.scale);
     const bool closed = searched && !view.search.open;  // by a key that has been heard
@@ -318,7 +319,6 @@ Heard showText(View& view, const Shown& shown, const char* id, ImVec2 size) {
         "##lines", {0, 0}, false,
         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NavFlattened);
     ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
     ImGuiWindow* window = ImGui::GetCurrentWindow();
     view.id = window->GetID("##text");
     measure(view, text);

@@ -62,6 +62,9 @@ TEST(CodeText, KeepsLinesAndCharacters) {
     const Text text = textOf("añb\r\n\tx\n");
     EXPECT_EQ(text.lines, (std::vector<std::string>{"añb", "\tx", ""}));
     EXPECT_EQ(stringOf(text), "añb\n\tx\n");
+    EXPECT_TRUE(is(text, "añb\n\tx\n"));
+    for (const char* other : {"", "añb", "añb\n\tx", "añb\n\tx\n\n", "añb\n\ty\n"})
+        EXPECT_FALSE(is(text, other));
     EXPECT_EQ(code::after(text, {0, 1}), (Spot{0, 3})) << "ñ has two bytes";
     EXPECT_EQ(before(text, {0, 3}), (Spot{0, 1}));
     EXPECT_EQ(before(text, {1, 0}), (Spot{0, 4}));

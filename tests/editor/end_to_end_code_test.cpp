@@ -26,6 +26,7 @@ Area openCode(Program& program) {
     // More room for the inspector: the bar above it is dragged.
     const float tabs = program.waitFor("Inspector").lo.y, bar = tabs - 12;
     if (bar > 250) program.drag({{1050, bar}, {1050, bar - 60}, {1050, 200}});
+    EXPECT_TRUE(eventually([&] { return program.waitFor("Inspector").lo.y < 250; }));
     program.click(program.title("wave"));
     const Area heading = program.waitFor("Ctrl+Enter applies it");
     return {{program.view.panel.hi.x, heading.hi.y}, {1275, 795}};
