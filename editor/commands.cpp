@@ -227,6 +227,12 @@ constexpr Command kCommands[] = {
     {"node.connect", "Node", "Connect …", "J", canvas, anyActive, offerConnections},
     {"node.edit", "Node", "Edit value", "Enter PadEnter", canvas, anyActive, editActive},
     {"node.rename", "Node", "Rename", "F2", canvas, anyActive, rename},
+    {"node.code", "Node", "Code in a large window", "F4", canvas,
+     [](const Editor& e) {
+         const NodeBox* box = e.boxes->find(e.canvas.active);
+         return e.code.large || (box && roleOf(box->node->type) == NodeRole::expression);
+     },
+     code::toggleWindow},
     {"node.mute", "Node", "Mute", "M", canvas, anySelected,
      [](Editor& e) { e.document.apply("Mute", toggleMuted(graphOf(e), scopeOf(e), selected(e))); }, true},
     {"node.collapse", "Node", "Collapse", "H", canvas, anySelected,

@@ -159,6 +159,7 @@ bool exchange(Editor& editor) {
 void showEditor(Editor& editor) {
     editor.document.settleLost();
     followHands(editor);
+    code::finish(editor);
     playOn(editor);
     drawAnew(editor);
     const ImGuiViewport* whole = ImGui::GetMainViewport();

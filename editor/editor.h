@@ -14,6 +14,7 @@
 
 #include "editor/canvas/canvas.h"
 #include "editor/canvas/thumbnails.h"
+#include "editor/code/code_editor.h"
 #include "editor/document/document.h"
 #include "editor/files/files.h"
 #include "editor/keymap.h"
@@ -69,6 +70,7 @@ struct Editor {
     Panels panels;
     PanelState panelState;
     Windows windows;
+    code::CodeEditor code;
     Keymap keymap;             ///< of files.preferences
     std::string notice;        ///< the last thing that could not be done, in the status line
     double noticeUntil = 0.0;  ///< seconds of ImGui's clock

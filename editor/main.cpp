@@ -1,4 +1,5 @@
 // `fieldwright-editor`: reads the command line and runs the editor.
+#include <algorithm>
 #include <atomic>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -85,9 +86,10 @@ int run(const Options& options) {
                 shell.keepOpen();
                 proceed(editor, Files::Next::quit);
             }
-            const bool asked = shell.waitEvents(moves(editor) ? 0.0 : kLongestRest);
-            const bool fresh = exchange(editor);
-            if (asked || fresh || moves(editor)) draw(shell, editor);
+            const double next = code::nextFrame(editor);
+            const bool asked = shell.waitEvents(moves(editor) ? 0.0 : std::min(kLongestRest, next));
+            const bool fresh = exchange(editor), due = next < kLongestRest;
+            if (asked || fresh || due || moves(editor)) draw(shell, editor);
         }
     } catch (const std::exception& error) { endAtOnce(editor, error.what()); } catch (...) {
         endAtOnce(editor, "the editor failed");

@@ -1,19 +1,23 @@
 #include "editor/document/expression_inputs.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "editor/document/references.h"
+#include "graph/language/names.h"
 
 namespace fw::editor {
 
 namespace {
 
-bool inName(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
-std::string nameProblem(const Node& node, std::string_view name) {
+/// Why the expression can have no input of this name; of one that is renamed, also what else its code calls
+/// so.
+std::string nameProblem(const Node& node, std::string_view name, bool renames) {
     if (!isName(name)) return inQuotes(name) + " is no name: use letters, digits and '_', a letter first";
-    return node.input(name) ? "the expression has an input " + inQuotes(name) + " already" : "";
+    if (node.input(name)) return "the expression has an input " + inQuotes(name) + " already";
+    if (!renames) return language::nameRefusal("", {}, name);
+    std::vector<std::string> inputs;
+    for (const auto& [each, value] : node.inputs) inputs.push_back(each);
+    return language::nameRefusal(node.code, language::namesOf(node.code, std::move(inputs)), name);
 }
 
 InputValue valueOf(Type type, std::vector<double> numbers) {
@@ -39,7 +43,7 @@ Result<Graph> addExpressionInput(const Graph& graph, std::string_view scope, std
     Graph result = graph;
     Node* found = expression(result, scope, node);
     if (!found) return graph;
-    if (std::string problem = nameProblem(*found, name); !problem.empty())
+    if (std::string problem = nameProblem(*found, name, false); !problem.empty())
         return Error{.message = std::move(problem), .node = found->id};
     if (found->inputs.size() >= kMaxSockets)
         return Error{.message = "an expression has at most " + std::to_string(kMaxSockets) + " inputs",
@@ -53,7 +57,7 @@ Result<Graph> renameExpressionInput(const Graph& graph, std::string_view scope, 
     Graph result = graph;
     Node* found = expression(result, scope, input.node);
     if (!found || input.name == name) return graph;
-    if (std::string problem = nameProblem(*found, name); !problem.empty())
+    if (std::string problem = nameProblem(*found, name, true); !problem.empty())
         return Error{.message = std::move(problem), .node = found->id};
     for (auto& [each, value] : found->inputs)
         if (each == input.name) each = name;
@@ -78,21 +82,8 @@ Graph setExpressionType(const Graph& graph, std::string_view scope, const Plug& 
 }
 
 std::string renamedInCode(std::string_view code, std::string_view from, std::string_view to) {
-    std::string result;
-    for (std::size_t at = 0; at < code.size();) {
-        if (!inName(code[at])) {
-            result += code[at++];
-            continue;
-        }
-        std::size_t end = at;
-        while (end < code.size() && inName(code[end])) ++end;
-        const std::string_view word = code.substr(at, end - at);
-        // What follows a dot is a component, unless the dot ends a number ("2.*a" has none before the name).
-        const bool component = at > 0 && code[at - 1] == '.';
-        result += word == from && !component ? to : word;
-        at = end;
-    }
-    return result;
+    return language::renamed(code, language::namesOf(code, {std::string(from)}), to,
+                             [](const auto& use) { return use.kind == language::NameUse::Kind::input; });
 }
 
 }  // namespace fw::editor

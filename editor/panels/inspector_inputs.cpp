@@ -251,8 +251,11 @@ void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& 
     propertyRow(readable(row.name), describe(row), room);
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     const float top = ImGui::GetCursorPosY();
+    const ImVec2 rowBegin = ImGui::GetCursorScreenPos();
+    const float rowEnd = rowBegin.x + ImGui::GetContentRegionAvail().x;
     showValue(input, track, room, goTo);
     const ImVec2 after = ImGui::GetCursorPos();
+    code::markRow(editor, row.name, rowBegin, {rowEnd, rowBegin.y + side});
     if (movable) {
         const bool here = track && keyAt(*track, editor.viewport.seconds);
         ImGui::SetCursorPos({right - menu - key, top});

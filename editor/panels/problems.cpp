@@ -56,20 +56,20 @@ void showProblems(Editor& editor) {
         ImGui::TextDisabled("No problems: the graph makes what it shows.");
         return;
     }
-    std::string goTo;
+    const Error* goTo = nullptr;
     int id = 0;
     for (const Error::Severity severity : {Error::Severity::error, Error::Severity::warning})
         for (const Error& finding : findings) {
             if (finding.severity != severity) continue;
             ImGui::PushID(id++);
-            if (showFinding(finding)) goTo = finding.node;
+            if (showFinding(finding)) goTo = &finding;
             if (ImGui::BeginPopupContextItem("finding")) {
                 if (ImGui::MenuItem("Copy")) ImGui::SetClipboardText(format(finding).c_str());
                 ImGui::EndPopup();
             }
             ImGui::PopID();
         }
-    if (!goTo.empty()) reveal(editor, goTo);
+    if (goTo) code::goToFinding(editor, *goTo);
 }
 
 }  // namespace fw::editor

@@ -225,26 +225,6 @@ void editText(Editor& editor, const char* id, const std::string& text, const cha
     followText(editor, ImGui::GetID(id), text, shown, std::move(commit));
 }
 
-void editCode(Editor& editor, const char* id, const std::string& code, float height,
-              std::function<void(Editor&, const std::string&)> commit) {
-    const ImGuiID field = ImGui::GetID(id);
-    std::string shown = shownText(editor, id, code);
-    if (editor.panelState.refocus == field) {
-        ImGui::SetKeyboardFocusHere();
-        editor.panelState.refocus = 0;
-    }
-    const float size = ImGui::GetFontSize();
-    ImGui::PushFont(editor.shell.fonts().codeOf(size));
-    ImGui::InputTextMultiline(id, &shown, {-FLT_MIN, height}, ImGuiInputTextFlags_AllowTabInput);
-    const bool applied = editor.panelState.text.field == field && ImGui::GetActiveID() != field &&
-                         ImGui::GetIO().KeyCtrl &&
-                         (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
-                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter)));
-    followText(editor, field, code, shown, std::move(commit));
-    ImGui::PopFont();
-    if (applied) editor.panelState.refocus = field;  // one goes on writing after a look at the result
-}
-
 bool keyButton(const char* id, bool filled, bool animated, const char* tip) {
     const float side = ImGui::GetFrameHeight();
     const ImVec2 at = ImGui::GetCursorScreenPos();

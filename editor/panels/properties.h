@@ -71,11 +71,9 @@ bool chooseName(const char* id, std::span<const std::string> names, std::size_t&
 void follow(Editor& editor, const char* id, const Touched& touched, const std::string& name,
             const std::function<Graph()>& next, const std::string& input = {});
 
-/// A line of text, or several of `code`. `commit` is called with what was typed when the field is left, if
-/// it was changed; Escape takes it back.
+/// A line of text. `commit` is called with what was typed when the field is left, if it was changed; Escape
+/// takes it back.
 void editText(Editor& editor, const char* id, const std::string& text, const char* hint,
-              std::function<void(Editor&, const std::string&)> commit);
-void editCode(Editor& editor, const char* id, const std::string& code, float height,
               std::function<void(Editor&, const std::string&)> commit);
 
 /// A small button with a diamond: filled where there is a key. Whether it was pressed.

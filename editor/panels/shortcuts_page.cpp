@@ -23,6 +23,22 @@ constexpr std::pair<const char*, const char*> kMouse[] = {
     {"Ctrl + click on a number", "gives back its default"},
 };
 
+// As code/view_keys.cpp and code/code_editor.h have it.
+constexpr std::pair<const char*, const char*> kCode[] = {
+    {"Ctrl+Enter", "applies the code"},
+    {"Escape", "closes a list; takes back what was typed"},
+    {"Ctrl+Space", "lists what can be written; Enter, Tab take it"},
+    {"F12, Ctrl + click", "goes to where a name is defined"},
+    {"F2", "gives an input or a variable another name"},
+    {"F4", "shows the code in a large window, and back"},
+    {"Ctrl+F, F3, Shift+F3", "finds; the next place, the one before"},
+    {"Ctrl+Z, Ctrl+Y", "undo and redo what was typed"},
+    {"Tab, Shift+Tab", "indent lines, and back"},
+    {"Ctrl+Slash", "makes lines comments, and back"},
+    {"Alt+Up, Alt+Down", "move lines"},
+    {"Ctrl+D", "doubles the line, or what is selected"},
+};
+
 void row(const std::string& keys, const std::string& what) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(keys.c_str());
@@ -90,6 +106,8 @@ void showShortcuts(Editor& editor) {
     if (beginColumn("##right", 0)) {
         showMenu(editor, "View", "View");
         showMenu(editor, "Picture", "Over the picture");
+        heading("In the code of an expression");
+        for (const auto& [keys, what] : kCode) row(keys, what);
         endColumn();
     }
     const bool change = ImGui::Button("Change keys …");

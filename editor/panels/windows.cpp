@@ -27,6 +27,7 @@ void showAbout(Editor& editor) {
 }  // namespace
 
 void showWindows(Editor& editor) {
+    code::showWindow(editor);
     showPalette(editor);
     showPreferences(editor);
     showReference(editor);

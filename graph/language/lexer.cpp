@@ -36,6 +36,76 @@ Error codeError(Place place, std::string message) {
     return {.message = std::move(message), .codeLine = place.line, .codeColumn = place.column};
 }
 
+namespace {
+
+/// Digits, and what follows them at once.
+Piece numberAt(std::string_view code, std::size_t at) {
+    Piece piece;
+    const auto [end, failure] = std::from_chars(code.data() + at, code.data() + code.size(), piece.value);
+    piece.length = std::size_t(end - (code.data() + at));
+    const std::string_view digits = code.substr(at, piece.length);
+    if (failure != std::errc{} || !std::isfinite(piece.value)) {
+        piece.kind = Piece::Kind::outOfRange;
+        return piece;
+    }
+    piece.kind =
+        digits.find_first_of(".eE") == std::string_view::npos ? Piece::Kind::integer : Piece::Kind::number;
+    if (at + piece.length < code.size() &&
+        (code[at + piece.length] == 'f' || code[at + piece.length] == 'F')) {
+        piece.kind = Piece::Kind::number;
+        ++piece.length;
+    }
+    if (at + piece.length < code.size() && continuesName(code[at + piece.length])) {
+        piece.kind = Piece::Kind::neither;
+        ++piece.length;
+    }
+    return piece;
+}
+
+/// What the piece, which is no token, keeps the code from being read.
+std::string complaint(const Piece& piece, std::string_view text) {
+    switch (piece.kind) {
+        case Piece::Kind::openComment: return "the comment that starts here has no end: add */";
+        case Piece::Kind::openString: return "the text that starts here has no closing quote";
+        case Piece::Kind::outOfRange: return "the number " + inQuotes(text) + " is out of range";
+        case Piece::Kind::neither: return inQuotes(text) + " is neither a number nor a name";
+        default: return "the character " + inQuotes(text) + " has no meaning here";
+    }
+}
+
+}  // namespace
+
+Piece pieceAt(std::string_view code, std::size_t at) {
+    using Kind = Piece::Kind;
+    if (at >= code.size()) return {};
+    const std::string_view rest = code.substr(at);
+    const char first = rest[0];
+    std::size_t length = 1;
+    if (std::isspace(static_cast<unsigned char>(first))) {
+        while (length < rest.size() && std::isspace(static_cast<unsigned char>(rest[length]))) ++length;
+        return {Kind::space, length};
+    }
+    if (rest.starts_with("//")) return {Kind::comment, std::min(rest.find('\n'), rest.size())};
+    if (rest.starts_with("/*")) {
+        const std::size_t end = rest.find("*/", 2);
+        if (end == std::string_view::npos) return {Kind::openComment, rest.size()};
+        return {Kind::comment, end + 2};
+    }
+    if (startsName(first)) {
+        while (length < rest.size() && continuesName(rest[length])) ++length;
+        return {Kind::name, length};
+    }
+    if (isDigit(first) || (first == '.' && rest.size() > 1 && isDigit(rest[1]))) return numberAt(code, at);
+    if (first == '"') {
+        const std::size_t end = rest.find('"', 1);
+        if (end == std::string_view::npos) return {Kind::openString, rest.size()};
+        return {Kind::string, end + 1};
+    }
+    length = symbolLength(rest);
+    if (length == 0) return {Kind::meaningless, wholeCharacter(rest).size()};
+    return {Kind::symbol, length};
+}
+
 Result<std::vector<Token>> tokenize(std::string_view code) {
     std::vector<Token> tokens;
     tokens.reserve(std::min(code.size() / 2 + 1, kMaxTokens + 1));
@@ -49,69 +119,33 @@ Result<std::vector<Token>> tokenize(std::string_view code) {
                 ++place.column;
         }
     };
-    const auto rest = [&] { return code.substr(at); };
-
     while (true) {
-        while (at < code.size() && std::isspace(static_cast<unsigned char>(code[at]))) advance(1);
-        if (rest().starts_with("//")) {
-            advance(std::min(rest().find('\n'), rest().size()));
-            continue;
-        }
-        if (rest().starts_with("/*")) {
-            const std::size_t end = rest().find("*/", 2);
-            if (end == std::string_view::npos)
-                return codeError(place, "the comment that starts here has no end: add */");
-            advance(end + 2);
-            continue;
+        const Piece piece = pieceAt(code, at);
+        const std::string_view text = code.substr(at, piece.length);
+        Token token;
+        token.place = place;
+        token.value = piece.value;
+        switch (piece.kind) {
+            case Piece::Kind::space:
+            case Piece::Kind::comment: advance(piece.length); continue;
+            case Piece::Kind::openComment: return codeError(place, complaint(piece, text));
+            default: break;
         }
         if (tokens.size() >= kMaxTokens)
             return codeError(place, "the code is longer than " + std::to_string(kMaxTokens) +
                                         " words and symbols: split it over several nodes");
-
-        Token token;
-        token.place = place;
-        if (at == code.size()) {
-            tokens.push_back(token);
-            return tokens;
+        switch (piece.kind) {
+            case Piece::Kind::end: tokens.push_back(token); return tokens;
+            case Piece::Kind::name: token.kind = Token::Kind::name; break;
+            case Piece::Kind::integer: token.kind = Token::Kind::integer; break;
+            case Piece::Kind::number: token.kind = Token::Kind::number; break;
+            case Piece::Kind::string: token.kind = Token::Kind::string; break;
+            case Piece::Kind::symbol: token.kind = Token::Kind::symbol; break;
+            default: return codeError(place, complaint(piece, text));
         }
-        std::size_t length = 0;
-        const char first = code[at];
-        if (startsName(first)) {
-            token.kind = Token::Kind::name;
-            while (at + length < code.size() && continuesName(code[at + length])) ++length;
-        } else if (isDigit(first) || (first == '.' && at + 1 < code.size() && isDigit(code[at + 1]))) {
-            const auto [end, failure] =
-                std::from_chars(code.data() + at, code.data() + code.size(), token.value);
-            length = end - (code.data() + at);
-            const std::string_view digits = code.substr(at, length);
-            if (failure != std::errc{} || !std::isfinite(token.value))
-                return codeError(place, "the number " + inQuotes(digits) + " is out of range");
-            token.kind = digits.find_first_of(".eE") == std::string_view::npos ? Token::Kind::integer
-                                                                               : Token::Kind::number;
-            if (at + length < code.size() && (code[at + length] == 'f' || code[at + length] == 'F')) {
-                token.kind = Token::Kind::number;
-                ++length;
-            }
-            if (at + length < code.size() && continuesName(code[at + length]))
-                return codeError(place,
-                                 inQuotes(code.substr(at, length + 1)) + " is neither a number nor a name");
-        } else if (first == '"') {
-            const std::size_t end = code.find('"', at + 1);
-            if (end == std::string_view::npos)
-                return codeError(place, "the text that starts here has no closing quote");
-            token.kind = Token::Kind::string;
-            token.text = code.substr(at + 1, end - at - 1);
-            length = end + 1 - at;
-        } else {
-            length = symbolLength(rest());
-            if (length == 0)
-                return codeError(
-                    place, "the character " + inQuotes(wholeCharacter(rest())) + " has no meaning here");
-            token.kind = Token::Kind::symbol;
-        }
-        if (token.kind != Token::Kind::string) token.text = code.substr(at, length);
+        token.text = token.kind == Token::Kind::string ? text.substr(1, text.size() - 2) : text;
         tokens.push_back(token);
-        advance(length);
+        advance(piece.length);
     }
 }
 

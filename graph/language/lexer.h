@@ -28,6 +28,31 @@ struct Token {
     bool isName(std::string_view name) const { return kind == Kind::name && text == name; }
 };
 
+/// A stretch of code: a token, what stands between tokens, or what is none.
+struct Piece {
+    enum class Kind : unsigned char {
+        end,
+        space,
+        comment,
+        name,
+        integer,
+        number,
+        string,
+        symbol,
+        openComment,  ///< without its end; and so the next
+        openString,
+        outOfRange,   ///< a number that is too large
+        neither,      ///< digits that go on as a name
+        meaningless,  ///< a character that has no meaning
+    } kind = Kind::end;
+    std::size_t length = 0;  ///< bytes; what has no end goes to the end of the code
+    double value = 0.0;      ///< of integer and number
+};
+
+/// The piece of `code` that begins at byte `at`. Of any text: its pieces, one behind the other, are all of
+/// it.
+Piece pieceAt(std::string_view code, std::size_t at);
+
 inline constexpr std::size_t kMaxTokens = 200'000;
 
 /// The tokens of `code`, the last of kind `end`; they refer into `code`. Comments are // and /* */. The Error

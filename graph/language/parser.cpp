@@ -17,22 +17,6 @@ struct Failure {
 /// What can be declared, in words.
 constexpr char kTypes[] = "(float, int, bool, vec2 or vec3)";
 
-std::optional<Type> declaredType(std::string_view name) {
-    if (name == "float") return Type::scalar;
-    if (name == "int") return Type::integer;
-    if (name == "bool") return Type::boolean;
-    if (name == "vec2" || name == "float2") return Type::vec2;
-    if (name == "vec3" || name == "float3") return Type::vec3;
-    return std::nullopt;
-}
-
-constexpr std::string_view kReserved[] = {"if",       "else",  "for",   "return", "break",
-                                          "continue", "const", "while", "do",     "switch"};
-
-bool isReserved(std::string_view name) {
-    return std::find(std::begin(kReserved), std::end(kReserved), name) != std::end(kReserved);
-}
-
 /// Binding strength of a binary operator; 0 if it is none.
 int precedence(const Token& token) {
     if (token.kind != Token::Kind::symbol) return 0;
@@ -477,6 +461,21 @@ class Parser {
 };
 
 }  // namespace
+
+std::optional<Type> declaredType(std::string_view name) {
+    if (name == "float") return Type::scalar;
+    if (name == "int") return Type::integer;
+    if (name == "bool") return Type::boolean;
+    if (name == "vec2" || name == "float2") return Type::vec2;
+    if (name == "vec3" || name == "float3") return Type::vec3;
+    return std::nullopt;
+}
+
+bool isReserved(std::string_view name) {
+    static constexpr std::string_view kReserved[] = {"if",       "else",  "for",   "return", "break",
+                                                     "continue", "const", "while", "do",     "switch"};
+    return std::find(std::begin(kReserved), std::end(kReserved), name) != std::end(kReserved);
+}
 
 Tree parse(std::string_view code) {
     const Result<std::vector<Token>> tokens = tokenize(code);

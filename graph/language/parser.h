@@ -20,6 +20,7 @@
 // finds several.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,6 +99,11 @@ struct Tree {
 inline constexpr int kMaxDepth = 256;
 /// Mistakes that are told of one code text.
 inline constexpr std::size_t kMaxCodeErrors = 20;
+
+/// The type that code declares with this word; none if it is no type's.
+std::optional<Type> declaredType(std::string_view name);
+/// Whether it is a word of the language that names nothing: "if", "return", …
+bool isReserved(std::string_view name);
 
 /// Parses `code`. Each Error names its place.
 Tree parse(std::string_view code);

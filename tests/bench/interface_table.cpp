@@ -17,9 +17,11 @@ namespace {
 
 constexpr int kWindowWidth = 1280, kWindowHeight = 800;
 constexpr int kFew = 100, kSome = 200, kMany = 1000, kWindowChanges = 12, kFrames = 60, kEdits = 10000;
+constexpr int kCodeLines = 5000;
 constexpr double kRest = 3.0;  // seconds
 constexpr double kMostFew = 14, kMostMany = 40, kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50,
-                 kMostWindowChange = 250, kMostMeanwhile = 50, kMostRest = 2;
+                 kMostWindowChange = 250, kMostMeanwhile = 50, kMostRest = 2, kMostCode = 16,
+                 kMostCheck = 250;
 
 double processorSeconds() {
     rusage used{};
@@ -42,6 +44,27 @@ Graph grid(int nodes, double difference = 0.0) {
     for (int i = 0; i < int(graph.nodes.size()); ++i)
         graph.nodes[std::size_t(i)].at = {double(i % columns) * (nodes > kFew ? 78.0 : 250.0),
                                           double(i / columns) * (nodes > kFew ? 110.0 : 200.0)};
+    return graph;
+}
+
+/// An expression of so many lines, few of which matter to the solid.
+Graph longCode(int lines) {
+    std::string code = "float d = length(p) - 1; // the solid\n";
+    for (int i = 0; i < lines - 2; ++i) {
+        const std::string n = std::to_string(i);
+        code += "vec3 v" + n + " = clamp(vec3(" + n + ".5, p.y, time), 0.0, abs(p.x)) * 0.25; /* line " + n +
+                " */\n";
+    }
+    code += "return d;\n";
+    Graph graph;
+    Node expression, output;
+    expression.id = "code", expression.type = "expression", expression.code = std::move(code);
+    output.id = "out", output.type = "output", output.at = {300, 0};
+    expression.at = {0, 0};
+    InputValue link;
+    link.value = Link{"code", ""};
+    output.set("surface", link);
+    graph.nodes = {expression, output};
     return graph;
 }
 
@@ -155,6 +178,39 @@ void interfaceTable(Bench& bench) {
         row("one of " + std::to_string(kSome) + " nodes added, to its picture in the window", changed,
             kMostWindowChange);
         row("the longest frame meanwhile", longest, kMostMeanwhile);
+    }
+    {
+        Window window(bench, longCode(kCodeLines));
+        editor::Editor& editor = window.editor;
+        const std::string lines = "code of " + std::to_string(kCodeLines) + " lines in its large window";
+        editor.canvas.select({"code"});
+        window.frame();
+        editor::code::toggleWindow(editor);
+        window.frame();
+        editor::code::CodeEditor& code = editor.code;
+        const auto check = [&] {
+            while (code.checked != code.text.version) {
+                window.shell.waitEvents(0.002);
+                editor::exchange(editor);
+                window.frame();
+            }
+        };
+        row("a frame, " + lines, window.frames(), kMostCode);
+        Figure keys, checks;
+        for (int i = 0; i < 22; ++i) {
+            // At the start, so that all that follows moves.
+            place(code.text, {i, 0});
+            check();
+            const uint64_t before = code.text.version;
+            ImGui::GetIO().AddInputCharacter(i % 2 ? ' ' : 'v');
+            const auto start = Clock::now();
+            const double took = window.frame();
+            if (code.text.version == before) return bench.fail("the code does not hear keys");
+            check();
+            if (i >= 2) keys.runs.push_back(took), checks.runs.push_back(millisecondsSince(start));
+        }
+        row("from a key to the frame with its letter, " + lines, keys, kMostCode);
+        row("from a key to all that is wrong with the code, frames made meanwhile", checks, kMostCheck);
     }
     double early = 0, end = 0;
     {

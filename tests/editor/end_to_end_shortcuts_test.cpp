@@ -286,6 +286,15 @@ const std::map<std::string, Case>& cases() {
              p.type("torus\n");
              EXPECT_TRUE(nodesAfter(p).contains("torus"));
          }},
+        {"node.code",
+         [](Program& p, const std::string& keys) {
+             p.add("expression", p.nowhere());
+             p.keys(keys);
+             p.waitFor("Code of Expression");
+             p.keys("Escape");
+             p.waitUntilGone("Code of Expression");
+             p.keys("Escape");  // out of the field that it went back to
+         }},
         {"node.mute",
          [](Program& p, const std::string& keys) {
              pick(p, {"ball"});

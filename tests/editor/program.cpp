@@ -247,6 +247,16 @@ Area Program::waitFor(const std::string& words, const std::optional<Area>& withi
     return found.value_or(Area{});
 }
 
+Area Program::waitForCode(const std::string& word, const std::optional<Area>& within) {
+    std::optional<Area> found;
+    EXPECT_TRUE(waitUntil([&] {
+        found = reader.find(screen(), word, kFontSize, within, Reader::Face::code);
+        return found.has_value();
+    })) << "\""
+        << word << "\" is not on the screen as code";
+    return found.value_or(Area{});
+}
+
 void Program::waitUntilGone(const std::string& words) {
     EXPECT_TRUE(waitUntil([&] { return !sees(words); })) << "\"" << words << "\" stays on the screen";
 }

@@ -63,6 +63,8 @@ class Program {
     bool sees(const std::string& words, const std::optional<Area>& within = std::nullopt);
     /// Waits for the words; a failure if they do not come.
     Area waitFor(const std::string& words, const std::optional<Area>& within = std::nullopt);
+    /// The same of a word of code.
+    Area waitForCode(const std::string& word, const std::optional<Area>& within = std::nullopt);
     void waitUntilGone(const std::string& words);
     void clickOn(const std::string& words, const std::optional<Area>& within = std::nullopt);
     std::string title() const;

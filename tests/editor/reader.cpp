@@ -42,11 +42,11 @@ Reader::Reader() : atlas(std::make_unique<ImFontAtlas>()) {
     ImGui::DestroyContext(own);
 }
 
-const Reader::Mask& Reader::maskOf(const std::string& words, float size) {
-    const auto [found, fresh] = masks.try_emplace({words, size});
+const Reader::Mask& Reader::maskOf(const std::string& words, float size, Face face) {
+    const auto [found, fresh] = masks.try_emplace({words, size, face});
     Mask& mask = found->second;
     if (!fresh) return mask;
-    ImFont* font = fonts.of(size);
+    ImFont* font = face == Face::code ? fonts.codeOf(size) : fonts.of(size);
     const float scale = size / font->FontSize;
     const ImVec2 extent = font->CalcTextSizeA(size, FLT_MAX, 0.0f, words.c_str());
     mask.width = int(std::ceil(extent.x)) + 2 * kAround;
@@ -77,8 +77,8 @@ const Reader::Mask& Reader::maskOf(const std::string& words, float size) {
 }
 
 std::optional<Area> Reader::find(const Picture& picture, const std::string& words, float size,
-                                 const std::optional<Area>& within) {
-    const Mask& mask = maskOf(words, size);
+                                 const std::optional<Area>& within, Face face) {
+    const Mask& mask = maskOf(words, size, face);
     const std::size_t count = mask.cover.size();
     double sum = 0, squares = 0;
     for (float c : mask.cover) sum += double(c), squares += double(c) * double(c);

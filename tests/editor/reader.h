@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "editor/canvas/view.h"
 #include "editor/shell/fonts.h"
@@ -19,10 +20,11 @@ class Reader {
   public:
     Reader();
 
-    /// Where these whole words stand first in the picture, rows from the top; their size in pixels. Only
-    /// within the area, if there is one.
+    enum class Face : unsigned char { text, code };
+    /// Where these whole words, of one colour, stand first in the picture, rows from the top; their size in
+    /// pixels. Only within the area, if there is one.
     std::optional<Area> find(const Picture& picture, const std::string& words, float size = kFontSize,
-                             const std::optional<Area>& within = std::nullopt);
+                             const std::optional<Area>& within = std::nullopt, Face face = Face::text);
 
   private:
     /// How much of each pixel the text covers.
@@ -30,11 +32,11 @@ class Reader {
         int width = 0, height = 0;
         std::vector<float> cover;
     };
-    const Mask& maskOf(const std::string& words, float size);
+    const Mask& maskOf(const std::string& words, float size, Face face);
 
     std::unique_ptr<ImFontAtlas> atlas;
     Fonts fonts;
-    std::map<std::pair<std::string, float>, Mask> masks;
+    std::map<std::tuple<std::string, float, Face>, Mask> masks;
 };
 
 }  // namespace fw::editor::test
