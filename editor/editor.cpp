@@ -172,7 +172,9 @@ void showEditor(Editor& editor) {
 
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    const float timeline = editor.panels.timeline ? 0.25f * room.y : 0.0f, high = room.y - line - timeline;
+    const float bar = 5.0f * editor.shell.scale(),
+                timeline = editor.panels.timeline ? editor.panels.low * room.y : 0.0f,
+                high = room.y - line - timeline;
     ImGui::BeginChild(
         "##canvas", {room.x * (1.0f - editor.panels.side), high}, false,
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
@@ -192,7 +194,12 @@ void showEditor(Editor& editor) {
     showSide(editor, high);
     ImGui::EndChild();
     if (editor.panels.timeline) {
-        ImGui::BeginChild("##timeline", {0, timeline - ImGui::GetStyle().ItemSpacing.y});
+        ImGui::BeginChild("##above", {0, bar});
+        float above = 1.0f - editor.panels.low;
+        splitter("##aboveTimeline", false, above, room.y, editor.shell.scale());
+        editor.panels.low = std::clamp(1.0f - above, kLeastPart, kMostPart);
+        ImGui::EndChild();
+        ImGui::BeginChild("##timeline", {0, timeline - bar - 2.0f * ImGui::GetStyle().ItemSpacing.y});
         takeKeyboard(editor, Part::timeline);
         showTimeline(editor);
         ImGui::EndChild();
