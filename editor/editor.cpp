@@ -9,6 +9,7 @@
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/shell/theme.h"
+#include "editor/timeline/fields_in_time.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -92,6 +93,7 @@ void showCanvasPart(Editor& editor) {
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);
     if (wishes.frame) editor.frameMenu = {*wishes.frame, true};
+    showFieldMenu(editor, wishes.field);
     showAddMenu(editor);
     showFrameMenu(editor);
 }
@@ -238,26 +240,6 @@ void pin(Editor& editor, const std::string& id) {
     editor.viewport.pinned = editor.viewport.pinned == path ? std::string() : std::move(path);
 }
 
-namespace {
-
-/// As CanvasMarks::animated. In a group nothing is moved by itself.
-std::map<std::string, std::vector<double>, std::less<>> animatedNow(Editor& editor) {
-    std::map<std::string, std::vector<double>, std::less<>> now;
-    const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
-    if (!timeline) return now;
-    const Graph& graph = editor.document.graph();
-    for (const Track& track : timeline->tracks) {
-        const std::optional<AnimatedInput> input = animatedInput(graph, track);
-        if (!input) continue;
-        const auto [numbers, added] = now.try_emplace(input->node + "." + input->input);
-        if (added) numbers->second = inputNumbers(*graph.node(input->node), input->input);
-        applyTrack(track, *input, editor.viewport.seconds, numbers->second);
-    }
-    return now;
-}
-
-}  // namespace
-
 CanvasMarks marksOf(Editor& editor) {
     CanvasMarks marks;
     const PreviewResult& shown = editor.viewport.shown;
@@ -276,7 +258,7 @@ CanvasMarks marksOf(Editor& editor) {
         const Error*& worst = marks.findings[id];
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }
-    marks.animated = animatedNow(editor);
+    marks.animated = movedFields(editor);
     return marks;
 }
 

@@ -59,6 +59,20 @@ void drawFrame(const Area& place, bool active, bool hovered) {
     list->AddRectFilled(place.lo, place.hi, fill, kFieldRounding);
 }
 
+/// Along the frame's lower edge, where the keys are over the timeline, and the time shown.
+void drawKeys(const Area& place, const MovedField& moved) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
+    const float margin = 3.0f, left = place.lo.x + margin, wide = place.width() - 2.0f * margin,
+                high = std::max(0.14f * place.height(), 2.0f), bottom = place.hi.y - 2.0f;
+    const auto mark = [&](float share, float half, ImU32 color) {
+        const float x = std::floor(left + share * wide);
+        list->AddRectFilled({x - half, bottom - high}, {x + half + 1.0f, bottom}, color);
+    };
+    for (float share : moved.keys) mark(share, 0.0f, themeColor(ThemeColor::quiet));
+    mark(moved.now, 0.5f, themeColor(ThemeColor::active));
+}
+
 void drawText(const Area& place, ImFont* font, float size, const std::string& text, bool toTheRight,
               ImU32 color) {
     const float margin = 0.35f * size;
@@ -84,9 +98,27 @@ void typeNext(FieldEdit& edit, std::string_view scope, const NodeBox& box, const
     edit.type(scope, {box.node->id, next().name}, component, numbersOf(next()).at(std::size_t(component)));
 }
 
+/// The number in its place, in the input or, if the timeline moves it, in a key.
+Graph withNumber(const Graph& graph, std::string_view scope, const NodeBox& box, const Row& row,
+                 int component, double number, const MovedField* moved) {
+    InputValue value = withComponent(row, component, number);
+    if (!moved) return setInput(graph, scope, {box.node->id, row.name}, std::move(value));
+    const auto* one = std::get_if<double>(&value.value);
+    std::vector<double> numbers = moved->numbers;
+    const auto at = std::size_t(component);
+    numbers.at(at) = one ? *one : std::get<std::vector<double>>(value.value).at(at);
+    return moved->set(graph, numbers);
+}
+
+std::string nameOfChange(const NodeBox& box, const Row& row, const MovedField* moved) {
+    return moved ? "Set Key of " + readable(row.name) : setName(box, row);
+}
+
 /// The text field over a number; takes the keyboard until Enter, Tab, Escape or a click elsewhere.
 void typeField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const Area& place, ImFont* font) {
+               const Row& row, int component, const Area& place, ImFont* font, const MovedField* moved) {
+    if (moved && !edit.typed.opened && edit.typed.complaint.empty())
+        edit.typed = TypedNumber(moved->numbers.at(std::size_t(component)));
     ImGui::SetCursorScreenPos(place.lo);
     ImGui::PushFont(font);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
@@ -97,17 +129,20 @@ void typeField(FieldEdit& edit, Document& document, std::string_view scope, cons
     if (!typed.ended) return;
     edit = {};
     if (typed.tab != 0) typeNext(edit, scope, box, row, component, typed.tab);
-    if (typed.number) set(document, scope, box, row, withComponent(row, component, *typed.number));
+    if (!typed.number) return;
+    std::string name = nameOfChange(box, row, moved);
+    document.apply(std::move(name),
+                   withNumber(document.graph(), scope, box, row, component, *typed.number, moved));
 }
 
 void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-                const Row& row, int component) {
+                const Row& row, int component, const MovedField* moved) {
     const ImGuiIO& io = ImGui::GetIO();
     const float speed = io.KeyShift ? 0.1f : io.KeyAlt ? 10.0f : 1.0f;
     edit.travelled += io.MouseDelta.x * speed;
     if (edit.state == State::pressed && std::abs(ImGui::GetMouseDragDelta(0, 0.0f).x) > kStillInField) {
         edit.state = State::dragging;  // with what it has travelled: a quick hand is there in one frame
-        document.begin(setName(box, row));
+        document.begin(nameOfChange(box, row, moved));
     }
     if (!ImGui::IsMouseDown(0)) {
         if (edit.state == State::dragging) {
@@ -122,13 +157,12 @@ void dragNumber(FieldEdit& edit, Document& document, std::string_view scope, con
         document.cancel();
         edit = {};
     } else if (edit.state == State::dragging && io.MouseDelta.x != 0.0f) {
-        const double moved = edit.start + double(edit.travelled) * stepOf(row, edit.start);
+        const double wanted = edit.start + double(edit.travelled) * stepOf(row, edit.start);
         // To what a person would write: three digits of the step.
         const double grain =
             std::pow(10.0, std::floor(std::log10(stepOf(row, edit.start) * (io.KeyShift ? 0.1 : 1.0))));
-        const double number = std::round(moved / grain) * grain;
-        document.update(setInput(document.graph(), scope, {box.node->id, row.name},
-                                 withComponent(row, component, number)));
+        const double number = std::round(wanted / grain) * grain;
+        document.update(withNumber(document.graph(), scope, box, row, component, number, moved));
     }
 }
 
@@ -263,21 +297,27 @@ std::string valueText(const Row& row) {
 }
 
 void showField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled) {
+               const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled,
+               const MovedField* moved) {
     if (row.type == Type::string) return showChoice(document, scope, box, row, place, font, size, enabled);
     if (row.type == Type::boolean) return showSwitch(document, scope, box, row, place, font, size, enabled);
     const Plug plug{box.node->id, row.name};
     const bool mine = edit.is(scope, plug, component);
     if (mine && edit.state == State::typing)
-        return typeField(edit, document, scope, box, row, component, place, font);
+        return typeField(edit, document, scope, box, row, component, place, font, moved);
     const bool hovered =
         enabled && edit.state == State::none && ImGui::IsMouseHoveringRect(place.lo, place.hi);
-    const double number = numbersOf(row).at(std::size_t(component));
+    const auto at = std::size_t(component);
+    const double number = moved ? std::round(moved->numbers.at(at) * 1e4) / 1e4 : numbersOf(row).at(at);
     drawFrame(place, mine, hovered);
+    if (moved) drawKeys(place, *moved);
     drawText(place, font, size, numberText(number), true, ImGui::GetColorU32(ImGuiCol_Text));
+    if (moved && hovered && !mine)
+        ImGui::SetTooltip("The timeline moves it: a change is a key at the time shown");
     if (hovered || mine) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    if (mine) return dragNumber(edit, document, scope, box, row, component);
+    if (mine) return dragNumber(edit, document, scope, box, row, component, moved);
     if (!hovered || !ImGui::IsMouseClicked(0)) return;
+    if (ImGui::GetIO().KeyCtrl && moved) return;
     if (ImGui::GetIO().KeyCtrl) return set(document, scope, box, row, std::nullopt);
     edit = {};
     edit.state = State::pressed;
@@ -303,15 +343,6 @@ std::string describe(const Row& row) {
         text += ", at most " + numberText(row.spec->max);
     if (!row.spec->doc.empty()) text += "\n" + row.spec->doc;
     return text;
-}
-
-void showMoved(double number, const Area& place, ImFont* font, float size, bool hovered) {
-    drawFrame(place, false, hovered);
-    ImGui::GetWindowDrawList()->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
-    drawText(place, font, size, numberText(std::round(number * 1e4) / 1e4), true,
-             ImGui::GetColorU32(ImGuiCol_Text));
-    if (hovered && ImGui::IsMouseHoveringRect(place.lo, place.hi))
-        ImGui::SetTooltip("The timeline moves it: the inspector sets its key at the time shown");
 }
 
 }  // namespace fw::editor

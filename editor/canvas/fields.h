@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -53,6 +54,15 @@ struct FieldEdit {
     std::set<std::string> held() const;
 };
 
+/// What the timeline makes of an input at the time shown, and how that is changed: by a key there.
+struct MovedField {
+    std::vector<double> numbers;
+    std::vector<float> keys;  ///< where keys are, as shares of the timeline
+    float now = 0.0f;         ///< the time shown, the same
+    /// The document with these numbers at that time.
+    std::function<Graph(const Graph&, const std::vector<double>&)> set;
+};
+
 /// What the text says: a number or a constant expression. Error: why not.
 Result<double> numberOf(std::string_view text);
 /// As short as it is exact to nine digits.
@@ -66,12 +76,11 @@ InputValue withComponent(const Row& row, int component, double number);
 std::string valueText(const Row& row);
 
 /// One field of a row of the node, in this place of the window; `font` at `size` pixels. Keys and mouse are
-/// heard of only if `enabled`. Changes go to the document.
+/// heard of only if `enabled`. Changes go to the document: of what the timeline moves, as keys at the time
+/// shown.
 void showField(FieldEdit& edit, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled);
-
-/// A number that the timeline moves, as it is at the time shown: it is not edited here.
-void showMoved(double number, const Area& place, ImFont* font, float size, bool hovered);
+               const Row& row, int component, const Area& place, ImFont* font, float size, bool enabled,
+               const MovedField* moved = nullptr);
 
 /// The text of an input for a tooltip: name, type, range, unit, and what it means.
 std::string describe(const Row& row);

@@ -305,7 +305,11 @@ struct Hand {
                          : io.KeyShift ? Gesture::reroute
                          : io.KeyAlt   ? Gesture::lazy
                                        : Gesture::none;
-        if (canvas.gesture == Gesture::none) wishes.add = {mouse, std::nullopt, false};
+        if (canvas.gesture != Gesture::none) return;
+        if (hit.what == What::field && canvas.scope.empty() && boxes.nodes[hit.index].rows[hit.row].typed())
+            wishes.field = {boxes.nodes[hit.index].node->id, boxes.nodes[hit.index].rows[hit.row].name};
+        else
+            wishes.add = {mouse, std::nullopt, false};
     }
 
     /// A press that did not become a drag.
@@ -492,15 +496,9 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
                     const auto covers = [&](const NodeBox* above) { return above->area.overlaps(field); };
                     if (std::any_of(shown.begin() + std::ptrdiff_t(n) + 1, shown.end(), covers)) continue;
                     const Area place = canvas.view.toScreen(field);
-                    const bool moves = moved != marks.animated.end();
-                    if (moves && canvas.field.is(canvas.scope, {shown[n]->node->id, row.name}, i))
-                        canvas.field = {};
-                    if (moves)
-                        showMoved(moved->second.at(std::size_t(i)), place, shell.fonts().of(size), size,
-                                  hovered && idle);
-                    else
-                        showField(canvas.field, document, canvas.scope, *shown[n], row, i, place,
-                                  shell.fonts().of(size), size, hovered && idle);
+                    showField(canvas.field, document, canvas.scope, *shown[n], row, i, place,
+                              shell.fonts().of(size), size, hovered && idle,
+                              moved == marks.animated.end() ? nullptr : &moved->second);
                 }
             }
         ImGui::PopClipRect();

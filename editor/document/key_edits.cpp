@@ -404,6 +404,102 @@ Graph setRange(const Graph& graph, std::optional<TimeRange> range) {
     });
 }
 
+namespace {
+
+/// Calls each(track, animated) for the tracks that move the input.
+template <class Each>
+void eachOf(const Graph& graph, const Timeline& timeline, const Plug& input, Each each) {
+    for (const Track& track : timeline.tracks)
+        if (const auto animated = animatedInput(graph, track))
+            if (animated->node == input.node && animated->input == input.name) each(track, *animated);
+}
+
+InputValue inputWith(std::vector<double> numbers) {
+    InputValue value;
+    if (numbers.size() == 1)
+        value.value = numbers[0];
+    else
+        value.value = std::move(numbers);
+    return value;
+}
+
+/// The numbers that the input has at the time.
+std::vector<double> numbersAt(const Graph& graph, const Timeline& timeline, const Plug& input, double time) {
+    const Node* node = graph.node(input.node);
+    if (!node) return {};
+    std::vector<double> numbers = inputNumbers(*node, input.name);
+    eachOf(graph, timeline, input, [&](const Track& track, const AnimatedInput& animated) {
+        applyTrack(track, animated, time, numbers);
+    });
+    return numbers;
+}
+
+}  // namespace
+
+Graph setMovedInput(const Graph& graph, const Plug& input, double time, const std::vector<double>& numbers) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline) return graph;
+    const std::vector<double> before = numbersAt(graph, *timeline, input, time);
+    if (before.size() != numbers.size()) return graph;
+    Graph result = graph;
+    std::vector<bool> moved(numbers.size(), false);
+    const auto differs = [&](std::size_t c) { return numbers[c] != before[c]; };
+    eachOf(graph, *timeline, input, [&](const Track& track, const AnimatedInput& animated) {
+        const bool one = animated.component < 0 && track.keys[0].value.size() == 1 && numbers.size() > 1;
+        std::optional<std::size_t> changed;
+        for (std::size_t c = 0; c < numbers.size(); ++c) {
+            if (animated.component >= 0 && c != std::size_t(animated.component)) continue;
+            moved[c] = true;
+            if (differs(c) && !changed) changed = c;
+        }
+        if (!changed) return;
+        const std::vector<double> value =
+            one || animated.component >= 0 ? std::vector{numbers[*changed]} : numbers;
+        result = setKey(result, movedBy(track), time, value);
+    });
+    std::vector<double> own = inputNumbers(*graph.node(input.node), input.name);
+    bool any = false;
+    for (std::size_t c = 0; c < own.size(); ++c)
+        if (!moved[c] && differs(c)) own[c] = numbers[c], any = true;
+    return any ? setInput(result, "", input, inputWith(std::move(own))) : result;
+}
+
+Graph removeMotion(const Graph& graph, const Plug& input, double time) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline) return graph;
+    std::vector<double> numbers = numbersAt(graph, *timeline, input, time);
+    KeySelection all;
+    eachOf(graph, *timeline, input, [&](const Track& track, const AnimatedInput&) {
+        for (const Key& key : track.keys) all.add(movedBy(track), key.time);
+    });
+    if (all.empty()) return graph;
+    return setInput(withoutKeys(graph, all), "", input, inputWith(std::move(numbers)));
+}
+
+Graph insertKeyOf(const Graph& graph, const Plug& input, double time) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline) return graph;
+    Graph result = graph;
+    bool any = false;
+    eachOf(graph, *timeline, input, [&](const Track& track, const AnimatedInput&) {
+        any = true;
+        result = setKey(result, movedBy(track), time, evaluate(track, time));
+    });
+    if (any || !motionRefusal(graph, input).empty()) return result;
+    return setKey(graph, {Track::Target::input, input.node, input.name}, time,
+                  numbersAt(graph, *timeline, input, time));
+}
+
+Graph removeKeyOf(const Graph& graph, const Plug& input, double time) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline) return graph;
+    KeySelection here;
+    eachOf(graph, *timeline, input, [&](const Track& track, const AnimatedInput&) {
+        if (const auto key = keyAt(track, time)) here.add(movedBy(track), track.keys[*key].time);
+    });
+    return withoutKeys(graph, here);
+}
+
 void copyTracks(Graph& graph, const std::string& from, const std::string& to) {
     const Result<Timeline> timeline = readTimeline(graph);
     if (!timeline) return;

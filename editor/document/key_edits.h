@@ -70,6 +70,17 @@ Graph removeMarker(const Graph& graph, std::size_t marker);
 std::string freshMarkerName(const Timeline& timeline);
 Graph setRange(const Graph& graph, std::optional<TimeRange> range);
 
+/// What moves an input has these numbers at the time: a key there for each track whose own are others. A
+/// component that nothing moves is set in the input itself.
+Graph setMovedInput(const Graph& graph, const Plug& input, double time, const std::vector<double>& numbers);
+/// Without what moves the input, which keeps the numbers that it has at the time.
+Graph removeMotion(const Graph& graph, const Plug& input, double time);
+/// A key at the time for every track of the input, of the numbers that it has there; a track if there is
+/// none.
+Graph insertKeyOf(const Graph& graph, const Plug& input, double time);
+/// Without the keys that its tracks have at the time.
+Graph removeKeyOf(const Graph& graph, const Plug& input, double time);
+
 /// The tracks of the inputs of a node once more, for another node of its type.
 void copyTracks(Graph& graph, const std::string& from, const std::string& to);
 

@@ -60,7 +60,8 @@ struct TimelineState {
     std::optional<Moved> menuRow;  ///< in which row
     std::size_t menuMarker = 0;
     bool opensRowMenu = false;
-    double renames = -1.0;  ///< the time of the marker that is to be renamed; none below 0
+    std::optional<Plug> fieldMenu;  ///< the input whose keys a menu on the canvas is of
+    double renames = -1.0;          ///< the time of the marker that is to be renamed; none below 0
 
     bool shows(const Moved& moved) const;
 };

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "editor/document/key_edits.h"
+#include "graph/document/named_parameters.h"
 #include "tests/editor/graphs.h"
 
 namespace fw::editor::timeline_edits_test {
@@ -310,7 +311,9 @@ TEST(Keys, GoAlongWithADuplicatedNode) {
         read(kRadiusTrack + R"(, {"node": "moved", "input": "offset.y", "keys": [{"time": 0, "value": 1}]},
         {"parameter": "size", "keys": [{"time": 0, "value": [1, 1, 1]}]})");
     Graph with = graph;
-    with.parameters.push_back({.name = "size", .node = "cube", .input = "half_extents"});
+    ExposedParameter size;
+    size.name = "size", size.node = "cube", size.input = "half_extents";
+    with.parameters.push_back(size);
     ASSERT_EQ(errorsOf(with), "");
     const std::vector<std::string> nodes = {"ball", "moved", "cube"};
     const Edited twice = duplicate(with, "", nodes, false);
@@ -320,6 +323,41 @@ TEST(Keys, GoAlongWithADuplicatedNode) {
     EXPECT_EQ(keys(twice.graph, {Track::Target::input, "ball_2", "radius"}), keys(graph, kRadius));
     EXPECT_EQ(keys(twice.graph, {Track::Target::input, "moved_2", "offset.y"}), "0:1");
     EXPECT_EQ(keys(twice.graph, {Track::Target::input, "cube_2", "half_extents"}), "0:1");
+}
+
+const Plug kRadiusPlug{"ball", "radius"}, kOffsetPlug{"moved", "offset"};
+
+TEST(MovedInput, IsSetByAKeyAtTheTime) {
+    const Graph graph =
+        read(kRadiusTrack + R"(, {"node": "moved", "input": "offset.y", "keys": [{"time": 0, "value": 1}]})");
+    EXPECT_EQ(keys(setMovedInput(graph, kRadiusPlug, 3.0, {9.0}), kRadius), "0:1 1:2 2:3 3:9 4:5");
+    EXPECT_EQ(keys(setMovedInput(graph, kRadiusPlug, 1.0, {9.0}), kRadius), "0:1 1:9 2:3 4:5");
+    EXPECT_EQ(setMovedInput(graph, kRadiusPlug, 3.0, {4.0}), graph) << "it is that";
+    // One component is moved, the others are the input's own.
+    const Moved y{Track::Target::input, "moved", "offset.y"};
+    const Graph up = setMovedInput(graph, kOffsetPlug, 2.0, {0.0, 5.0, 0.0});
+    EXPECT_EQ(keys(up, y), "0:1 2:5");
+    const Graph aside = setMovedInput(graph, kOffsetPlug, 2.0, {3.0, 1.0, 0.0});
+    EXPECT_EQ(keys(aside, y), "0:1");
+    EXPECT_EQ(inputNumbers(*aside.node("moved"), "offset")[0], 3.0);
+    EXPECT_EQ(errorsOf(up) + errorsOf(aside), "");
+}
+
+TEST(MovedInput, KeepsItsNumbersWithoutItsMotion) {
+    const Graph still = removeMotion(read(kRadiusTrack + "," + kOffsetTrack), kRadiusPlug, 3.0);
+    EXPECT_EQ(readTimeline(still)->tracks.size(), 1u);
+    EXPECT_EQ(inputNumbers(*still.node("ball"), "radius"), std::vector{4.0});
+    EXPECT_EQ(removeMotion(still, kRadiusPlug, 3.0), still);
+}
+
+TEST(MovedInput, GetsAndLosesKeys) {
+    const Graph graph = read(kRadiusTrack);
+    EXPECT_EQ(keys(insertKeyOf(graph, kRadiusPlug, 3.0), kRadius), "0:1 1:2 2:3 3:4 4:5");
+    EXPECT_EQ(keys(removeKeyOf(graph, kRadiusPlug, 2.0), kRadius), "0:1 1:2 4:5");
+    EXPECT_EQ(removeKeyOf(graph, kRadiusPlug, 3.0), graph);
+    const Graph first = insertKeyOf(graph, kOffsetPlug, 2.0);
+    EXPECT_EQ(trackOf(first, kOffset).keys.at(0).value, (std::vector<double>{0, 0, 0}));
+    EXPECT_EQ(insertKeyOf(graph, {"both", "a"}, 2.0), graph) << "it is linked";
 }
 
 TEST(KeysProperty, AnySequenceLeavesASoundDocument) {
@@ -355,8 +393,9 @@ TEST(KeysProperty, AnySequenceLeavesASoundDocument) {
         }
         graph = edited.graph;
         ASSERT_EQ(errorsOf(graph), "") << "after step " << step << ": " << graph.timeline->dump();
-        if (edited.selection != selection)
+        if (edited.selection != selection) {
             EXPECT_EQ(stillThere(edited.selection, *readTimeline(graph)).size(), edited.selection.size());
+        }
         const Result<Graph> again = parseGraph(writeGraph(graph), "", nullptr);
         ASSERT_TRUE(again);
         ASSERT_EQ(again->timeline, graph.timeline);

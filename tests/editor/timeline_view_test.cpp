@@ -119,7 +119,7 @@ TEST(CurvePoints, LieOnTheCurve) {
     EXPECT_EQ(points.back().x, 800.0f);
     for (std::size_t i = 0; i < points.size(); ++i) {
         EXPECT_NEAR(points[i].y, values.y(evaluate(track, times.time(points[i].x))[0]), 0.1f);
-        if (i > 0) EXPECT_GE(points[i].x, points[i - 1].x);
+        EXPECT_GE(points[i].x, i > 0 ? points[i - 1].x : 0.0f);
     }
     // Between two points nothing is missed that could be seen.
     for (std::size_t i = 1; i < points.size(); ++i) {
