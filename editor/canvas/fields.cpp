@@ -63,8 +63,9 @@ void drawFrame(const Area& place, bool active, bool hovered) {
 void drawKeys(const Area& place, const MovedField& moved) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
+    // Below the digits.
     const float margin = 3.0f, left = place.lo.x + margin, wide = place.width() - 2.0f * margin,
-                high = std::max(0.14f * place.height(), 2.0f), bottom = place.hi.y - 2.0f;
+                high = std::max(std::floor(0.12f * place.height()), 2.0f), bottom = place.hi.y - 1.0f;
     const auto mark = [&](float share, float half, ImU32 color) {
         const float x = std::floor(left + share * wide);
         list->AddRectFilled({x - half, bottom - high}, {x + half + 1.0f, bottom}, color);
@@ -308,7 +309,7 @@ void showField(FieldEdit& edit, Document& document, std::string_view scope, cons
     const bool hovered =
         enabled && edit.state == State::none && ImGui::IsMouseHoveringRect(place.lo, place.hi);
     const auto at = std::size_t(component);
-    const double number = moved ? std::round(moved->numbers.at(at) * 1e4) / 1e4 : numbersOf(row).at(at);
+    const double number = moved ? std::round(moved->numbers.at(at) * 1e3) / 1e3 : numbersOf(row).at(at);
     drawFrame(place, mine, hovered);
     if (moved) drawKeys(place, *moved);
     drawText(place, font, size, numberText(number), true, ImGui::GetColorU32(ImGuiCol_Text));

@@ -98,15 +98,15 @@ void showShortcuts(Editor& editor) {
         showMenu(editor, "Node", "Node");
         heading("Mouse on the canvas");
         for (const auto& [mouse, what] : kMouse) row(mouse, what);
+        showMenu(editor, "Timeline", "On the timeline");
+        heading("Mouse on the timeline");
+        for (const auto& [mouse, what] : kMouseInTime) row(mouse, what);
         endColumn();
     }
     ImGui::SameLine();
     if (beginColumn("##right", 0)) {
         showMenu(editor, "View", "View");
         showMenu(editor, "Picture", "Over the picture");
-        showMenu(editor, "Timeline", "On the timeline");
-        heading("Mouse on the timeline");
-        for (const auto& [mouse, what] : kMouseInTime) row(mouse, what);
         endColumn();
     }
     const bool change = ImGui::Button("Change keys …");

@@ -1,5 +1,6 @@
 #include "editor/timeline/actions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "editor/document/key_edits.h"
@@ -9,6 +10,8 @@
 namespace fw::editor {
 
 namespace {
+
+constexpr float kLeastForCurves = 0.45f;  // of the window's height
 
 TimelineState& stateOf(Editor& editor) { return editor.panelState.timelinePanel; }
 
@@ -140,7 +143,9 @@ void showSelectedTimes(Editor& editor) {
 void toggleCurves(Editor& editor) {
     TimelineState& state = stateOf(editor);
     state.curves = !state.curves;
-    if (state.curves) state.frameValues = true, state.onlySelected = false;
+    if (!state.curves) return;
+    state.frameValues = true, state.onlySelected = false;
+    editor.panels.low = std::max(editor.panels.low, kLeastForCurves);
 }
 
 }  // namespace fw::editor

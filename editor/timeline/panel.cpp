@@ -311,7 +311,7 @@ void showStrip(Editor& editor, const Timeline& timeline, TimelineState& state,
 
     ImGui::SetCursorScreenPos(at);
     if (ImGui::Button(state.curves ? "Keys###curves" : "Curves###curves", {names - 0.4f * em, high - 2.0f}))
-        toggleCurves(editor);
+        later.push_back([&editor] { toggleCurves(editor); });
     tip(state.curves ? "Rows of keys" : "Curves of the values");
     showNames(strip, names);
 

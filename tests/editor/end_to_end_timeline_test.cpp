@@ -138,7 +138,9 @@ TEST_F(EndToEndTimeline, ATangentIsTurned) {
     program.click(key(1));
     program.waitFor("Key at 1 s");
     program.clickOn("Curves", lower);
-    program.waitFor("Keys", lower);
+    // There is more room for them.
+    const Area keysButton = program.waitFor("Keys");
+    row = program.waitFor("ball · radius", Area{{0, keysButton.hi.y}, {200, 790}}).centre().y;
     // The key's mark is framed in the colour of what is active.
     ImVec2 at(x(1), 0);
     ASSERT_TRUE(eventually([&] {

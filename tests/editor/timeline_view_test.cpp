@@ -156,9 +156,9 @@ TEST(KeysInBoxes, AreFound) {
     EXPECT_EQ(keyNear(timeline.tracks[0], 2.04, 0.1), std::optional<std::size_t>(2));
     EXPECT_FALSE(keyNear(timeline.tracks[0], 2.5, 0.1));
     TimelineState state;
-    EXPECT_EQ(keysInCurves(timeline, state, -1, 9, 0.5, 2).size(), 4u) << "sin 1.7 twice and sin 6.8 twice";
+    EXPECT_EQ(keysInCurves(timeline, state, -1, 9, 0.4, 2).size(), 4u) << "sin 1.7 twice and sin 6.8 twice";
     state.hidden = {movedBy(timeline.tracks[1])};
-    EXPECT_EQ(keysInCurves(timeline, state, -1, 9, 0.5, 2).size(), 2u);
+    EXPECT_EQ(keysInCurves(timeline, state, -1, 9, 0.4, 2).size(), 2u);
     const auto range = valuesShown(timeline, state);
     ASSERT_TRUE(range);
     EXPECT_NEAR(range->second, std::sin(1.7), 1e-12);
