@@ -238,8 +238,17 @@ void followDrag(Strip& strip) {
                        hand.does == Does::marker || hand.does == Does::range;
     Touched touched{false, strip.active && edits};
     touched.changed = touched.active && wentFar(hand) && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f);
-    const bool escapes = touched.active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    if (escapes) touched.changed = false;
+    // ImGui lets go of what is active as Escape goes down, which is no end of the drag.
+    if (edits && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+        HeldValue& held = strip.editor.panelState.held;
+        if (held.field == ImGui::GetID("##hand")) {
+            strip.editor.document.cancel();
+            held = {};
+        }
+        state.selection = hand.selection;
+        hand = {};
+        return;
+    }
     follow(strip.editor, "##hand", touched, nameOfDrag(hand), [&]() -> Graph {
         if (hand.does == Does::slope) return turned(strip);
         if (hand.does == Does::marker)
@@ -257,9 +266,6 @@ void followDrag(Strip& strip) {
         state.revision = 0;  // of the document that it will be
         return std::move(edited.graph);
     });
-    if (!escapes) return;
-    state.selection = hand.selection;
-    hand = {};
 }
 
 void release(Strip& strip) {

@@ -302,8 +302,8 @@ void showStrip(Editor& editor, const Timeline& timeline, TimelineState& state,
         y = area.hi.y;
         return area;
     };
-    strip.ruler = cut(high);
-    strip.markers = cut(timeline.markers.empty() ? 0.0f : ImGui::GetTextLineHeight());
+    strip.ruler = cut(1.45f * ImGui::GetTextLineHeight() + 8.0f * scale);
+    strip.markers = cut(timeline.markers.empty() ? 0.0f : ImGui::GetTextLineHeight() + 8.0f);
     strip.bar = cut(kBarHigh * scale);
     strip.body = cut(bottom - y);
     state.view.left = left, state.view.right = right;

@@ -61,10 +61,10 @@ void drawRuler(const Strip& strip) {
     for (const RulerMark& mark :
          rulerMarks(view, strip.timeline.framesPerSecond, strip.state.frames, kLabelApart * strip.scale())) {
         const float x = std::floor(view.x(mark.time));
-        const float up = mark.label.empty() ? 0.75f : 0.45f;
+        const float up = mark.label.empty() ? 0.88f : 0.78f;  // below the words
         list->AddLine({x, ruler.lo.y + up * high}, {x, ruler.hi.y}, themeColor(ThemeColor::quiet));
         if (!mark.label.empty())
-            list->AddText({x + 3.0f, ruler.lo.y + 2.0f * strip.scale()}, themeColor(ThemeColor::quiet),
+            list->AddText({x + 3.0f, ruler.lo.y + 4.0f * strip.scale()}, themeColor(ThemeColor::quiet),
                           mark.label.c_str());
     }
 }
@@ -89,13 +89,13 @@ void drawMarkers(const Strip& strip) {
             hovered == order[n] ? themeColor(ThemeColor::active) : themeColor(ThemeColor::warning);
         list->AddLine({x, strip.markers.lo.y}, {x, strip.body.hi.y}, seeThrough(color, 0.35f));
         list->AddTriangleFilled({x - flag, strip.markers.lo.y + 2.0f}, {x + flag, strip.markers.lo.y + 2.0f},
-                                {x, strip.markers.hi.y - 2.0f}, color);
-        const float left = x + flag + 3.0f;
+                                {x, strip.markers.hi.y - 4.0f}, color);
+        const float left = x + flag + 6.0f;
         const ImVec4 clip(std::max(left, strip.markers.lo.x), strip.markers.lo.y,
                           std::min(next - 2.0f, strip.markers.hi.x), strip.markers.hi.y);
         if (clip.z > clip.x)
-            list->AddText(nullptr, 0.0f, {left, strip.markers.lo.y}, color, marker.name.c_str(), nullptr,
-                          0.0f, &clip);
+            list->AddText(nullptr, 0.0f, {left, strip.markers.lo.y + 4.0f}, color, marker.name.c_str(),
+                          nullptr, 0.0f, &clip);
     }
 }
 

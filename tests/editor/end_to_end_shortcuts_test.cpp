@@ -35,9 +35,8 @@ constexpr const char* kMoving = R"({"fieldwright": 1, "nodes": [
 /// The timeline with the keyboard, at its beginning; with all keys selected, or none.
 void openTimeline(Program& program, bool all) {
     program.keys("Ctrl+T");
-    const Area name = program.waitFor("ball · radius"),
-               zero = program.waitFor("0 s", Area{{180, 560}, {1276, 790}});
-    program.click({zero.lo.x - 2, zero.centre().y});
+    const Area name = program.waitFor("ball · radius");
+    program.click({16, program.waitFor("fps").centre().y});  // the first button
     program.click({300, name.centre().y});
     program.waitFor("Double click in a row to add a key.");
     if (!all) return;

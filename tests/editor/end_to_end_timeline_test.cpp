@@ -37,10 +37,9 @@ class EndToEndTimeline : public testing::Test {
         row = name.centre().y;
         strip = {{170, add.hi.y + 4}, {1276, 790}};
         const Area one = program.waitFor("1 s", strip), three = program.waitFor("3 s", strip);
-        ruler = one.centre().y;
+        ruler = one.centre().y + 2;
         perSecond = 0.5f * (three.lo.x - one.lo.x);
-        // A label stands beside its line, which is of a known place: the key's of 1 s is under it.
-        zero = one.lo.x - 4.0f - perSecond;
+        zero = one.lo.x - 3.0f - perSecond;  // a label stands beside its line
     }
     float x(double time) const { return zero + float(time) * perSecond; }
     ImVec2 key(double time) const { return {x(time), row}; }
@@ -96,7 +95,7 @@ TEST_F(EndToEndTimeline, AKeyIsDraggedAndItsWayComesBack) {
     // Escape takes the drag back.
     const std::string before = program.save();
     program.drag({key(1), key(1.6), key(2)}, 1, "", false, false);
-    program.waitFor("20 f", strip);
+    program.waitFor("Key at 2 s");
     program.keys("Escape");
     program.release();
     EXPECT_EQ(program.save(), before);
@@ -146,9 +145,10 @@ TEST_F(EndToEndTimeline, ATangentIsTurned) {
     ASSERT_TRUE(eventually([&] {
         const Picture seen = program.screen();
         float first = 1e9f, last = 0;
-        for (float y = row - 16; y < 785; ++y)
-            if (off(seen, {at.x - 5, y}, themeColor(ThemeColor::active)) < 60)
-                first = std::min(first, y), last = std::max(last, y);
+        for (float y = row - 8; y < 785; ++y)
+            for (float u = at.x - 6; u <= at.x; ++u)
+                if (off(seen, {u, y}, themeColor(ThemeColor::active)) < 60)
+                    first = std::min(first, y), last = std::max(last, y);
         at.y = 0.5f * (first + last);
         return last > first + 4 && last < first + 16;
     }));
@@ -175,8 +175,13 @@ TEST_F(EndToEndTimeline, ATangentIsTurned) {
     const auto [in, out] = slopes();
     EXPECT_LT(out, -0.1);
     EXPECT_EQ(in, out) << "both sides turn together";
-    // The curve is drawn along it.
-    EXPECT_TRUE(eventually([&] { return has({at.x + 10, at.y + 20}, themeColor(ThemeColor::text), 3); }));
+    // The curve, which comes down to the key now, is drawn above it.
+    EXPECT_TRUE(eventually([&] {
+        const Picture seen = program.screen();
+        for (float y = at.y - 120; y < at.y - 15; ++y)
+            if (off(seen, {x(0.7), y}, themeColor(ThemeColor::text)) < 60) return true;
+        return false;
+    }));
 
     // With Alt one side by itself; undo takes each back.
     program.drag({{at.x + 42.0f * 0.447f, at.y + 42.0f * 0.894f}, {at.x + 30, at.y + 10}, {at.x + 40, at.y}},
@@ -216,7 +221,7 @@ TEST_F(EndToEndTimeline, MarkersAndTheRange) {
     // Ctrl and a drag in the ruler: what is played over and over.
     program.drag({{x(1), ruler}, {x(2), ruler}, {x(4), ruler}}, 1, "ctrl");
     EXPECT_EQ(timeline().range, (TimeRange{1, 4}));
-    EXPECT_TRUE(eventually([&] { return has({x(3.5), ruler - 10}, themeColor(ThemeColor::warning), 4); }));
+    EXPECT_TRUE(eventually([&] { return has({x(3.5), ruler - 12}, themeColor(ThemeColor::warning), 5); }));
     program.click({x(2), ruler}, 1, "ctrl");
     EXPECT_FALSE(timeline().range);
 }
