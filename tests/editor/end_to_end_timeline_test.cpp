@@ -167,7 +167,7 @@ TEST_F(EndToEndTimeline, ATangentIsTurned) {
     ASSERT_TRUE(end);
     program.drag({*end, {at.x + 30, at.y + 10}, {at.x + 20, at.y + 40}});
     const auto slopes = [&] {
-        const Key& turned = timeline().tracks[0].keys.at(1);
+        const Key turned = timeline().tracks[0].keys.at(1);
         EXPECT_EQ(turned.in.size(), 1u);
         EXPECT_EQ(turned.out.size(), 1u);
         return std::pair(turned.in.empty() ? 0.0 : turned.in[0], turned.out.empty() ? 0.0 : turned.out[0]);
