@@ -89,10 +89,6 @@ void giveSlopes(Json& json, Json& key, std::span<const double> in, std::span<con
                  std::size_t(broken ? Tangents::broken : Tangents::automatic));
 }
 
-Json* markerOf(Json& json, const Timeline& timeline, std::size_t marker) {
-    return marker < timeline.markers.size() ? &json["markers"][marker] : nullptr;
-}
-
 }  // namespace
 
 double Retiming::operator()(double time) const {
@@ -350,57 +346,6 @@ Graph setSlope(const Graph& graph, const Moved& moved, double time, std::size_t 
             for (std::size_t c = 0; c < in.size(); ++c)
                 if (c != component) in[c] = out[c] = side == KeySide::in ? in[c] : out[c];
         giveSlopes(json, json["keys"][i], in, out, !both);
-    });
-}
-
-Graph addMarker(const Graph& graph, double time, const std::string& name) {
-    if (!(time >= 0.0)) return graph;
-    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
-        for (const Marker& marker : timeline.markers)
-            if (std::abs(marker.time - time) <= kSameTime) return;
-        member(json, "length", timeline.length);
-        member(json, "markers", Json::array()).push_back({{"time", time}, {"name", name}});
-    });
-}
-
-Graph moveMarker(const Graph& graph, std::size_t marker, double time) {
-    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
-        if (Json* found = markerOf(json, timeline, marker))
-            (*found)["time"] = std::clamp(time, 0.0, kMostTimelineLength);
-    });
-}
-
-Graph renameMarker(const Graph& graph, std::size_t marker, const std::string& name) {
-    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
-        if (Json* found = markerOf(json, timeline, marker)) (*found)["name"] = name;
-    });
-}
-
-Graph removeMarker(const Graph& graph, std::size_t marker) {
-    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
-        if (!markerOf(json, timeline, marker)) return;
-        Json& markers = json["markers"];
-        markers.erase(markers.begin() + std::ptrdiff_t(marker));
-        if (markers.empty()) json.erase("markers");
-    });
-}
-
-std::string freshMarkerName(const Timeline& timeline) {
-    for (std::size_t i = 1;; ++i) {
-        std::string name = "Marker " + std::to_string(i);
-        if (std::ranges::find(timeline.markers, name, &Marker::name) == timeline.markers.end()) return name;
-    }
-}
-
-Graph setRange(const Graph& graph, std::optional<TimeRange> range) {
-    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
-        if (!range) {
-            json.erase("range");
-            return;
-        }
-        if (!(range->from >= 0.0 && range->from < range->to)) return;
-        member(json, "length", timeline.length);
-        json["range"] = {range->from, range->to};
     });
 }
 
