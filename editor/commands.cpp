@@ -12,6 +12,7 @@
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/panels/tour.h"
+#include "editor/timeline/actions.h"
 
 namespace fw::editor {
 
@@ -205,6 +206,32 @@ constexpr Command kCommands[] = {
      [](Editor& e) { e.document.undo(); }},
     {"edit.redo", "Edit", "Redo", "Ctrl+Shift+Z Ctrl+Y", everywhere, [](const Editor& e) { return e.document.canRedo(); },
      [](Editor& e) { e.document.redo(); }},
+    {"timeline.cut", "Timeline", "Cut keys", "Ctrl+X", timeline, anyKeys, cutSelectedKeys},
+    {"timeline.copy", "Timeline", "Copy keys", "Ctrl+C", timeline, anyKeys, copySelectedKeys},
+    {"timeline.paste", "Timeline", "Paste keys", "Ctrl+V", timeline, timelineOpen, pasteKeysHere},
+    {"timeline.duplicate", "Timeline", "Duplicate keys", "Ctrl+D", timeline, anyKeys, duplicateSelectedKeys},
+    {"timeline.delete", "Timeline", "Delete keys", "Delete X", timeline, anyKeys, deleteSelectedKeys},
+    {"timeline.select_all", "Timeline", "Select all keys", "Ctrl+A", timeline, timelineOpen, selectAllKeys, true},
+    {"timeline.invert", "Timeline", "Invert selection of keys", "Ctrl+I", timeline, timelineOpen, invertKeys},
+    {"timeline.earlier", "Timeline", "A frame earlier", "Left", timeline, anyKeys, [](Editor& e) { nudgeKeys(e, -1); },
+     true},
+    {"timeline.later", "Timeline", "A frame later", "Right", timeline, anyKeys, [](Editor& e) { nudgeKeys(e, 1); }},
+    {"timeline.much_earlier", "Timeline", "Ten frames earlier", "Shift+Left", timeline, anyKeys,
+     [](Editor& e) { nudgeKeys(e, -10); }},
+    {"timeline.much_later", "Timeline", "Ten frames later", "Shift+Right", timeline, anyKeys,
+     [](Editor& e) { nudgeKeys(e, 10); }},
+    {"timeline.next_key", "Timeline", "Go to the next key", "Up", timeline, timelineOpen,
+     [](Editor& e) { goToKey(e, 1); }, true},
+    {"timeline.previous_key", "Timeline", "Go to the key before", "Down", timeline, timelineOpen,
+     [](Editor& e) { goToKey(e, -1); }},
+    {"timeline.marker", "Timeline", "Add or rename marker", "M", timeline, timelineOpen, addMarkerHere, true},
+    {"timeline.next_marker", "Timeline", "Go to the next marker", "Ctrl+Right", timeline, timelineOpen,
+     [](Editor& e) { goToMarker(e, 1); }},
+    {"timeline.previous_marker", "Timeline", "Go to the marker before", "Ctrl+Left", timeline, timelineOpen,
+     [](Editor& e) { goToMarker(e, -1); }},
+    {"timeline.all", "Timeline", "Show all times", "Home", timeline, timelineOpen, showAllTimes, true},
+    {"timeline.selection", "Timeline", "Show the selected keys", "F", timeline, timelineOpen, showSelectedTimes},
+    {"timeline.curves", "Timeline", "Curves or keys", "Ctrl+Tab", timeline, timelineOpen, toggleCurves},
     {"edit.cut", "Edit", "Cut", "Ctrl+X", canvas, anySelected, [](Editor& e) { copy(e), remove(e, false); }, true},
     {"edit.copy", "Edit", "Copy", "Ctrl+C", canvas, anySelected, copy},
     {"edit.paste", "Edit", "Paste", "Ctrl+V", canvas, always, paste},
@@ -389,10 +416,7 @@ void runShortcuts(Editor& editor) {
         return chosen->run(editor);
     if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
     if (io.WantTextInput) return leaveTextFor(editor);
-    if (editor.document.held()) return;
-    if (editor.viewport.drag.busy()) return;
-    if (deletesKey(editor) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete)))
-        return removeSelectedKey(editor);
+    if (editor.document.held() || editor.viewport.drag.busy()) return;
     // Space asks for the menu when it goes up, if nothing was panned with it.
     const int space = ImGui::GetKeyIndex(ImGuiKey_Space);
     if (ImGui::IsKeyPressed(space, false))
@@ -403,6 +427,8 @@ void runShortcuts(Editor& editor) {
     const bool picture = editor.viewport.hovered || editor.panels.keyboard == Part::viewport;
     const auto heard = [&](const Command& command, const Shortcut& shortcut) {
         if (command.heard == Heard::picture) return picture;
+        if (command.heard == Heard::timeline && (picture || editor.panels.keyboard != Part::timeline))
+            return false;
         return !panelsSteer(shortcut) && !(panel && command.heard == Heard::canvas);
     };
     for (const auto& [shortcut, command] : editor.keymap)
@@ -412,7 +438,7 @@ void runShortcuts(Editor& editor) {
 }
 
 void showMenus(Editor& editor) {
-    for (const char* menu : {"File", "Edit", "Node", "View", "Picture", "Help"}) {
+    for (const char* menu : {"File", "Edit", "Node", "View", "Picture", "Timeline", "Help"}) {
         if (!ImGui::BeginMenu(menu)) continue;
         for (const Command& command : kCommands) {
             if (std::string_view(command.menu) != menu) continue;

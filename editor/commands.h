@@ -12,13 +12,14 @@ namespace fw::editor {
 /// Where the keyboard or the mouse has to be for a command's keys to count.
 enum class Heard : unsigned char {
     everywhere,
-    canvas,   ///< not in a panel, where they could be meant for what is edited there
-    picture,  ///< over the picture, where they come before the canvas's
+    canvas,    ///< not in a panel, where they could be meant for what is edited there
+    picture,   ///< over the picture, where they come before the canvas's
+    timeline,  ///< on the timeline, where they come before all others
 };
 
 struct Command {
     const char* id;    ///< as in the preferences: "edit.undo"
-    const char* menu;  ///< "File", "Edit", "Node", "View", "Picture", "Help"; empty: in no menu
+    const char* menu;  ///< "File", "Edit", "Node", "View", "Picture", "Timeline", "Help"; empty: in no menu
     const char* label;
     const char* keys;  ///< its shortcut by default, as textOf() has it; further ones after a blank
     Heard heard;

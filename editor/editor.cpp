@@ -9,6 +9,7 @@
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/shell/theme.h"
+#include "editor/timeline/fields_in_time.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -98,6 +99,7 @@ void showCanvasPart(Editor& editor) {
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);
     if (wishes.frame) editor.frameMenu = {*wishes.frame, true};
+    showFieldMenu(editor, wishes.field);
     showAddMenu(editor);
     showFrameMenu(editor);
 }
@@ -180,7 +182,9 @@ void showEditor(Editor& editor) {
 
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    const float timeline = editor.panels.timeline ? 0.25f * room.y : 0.0f, high = room.y - line - timeline;
+    const float bar = 5.0f * editor.shell.scale(),
+                timeline = editor.panels.timeline ? editor.panels.low * room.y : 0.0f,
+                high = room.y - line - timeline;
     ImGui::BeginChild(
         "##canvas", {room.x * (1.0f - editor.panels.side), high}, false,
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
@@ -200,7 +204,12 @@ void showEditor(Editor& editor) {
     showSide(editor, high);
     ImGui::EndChild();
     if (editor.panels.timeline) {
-        ImGui::BeginChild("##timeline", {0, timeline - ImGui::GetStyle().ItemSpacing.y});
+        ImGui::BeginChild("##above", {0, bar});
+        float above = 1.0f - editor.panels.low;
+        splitter("##aboveTimeline", false, above, room.y, editor.shell.scale());
+        editor.panels.low = std::clamp(1.0f - above, kLeastPart, kMostPart);
+        ImGui::EndChild();
+        ImGui::BeginChild("##timeline", {0, timeline - bar - 2.0f * ImGui::GetStyle().ItemSpacing.y});
         takeKeyboard(editor, Part::timeline);
         showTimeline(editor);
         ImGui::EndChild();
@@ -240,26 +249,6 @@ void pin(Editor& editor, const std::string& id) {
     editor.viewport.pinned = editor.viewport.pinned == path ? std::string() : std::move(path);
 }
 
-namespace {
-
-/// As CanvasMarks::animated. In a group nothing is moved by itself.
-std::map<std::string, std::vector<double>, std::less<>> animatedNow(Editor& editor) {
-    std::map<std::string, std::vector<double>, std::less<>> now;
-    const Timeline* timeline = editor.canvas.scope.empty() ? timelineOf(editor) : nullptr;
-    if (!timeline) return now;
-    const Graph& graph = editor.document.graph();
-    for (const Track& track : timeline->tracks) {
-        const std::optional<AnimatedInput> input = animatedInput(graph, track);
-        if (!input) continue;
-        const auto [numbers, added] = now.try_emplace(input->node + "." + input->input);
-        if (added) numbers->second = inputNumbers(*graph.node(input->node), input->input);
-        applyTrack(track, *input, editor.viewport.seconds, numbers->second);
-    }
-    return now;
-}
-
-}  // namespace
-
 CanvasMarks marksOf(Editor& editor) {
     CanvasMarks marks;
     const PreviewResult& shown = editor.viewport.shown;
@@ -278,7 +267,7 @@ CanvasMarks marksOf(Editor& editor) {
         const Error*& worst = marks.findings[id];
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }
-    marks.animated = animatedNow(editor);
+    marks.animated = movedFields(editor);
     return marks;
 }
 

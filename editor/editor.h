@@ -50,6 +50,7 @@ struct Panels {
          timeline = false, statistics = false;
     float side = 0.36f;             ///< of the window's width, for viewport and inspector
     float top = 0.55f;              ///< of its height, for the viewport
+    float low = 0.25f;              ///< of the window's height, for the timeline
     std::string front = {};         ///< id of the side panel in front
     std::string wanted = {};        ///< id of the one to come to the front
     Part keyboard = Part::canvas;   ///< what has the keyboard

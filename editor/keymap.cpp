@@ -9,9 +9,11 @@ namespace fw::editor {
 
 namespace {
 
-/// Whether one key cannot be of both: over the picture it may do other things than elsewhere.
+/// Whether one key cannot be of both: over the picture, and on the timeline, it may do other things than
+/// elsewhere.
 bool shareKeys(const Command& a, const Command& b) {
-    return (a.heard == Heard::picture) == (b.heard == Heard::picture);
+    const auto where = [](Heard heard) { return heard == Heard::canvas ? Heard::everywhere : heard; };
+    return where(a.heard) == where(b.heard);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 //     left                         select; drag moves nodes, a wire from a socket, a box around nodes
 //     Alt + left drag              select by lasso (Shift adds, Ctrl takes away, as with the box)
 //     middle, Space + left drag    pan; the wheel zooms to the cursor
-//     right click                  asks for the add menu
+//     right click                  asks for the add menu; on a number, for that of its keys
 //     Ctrl + right drag            cuts wires; with Shift a reroute in each; with Alt connects two nodes
 //     double click                 enters a group; on a frame's title: its words and colour
 #pragma once
@@ -34,6 +34,7 @@ struct CanvasWishes {
     std::optional<Add> add;
     std::string enter;                 ///< the id of a group
     std::string activate;              ///< the id of a node to be shown in the preview
+    std::optional<Plug> field;         ///< an input with numbers whose keys are asked for
     std::optional<std::size_t> frame;  ///< the index of a comment frame whose words are to be changed
 };
 
@@ -45,8 +46,8 @@ struct CanvasMarks {
     std::string spoiledBy;                                              ///< the node that spoiled the field
     std::string pinned;                                                 ///< the node that the preview shows
     std::map<std::string, const Thumbnails::Shown*, std::less<>> thumbnails;  ///< by node id
-    /// The numbers at the time shown of each "node.input" that the timeline moves.
-    std::map<std::string, std::vector<double>, std::less<>> animated;
+    /// Of each "node.input" that the timeline moves.
+    std::map<std::string, MovedField, std::less<>> animated;
 };
 
 /// What the mouse has begun on the canvas.

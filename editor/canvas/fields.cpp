@@ -24,6 +24,25 @@ void set(Document& document, std::string_view scope, const NodeBox& box, const R
                    setInput(document.graph(), scope, {box.node->id, row.name}, std::move(value)));
 }
 
+/// Along the frame's lower edge, where the keys are over the timeline, and the time shown.
+void drawKeys(const Area& place, const MovedField& moved) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
+    // Below the digits.
+    const float margin = 3.0f, left = place.lo.x + margin, wide = place.width() - 2.0f * margin,
+                high = std::max(std::floor(0.12f * place.height()), 2.0f), bottom = place.hi.y - 1.0f;
+    const auto mark = [&](float share, float half, ImU32 color) {
+        const float x = std::floor(left + share * wide);
+        list->AddRectFilled({x - half, bottom - high}, {x + half + 1.0f, bottom}, color);
+    };
+    for (float share : moved.keys) mark(share, 0.0f, themeColor(ThemeColor::quiet));
+    mark(moved.now, 0.5f, themeColor(ThemeColor::active));
+}
+
+std::string nameOfChange(const NodeBox& box, const Row& row, const MovedField* moved) {
+    return moved ? "Set Key of " + readable(row.name) : setName(box, row);
+}
+
 /// The number field after this one on the node, or before it: what it takes to type it.
 struct NextField {
     std::string name, id;
@@ -123,23 +142,37 @@ std::string valueText(const Row& row) {
 }
 
 void showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const NumberLook& look) {
+               const Row& row, int component, const NumberLook& look, const MovedField* moved) {
     if (row.type == Type::string) return showChoice(document, scope, box, row, look);
     if (row.type == Type::boolean) return showSwitch(document, scope, box, row, look);
     const Plug plug{box.node->id, row.name};
     const std::string id = inputPath(scope, plug);
-    const double number = numbersOf(row).at(std::size_t(component));
+    const auto at = std::size_t(component);
+    const double number = moved ? std::round(moved->numbers.at(at) * 1e3) / 1e3 : numbersOf(row).at(at);
     const NumberRange range = rangeOf(row, hand.is(id, component) ? hand.start : number);
     // Before the change, which ends what `box` and `row` refer to.
-    const bool typed = hand.is(id, component) && hand.state == NumberHand::State::typing;
+    const bool typed = hand.types(id, component);
     const auto before = typed ? nextField(scope, box, row, component, -1) : std::nullopt,
                after = typed ? nextField(scope, box, row, component, 1) : std::nullopt;
+    if (typed && moved && !hand.typed.opened && hand.typed.complaint.empty())
+        hand.typed = TypedNumber(number);
+    const auto to = [&document, group = std::string(scope), plug, component,
+                     key = moved ? std::optional(*moved) : std::nullopt](Hand by, double wanted) {
+        if (!key) return document.update(by, setNumber(document.graph(), group, plug, component, wanted));
+        std::vector<double> numbers = key->numbers;
+        numbers.at(std::size_t(component)) = wanted;
+        document.update(by, key->set(document.graph(), numbers));
+    };
     const NumberDone done =
-        showNumber(hand, document, id, component, number, range, setName(box, row), look,
-                   [&document, group = std::string(scope), plug, component](Hand by, double to) {
-                       document.update(by, setNumber(document.graph(), group, plug, component, to));
-                   });
+        showNumber(hand, document, id, component, number, range, nameOfChange(box, row, moved), look, to);
     if (hand.is(id, component)) hand.moves = id;
+    if (moved && !typed) {
+        drawKeys(look.place, *moved);
+        if (look.enabled && hand.state == NumberHand::State::none &&
+            ImGui::IsMouseHoveringRect(look.place.lo, look.place.hi))
+            ImGui::SetTooltip("The timeline moves it: a change is a key at the time shown");
+    }
+    if (done.reset && moved) return;
     if (done.reset) return set(document, scope, box, row, std::nullopt);
     if (const auto& next = done.tab < 0 ? before : after; done.tab != 0 && next)
         hand.type(document, next->name, next->id, next->component, next->number);
@@ -167,15 +200,6 @@ std::string describe(const Row& row) {
         text += ", at most " + numberText(row.spec->max);
     if (!row.spec->doc.empty()) text += "\n" + row.spec->doc;
     return text;
-}
-
-void showMoved(double number, const NumberLook& look) {
-    const bool hovered = look.enabled && ImGui::IsMouseHoveringRect(look.place.lo, look.place.hi);
-    drawField(look.place, false, hovered);
-    ImGui::GetWindowDrawList()->AddRect(look.place.lo, look.place.hi, themeColor(ThemeColor::active),
-                                        kFieldRounding);
-    drawFieldText(look, numberText(std::round(number * 1e4) / 1e4), true);
-    if (hovered) ImGui::SetTooltip("The timeline moves it: the inspector sets its key at the time shown");
 }
 
 }  // namespace fw::editor

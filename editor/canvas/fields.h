@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "editor/canvas/boxes.h"
@@ -13,6 +15,14 @@ namespace fw::editor {
 
 /// What tells the input's numbers from others: "group/node.input".
 std::string inputPath(std::string_view scope, const Plug& input);
+/// What the timeline makes of an input at the time shown, and how that is changed: by a key there.
+struct MovedField {
+    std::vector<double> numbers;
+    std::vector<float> keys;  ///< where keys are, as shares of the timeline
+    float now = 0.0f;         ///< the time shown, the same
+    /// The document with these numbers at that time.
+    std::function<Graph(const Graph&, const std::vector<double>&)> set;
+};
 
 /// The numbers of the row's input: as given, else the default's.
 std::vector<double> numbersOf(const Row& row);
@@ -21,15 +31,13 @@ NumberRange rangeOf(const Row& row, double start);
 /// The words that stand for a value without fields: "position", "a.png", "12 points".
 std::string valueText(const Row& row);
 
-/// One field of a row of the node. Changes go to the document.
+/// One field of a row of the node. Changes go to the document: of what the timeline moves, as keys at the
+/// time shown.
 void showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
-               const Row& row, int component, const NumberLook& look);
+               const Row& row, int component, const NumberLook& look, const MovedField* moved = nullptr);
 /// Begins to type a number of the node.
 void typeField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
                const Row& row, int component);
-
-/// A number that the timeline moves, as it is at the time shown: it is not edited here.
-void showMoved(double number, const NumberLook& look);
 
 /// The text of an input for a tooltip: name, type, range, unit, and what it means.
 std::string describe(const Row& row);

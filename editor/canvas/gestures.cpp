@@ -305,12 +305,12 @@ struct Mouse {
     }
 
     void pressRight() {
-        if (io.KeyCtrl)
-            start(Kind::cut, 1);
-        else if (io.KeyShift)
-            start(Kind::reroute, 1);
-        else if (io.KeyAlt)
-            start(Kind::lazy, 1);
+        if (io.KeyCtrl) return start(Kind::cut, 1);
+        if (io.KeyShift) return start(Kind::reroute, 1);
+        if (io.KeyAlt) return start(Kind::lazy, 1);
+        const Row* row = hit.what == What::field ? &boxes.nodes[hit.index].rows[hit.row] : nullptr;
+        if (row && canvas.scope.empty() && row->typed())
+            wishes.field = {boxes.nodes[hit.index].node->id, row->name};
         else
             wishes.add = {at, std::nullopt, false};
     }
@@ -493,10 +493,8 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
                         continue;
                     const NumberLook look{canvas.view.toScreen(field), shell.fonts().of(size), size,
                                           hovered && idle};
-                    if (moved != marks.animated.end())
-                        showMoved(moved->second.at(std::size_t(i)), look);
-                    else
-                        showField(canvas.number, document, canvas.scope, *shown[n], row, i, look);
+                    showField(canvas.number, document, canvas.scope, *shown[n], row, i, look,
+                              moved == marks.animated.end() ? nullptr : &moved->second);
                 }
             }
         ImGui::PopClipRect();

@@ -16,6 +16,7 @@
 #include "editor/code/check.h"
 #include "editor/code/entries.h"
 #include "editor/code/view.h"
+#include "editor/document/document.h"
 #include "editor/viewport/aside.h"
 
 namespace fw::editor {

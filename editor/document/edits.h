@@ -93,7 +93,7 @@ Graph dropOnWire(const Graph& graph, std::string_view scope, const Plug& input, 
 Graph removeNodes(const Graph& graph, std::string_view scope, std::span<const std::string> nodes, bool heal);
 
 /// The nodes again, beside themselves, wired among each other; with `keepInputs` also to what feeds the
-/// originals from outside. Without those that can stand only once.
+/// originals from outside. Without those that can stand only once. What moves their inputs moves the copies'.
 Edited duplicate(const Graph& graph, std::string_view scope, std::span<const std::string> nodes,
                  bool keepInputs);
 

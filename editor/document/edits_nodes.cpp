@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "editor/document/edits.h"
+#include "editor/document/key_edits.h"
 #include "editor/document/references.h"
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
@@ -177,7 +178,7 @@ Edited duplicate(const Graph& graph, std::string_view scope, std::span<const std
     const Names chosen(nodes.begin(), nodes.end());
     std::vector<Node>& all = nodesOf(result.graph, scope);
     FreshIds ids(all);
-    std::unordered_map<std::string, std::string> copies;
+    std::map<std::string, std::string> copies;  // in one order, for the tracks
     const std::size_t count = all.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (!chosen.contains(all[i].id) || roleOf(all[i].type) == NodeRole::output ||
@@ -202,6 +203,8 @@ Edited duplicate(const Graph& graph, std::string_view scope, std::span<const std
                 unlink(all[i], name, typeFrom(wiring, *link));
         }
     }
+    if (scope.empty())
+        for (const auto& [from, to] : copies) copyTracks(result.graph, from, to);
     return outgrows(graph, result.graph) ? Edited{graph, {}} : result;
 }
 

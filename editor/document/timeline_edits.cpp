@@ -5,41 +5,18 @@
 #include <nlohmann/json.hpp>
 
 #include "editor/document/references.h"
+#include "editor/document/timeline_json.h"
 #include "editor/document/wiring.h"
 
 namespace fw::editor {
 
 namespace {
 
-Json& member(Json& object, const char* name, Json otherwise) {
-    if (!object.contains(name)) object[name] = std::move(otherwise);
-    return object[name];
-}
-
-Json jsonOf(std::span<const double> numbers) {
-    Json json;
-    setNumbers(json, {numbers.begin(), numbers.end()});
-    return json;
-}
-
-/// Calls change(json, timeline) with the timeline as it is in the file and as it was read. Not if it cannot
-/// be read.
-template <class Change>
-Graph edited(const Graph& graph, Change change) {
-    const Result<Timeline> timeline = readTimeline(graph);
-    if (!timeline) return graph;
-    Graph result = graph;
-    if (result.timeline->is_null()) result.timeline = Json::object();
-    change(*result.timeline, *timeline);
-    result.timelinePlaces.list.clear();  // which are counted along the values
-    return result;
-}
-
-/// The same for a track that exists. A length that follows from the last key is written down first, so that
-/// keys can be moved without moving the end.
+/// editedTimeline() for a track that exists. A length that follows from the last key is written down first,
+/// so that keys can be moved without moving the end.
 template <class Change>
 Graph editedTrack(const Graph& graph, std::size_t track, Change change) {
-    return edited(graph, [&](Json& json, const Timeline& timeline) {
+    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
         if (track >= timeline.tracks.size()) return;
         member(json, "length", timeline.length);
         change(json["tracks"], timeline.tracks[track]);
@@ -54,8 +31,6 @@ Graph editedKey(const Graph& graph, std::size_t track, std::size_t key, Change c
     });
 }
 
-double timeOf(const Json& key) { return key["time"].get<double>(); }
-
 /// Adds the key where its time belongs; what is there already at that time goes.
 void insertKey(Json& keys, Json key) {
     const double time = timeOf(key);
@@ -67,18 +42,18 @@ void insertKey(Json& keys, Json key) {
         keys.insert(keys.begin() + std::ptrdiff_t(at), std::move(key));
 }
 
-/// Sets a key's choice; one that is what the track's keys have anyway is left out.
-void choose(Json& track, Json& key, const char* name, const std::vector<std::string>& names,
-            std::size_t chosen) {
+}  // namespace
+
+void chooseForKey(Json& track, Json& key, const char* name, const std::vector<std::string>& names,
+                  std::size_t chosen) {
     const std::string usual = track.contains(name) ? track[name].get<std::string>() : std::string();
-    const std::size_t unsaid = name == std::string_view("ease") ? 0 : std::size_t(Interpolation::linear);
+    const std::size_t unsaid =
+        name == std::string_view("interpolation") ? std::size_t(Interpolation::linear) : 0;
     if (names[chosen] == (usual.empty() ? names[unsaid] : usual))
         key.erase(name);
     else
         key[name] = names[chosen];
 }
-
-}  // namespace
 
 Moved movedBy(const Track& track) { return {track.target, track.node, track.name}; }
 
@@ -121,23 +96,24 @@ std::string motionRefusal(const Graph& graph, const Plug& input) {
 
 Graph setTimelineLength(const Graph& graph, double seconds) {
     if (!(seconds > 0.0)) return graph;
-    return edited(
+    return editedTimeline(
         graph, [&](Json& json, const Timeline&) { json["length"] = std::min(seconds, kMostTimelineLength); });
 }
 
 Graph setFramesPerSecond(const Graph& graph, double frames) {
     if (!(frames > 0.0)) return graph;
-    return edited(graph,
-                  [&](Json& json, const Timeline&) { json["fps"] = std::min(frames, kMostFramesPerSecond); });
+    return editedTimeline(
+        graph, [&](Json& json, const Timeline&) { json["fps"] = std::min(frames, kMostFramesPerSecond); });
 }
 
 Graph setLoop(const Graph& graph, Loop loop) {
-    return edited(graph, [&](Json& json, const Timeline&) { json["loop"] = loopNames()[std::size_t(loop)]; });
+    return editedTimeline(
+        graph, [&](Json& json, const Timeline&) { json["loop"] = loopNames()[std::size_t(loop)]; });
 }
 
 Graph setKey(const Graph& graph, const Moved& moved, double time, std::span<const double> value) {
     if (value.empty() || !(time >= 0.0)) return graph;
-    return edited(graph, [&](Json& json, const Timeline& timeline) {
+    return editedTimeline(graph, [&](Json& json, const Timeline& timeline) {
         member(json, "length", timeline.length);
         Json& tracks = member(json, "tracks", Json::array());
         std::optional<std::size_t> track = trackOf(timeline, moved);
@@ -152,10 +128,10 @@ Graph setKey(const Graph& graph, const Moved& moved, double time, std::span<cons
             tracks.push_back(std::move(added));
             track = tracks.size() - 1;
         } else if (const auto there = keyAt(timeline.tracks[*track], time)) {
-            tracks[*track]["keys"][*there]["value"] = jsonOf(value);
+            tracks[*track]["keys"][*there]["value"] = numbersJson(value);
             return;
         }
-        insertKey(tracks[*track]["keys"], {{"time", time}, {"value", jsonOf(value)}});
+        insertKey(tracks[*track]["keys"], {{"time", time}, {"value", numbersJson(value)}});
     });
 }
 
@@ -171,15 +147,15 @@ Graph moveKey(const Graph& graph, std::size_t track, std::size_t key, double tim
 Graph setInterpolation(const Graph& graph, std::size_t track, std::size_t key, Interpolation interpolation) {
     return editedTrack(graph, track, [&](Json& tracks, const Track& read) {
         if (key < read.keys.size())
-            choose(tracks[track], tracks[track]["keys"][key], "interpolation", interpolationNames(),
-                   std::size_t(interpolation));
+            chooseForKey(tracks[track], tracks[track]["keys"][key], "interpolation", interpolationNames(),
+                         std::size_t(interpolation));
     });
 }
 
 Graph setEase(const Graph& graph, std::size_t track, std::size_t key, Ease ease) {
     return editedTrack(graph, track, [&](Json& tracks, const Track& read) {
         if (key < read.keys.size())
-            choose(tracks[track], tracks[track]["keys"][key], "ease", easeNames(), std::size_t(ease));
+            chooseForKey(tracks[track], tracks[track]["keys"][key], "ease", easeNames(), std::size_t(ease));
     });
 }
 

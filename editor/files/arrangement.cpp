@@ -37,6 +37,7 @@ Json arrangementOf(const Editor& editor) {
     all["minimap"] = editor.canvas.minimap;
     all["side"] = panels.side;
     all["top"] = panels.top;
+    all["low"] = panels.low;
     all["front"] = panels.front;
     return all;
 }
@@ -49,6 +50,7 @@ void arrange(Editor& editor, const Json& all) {
     take(all, "minimap", editor.canvas.minimap);
     take(all, "side", panels.side);
     take(all, "top", panels.top);
+    take(all, "low", panels.low);
     take(all, "front", panels.wanted);
     const bool there = std::ranges::any_of(sidePanels(), [&](const SidePanel& panel) {
         return panel.id == panels.wanted && panels.*panel.open;

@@ -7,6 +7,7 @@
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "editor/timeline/fields_in_time.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -233,6 +234,10 @@ void showMenu(const Input& input) {
             if (!refusal.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
                 ImGui::SetTooltip("%s", refusal.c_str());
         }
+    }
+    if (input.scope().empty()) {
+        ImGui::Separator();
+        showKeyEntries(input.editor, input.plug);
     }
     if (expression) showExpressionMenu(input);
 }

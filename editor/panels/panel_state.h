@@ -11,6 +11,7 @@
 #include <string>
 
 #include "editor/canvas/fields.h"
+#include "editor/timeline/state.h"
 #include "graph/document/scene.h"
 #include "graph/document/timeline.h"
 
@@ -51,11 +52,7 @@ struct PanelState {
     Timeline timeline;
     std::string timelineProblem;
     double played = 0.0;  ///< seconds since play began at 0, beyond the timeline's length when it repeats
-    std::optional<std::size_t> track, key;  ///< selected on the timeline
-    int timelineFrame = 0;                  ///< ImGui's, in which the timeline last had the keyboard
-    Graph keyBase;                          ///< the document when a key was taken hold of
-    std::size_t keyTaken = 0;               ///< that key's index then
-    float keyOffset = 0.0f;                 ///< pixels from the mouse to it
+    TimelineState timelinePanel;
 
     /// Inputs under the hand in any panel.
     std::set<std::string> heldInputs() const {

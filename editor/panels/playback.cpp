@@ -1,6 +1,7 @@
 #include "editor/panels/playback.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/panels/properties.h"
 
@@ -8,14 +9,24 @@ namespace fw::editor {
 
 namespace {
 
-/// The time on the bar after so many seconds of play. It wraps even where nothing but the `time` node moves.
-double timeOnBar(const Timeline& timeline, double seconds) {
-    Timeline bar = timeline;
-    bar.endless = false;
-    return timelineTime(bar, seconds);
+/// The part of the timeline that is played over and over; none if all of it is.
+std::optional<TimeRange> rangeOf(const Timeline& timeline) {
+    if (!timeline.range) return std::nullopt;
+    const TimeRange range{std::max(timeline.range->from, 0.0), std::min(timeline.range->to, timeline.length)};
+    return range.from < range.to ? std::optional(range) : std::nullopt;
 }
 
 }  // namespace
+
+double playedTime(const Timeline& timeline, double seconds) {
+    if (const auto range = rangeOf(timeline)) {
+        const double length = range->to - range->from, past = seconds - range->from;
+        return past < length ? seconds : range->from + past - length * std::floor(past / length);
+    }
+    Timeline bar;
+    bar.length = timeline.length, bar.loop = timeline.loop;
+    return timelineTime(bar, seconds);
+}
 
 void playOn(Editor& editor) {
     Viewport& view = editor.viewport;
@@ -26,8 +37,9 @@ void playOn(Editor& editor) {
         return;
     }
     editor.panelState.played += double(ImGui::GetIO().DeltaTime);
-    view.seconds = timeOnBar(*timeline, editor.panelState.played);
-    if (timeline->loop == Loop::once && view.seconds >= timeline->length) view.playing = false;
+    view.seconds = playedTime(*timeline, editor.panelState.played);
+    if (timeline->loop == Loop::once && !rangeOf(*timeline) && view.seconds >= timeline->length)
+        view.playing = false;
 }
 
 void togglePlay(Editor& editor) {
@@ -35,25 +47,14 @@ void togglePlay(Editor& editor) {
     view.playing = !view.playing;
     const Timeline* timeline = timelineOf(editor);
     if (!view.playing || !timeline) return;
-    const bool atEnd = view.seconds >= timeline->length;
-    editor.panelState.played = atEnd ? 0.0 : view.seconds;
+    const std::optional<TimeRange> range = rangeOf(*timeline);
+    const bool atEnd = view.seconds >= (range ? range->to : timeline->length);
+    editor.panelState.played = !atEnd ? view.seconds : range ? range->from : 0.0;
 }
 
 void showTime(Editor& editor, double seconds) {
     editor.viewport.seconds = std::max(seconds, 0.0);
     editor.panelState.played = editor.viewport.seconds;
-}
-
-bool deletesKey(const Editor& editor) {
-    const PanelState& state = editor.panelState;
-    return state.track && state.key && state.timelineFrame == ImGui::GetFrameCount() - 1;
-}
-
-void removeSelectedKey(Editor& editor) {
-    PanelState& state = editor.panelState;
-    if (!state.track || !state.key) return;
-    editor.document.apply("Remove Key", removeKey(editor.document.graph(), *state.track, *state.key));
-    state.key.reset();
 }
 
 }  // namespace fw::editor

@@ -1,4 +1,4 @@
-// Time in the editor: it plays, rests or is scrubbed. And what the timeline does of what keys do.
+// Time in the editor: it plays, rests or is scrubbed.
 #pragma once
 
 #include "editor/editor.h"
@@ -10,8 +10,8 @@ void playOn(Editor& editor);
 void togglePlay(Editor& editor);
 /// Shows the time on the timeline, seconds; from there it plays on.
 void showTime(Editor& editor, double seconds);
-/// Whether the timeline has the keyboard and a key selected, so that Delete is for that one.
-bool deletesKey(const Editor& editor);
-void removeSelectedKey(Editor& editor);
+/// The time shown after so many seconds of play from 0 on: within the range again once that has come to its
+/// end, else as the timeline loops, even where nothing but the `time` node moves.
+double playedTime(const Timeline& timeline, double seconds);
 
 }  // namespace fw::editor

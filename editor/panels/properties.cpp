@@ -103,8 +103,11 @@ NumberRow::Place NumberRow::place(int part, bool typed) const {
 }
 
 void NumberRow::end() const {
+    // One item of them all, with words beside it on the line of theirs.
+    const ImVec2 size(whole, ImGui::GetFrameHeight());
     ImGui::SetCursorScreenPos(at);
-    ImGui::Dummy({whole, ImGui::GetFrameHeight()});
+    ImGui::ItemSize(size, ImGui::GetStyle().FramePadding.y);
+    ImGui::ItemAdd({at, {at.x + size.x, at.y + size.y}}, 0);
 }
 
 namespace {

@@ -13,7 +13,7 @@ constexpr std::pair<const char*, const char*> kMouse[] = {
     {"Alt + left drag", "selects by lasso"},
     {"Middle drag, Space + drag", "pans"},
     {"Wheel", "zooms"},
-    {"Right", "adds a node"},
+    {"Right", "adds a node; keys of a number"},
     {"Ctrl + right drag", "cuts wires"},
     {"Shift + right drag", "adds a reroute"},
     {"Alt + right drag", "connects two nodes"},
@@ -37,6 +37,20 @@ constexpr std::pair<const char*, const char*> kCode[] = {
     {"Ctrl+Slash", "makes lines comments, and back"},
     {"Alt+Up, Alt+Down", "move lines"},
     {"Ctrl+D", "doubles the line, or what is selected"},
+};
+
+// As timeline/strip.h has it.
+constexpr std::pair<const char*, const char*> kMouseInTime[] = {
+    {"Drag in the ruler", "shows another time"},
+    {"Ctrl + drag in it", "marks what is played"},
+    {"Drag on a key", "moves what is selected"},
+    {"Shift, Ctrl + click", "selects also; takes away"},
+    {"Drag beside keys", "selects by a box"},
+    {"Ends of the bar", "scale what is selected"},
+    {"Double click", "adds a key"},
+    {"Drag on a tangent", "turns it; Alt: one side"},
+    {"Alt", "not from frame to frame"},
+    {"Wheel, middle drag", "zooms, pans"},
 };
 
 void row(const std::string& keys, const std::string& what) {
@@ -100,6 +114,9 @@ void showShortcuts(Editor& editor) {
         showMenu(editor, "Node", "Node");
         heading("Mouse on the canvas");
         for (const auto& [mouse, what] : kMouse) row(mouse, what);
+        showMenu(editor, "Timeline", "On the timeline");
+        heading("Mouse on the timeline");
+        for (const auto& [mouse, what] : kMouseInTime) row(mouse, what);
         endColumn();
     }
     ImGui::SameLine();

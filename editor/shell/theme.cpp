@@ -78,6 +78,10 @@ ImVec4 faded(ImU32 color, float alpha) {
 ImU32 themeColor(ThemeColor which) { return kColors[std::size_t(which)]; }
 ImU32 categoryColor(Category category) { return kCategoryColors[std::size_t(category)]; }
 ImU32 typeColor(std::optional<Type> type) { return styleOf(type).color; }
+ImU32 axisColor(std::size_t axis) {
+    constexpr ImU32 kAxes[] = {rgb(0xe85d5d), rgb(0x7cc03c), rgb(0x4f8ff0)};
+    return axis < std::size(kAxes) ? kAxes[axis] : themeColor(ThemeColor::text);
+}
 SocketShape socketShape(std::optional<Type> type) { return styleOf(type).shape; }
 
 void applyTheme(float scale) {

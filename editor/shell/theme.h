@@ -31,6 +31,8 @@ ImU32 categoryColor(Category category);
 ImU32 typeColor(std::optional<Type> type);
 
 enum class SocketShape : unsigned char { circle, square, diamond, triangle, hexagon };
+/// Of x, y and z, wherever they are drawn; text for anything beyond.
+ImU32 axisColor(std::size_t axis);
 SocketShape socketShape(std::optional<Type> type);
 
 /// ImGui's own style, for an interface of this scale.

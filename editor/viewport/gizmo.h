@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "editor/canvas/view.h"
+#include "editor/document/document.h"
 #include "editor/viewport/placement.h"
 #include "graph/document/scene.h"
 #include "runtime/render/view.h"

@@ -10,8 +10,6 @@ namespace {
 
 using Kind = Handle::Kind;
 
-constexpr ImU32 kAxes[] = {IM_COL32(0xe8, 0x5d, 0x5d, 255), IM_COL32(0x7c, 0xc0, 0x3c, 255),
-                           IM_COL32(0x4f, 0x8f, 0xf0, 255)};
 constexpr ImU32 kAtOnce = IM_COL32(0xf0, 0xf0, 0xf0, 255), kRefused = IM_COL32(0x90, 0x90, 0x90, 200),
                 kShadow = IM_COL32(0, 0, 0, 110);
 constexpr float kAbove = 140.0f;  // canvas units
@@ -153,7 +151,8 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
         const auto colorOf = [&](int axis, ImU32 plain) {
             return !handle.refusal.empty() ? kRefused : lit(axis) ? themeColor(ThemeColor::active) : plain;
         };
-        for (int axis = 0; axis < 3; ++axis) brush.axis(handle, axis, colorOf(axis, kAxes[axis]), lit(axis));
+        for (int axis = 0; axis < 3; ++axis)
+            brush.axis(handle, axis, colorOf(axis, axisColor(std::size_t(axis))), lit(axis));
         const auto at = lens.project(handle.origin);
         if (handle.kind == Kind::move && at) {
             const float radius = (lit(kAcrossView) ? 7.0f : 5.0f) * brush.scale;

@@ -3,6 +3,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
+#include "editor/viewport/camera_path.h"
 
 namespace fw::editor {
 
@@ -103,6 +104,7 @@ void showViewport(Editor& editor) {
     else
         list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     showGizmo(editor);
+    showCameraPath(editor);
     const float scale = editor.shell.scale();
     if (const std::optional<double> share = editor.preview.baking())
         caption(place,

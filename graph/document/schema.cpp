@@ -298,12 +298,18 @@ Json timelineSchema() {
     const Json time = {{"type", "number"}, {"minimum", 0}};
     const Json interpolation = {{"enum", {"step", "linear", "cubic"}}, {"default", "linear"}};
     const Json ease = {{"enum", {"none", "in", "out", "in-out"}}, {"default", "none"}};
+    const Json tangents = {{"enum", {"auto", "flat", "linear", "broken"}}, {"default", "auto"}};
     const Json values = {{"type", "array"}, {"items", number}, {"minItems", 1}, {"maxItems", 4}};
-    const Json key = object({{"time", described("Seconds.", time)},
-                             {"value", {{"anyOf", Json::array({number, values})}}},
-                             {"interpolation", interpolation},
-                             {"ease", ease}},
-                            {"time", "value"});
+    const Json numbers = {{"anyOf", Json::array({number, values})}};
+    const Json key =
+        object({{"time", described("Seconds.", time)},
+                {"value", numbers},
+                {"interpolation", interpolation},
+                {"ease", ease},
+                {"in", described("Slope with which a cubic curve arrives, units a second.", numbers)},
+                {"out", described("Slope with which it leaves.", numbers)},
+                {"tangents", described("Of the sides without a slope.", tangents)}},
+               {"time", "value"});
     const Json keys = {{"type", "array"}, {"items", key}, {"minItems", 1}};
     const Json text = {{"type", "string"}};
     Json track =
@@ -313,17 +319,23 @@ Json timelineSchema() {
                 {"scene", described("Dotted path to what moves: camera.position.", text)},
                 {"interpolation", described("Of keys that give none.", interpolation)},
                 {"ease", described("Of keys that give none.", ease)},
+                {"tangents", described("Of keys that give none.", tangents)},
                 {"keys", described("In the order of their times.", keys)}},
                {"keys"});
     track["anyOf"] = Json::array(
         {{{"required", {"node", "input"}}}, {{"required", {"parameter"}}}, {{"required", {"scene"}}}});
     const Json positive = {{"type", "number"}, {"exclusiveMinimum", 0}};
-    return object({{"length", described("Seconds; the last key's time if absent.", positive)},
-                   {"loop", described("What follows the end.",
-                                      {{"enum", {"once", "repeat", "ping-pong"}}, {"default", "repeat"}})},
-                   {"fps", described("Frames a second, for stepping and for pictures.", positive)},
-                   {"tracks", {{"type", "array"}, {"maxItems", kMaxTracks}, {"items", track}}}},
-                  {});
+    return object(
+        {{"length", described("Seconds; the last key's time if absent.", positive)},
+         {"loop", described("What follows the end.",
+                            {{"enum", {"once", "repeat", "ping-pong"}}, {"default", "repeat"}})},
+         {"fps", described("Frames a second, for stepping and for pictures.", positive)},
+         {"tracks", {{"type", "array"}, {"maxItems", kMaxTracks}, {"items", track}}},
+         {"markers",
+          {{"type", "array"},
+           {"items", object({{"time", described("Seconds.", time)}, {"name", text}}, {"time"})}}},
+         {"range", described("Seconds between which the editor plays, [from, to].", array(time, 2))}},
+        {});
 }
 
 }  // namespace

@@ -16,21 +16,31 @@ namespace {
 /// 0, 1, 2 for the names of a vector's components; -1 for any other text.
 int componentNamed(std::string_view text) { return text == "x" ? 0 : text == "y" ? 1 : text == "z" ? 2 : -1; }
 
-/// The slope of component `c` at key `i`: of the parabola through it and its neighbours, of the segment at an
-/// end.
-double slopeAt(const Track& track, std::size_t i, std::size_t c) {
+/// How much the component rises in a second from this key to the next.
+double rateOf(const Track& track, std::size_t from, std::size_t c) {
+    const Key &a = track.keys[from], &b = track.keys[from + 1];
+    return (b.value[c] - a.value[c]) / (b.time - a.time);
+}
+
+/// That of the parabola through the key and its neighbours, of the segment at an end.
+double automaticSlope(const Track& track, std::size_t i, std::size_t c) {
     const std::vector<Key>& keys = track.keys;
     const std::size_t last = keys.size() - 1;
     const bool seam = track.closed && (i == 0 || i == last) && keys.size() > 2;
-    const auto rate = [&](std::size_t from) {
-        return (keys[from + 1].value[c] - keys[from].value[c]) / (keys[from + 1].time - keys[from].time);
-    };
+    const auto rate = [&](std::size_t from) { return rateOf(track, from, c); };
     const auto width = [&](std::size_t from) { return keys[from + 1].time - keys[from].time; };
     if (!seam && i == 0) return rate(0);
     if (!seam && i == last) return rate(last - 1);
     const std::size_t before = seam ? last - 1 : i - 1, after = seam ? 0 : i;
     const double h0 = width(before), h1 = width(after);
     return (rate(before) * h1 + rate(after) * h0) / (h0 + h1);
+}
+
+/// The side's slope as the key itself says; none if it is to be found.
+std::optional<double> slopeSaid(const Key& key, std::size_t c, KeySide side) {
+    const std::vector<double>& given = side == KeySide::in ? key.in : key.out;
+    if (!given.empty()) return given[std::min(c, given.size() - 1)];
+    return key.tangents == Tangents::flat ? std::optional(0.0) : std::nullopt;
 }
 
 double hermite(double a, double b, double slopeA, double slopeB, double u) {
@@ -67,6 +77,22 @@ double eased(Ease ease, double x) {
         case Ease::inOut: return x * x * (3.0 - 2.0 * x);
     }
     return x;
+}
+
+double slopeAt(const Track& track, std::size_t i, std::size_t c, KeySide side) {
+    const std::size_t last = track.keys.size() - 1;
+    if (const auto said = slopeSaid(track.keys[i], c, side)) return *said;
+    const bool linear = track.keys[i].tangents == Tangents::linear;
+    if (linear && side == KeySide::out && i < last) return rateOf(track, i, c);
+    if (linear && side == KeySide::in && i > 0) return rateOf(track, i - 1, c);
+    if (track.closed && (i == 0 || i == last))
+        if (const auto said = slopeSaid(track.keys[last - i], c, side)) return *said;
+    return automaticSlope(track, i, c);
+}
+
+bool moveAlike(const Timeline& a, const Timeline& b) {
+    return a.length == b.length && a.loop == b.loop && a.framesPerSecond == b.framesPerSecond &&
+           a.endless == b.endless && a.tracks == b.tracks;
 }
 
 std::vector<double> momentsOf(const Timeline& timeline) {
@@ -108,7 +134,8 @@ std::vector<double> evaluate(const Track& track, double time) {
         const double a = from.value[c], b = next->value[c];
         value[c] = from.interpolation == Interpolation::linear
                        ? (1.0 - u) * a + u * b
-                       : hermite(a, b, width * slopeAt(track, i, c), width * slopeAt(track, i + 1, c), u);
+                       : hermite(a, b, width * slopeAt(track, i, c, KeySide::out),
+                                 width * slopeAt(track, i + 1, c, KeySide::in), u);
     }
     return value;
 }

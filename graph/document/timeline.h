@@ -6,8 +6,12 @@
 //         {"node": "blend", "input": "t", "interpolation": "cubic", "keys": [
 //           {"time": 0, "value": 0}, {"time": 2, "value": 1, "ease": "in-out"}, {"time": 4, "value": 0}]},
 //         {"parameter": "hole", "keys": [{"time": 0, "value": 0.1}, {"time": 4, "value": 0.5}]},
-//         {"scene": "camera.position", "keys": [{"time": 0, "value": [4, 2, 4]}]}
-//       ]
+//         {"scene": "camera.position", "interpolation": "cubic", "keys": [
+//           {"time": 0, "value": [4, 2, 4], "out": [0, 1, 0]}, {"time": 4, "value": [4, 3, 4], "tangents":
+//           "flat"}]}
+//       ],
+//       "markers": [{"time": 1.5, "name": "it opens"}],
+//       "range": [1, 3]
 //     }
 //
 // A track moves an input of a node, a named parameter, or a value of the scene by its dotted path; behind a
@@ -15,10 +19,19 @@
 // Between two keys the interpolation and the easing of the former hold; a track may give both for all of its
 // keys. Before the first key and after the last the track rests.
 //
-// Cubic segments are Hermite curves with the slopes of the parabola through each key and its neighbours
-// (Catmull-Rom for uneven times), so a curve may pass beyond its keys. What drives an input is then kept in
-// the input's range, and in the parameter's. A track of a repeating timeline that ends on the value it began
-// with, at both ends of the timeline, is smooth across the seam.
+// Cubic segments are Hermite curves, so one may pass beyond its keys. Their slopes, in units of the value per
+// second, are "in" where the curve arrives at a key and "out" where it leaves: a number for each component,
+// or one for all. A side that is not given is as "tangents" has it, of the key or of its track: "auto" is the
+// slope of the parabola through the key and its neighbours (Catmull-Rom for uneven times), "flat" is 0, and
+// "linear" leads straight to the neighbour. "broken" is "auto", and says that the two sides are to be moved
+// apart even where they are equal. An ease bends the time of a segment, and its slopes with it.
+//
+// What drives an input is then kept in the input's range, and in the parameter's. A track of a repeating
+// timeline that ends on the value it began with, at both ends of the timeline, is smooth across the seam:
+// there the first key and the last are one, and a side that one of them does not give is the other's.
+//
+// Markers are times with a name. The range is what the editor plays over and over; what is rendered does not
+// know it unless asked (`render --range`).
 //
 // A Timeline is a value, read from a Graph and independent of it. The graph keeps the JSON.
 #pragma once
@@ -42,6 +55,7 @@ inline constexpr double kMostFramesPerSecond = 1000.0;
 
 enum class Interpolation : unsigned char { step, linear, cubic };
 enum class Ease : unsigned char { none, in, out, inOut };
+enum class Tangents : unsigned char { automatic, flat, linear, broken };
 
 /// What follows the end of the timeline: it rests there, begins again, or runs back and forth.
 enum class Loop : unsigned char { once, repeat, pingPong };
@@ -49,6 +63,7 @@ enum class Loop : unsigned char { once, repeat, pingPong };
 /// As files have them, in the order of the values.
 const std::vector<std::string>& interpolationNames();
 const std::vector<std::string>& easeNames();
+const std::vector<std::string>& tangentsNames();
 const std::vector<std::string>& loopNames();
 
 struct Key {
@@ -56,6 +71,8 @@ struct Key {
     std::vector<double> value;  ///< 1 to 4 numbers, as many as the track's other keys have
     Interpolation interpolation = Interpolation::linear;  ///< from here to the next key
     Ease ease = Ease::none;
+    std::vector<double> in = {}, out = {};  ///< slopes, a second: one, or as many as values; empty: not given
+    Tangents tangents = Tangents::automatic;
     TextPosition place = {};
     bool operator==(const Key&) const = default;
 };
@@ -71,11 +88,26 @@ struct Track {
     bool operator==(const Track&) const = default;
 };
 
+struct Marker {
+    double time = 0.0;  ///< seconds
+    std::string name = {};
+    TextPosition place = {};
+    bool operator==(const Marker&) const = default;
+};
+
+/// Times between which it is played again and again.
+struct TimeRange {
+    double from = 0.0, to = 0.0;
+    bool operator==(const TimeRange&) const = default;
+};
+
 struct Timeline {
     double length = kDefaultTimelineLength;  ///< seconds
     Loop loop = Loop::repeat;
     double framesPerSecond = 30.0;
     std::vector<Track> tracks = {};
+    std::vector<Marker> markers = {};
+    std::optional<TimeRange> range = {};
     bool endless = false;  ///< the document has none: time goes on
     bool operator==(const Timeline&) const = default;
 };
@@ -93,6 +125,14 @@ std::vector<double> momentsOf(const Timeline& timeline);
 
 /// The track's value at a time on the timeline. The track has keys, in the order of their times.
 std::vector<double> evaluate(const Track& track, double time);
+
+/// The slope of component `c`, in units per second, with which a cubic curve arrives at key `i` or leaves it.
+/// There is more than one key.
+enum class KeySide : unsigned char { in, out };
+double slopeAt(const Track& track, std::size_t i, std::size_t c, KeySide side);
+
+/// Whether two timelines move the same, whatever their markers and range are.
+bool moveAlike(const Timeline& a, const Timeline& b);
 
 /// 0 to 1 for 0 to 1.
 double eased(Ease ease, double x);

@@ -35,7 +35,9 @@ class TimelineReader {
             if (key == "fps") return number(value, key, timeline.framesPerSecond);
             if (key == "loop") return choice(value, key, loopNames(), timeline.loop);
             if (key == "tracks") return tracks(value);
-            return unknown(value, key, {"length", "fps", "loop", "tracks"});
+            if (key == "markers") return markers(value);
+            if (key == "range") return range(value);
+            return unknown(value, key, {"length", "fps", "loop", "tracks", "markers", "range"});
         });
         if (!sound) return false;
         if (!hasLength) {
@@ -109,6 +111,35 @@ class TimelineReader {
         return true;
     }
 
+    bool markers(const PlacedJson& value) {
+        if (!value.value().is_array()) return failKind(value, "markers", "an array of markers");
+        return value.forEntries(
+            [&](const PlacedJson& entry) { return marker(entry, timeline.markers.emplace_back()); });
+    }
+
+    bool marker(const PlacedJson& value, Marker& to) {
+        if (!value.value().is_object())
+            return fail(value, "a marker is an object such as {\"time\": 1, \"name\": \"start\"}, not " +
+                                   std::string(kindOf(value.value())));
+        to.place = value.at();
+        bool hasTime = false;
+        const bool sound = value.forMembers([&](const std::string& key, const PlacedJson& member) {
+            if (key == "time") return hasTime = true, number(member, key, to.time);
+            if (key == "name") return text(member, key, to.name);
+            return unknown(member, key, {"time", "name"});
+        });
+        if (!sound) return false;
+        return hasTime || fail(value, "the marker has no \"time\"");
+    }
+
+    bool range(const PlacedJson& value) {
+        const Json& json = value.value();
+        if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number())
+            return failKind(value, "range", "an array of two times, [from, to]");
+        timeline.range = {json[0].get<double>(), json[1].get<double>()};
+        return true;
+    }
+
     bool tracks(const PlacedJson& value) {
         if (!value.value().is_array()) return failKind(value, "tracks", "an array of tracks");
         if (value.value().size() > kMaxTracks)
@@ -134,9 +165,11 @@ class TimelineReader {
             if (key == "scene") return hasScene = true, text(member, key, to.name);
             if (key == "interpolation") return choice(member, key, interpolationNames(), usual.interpolation);
             if (key == "ease") return choice(member, key, easeNames(), usual.ease);
+            if (key == "tangents") return choice(member, key, tangentsNames(), usual.tangents);
             if (key == "keys") return hasKeys = true;
-            return unknown(member, key,
-                           {"node", "input", "parameter", "scene", "interpolation", "ease", "keys"});
+            return unknown(
+                member, key,
+                {"node", "input", "parameter", "scene", "interpolation", "ease", "tangents", "keys"});
         });
         if (!sound) return false;
         if (hasNode != hasInput || hasInput + hasParameter + hasScene != 1)
@@ -171,10 +204,13 @@ class TimelineReader {
         bool hasTime = false, hasValue = false;
         const bool sound = value.forMembers([&](const std::string& name, const PlacedJson& member) {
             if (name == "time") return hasTime = true, number(member, name, to.time);
-            if (name == "value") return hasValue = true, numbers(member, to.value);
+            if (name == "value") return hasValue = true, numbers(member, name, to.value);
             if (name == "interpolation") return choice(member, name, interpolationNames(), to.interpolation);
             if (name == "ease") return choice(member, name, easeNames(), to.ease);
-            return unknown(member, name, {"time", "value", "interpolation", "ease"});
+            if (name == "in") return numbers(member, name, to.in);
+            if (name == "out") return numbers(member, name, to.out);
+            if (name == "tangents") return choice(member, name, tangentsNames(), to.tangents);
+            return unknown(member, name, {"time", "value", "interpolation", "ease", "in", "out", "tangents"});
         });
         if (!sound) return false;
         if (!hasTime || !hasValue)
@@ -183,12 +219,13 @@ class TimelineReader {
         return true;
     }
 
-    bool numbers(const PlacedJson& value, std::vector<double>& to) {
+    bool numbers(const PlacedJson& value, const std::string& name, std::vector<double>& to) {
         const Json& json = value.value();
         if (json.is_number()) return to = {json.get<double>()}, true;
         const bool fits = json.is_array() && !json.empty() && json.size() <= 4 &&
                           std::all_of(json.begin(), json.end(), [](const Json& n) { return n.is_number(); });
-        if (!fits) return failKind(value, "value", "a number or an array of 1 to 4 numbers");
+        if (!fits) return failKind(value, name, "a number or an array of 1 to 4 numbers");
+        to.clear();
         for (const Json& n : json) to.push_back(n.get<double>());
         return true;
     }
@@ -206,6 +243,11 @@ const std::vector<std::string>& interpolationNames() {
 
 const std::vector<std::string>& easeNames() {
     static const std::vector<std::string> names = {"none", "in", "out", "in-out"};
+    return names;
+}
+
+const std::vector<std::string>& tangentsNames() {
+    static const std::vector<std::string> names = {"auto", "flat", "linear", "broken"};
     return names;
 }
 

@@ -1,4 +1,5 @@
 // The part of check() about the timeline and the scene.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -55,8 +56,37 @@ void checkKeys(const Timeline& timeline, const Track& track, Findings& findings)
             findings.error(place, nameOf(track) + ": the key at " + seconds(key.time) + " has " +
                                       std::to_string(key.value.size()) + " numbers, the first one has " +
                                       std::to_string(count));
+        for (const auto& [side, slopes] : {std::pair{"in", &key.in}, {"out", &key.out}}) {
+            if (slopes->size() > 1 && slopes->size() != key.value.size())
+                findings.error(place, nameOf(track) + ": the key at " + seconds(key.time) + " has " +
+                                          std::to_string(slopes->size()) + " slopes \"" + side + "\" for " +
+                                          std::to_string(key.value.size()) +
+                                          (key.value.size() == 1 ? " number" : " numbers"));
+            if (!std::all_of(slopes->begin(), slopes->end(), [](double x) { return std::isfinite(x); }))
+                findings.error(place, nameOf(track) + ": a slope of the key at " + seconds(key.time) +
+                                          " is not a number");
+        }
         before = &key.time;
     }
+}
+
+void checkMarkers(const Timeline& timeline, const Place& start, Findings& findings) {
+    for (const Marker& marker : timeline.markers) {
+        if (findings.full()) return;
+        const Place place{marker.place, {}, {}};
+        if (!std::isfinite(marker.time) || marker.time < 0.0)
+            findings.error(place,
+                           "a marker's time must be a number from 0 on, not " + shortNumber(marker.time));
+    }
+    if (!timeline.range) return;
+    const auto [from, to] = *timeline.range;
+    if (!(from >= 0.0 && from < to && std::isfinite(to)))
+        findings.error(start,
+                       "the timeline's range must begin at 0 or later and end after that, not go from " +
+                           seconds(from) + " to " + seconds(to));
+    else if (from >= timeline.length)
+        findings.warning(start, "the timeline's range begins at " + seconds(from) +
+                                    ", beyond the timeline's length of " + seconds(timeline.length));
 }
 
 /// A track of an input or parameter: what it moves exists, can move, and takes the keys' values.
@@ -172,6 +202,7 @@ void checkTimeline(const Graph& graph, const Scope& top, Findings& findings) {
         findings.error(start, "the timeline's fps must be above 0 and at most " +
                                   shortNumber(kMostFramesPerSecond) + ", not " +
                                   shortNumber(timeline->framesPerSecond));
+    checkMarkers(*timeline, start, findings);
     std::map<std::string, const Track*> taken;
     for (const Track& track : timeline->tracks) {
         checkKeys(*timeline, track, findings);

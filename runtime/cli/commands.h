@@ -85,6 +85,7 @@ struct RenderCommandOptions {
     bool reference = false;
     int bounces = 0;                                  ///< of paths of light; 0: as many as the solid needs
     std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
+    bool range = false;                               ///< the same, within the timeline's range
     bool overwrite = false;
 };
 int runRender(const RenderCommandOptions& options);

@@ -203,6 +203,10 @@ int run(int count, char** arguments) {
         ->check(finite())
         ->check(CLI::Range(0.001, kMostFramesPerSecond))
         ->excludes(moment);
+    renderCommand
+        ->add_flag("--range", renderOptions.range,
+                   "The frames of the timeline's range (default: of all of it)")
+        ->excludes(moment);
     renderCommand->add_flag("--overwrite", renderOptions.overwrite,
                             "Make frames anew that are there already (default: skip them)");
     static const std::map<std::string, PictureFormat> formats = {{"png", PictureFormat::png},

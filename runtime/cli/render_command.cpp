@@ -94,7 +94,8 @@ int runRender(const RenderCommandOptions& options) {
         std::fprintf(stderr, "fieldwright render: --transparent is of the picture: leave out --view\n");
         return kBadUsage;
     }
-    if (options.from || options.to || options.framesPerSecond) return runSequence(options, *size);
+    if (options.from || options.to || options.framesPerSecond || options.range)
+        return runSequence(options, *size);
     const PictureFormat format = formatOf(options);
     if (lowerExtension(options.output) != "." + nameOf(format)) {
         std::fprintf(
@@ -106,8 +107,9 @@ int runRender(const RenderCommandOptions& options) {
         return kBadUsage;
     }
     if (options.overwrite) {
-        std::fprintf(stderr,
-                     "fieldwright render: --overwrite is for a sequence: give --from, --to or --fps\n");
+        std::fprintf(
+            stderr,
+            "fieldwright render: --overwrite is for a sequence: give --from, --to, --fps or --range\n");
         return kBadUsage;
     }
     if (const Done distinct = checkDistinct(options.mesh.graph.path, {options.output}); !distinct)

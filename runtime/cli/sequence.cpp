@@ -106,8 +106,10 @@ fs::path pathOf(const RenderCommandOptions& options, long frame) {
 int acceptFrames(const Graph& graph, const RenderCommandOptions& options, std::pair<int, int> size,
                  std::optional<FrameRange>& range) {
     const Timeline timeline = *readTimeline(graph);
+    if (options.range && !timeline.range) return badUsage("the timeline has no range: give --from and --to");
+    const TimeRange within = options.range ? *timeline.range : TimeRange{0.0, timeline.length};
     const Result<FrameRange> wanted =
-        framesBetween(options.from.value_or(0.0), options.to.value_or(timeline.length),
+        framesBetween(options.from.value_or(within.from), options.to.value_or(within.to),
                       options.framesPerSecond.value_or(timeline.framesPerSecond));
     if (!wanted) return badUsage(wanted.error().message);
     range = *wanted;

@@ -171,7 +171,7 @@ void Player::adopt(Prepared prepared) {
         now.program.resolution != prepared.program.resolution)
         halvings = 0;
     const bool moved = prepared.fieldMoves || now.fieldMoves;
-    const bool other = now.timeline != prepared.timeline || now.inputs != prepared.inputs;
+    const bool other = !moveAlike(now.timeline, prepared.timeline) || now.inputs != prepared.inputs;
     now = std::move(prepared);
     give();
     if (other) session.valuesChanged();

@@ -4,11 +4,13 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "editor/document/edits.h"
 #include "editor/editor.h"
 #include "editor/files/files.h"
+#include "editor/timeline/actions.h"
 #include "graph/document/json.h"
 #include "tests/bench/tables.h"
 
@@ -19,9 +21,10 @@ constexpr int kWindowWidth = 1280, kWindowHeight = 800;
 constexpr int kFew = 100, kSome = 200, kMany = 1000, kWindowChanges = 12, kFrames = 60, kEdits = 10000;
 constexpr int kCodeLines = 5000;
 constexpr double kRest = 3.0;  // seconds
-constexpr double kMostFew = 14, kMostMany = 40, kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50,
-                 kMostWindowChange = 250, kMostMeanwhile = 50, kMostRest = 2, kMostCode = 16,
-                 kMostCheck = 250;
+constexpr int kTracks = 10, kKeys = 10'000;
+constexpr double kMostCurves = 16, kMostCode = 16, kMostCheck = 250, kMostFew = 14, kMostMany = 40,
+                 kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50, kMostWindowChange = 250,
+                 kMostMeanwhile = 50, kMostRest = 2;
 
 double processorSeconds() {
     rusage used{};
@@ -65,6 +68,24 @@ Graph longCode(int lines) {
     link.value = Link{"code", ""};
     output.set("surface", link);
     graph.nodes = {expression, output};
+    return graph;
+}
+
+/// The same few nodes with keys in tracks of vectors.
+Graph moving() {
+    Graph graph = grid(4 * kTracks);
+    std::mt19937 random(3);
+    const auto number = [&] { return 0.1 + double(random() >> 8) / double(1 << 24); };
+    Json tracks = Json::array();
+    for (const Node& node : graph.nodes) {
+        if (node.type != "translate" || tracks.size() == std::size_t(kTracks)) continue;
+        Json keys = Json::array();
+        for (int i = 0; i < kKeys / kTracks; ++i)
+            keys.push_back({{"time", 0.1 * i}, {"value", {number(), number(), number()}}});
+        tracks.push_back(
+            {{"node", node.id}, {"input", "offset"}, {"interpolation", "cubic"}, {"keys", keys}});
+    }
+    graph.timeline = Json{{"length", 0.1 * kKeys / kTracks}, {"tracks", tracks}};
     return graph;
 }
 
@@ -149,6 +170,21 @@ void interfaceTable(Bench& bench) {
     {
         Window window(bench, grid(kFew));
         row("a frame, " + std::to_string(kFew) + " nodes on the canvas", window.frames(), kMostFew);
+    }
+    {
+        Window window(bench, moving());
+        window.editor.panels.timeline = true;
+        window.editor.panels.low = 0.5f;
+        editor::TimelineState& state = window.editor.panelState.timelinePanel;
+        row("a frame, " + std::to_string(kKeys) + " keys in rows", window.frames(), kMostCurves);
+        editor::toggleCurves(window.editor);
+        row("a frame of the curve editor, " + std::to_string(kKeys) + " keys of " +
+                std::to_string(3 * kTracks) + " curves",
+            window.frames(), kMostCurves);
+        state.view.show(0.0, 10.0);
+        row("the same, a tenth of the times", window.frames(), kMostCurves);
+        editor::selectAllKeys(window.editor);
+        row("the same, all keys selected", window.frames(), kMostCurves);
     }
     {
         Window window(bench, grid(kSome));

@@ -15,10 +15,11 @@ Shortcut key(std::string_view text) {
     return read.value_or(Shortcut{});
 }
 
-/// What a key runs, elsewhere than over the picture.
+/// What a key runs, elsewhere than over the picture and on the timeline.
 std::string userOf(const Preferences& preferences, std::string_view text) {
     for (const auto& [each, user] : keymapOf(preferences))
-        if (each == key(text) && user->heard != Heard::picture) return user->id;
+        if (each == key(text) && user->heard != Heard::picture && user->heard != Heard::timeline)
+            return user->id;
     return "";
 }
 

@@ -65,6 +65,17 @@ TEST_F(Sequence, NumbersFramesByTheirTime) {
     }
 }
 
+TEST_F(Sequence, IsOfTheRangeOnlyIfAsked) {
+    expectRefusal(render(frames, {"--range"}), 2, {"the timeline has no range"});
+    std::string text = kGraph;
+    text.replace(text.find("\"fps\": 4"), 8, "\"fps\": 4, \"range\": [0.5, 1.25]");
+    test::writeText(graph, text);
+    EXPECT_EQ(render(frames, {"--range"}).status, 0);
+    EXPECT_EQ(names(frames), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
+    EXPECT_EQ(render(frames, {"--from", "0"}).status, 0);
+    EXPECT_EQ(names(frames).size(), 8u);
+}
+
 TEST_F(Sequence, GoesOnWhereItStopped) {
     EXPECT_EQ(render(frames, {"--to", "1"}).status, 0);
     const std::string second = frame(frames, 1), third = frame(frames, 2);
