@@ -144,7 +144,9 @@ void press(Strip& strip, const StripHit& hit) {
     TimelineState& state = strip.state;
     if (ImGui::IsMouseClicked(2)) return take(strip, Does::pan);
     if (!ImGui::IsMouseClicked(0)) return;
-    if (ImGui::IsMouseDoubleClicked(0)) return doubleClick(strip, hit);
+    // Of a quick hand the second press may be a drag of what it has let go of just now.
+    const bool bare = strip.body.contains(mouse) && hit.what == What::nothing;
+    if (ImGui::IsMouseDoubleClicked(0) && (bare || markerAt(strip, mouse))) return doubleClick(strip, hit);
     if (strip.ruler.contains(mouse)) return pressRuler(strip);
     if (const auto marker = markerAt(strip, mouse)) {
         take(strip, Does::marker);
