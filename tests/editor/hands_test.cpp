@@ -227,7 +227,6 @@ TEST(Hands, WhatIsShownFollowsItsNode) {
 TEST(Hands, AQuestionAsideThatFailsIsSaid) {
     DrivenEditor editor(test::parsed(kBall));
     NEEDS_EDITOR(editor);
-    editor.waitForPicture();
     editor->viewport.aside.ask([]() -> Aside::Answer { throw std::runtime_error("the moon is down"); });
     for (int i = 0; i < 500 && editor->notice != "the moon is down"; ++i)
         editor.settle(), fw::test::rest(0.01);
