@@ -93,6 +93,7 @@ void showStatus(Editor& editor) {
 
 void showCanvasPart(Editor& editor) {
     showBreadcrumb(editor);
+    drawAnew(editor);
     const CanvasWishes wishes =
         showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
     if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
@@ -241,7 +242,7 @@ void enter(Editor& editor, std::string scope) {
     editor.canvas.scope = std::move(scope);
     editor.canvas.select({});
     editor.canvas.frameNext = true;
-    editor.boxes.reset();
+    editor.drawn = 0;  // who shows the boxes of this frame may go on with them
 }
 
 void pin(Editor& editor, const std::string& id) {

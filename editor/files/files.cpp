@@ -134,7 +134,6 @@ void take(Editor& editor, Graph graph) {
     editor.panelState = {};
     editor.add = {};
     editor.frameMenu = {};
-    editor.boxes.reset();
     editor.drawn = 0;
     const bool minimap = editor.canvas.minimap;
     editor.canvas = Canvas();

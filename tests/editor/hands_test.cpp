@@ -193,6 +193,21 @@ TEST(Hands, ModifiersMeanTheSameOnTheCanvasAndInThePanels) {
     EXPECT_NEAR(travelled(inPanel, "alt"), 10.0 * there, 0.2 * there);
 }
 
+TEST(Hands, TheWayOutOfAGroupIsAClick) {
+    DrivenEditor editor(*readGraph(FIELDWRIGHT_SOURCE_DIR "/samples/table_and_stool.field.json", nullptr));
+    NEEDS_EDITOR(editor);
+    const std::string group = editor->document.graph().groups.at(0).id;
+    for (int times = 0; times < 5; ++times) {
+        enter(*editor, group);
+        editor.settle();
+        ASSERT_EQ(editor->boxes->scope, group);
+        const ImVec2 canvas = editor->canvas.view.panel.lo;
+        editor.click({canvas.x + 30.0f, canvas.y - 12.0f});
+        ASSERT_EQ(editor->canvas.scope, "") << "the word Document, above the canvas";
+        EXPECT_EQ(editor->boxes->scope, "");
+    }
+}
+
 TEST(Hands, TheMinimapDoesNotFlyAway) {
     DrivenEditor editor(test::parsed(kBlock));
     NEEDS_EDITOR(editor);

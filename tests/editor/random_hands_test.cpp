@@ -72,12 +72,18 @@ struct RandomHands {
                 popup->Pos.y + float(random() % unsigned(std::max(popup->Size.y, 1.0f)))};
     }
 
+    /// None right after another document was opened: the next frame makes their boxes.
+    const std::vector<NodeBox>& nodes() const {
+        static const std::vector<NodeBox> none;
+        return editor->boxes ? editor->boxes->nodes : none;
+    }
+
     ImVec2 somewhere() {
         const ImVec2 size = ImGui::GetIO().DisplaySize;
-        const std::vector<NodeBox>& nodes = editor->boxes->nodes;
-        if (nodes.empty() || chance(0.4))
+        const std::vector<NodeBox>& all = nodes();
+        if (all.empty() || chance(0.4))
             return {float(below(unsigned(size.x))), float(below(unsigned(size.y)))};
-        const NodeBox& box = nodes[below(nodes.size())];
+        const NodeBox& box = all[below(all.size())];
         const CanvasView& view = editor->canvas.view;
         if (box.rows.empty() || chance(0.3))
             return view.toScreen(ImVec2(box.area.centre().x, box.area.lo.y + 8));
@@ -137,9 +143,9 @@ struct RandomHands {
 
     /// A number of a node, typed over.
     void typeNumber() {
-        const std::vector<NodeBox>& nodes = editor->boxes->nodes;
-        for (int tries = 0; tries < 20 && !nodes.empty(); ++tries) {
-            const NodeBox& box = nodes[below(nodes.size())];
+        const std::vector<NodeBox>& all = nodes();
+        for (int tries = 0; tries < 20 && !all.empty(); ++tries) {
+            const NodeBox& box = all[below(all.size())];
             for (const Row& row : box.rows) {
                 if (!row.typed() || !chance(0.5)) continue;
                 click(editor->canvas.view.toScreen(box.field(row, 0)).centre(), 0, 1);
@@ -184,10 +190,8 @@ struct RandomHands {
                 return;
             }
             case 23:
-                if (!editor->boxes->nodes.empty())
-                    click(editor->canvas.view.toScreen(
-                              editor->boxes->nodes[below(editor->boxes->nodes.size())].area.centre()),
-                          0, 1);
+                if (const auto& all = nodes(); !all.empty())
+                    click(editor->canvas.view.toScreen(all[below(all.size())].area.centre()), 0, 1);
                 return;
             case 6:
             case 7:
