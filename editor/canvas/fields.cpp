@@ -10,7 +10,6 @@ namespace fw::editor {
 namespace {
 
 constexpr double kLeastPositive = 1e-6;
-constexpr float kFieldRounding = 3.0f;
 
 std::string setName(const NodeBox& box, const Row& row) {
     return "Set " + readable(row.name) + " of " + titleOf(box);
@@ -27,7 +26,6 @@ void set(Document& document, std::string_view scope, const NodeBox& box, const R
 /// Along the frame's lower edge, where the keys are over the timeline, and the time shown.
 void drawKeys(const Area& place, const MovedField& moved) {
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRect(place.lo, place.hi, themeColor(ThemeColor::active), kFieldRounding);
     // Below the digits.
     const float margin = 3.0f, left = place.lo.x + margin, wide = place.width() - 2.0f * margin,
                 high = std::max(std::floor(0.12f * place.height()), 2.0f), bottom = place.hi.y - 1.0f;
@@ -163,8 +161,10 @@ void showField(NumberHand& hand, Document& document, std::string_view scope, con
         numbers.at(std::size_t(component)) = wanted;
         document.update(by, key->set(document.graph(), numbers));
     };
+    NumberLook shown = look;
+    shown.animated = moved != nullptr;
     const NumberDone done =
-        showNumber(hand, document, id, component, number, range, nameOfChange(box, row, moved), look, to);
+        showNumber(hand, document, id, component, number, range, nameOfChange(box, row, moved), shown, to);
     if (hand.is(id, component)) hand.moves = id;
     if (moved && !typed) {
         drawKeys(look.place, *moved);

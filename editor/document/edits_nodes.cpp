@@ -259,12 +259,7 @@ Graph setNumber(const Graph& graph, std::string_view scope, const Plug& input, i
     // One number stands for a vector of it.
     numbers.resize(count, numbers.size() == 1 ? numbers[0] : 0.0);
     numbers[std::size_t(component)] = number;
-    InputValue value;
-    if (count == 1)
-        value.value = number;
-    else
-        value.value = std::move(numbers);
-    return setInput(graph, scope, input, std::move(value));
+    return setInput(graph, scope, input, numbersValue(numbers));
 }
 
 Graph setLabel(const Graph& graph, std::string_view scope, std::string_view node, std::string label) {

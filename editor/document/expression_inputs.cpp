@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "editor/document/references.h"
+#include "graph/document/input_value.h"
 #include "graph/language/names.h"
 
 namespace fw::editor {
@@ -22,12 +23,7 @@ std::string nameProblem(const Node& node, std::string_view name, bool renames) {
 
 InputValue valueOf(Type type, std::vector<double> numbers) {
     numbers.resize(std::size_t(componentCount(type)), 0.0);
-    InputValue value;
-    if (numbers.size() == 1)
-        value.value = numbers[0];
-    else
-        value.value = std::move(numbers);
-    return value;
+    return numbersValue(numbers);
 }
 
 Node* expression(Graph& graph, std::string_view scope, std::string_view id) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "editor/document/timeline_json.h"
+#include "graph/document/input_value.h"
 
 namespace fw::editor {
 
@@ -359,15 +360,6 @@ void eachOf(const Graph& graph, const Timeline& timeline, const Plug& input, Eac
             if (animated->node == input.node && animated->input == input.name) each(track, *animated);
 }
 
-InputValue inputWith(std::vector<double> numbers) {
-    InputValue value;
-    if (numbers.size() == 1)
-        value.value = numbers[0];
-    else
-        value.value = std::move(numbers);
-    return value;
-}
-
 /// The numbers that the input has at the time.
 std::vector<double> numbersAt(const Graph& graph, const Timeline& timeline, const Plug& input, double time) {
     const Node* node = graph.node(input.node);
@@ -406,7 +398,7 @@ Graph setMovedInput(const Graph& graph, const Plug& input, double time, const st
     bool any = false;
     for (std::size_t c = 0; c < own.size(); ++c)
         if (!moved[c] && differs(c)) own[c] = numbers[c], any = true;
-    return any ? setInput(result, "", input, inputWith(std::move(own))) : result;
+    return any ? setInput(result, "", input, numbersValue(own)) : result;
 }
 
 Graph removeMotion(const Graph& graph, const Plug& input, double time) {
@@ -418,7 +410,7 @@ Graph removeMotion(const Graph& graph, const Plug& input, double time) {
         for (const Key& key : track.keys) all.add(movedBy(track), key.time);
     });
     if (all.empty()) return graph;
-    return setInput(withoutKeys(graph, all), "", input, inputWith(std::move(numbers)));
+    return setInput(withoutKeys(graph, all), "", input, numbersValue(numbers));
 }
 
 Graph insertKeyOf(const Graph& graph, const Plug& input, double time) {

@@ -7,6 +7,7 @@
 #include "editor/document/group_sockets.h"
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
+#include "graph/document/input_value.h"
 
 namespace fw::editor {
 
@@ -46,12 +47,7 @@ void showDefault(Editor& editor, const std::string& group, const GroupInput& inp
     ImGui::SetNextItemWidth(-FLT_MIN);
     editNumbers(editor, "##default", value, {}, "Set Default of " + readable(input.name),
                 [group, socket = input.name](const Graph& graph, std::span<const double> to) {
-                    InputValue given;
-                    if (to.size() == 1)
-                        given.value = to[0];
-                    else
-                        given.value = std::vector<double>(to.begin(), to.end());
-                    return setSocketDefault(graph, group, socket, std::move(given));
+                    return setSocketDefault(graph, group, socket, numbersValue(to));
                 });
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("What instances have that give no value of their own");
 }

@@ -6,6 +6,7 @@
 
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -68,12 +69,7 @@ void showValue(Editor& editor, const ExposedParameter& parameter) {
     editNumbers(
         editor, "##value", numbers, range, "Set " + parameter.name,
         [plug](const Graph& in, std::span<const double> to) {
-            InputValue value;
-            if (to.size() == 1)
-                value.value = to[0];
-            else
-                value.value = std::vector<double>(to.begin(), to.end());
-            return setInput(in, "", plug, std::move(value));
+            return setInput(in, "", plug, numbersValue(to));
         },
         held);
 }

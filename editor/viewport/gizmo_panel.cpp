@@ -3,6 +3,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
+#include "graph/document/input_value.h"
 
 namespace fw::editor {
 
@@ -60,13 +61,9 @@ void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
     std::vector<double> numbers = dragTo(drag, lens, io.MousePos, io.KeyShift, io.KeyCtrl);
     if (numbers != gizmo.numbers) {
         gizmo.numbers = numbers;
-        InputValue value;
-        if (numbers.size() == 1)
-            value.value = numbers[0];
-        else
-            value.value = std::move(numbers);
-        editor.document.update(drag.hand, setInput(editor.document.graph(), editor.canvas.scope,
-                                                   {drag.handle.node, drag.handle.input}, std::move(value)));
+        editor.document.update(drag.hand,
+                               setInput(editor.document.graph(), editor.canvas.scope,
+                                        {drag.handle.node, drag.handle.input}, numbersValue(numbers)));
     }
     if (ImGui::IsMouseDown(0)) return;
     if (gizmo.numbers == drag.handle.numbers)

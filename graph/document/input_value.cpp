@@ -44,6 +44,15 @@ std::optional<std::string> optionProblem(const InputSpec& spec, const std::strin
 
 }  // namespace
 
+InputValue numbersValue(std::span<const double> numbers) {
+    InputValue value;
+    if (numbers.size() == 1)
+        value.value = numbers[0];
+    else
+        value.value = std::vector<double>(numbers.begin(), numbers.end());
+    return value;
+}
+
 std::optional<std::string> valueProblem(Type type, const InputSpec* spec, const InputValue& value) {
     if (!isKind(type, value)) return "expected " + std::string(expectedOf(type)) + ", not " + describe(value);
     if (const auto* word = std::get_if<std::string>(&value.value))

@@ -1,7 +1,8 @@
-// Whether a value from a file fits the input it is given to.
+// Values of inputs: those made of numbers, and whether one from a file fits the input it is given to.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,9 @@
 #include "graph/library/node_type.h"
 
 namespace fw {
+
+/// One number, or the list of several, as an input holds them.
+InputValue numbersValue(std::span<const double> numbers);
 
 /// What is wrong with `value` for an input of this type: its kind, a component out of range or not finite, a
 /// word that is none of the options. `spec` adds the ranges and options of a library input; it may be null.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "graph/base/words.h"
+#include "graph/document/input_value.h"
 #include "graph/library/node_type.h"
 
 namespace fw {
@@ -121,12 +122,7 @@ Done setParameter(Graph& graph, const std::string& name, std::span<const double>
             return errorAt(graph, node,
                            "the parameter " + inQuotes(name) + " takes values from " + shortest(target->min) +
                                " to " + shortest(target->max));
-    InputValue value;
-    if (numbers.size() == 1)
-        value.value = numbers[0];
-    else
-        value.value = std::vector(numbers.begin(), numbers.end());
-    node->set(target->input, std::move(value));
+    node->set(target->input, numbersValue(numbers));
     return done();
 }
 

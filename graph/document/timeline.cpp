@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
 #include "graph/library/node_type.h"
 
@@ -237,10 +238,7 @@ Graph atTime(const Graph& graph, const Timeline& timeline, double time) {
         std::vector<double> numbers = inputNumbers(*node, animated->input);
         applyTrack(track, *animated, time, numbers);
         InputValue value = given ? *given : InputValue{};
-        if (numbers.size() == 1)
-            value.value = numbers[0];
-        else
-            value.value = std::move(numbers);
+        value.value = numbersValue(numbers).value;
         node->set(animated->input, std::move(value));
     }
     result.scene = sceneAt(graph, timeline, time);
