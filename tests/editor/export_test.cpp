@@ -171,15 +171,18 @@ TEST(Export, LeavesNoFileWhenCancelled) {
     // At each stage in turn: cancelled by the one who hears of it.
     std::vector<std::string> stages;
     for (std::size_t at = 0; at < 20; ++at) {
-        std::unique_ptr<ExportJob> job;
         std::mutex making;
         std::vector<std::string> seen;
+        ExportJob* heard =
+            nullptr;  // not the owner's pointer, which is null while the job goes and may still tell
         std::unique_lock lock(making);
-        job = std::make_unique<ExportJob>(ExportWish{.graph = tower, .path = file, .mesh = {{}, 64}}, [&] {
-            std::lock_guard made(making);
-            seen.push_back(job->state().stage);
-            if (seen.size() == at + 1) job->cancel();
-        });
+        auto job =
+            std::make_unique<ExportJob>(ExportWish{.graph = tower, .path = file, .mesh = {{}, 64}}, [&] {
+                std::lock_guard made(making);
+                seen.push_back(heard->state().stage);
+                if (seen.size() == at + 1) heard->cancel();
+            });
+        heard = job.get();
         lock.unlock();
         const ExportState state = finish(*job);
         job.reset();
