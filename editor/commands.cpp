@@ -202,6 +202,7 @@ constexpr Command kCommands[] = {
      [](Editor& e) { e.files.next = Files::Next::none, save(e); }},
     {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", everywhere, always, saveAs},
     {"file.export", "File", "Export …", "Ctrl+E", everywhere, always, openExport},
+    {"file.render", "File", "Render …", "Ctrl+Shift+E", everywhere, always, openRender},
     {"edit.undo", "Edit", "Undo", "Ctrl+Z", everywhere, [](const Editor& e) { return e.document.canUndo(); },
      [](Editor& e) { e.document.undo(); }},
     {"edit.redo", "Edit", "Redo", "Ctrl+Shift+Z Ctrl+Y", everywhere, [](const Editor& e) { return e.document.canRedo(); },
@@ -315,6 +316,7 @@ constexpr Command kCommands[] = {
     {"picture.scale", "Picture", "Scale", "R", picture, pictured, use<Tool::scale>},
     {"view.frame", "View", "Frame selection", "F", canvas, always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", canvas, always, [](Editor& e) { frame(e, true); }},
+    {"view.costs", "View", "Costs on the nodes", "", everywhere, always, [](Editor& e) { e.canvas.costs = !e.canvas.costs; }},
     {"view.minimap", "View", "Minimap", "", everywhere, always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
     {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P", canvas, anyActive,
      [](Editor& e) { pin(e, e.canvas.active); }},
@@ -334,6 +336,7 @@ constexpr Command kCommands[] = {
     {"view.parameters", "View", "Parameters", "", everywhere, always, [](Editor& e) { togglePanel(e, "parameters"); }},
     {"view.scene", "View", "Scene", "", everywhere, always, [](Editor& e) { togglePanel(e, "scene"); }},
     {"view.statistics", "View", "Statistics", "", everywhere, always, [](Editor& e) { togglePanel(e, "statistics"); }},
+    {"view.history", "View", "History", "Ctrl+H", everywhere, always, [](Editor& e) { togglePanel(e, "history"); }},
     {"view.next_panel", "View", "Next panel", "Ctrl+PageDown", everywhere, always, [](Editor& e) { turnPanels(e, 1); },
      true},
     {"view.previous_panel", "View", "Previous panel", "Ctrl+PageUp", everywhere, always,
@@ -385,6 +388,7 @@ void leaveTextFor(Editor& editor) {
 bool shows(const Command& command, const Editor& editor) {
     const std::string_view id = command.id;
     if (id == "view.minimap") return editor.canvas.minimap;
+    if (id == "view.costs") return editor.canvas.costs;
     if (id == "view.timeline") return editor.panels.timeline;
     for (const SidePanel& panel : sidePanels())
         if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;

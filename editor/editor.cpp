@@ -218,6 +218,7 @@ void showEditor(Editor& editor) {
     showStatus(editor);
     showFiles(editor);
     showExport(editor);
+    showRender(editor);
     showWindows(editor);
     ImGui::End();
 }
@@ -250,6 +251,26 @@ void pin(Editor& editor, const std::string& id) {
     editor.viewport.pinned = editor.viewport.pinned == path ? std::string() : std::move(path);
 }
 
+namespace {
+
+/// By node of the scope shown, its part of what a sample of the field costs: of a group what is in it.
+std::map<std::string, double, std::less<>> costsOf(const Editor& editor) {
+    std::map<std::string, double, std::less<>> costs;
+    double all = 0.0;
+    for (const NodeEffort& effort : editor.viewport.shown.efforts) {
+        all += effort.sample;
+        const auto [scope, id] = placeOf(*editor.graph, effort.node);
+        if (editor.canvas.scope.empty())
+            costs[effort.node.substr(0, effort.node.find('/'))] += effort.sample;
+        else if (scope == editor.canvas.scope)
+            costs[id] += effort.sample;
+    }
+    for (auto& [id, cost] : costs) cost /= std::max(all, 1.0);
+    return costs;
+}
+
+}  // namespace
+
 CanvasMarks marksOf(Editor& editor) {
     CanvasMarks marks;
     const PreviewResult& shown = editor.viewport.shown;
@@ -269,6 +290,7 @@ CanvasMarks marksOf(Editor& editor) {
         if (!worst || finding.severity == Error::Severity::error) worst = &finding;
     }
     marks.animated = movedFields(editor);
+    if (editor.canvas.costs) marks.costs = costsOf(editor);
     return marks;
 }
 

@@ -20,6 +20,7 @@
 #include "editor/keymap.h"
 #include "editor/panels/export_dialog.h"
 #include "editor/panels/panel_state.h"
+#include "editor/panels/render_dialog.h"
 #include "editor/panels/windows.h"
 #include "editor/preview/preview.h"
 #include "editor/viewport/viewport.h"
@@ -47,7 +48,7 @@ enum class Part : unsigned char { canvas, viewport, side, timeline };
 
 struct Panels {
     bool inspector = true, outliner = true, problems = true, parameters = true, scene = true,
-         timeline = false, statistics = false;
+         timeline = false, statistics = false, history = false;
     float side = 0.36f;             ///< of the window's width, for viewport and inspector
     float top = 0.55f;              ///< of its height, for the viewport
     float low = 0.25f;              ///< of the window's height, for the timeline
@@ -78,6 +79,7 @@ struct Editor {
     bool quit = false;
     Files files;
     ExportDialog exporting;
+    RenderDialog rendering;
 
     /// The document as it is drawn: of revision `drawn`.
     std::shared_ptr<const Graph> graph;
@@ -121,5 +123,6 @@ void showScene(Editor& editor);
 void showTimeline(Editor& editor);
 void showViewport(Editor& editor);
 void showStatistics(Editor& editor);
+void showHistory(Editor& editor);
 
 }  // namespace fw::editor

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace fw::editor {
 
@@ -199,6 +200,27 @@ std::optional<ImVec2> Curve::crossing(ImVec2 from, ImVec2 to) const {
         a = b;
     }
     return std::nullopt;
+}
+
+std::vector<bool> wayThrough(const Boxes& boxes, uint32_t wire) {
+    std::vector<bool> lit(boxes.wires.size());
+    lit[wire] = true;
+    const auto follow = [&](uint32_t start, uint32_t Wire::*near, uint32_t Wire::*far) {
+        std::vector<std::vector<uint32_t>> at(boxes.nodes.size());
+        for (uint32_t i = 0; i < boxes.wires.size(); ++i) at[boxes.wires[i].*near].push_back(i);
+        std::vector<uint32_t> open{start};
+        while (!open.empty()) {
+            const uint32_t node = open.back();
+            open.pop_back();
+            for (const uint32_t each : std::exchange(at[node], {})) {
+                lit[each] = true;
+                open.push_back(boxes.wires[each].*far);
+            }
+        }
+    };
+    follow(boxes.wires[wire].from, &Wire::to, &Wire::from);
+    follow(boxes.wires[wire].to, &Wire::from, &Wire::to);
+    return lit;
 }
 
 Hit hitTest(const Boxes& boxes, ImVec2 p, float reach) {

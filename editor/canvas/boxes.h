@@ -107,6 +107,9 @@ struct Hit {
 /// `p` in canvas units; `reach` is how far off a socket or wire still counts. Later nodes lie above earlier.
 Hit hitTest(const Boxes& boxes, ImVec2 p, float reach);
 
+/// By wire, whether it is on a way that leads through this one, from the first node to the last.
+std::vector<bool> wayThrough(const Boxes& boxes, uint32_t wire);
+
 /// "half_extents" as people read it: "Half extents".
 std::string readable(std::string_view name);
 /// What the node is called: its label, that of its type, or its id.

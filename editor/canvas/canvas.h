@@ -15,7 +15,9 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "editor/canvas/fields.h"
 #include "editor/canvas/thumbnails.h"
@@ -46,6 +48,7 @@ struct CanvasMarks {
     std::string spoiledBy;                                              ///< the node that spoiled the field
     std::string pinned;                                                 ///< the node that the preview shows
     std::map<std::string, const Thumbnails::Shown*, std::less<>> thumbnails;  ///< by node id
+    std::map<std::string, double, std::less<>> costs;  ///< by node id: its part of a sample of the field
     /// Of each "node.input" that the timeline moves.
     std::map<std::string, MovedField, std::less<>> animated;
 };
@@ -76,9 +79,10 @@ struct CanvasGesture {
     std::size_t frame = 0;           ///< index of the frame that was
     Plug plug = {};                  ///< the fixed end of the wire under the mouse
     bool plugIsOutput = false;
-    Area map = {};             ///< that the minimap showed: what is seen by now would widen it ever more
-    bool tookOff = false;      ///< the wire was on an input before
-    std::string refused = {};  ///< why the wire under the mouse cannot be dropped here
+    Area map = {};                 ///< that the minimap showed: what is seen by now would widen it ever more
+    bool tookOff = false;          ///< the wire was on an input before
+    std::string refused = {};      ///< why the wire under the mouse cannot be dropped here
+    std::set<Plug> partners = {};  ///< sockets that it could be dropped on
 };
 
 struct Canvas {
@@ -89,9 +93,11 @@ struct Canvas {
     NumberHand number;                ///< that is dragged or typed on a node
     CanvasGesture gesture;
     bool minimap = true;
+    bool costs = false;        ///< shown on the nodes
     bool spacePans = false;    ///< Space went down and was used to pan: its release asks for nothing
     bool frameNext = true;     ///< show all nodes with the next frame
     double restedSince = 0.0;  ///< seconds of ImGui's clock, when the mouse last moved
+    std::vector<bool> lit;     ///< wires on the way through the one under the mouse; empty: none is
 
     /// Selects these alone.
     void select(const NodeIds& nodes);

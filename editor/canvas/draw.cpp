@@ -1,6 +1,7 @@
 // How the canvas looks. The farther one is away, the less is drawn: below kFieldZoom numbers are not boxed,
 // below kTextZoom there is no text.
 #include <cmath>
+#include <cstdio>
 
 #include "editor/canvas/canvas.h"
 #include "editor/shell/theme.h"
@@ -14,6 +15,7 @@ constexpr float kGrid = 24.0f;
 constexpr float kRounding = 5.0f;
 constexpr float kLeastShape = 2.0f;  // pixels: what is smaller has neither shape nor round corners
 constexpr float kWireWidth = 2.5f;
+constexpr float kDimmed = 0.25f;  // what does not count beside what does
 
 ImU32 faded(ImU32 color, float alpha) {
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
@@ -90,14 +92,20 @@ void drawWire(const Pen& pen, const Curve& wire, ImU32 color, float width) {
 
 void drawWires(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks) {
     const Area seen = pen.view.seen();
-    for (const Wire& wire : boxes.wires) {
+    for (std::size_t i = 0; i < boxes.wires.size(); ++i) {
+        const Wire& wire = boxes.wires[i];
         const Curve path = curve(boxes.start(wire), boxes.end(wire));
         if (!path.area().grown(4).overlaps(seen)) continue;
         const NodeBox &from = boxes.nodes[wire.from], &to = boxes.nodes[wire.to];
         ImU32 color = typeColor(from.rows[wire.fromRow].type);
+        const bool lit = canvas.lit.size() == boxes.wires.size();
         const bool chosen =
-            canvas.selection.contains(from.node->id) || canvas.selection.contains(to.node->id);
-        if (!chosen) color = faded(color, from.node->muted || to.node->muted ? 0.35f : 0.8f);
+            lit ? canvas.lit[i]
+                : canvas.selection.contains(from.node->id) || canvas.selection.contains(to.node->id);
+        if (lit && !chosen)
+            color = faded(color, kDimmed);
+        else if (!chosen)
+            color = faded(color, from.node->muted || to.node->muted ? 0.35f : 0.8f);
         drawWire(pen, path, color,
                  (chosen ? 1.4f : 1.0f) * kWireWidth * pen.view.scale * std::max(pen.view.zoom, 0.5f));
         if (!marks.spoiledBy.empty() && from.node->id == marks.spoiledBy) {
@@ -107,8 +115,9 @@ void drawWires(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const C
     }
 }
 
-void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool filled) {
-    const ImU32 ink = typeColor(type), paper = themeColor(ThemeColor::node);
+void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool filled, bool dimmed) {
+    const ImU32 ink = dimmed ? faded(typeColor(type), kDimmed) : typeColor(type),
+                paper = themeColor(ThemeColor::node);
     const float r = kSocketRadius * pen.view.unit();
     // Too small for a shape: a dot of two triangles, for there are thousands.
     if (r < kLeastShape) return pen.list->AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, ink);
@@ -133,7 +142,15 @@ void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool
     }
 }
 
-void drawRows(const Pen& pen, const NodeBox& box) {
+void drawRows(const Pen& pen, const Canvas& canvas, const NodeBox& box) {
+    // While a wire is under the mouse, those sockets count that it fits.
+    const CanvasGesture& gesture = canvas.gesture;
+    const bool wires = gesture.kind == CanvasGesture::Kind::wire;
+    const auto counts = [&](const Row& row) {
+        const Plug plug{box.node->id, row.name};
+        return !wires ||
+               (row.output == gesture.plugIsOutput ? plug == gesture.plug : gesture.partners.contains(plug));
+    };
     const ImU32 ink = themeColor(ThemeColor::text), quiet = themeColor(ThemeColor::quiet);
     const bool words = pen.view.unit() >= kTextZoom;
     for (const Row& row : box.rows) {
@@ -165,7 +182,8 @@ void drawRows(const Pen& pen, const NodeBox& box) {
                 }
             }
         }
-        if (pen.view.unit() > 0.5f * kTextZoom) drawSocket(pen, at, row.type, row.output || row.linked);
+        if (pen.view.unit() > 0.5f * kTextZoom)
+            drawSocket(pen, at, row.type, row.output || row.linked, !counts(row));
     }
 }
 
@@ -216,7 +234,7 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
             pen.list->AddCircleFilled({area.hi.x - 30.0f * pen.view.unit(), middle}, 4.0f * pen.view.unit(),
                                       themeColor(ThemeColor::active));
     }
-    drawRows(pen, box);
+    drawRows(pen, canvas, box);
     if (box.node->muted)
         pen.list->AddLine({area.lo.x, area.lo.y + 0.5f * strip}, {area.hi.x, area.lo.y + 0.5f * strip},
                           themeColor(ThemeColor::quiet), 1.5f * pen.view.scale);
@@ -226,6 +244,24 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
         if (pen.view.unit() >= kTextZoom)
             pen.text({at.x - 0.5f * pen.width("!"), at.y}, themeColor(ThemeColor::node), "!");
     }
+}
+
+/// A tag on the node's upper edge with its part of what a sample of the field costs, the redder the more.
+void drawCost(const Pen& pen, const NodeBox& box, double part) {
+    const float heat = float(std::sqrt(part));  // else all but the first would look alike
+    const ImU32 color = ImGui::ColorConvertFloat4ToU32(
+        {0.25f + 0.65f * heat, 0.45f - 0.25f * heat, 0.3f - 0.15f * heat, 1.0f});
+    const Area area = pen.view.toScreen(box.area);
+    pen.list->AddRect(area.lo, area.hi, color, kRounding * pen.view.unit(), 0,
+                      (1.0f + 2.0f * heat) * pen.view.scale);
+    if (pen.view.unit() < kTextZoom) return;
+    char text[16];
+    std::snprintf(text, sizeof text, part < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * part);
+    const float inset = 5.0f * pen.view.unit(), high = pen.size + 4.0f * pen.view.unit();
+    const ImVec2 hi(area.hi.x, area.lo.y - 2.0f * pen.view.unit()),
+        lo(hi.x - pen.width(text) - 2.0f * inset, hi.y - high);
+    pen.list->AddRectFilled(lo, hi, color, 0.5f * kRounding * pen.view.unit());
+    pen.text({lo.x + inset, 0.5f * (lo.y + hi.y)}, IM_COL32_WHITE, text);
 }
 
 /// The node's own field above it, as wide as the node.
@@ -335,8 +371,12 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& mar
         if (const NodeBox* box = boxes.find(id); box && thumbnailArea(*box).overlaps(seen))
             drawThumbnail(pen, *box, *thumbnail);
     drawWires(pen, canvas, boxes, marks);
-    for (const NodeBox& box : boxes.nodes)
-        if (box.area.overlaps(seen)) drawNode(pen, canvas, box, marks);
+    for (const NodeBox& box : boxes.nodes) {
+        if (!box.area.overlaps(seen)) continue;
+        drawNode(pen, canvas, box, marks);
+        if (const auto cost = marks.costs.find(box.node->id); cost != marks.costs.end())
+            drawCost(pen, box, cost->second);
+    }
     drawGesture(pen, canvas, boxes);
     if (hasMinimap(canvas, boxes)) drawMinimap(pen, canvas, boxes);
     pen.list->PopClipRect();

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "editor/canvas/canvas.h"
+#include "editor/document/wiring.h"
 #include "graph/library/reference.h"
 
 namespace fw::editor {
@@ -95,15 +96,21 @@ struct Mouse {
         gesture.plug = plugOf(boxes, hit);
         gesture.plugIsOutput = hit.what == What::output;
         const Row& row = boxes.nodes[hit.index].rows[hit.row];
-        if (gesture.plugIsOutput || !row.linked) return;
+        if (gesture.plugIsOutput || !row.linked) return findPartners();
         const auto wire = std::find_if(boxes.wires.begin(), boxes.wires.end(), [&](const Wire& each) {
             return each.to == hit.index && each.toRow == hit.row;
         });
-        if (wire == boxes.wires.end()) return;
+        if (wire == boxes.wires.end()) return findPartners();
         const Plug input = gesture.plug;
         gesture.plug = boxes.output(*wire);
         gesture.plugIsOutput = gesture.tookOff = true;
         document.update(gesture.hand, disconnect(document.graph(), canvas.scope, input));
+        findPartners();
+    }
+
+    void findPartners() {
+        gesture.partners =
+            Wiring(document.graph(), canvas.scope).partners(gesture.plug, gesture.plugIsOutput);
     }
 
     /// What the loose end would be connected to here, and in `refused` why it may not.
@@ -465,10 +472,14 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     if (gesture.kind != Kind::none && !document.hold(gesture.hand)) gesture = {};
     canvas.number.follow(document);
     const uint64_t revision = document.revision();
-    drawCanvas(canvas, boxes, marks, shell);
-
     const ImGuiIO& io = ImGui::GetIO();
     const bool hovered = ImGui::IsWindowHovered() && canvas.view.panel.contains(io.MousePos);
+    Mouse mouse{canvas, document, boxes};
+    canvas.lit.clear();
+    if (hovered && gesture.kind == Kind::none && mouse.hit.what == What::wire)
+        canvas.lit = wayThrough(boxes, mouse.hit.index);
+    drawCanvas(canvas, boxes, marks, shell);
+
     // Fields above the drawing; the first that changes the document ends what the others stand on.
     const bool idle = gesture.kind == Kind::none;
     const float size = shell.fonts().crisp(kTextSize * canvas.view.unit());
@@ -502,7 +513,6 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
     if (document.revision() != revision) return {};
 
     if (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f) canvas.restedSince = ImGui::GetTime();
-    Mouse mouse{canvas, document, boxes};
     const bool editing = canvas.number.state != NumberHand::State::none;
     if (hovered && io.MouseWheel != 0.0f && !editing)
         canvas.view.zoomTo(canvas.view.zoom * std::pow(kWheel, io.MouseWheel), io.MousePos);

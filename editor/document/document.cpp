@@ -301,16 +301,13 @@ bool Document::canRedo() const { return !held() && at + 1 < steps.size(); }
 const std::string& Document::undoName() const { return canUndo() ? steps[at].name : kNoName; }
 const std::string& Document::redoName() const { return canRedo() ? steps[at + 1].name : kNoName; }
 
-bool Document::undo() {
-    if (!canUndo()) return false;
-    current = graphOf(*steps[--at].after, std::move(current.path));
-    changes = fresh();
-    return true;
-}
+bool Document::undo() { return canUndo() && goTo(at - 1); }
+bool Document::redo() { return canRedo() && goTo(at + 1); }
 
-bool Document::redo() {
-    if (!canRedo()) return false;
-    current = graphOf(*steps[++at].after, std::move(current.path));
+bool Document::goTo(std::size_t step) {
+    if (held() || step == at || step >= steps.size()) return false;
+    at = step;
+    current = graphOf(*steps[at].after, std::move(current.path));
     changes = fresh();
     return true;
 }

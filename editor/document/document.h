@@ -69,6 +69,13 @@ class Document {
     /// False if there is nothing to undo or a hand holds.
     bool undo();
     bool redo();
+    /// The steps that there are: 0 is the graph as it was opened, step i what stepName(i) made; and which of
+    /// them the graph is.
+    std::size_t stepCount() const { return steps.size(); }
+    const std::string& stepName(std::size_t step) const { return steps[step].name; }
+    std::size_t step() const { return at; }
+    /// Undoes, or does again, up to a step that there is. False if it is that step, or a hand holds.
+    bool goTo(std::size_t step);
 
     /// Whether the graph is another than the one last saved or opened.
     bool unsaved() const;

@@ -27,7 +27,7 @@ using NodeIds = std::vector<std::string>;
 /// One end of a wire. An empty name is the first output.
 struct Plug {
     std::string node, name;
-    bool operator==(const Plug&) const = default;
+    auto operator<=>(const Plug&) const = default;
 };
 
 /// What an edit made: the graph, and the nodes to select.

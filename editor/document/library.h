@@ -1,7 +1,8 @@
-// Finding a node type by what a person types.
+// Finding a node type by what a person types, and by what they took before.
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,8 +10,31 @@
 
 namespace fw::editor {
 
-/// Those of `among` that the words match, the best first: a label that begins so, a word of it that does, an
-/// alias, the category, letters in that order. All of them for no words, in their order.
-std::vector<const NodeType*> findTypes(std::string_view words, std::span<const NodeType* const> among);
+/// What other programs call the type of this id: Blender, Houdini, Substance, OpenSCAD, hg_sdf. Lower-case
+/// words parted by blanks; empty for most.
+std::string_view otherNames(std::string_view type);
+
+/// How well what stands there is what was typed, 0 the best; `kNoMatch` if any of its words, in whatever
+/// order, is in none of the names.
+struct SearchedNames {
+    std::string label;  ///< as it is shown
+    std::string id = {}, others = {}, category = {}, doc = {};
+};
+inline constexpr int kNoMatch = 100;
+int match(std::string_view typed, const SearchedNames& names);
+
+/// Those of `among` that the words match, the best first: a label that begins so, a word of it that does,
+/// another name, the category, its page, letters in that order. Of those that match alike, ids in `recent`
+/// come first, in their order. All of them for no words, in their order.
+std::vector<const NodeType*> findTypes(std::string_view typed, std::span<const NodeType* const> among,
+                                       std::span<const std::string> recent = {});
+
+/// At most `count` of `among`: ids in `recent` first, in their order, then those that graphs have most of.
+std::vector<const NodeType*> usualTypes(std::span<const NodeType* const> among,
+                                        std::span<const std::string> recent, std::size_t count);
+
+/// The id as the first of those that were taken last, which are at most `kMostTaken`.
+void take(std::vector<std::string>& recent, const std::string& id);
+inline constexpr std::size_t kMostTaken = 24;
 
 }  // namespace fw::editor

@@ -54,14 +54,23 @@ Link Wiring::linkFrom(const Plug& plug) const {
     return {plug.node, only ? "" : plug.name};
 }
 
-std::string Wiring::refusal(const Plug& from, const Plug& to) const {
+std::string Wiring::mismatch(const Plug& from, const Plug& to) const {
     const auto source = find(from.node), target = find(to.node);
     if (!source) return "there is no node " + inQuotes(from.node);
     if (!target) return "there is no node " + inQuotes(to.node);
-    const std::optional<Socket> socket = output(from);
+    const std::optional<Socket> socket = output(from), wanted = input(to);
     if (!socket)
         return "node " + inQuotes(from.node) +
                (from.name.empty() ? std::string(" has no output") : " has no output " + inQuotes(from.name));
+    if (!socket->type && its.is(*source, NodeRole::expression) && wanted && wanted->type &&
+        componentCount(*wanted->type) == 0 && !takesNoWire(*wanted->type))
+        return "an expression gives no " + std::string(typeName(*wanted->type));
+    return typeRefusal(socket->type, to);
+}
+
+std::string Wiring::refusal(const Plug& from, const Plug& to) const {
+    const auto source = find(from.node), target = find(to.node);
+    if (!source || !target || !output(from)) return mismatch(from, to);
     // Up the wires from the output: a way to the input's node would close a cycle.
     constexpr uint32_t kUnseen = ~0u;
     std::vector<uint32_t> next(its.nodes.size(), kUnseen),
@@ -84,10 +93,24 @@ std::string Wiring::refusal(const Plug& from, const Plug& to) const {
         names.push_back(from.node);
         return "a cycle: " + arrows(names);
     }
-    if (!socket->type && its.is(*source, NodeRole::expression) && input(to) && input(to)->type &&
-        componentCount(*input(to)->type) == 0 && !takesNoWire(*input(to)->type))
-        return "an expression gives no " + std::string(typeName(*input(to)->type));
-    return typeRefusal(socket->type, to);
+    return mismatch(from, to);
+}
+
+std::set<Plug> Wiring::partners(const Plug& plug, bool plugIsOutput) const {
+    std::set<Plug> found;
+    const std::string ends[] = {plug.node};
+    const std::set<std::string> cyclic =
+        plugIsOutput ? upstream(its.nodes, ends) : downstream(its.nodes, ends);
+    for (uint32_t node = 0; node < its.nodes.size(); ++node) {
+        const std::string& id = its.nodes[node].id;
+        if (cyclic.contains(id) || !hasKnownSockets(its, node)) continue;
+        for (const std::string& name : plugIsOutput ? inputNames(its, node) : outputNames(its, node)) {
+            Plug other{id, name};
+            if ((plugIsOutput ? mismatch(plug, other) : mismatch(other, plug)).empty())
+                found.insert(std::move(other));
+        }
+    }
+    return found;
 }
 
 std::string Wiring::typeRefusal(std::optional<Type> from, const Plug& to) const {

@@ -24,6 +24,8 @@ class Wiring {
     const Link* source(const Plug& input) const;
 
     std::string refusal(const Plug& output, const Plug& input) const;
+    /// The sockets that a wire from this one could lead to: those of which refusal() has nothing to say.
+    std::set<Plug> partners(const Plug& plug, bool plugIsOutput) const;
     /// The same for a value of this type, or of one known only to the compiler, from a node that is not there
     /// yet.
     std::string typeRefusal(std::optional<Type> from, const Plug& input) const;
@@ -36,6 +38,8 @@ class Wiring {
     Link linkFrom(const Plug& output) const;
 
   private:
+    /// refusal(), but for cycles.
+    std::string mismatch(const Plug& output, const Plug& input) const;
     std::string typeRefusal(std::optional<Type> from, uint32_t node, std::string_view name,
                             std::vector<uint32_t>& rerouted) const;
 

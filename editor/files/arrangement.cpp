@@ -35,6 +35,7 @@ Json arrangementOf(const Editor& editor) {
     for (const SidePanel& panel : sidePanels()) all[panel.id] = panels.*panel.open;
     all["timeline"] = panels.timeline;
     all["minimap"] = editor.canvas.minimap;
+    all["costs"] = editor.canvas.costs;
     all["side"] = panels.side;
     all["top"] = panels.top;
     all["low"] = panels.low;
@@ -48,6 +49,7 @@ void arrange(Editor& editor, const Json& all) {
     for (const SidePanel& panel : sidePanels()) take(all, panel.id, panels.*panel.open);
     take(all, "timeline", panels.timeline);
     take(all, "minimap", editor.canvas.minimap);
+    take(all, "costs", editor.canvas.costs);
     take(all, "side", panels.side);
     take(all, "top", panels.top);
     take(all, "low", panels.low);
@@ -73,6 +75,7 @@ void keepArrangement(const Editor& editor, const std::string& path) {
     std::string problem;
     Preferences preferences = readPreferences(path, problem);
     preferences.panels = arrangementOf(editor);
+    preferences.taken = editor.files.preferences.taken;
     // The editor ends: there is nobody left to be told that its window will open as it did before.
     (void)savePreferences(preferences, path);
 }

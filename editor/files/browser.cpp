@@ -17,7 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kOpenTitle = "Open###files", *kSaveTitle = "Save as###files";
+/// What the window is called, what its button says, and what is typed in it: by the kind.
+struct Words {
+    const char *title, *button, *hint;
+};
+constexpr Words kWords[] = {{"Open###files", "Open", "name of a file or a folder"},
+                            {"Save as###files", "Save", "name of the file"},
+                            {"Choose a folder###files", "Choose", "name of a folder in this one, or none"}};
 
 bool isFolder(const std::string& path) {
     std::error_code error;
@@ -90,7 +96,8 @@ std::vector<FolderEntry> listFolder(const std::string& folder, const std::string
         const std::string name = each->path().filename().string();
         std::error_code none;
         const bool isDirectory = each->is_directory(none);
-        if (name.starts_with('.') || (!isDirectory && !lowered(name).ends_with(ending))) continue;
+        if (name.starts_with('.') || (!isDirectory && (ending.empty() || !lowered(name).ends_with(ending))))
+            continue;
         entries.push_back({name, isDirectory});
     }
     std::ranges::sort(entries, [](const FolderEntry& a, const FolderEntry& b) {
@@ -126,7 +133,9 @@ void enter(FileBrowser& browser, const std::string& folder) {
 
 std::optional<std::string> choose(FileBrowser& browser) {
     browser.problem.clear();
+    const bool folders = browser.kind == FileBrowser::Kind::folder;
     if (browser.name.empty()) {
+        if (folders) return browser.folder;
         browser.problem = "choose a file or type its name";
         return std::nullopt;
     }
@@ -142,9 +151,11 @@ std::optional<std::string> choose(FileBrowser& browser) {
         browser.problem = "there is no such file here";
         return std::nullopt;
     }
-    if (!lowered(path).ends_with(browser.ending)) path += browser.ending;
+    if (!folders && !lowered(path).ends_with(browser.ending)) path += browser.ending;
     if (!isFolder(fs::path(path).parent_path().string())) {
         browser.problem = "there is no such folder";
+    } else if (folders && exists(path)) {
+        browser.problem = "this is a file";
     } else if (exists(path) && !std::exchange(browser.asking, true)) {
         browser.name = fs::path(path).filename().string();
     } else {
@@ -155,8 +166,8 @@ std::optional<std::string> choose(FileBrowser& browser) {
 }
 
 std::optional<std::string> show(FileBrowser& browser, float scale) {
-    const bool saves = browser.kind == FileBrowser::Kind::save;
-    const char* title = saves ? kSaveTitle : kOpenTitle;
+    const Words& words = kWords[std::size_t(browser.kind)];
+    const char* title = words.title;
     if (std::exchange(browser.opening, false)) {
         ImGui::OpenPopup(title);
         browser.fresh = true;
@@ -176,9 +187,9 @@ std::optional<std::string> show(FileBrowser& browser, float scale) {
     if (std::exchange(browser.fresh, false)) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
     const std::string before = browser.name;
-    confirmed |= ImGui::InputTextWithHint(
-        "##name", saves ? "name of the file" : "name of a file or a folder", &browser.name,
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    confirmed |=
+        ImGui::InputTextWithHint("##name", words.hint, &browser.name,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (browser.name != before) browser.asking = false, browser.problem.clear();
     if (browser.asking)
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::warning)),
@@ -186,7 +197,7 @@ std::optional<std::string> show(FileBrowser& browser, float scale) {
     else
         ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::error)), "%s",
                            browser.problem.c_str());
-    const char* label = browser.asking ? "Replace" : saves ? "Save" : "Open";
+    const char* label = browser.asking ? "Replace" : words.button;
     confirmed |= ImGui::Button(label, {100 * scale, 0});
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel", {100 * scale, 0}) ||

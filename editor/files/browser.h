@@ -1,4 +1,4 @@
-// Choosing a file to open or a name to save under, in a window of the interface.
+// Choosing a file to open, a name to save under, or a folder, in a window of the interface.
 //
 // Lifetime: one FileBrowser a program; what it shows is read anew when its folder changes or it opens.
 #pragma once
@@ -23,9 +23,9 @@ std::vector<FolderEntry> listFolder(const std::string& folder, const std::string
                                     std::string& problem);
 
 struct FileBrowser {
-    enum class Kind { open, save } kind = Kind::open;
+    enum class Kind { open, save, folder } kind = Kind::open;
     std::string folder;                     ///< absolute
-    std::string ending{kGraphEnding};       ///< of the files shown
+    std::string ending{kGraphEnding};       ///< of the files shown; of a choice of folders none are
     std::string name;                       ///< typed or chosen
     std::vector<FolderEntry> entries = {};  ///< of the folder
     std::string problem = {};               ///< why it cannot be read, or the name not be taken
@@ -40,7 +40,8 @@ void open(FileBrowser& browser, FileBrowser::Kind kind, const std::string& path)
 void enter(FileBrowser& browser, const std::string& folder);
 
 /// What pressing the button means: enters a folder, asks about a file that exists, says what is wrong, or
-/// returns the absolute path chosen. A name to save under gets the ending if it has none.
+/// returns the absolute path chosen. A name to save under gets the ending if it has none; a folder is the one
+/// shown where none is named, and need not be there.
 std::optional<std::string> choose(FileBrowser& browser);
 
 /// One frame of it, if it is open. The path, once, when it was chosen; the window is closed then.

@@ -92,10 +92,13 @@ void showPartly(Editor& editor) {
 void showExporting(Editor& editor) {
     if (std::exchange(editor.files.asksExport, false)) ImGui::OpenPopup(kExporting);
     if (!beginQuestion(editor, kExporting)) return;
-    ImGui::TextWrapped("Ending the editor now ends the export too, which then leaves no file.");
+    ImGui::TextWrapped(exports(editor)
+                           ? "Ending the editor now ends the export too, which then leaves no file."
+                           : "Ending the editor now ends the pictures that are being made. Frames that "
+                             "are there stay.");
     const bool waits = button(editor, "Wait for it") || confirmed() || escaped();
     ImGui::SameLine();
-    if (button(editor, "Quit") || !exports(editor)) editor.quit = true;
+    if (button(editor, "Quit") || !(exports(editor) || renders(editor))) editor.quit = true;
     if (waits) editor.quit = false;
     if (waits || editor.quit) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();

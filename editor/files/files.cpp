@@ -173,7 +173,7 @@ void doNext(Editor& editor) {
         case Next::drop: addDropped(editor, std::exchange(files.dropped, {})); break;
         case Next::samples: files.samples.opening = true; break;
         case Next::recovered: files.offers = true; break;
-        case Next::quit: (exports(editor) ? files.asksExport : editor.quit) = true; break;
+        case Next::quit: (exports(editor) || renders(editor) ? files.asksExport : editor.quit) = true; break;
     }
 }
 

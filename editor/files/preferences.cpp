@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "editor/document/library.h"
 #include "runtime/system/output_file.h"
 #include "runtime/system/user_folder.h"
 
@@ -51,14 +52,18 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
                   (error ? "" : ", and the file is now " + path + ".broken");
         return preferences;
     }
-    take(
-        all, "recent", [](const Json& value) { return value.is_array(); },
-        [&](const Json& value) {
-            for (const Json& each : value)
-                if (each.is_string() && preferences.recent.size() < kMostRecent)
-                    preferences.recent.push_back(each.get<std::string>());
-        },
-        problem);
+    const auto takeTexts = [&](const char* key, std::vector<std::string>& texts, std::size_t most) {
+        take(
+            all, key, [](const Json& value) { return value.is_array(); },
+            [&](const Json& value) {
+                for (const Json& each : value)
+                    if (each.is_string() && texts.size() < most) texts.push_back(each.get<std::string>());
+            },
+            problem);
+    };
+    takeTexts("recent", preferences.recent, kMostRecent);
+    takeTexts("taken", preferences.taken, kMostTaken);
+    takeTexts("favourites", preferences.favourites, nodeTypes().size());
     take(
         all, "scale", isScale, [&](const Json& value) { preferences.scale = value.get<float>(); }, problem);
     take(
@@ -80,6 +85,8 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     if (path.empty()) return done();
     Json all = Json::object();
     all["recent"] = preferences.recent;
+    if (!preferences.taken.empty()) all["taken"] = preferences.taken;
+    if (!preferences.favourites.empty()) all["favourites"] = preferences.favourites;
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
     if (!preferences.panels->is_null()) all["panels"] = preferences.panels;

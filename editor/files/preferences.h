@@ -20,6 +20,8 @@ struct Preferences {
     std::vector<std::string> recent = {};               ///< absolute paths of files, the last opened first
     float scale = 0.0f;                                 ///< of the interface, 0.5 to 4; 0: the display's
     std::map<std::string, std::string> shortcuts = {};  ///< id of a command to keys, "Ctrl+Z"; where changed
+    std::vector<std::string> taken = {};                ///< ids of node types, the last added first
+    std::vector<std::string> favourites = {};           ///< the same, of those that were marked
     KeptJson panels;  ///< an object: how window and panels stand (arrangement.h)
     KeptJson extra;   ///< unknown keys
     bool operator==(const Preferences&) const = default;

@@ -1,4 +1,9 @@
 // The menu to add nodes from: a search field and what it finds, by mouse or keyboard.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include "editor/document/library.h"
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
@@ -9,7 +14,17 @@ namespace {
 
 constexpr const char* kPopup = "Add node";
 
-/// What the menu offers: all types that can be added here, or those that fit the open wire.
+constexpr std::size_t kUsualShown = 6;
+
+/// One line of the menu: a type, or a group.
+struct Offer {
+    std::string heading;  ///< above it, where another part of the list begins
+    std::string label;
+    const NodeType* type = nullptr;
+    const Group* group = nullptr;
+};
+
+/// What the menu can add: all types that can be added here, or those that fit the open wire.
 std::vector<const NodeType*> offered(const Editor& editor) {
     const Graph& graph = editor.document.graph();
     std::vector<const NodeType*> types;
@@ -26,11 +41,49 @@ std::vector<const NodeType*> offered(const Editor& editor) {
     return types;
 }
 
-/// Adds the node, and connects it to the open wire.
-void add(Editor& editor, const NodeType& type, std::string_view group = {}) {
+/// The menu as it stands: what matches, the best first; or, before anything is typed, favourites, what was
+/// taken last or is taken most, and then all by category.
+std::vector<Offer> offersOf(const Editor& editor) {
     const AddMenu& menu = editor.add;
-    Edited edited =
-        addNode(editor.document.graph(), editor.canvas.scope, type.id, position(menu.wish.at), group);
+    const Preferences& preferences = editor.files.preferences;
+    const std::vector<const NodeType*> types = offered(editor);
+    const bool searches = menu.search[0] != 0;
+    std::vector<Offer> offers;
+    const auto add = [&](const NodeType* type, std::string heading) {
+        offers.push_back({std::move(heading), type->label, type, nullptr});
+    };
+    if (!searches) {
+        const auto part = [&](std::span<const NodeType* const> some, const char* heading) {
+            for (const NodeType* type : some) add(type, type == some.front() ? heading : "");
+        };
+        std::vector<const NodeType*> favourites;
+        for (const std::string& id : preferences.favourites)
+            for (const NodeType* type : types)
+                if (type->id == id) favourites.push_back(type);
+        part(favourites, "Favourites");
+        part(usualTypes(types, preferences.taken, kUsualShown),
+             preferences.taken.empty() || menu.wish.plug ? "Usual" : "Recent");
+    }
+    std::optional<Category> category;
+    for (const NodeType* type : findTypes(menu.search, types, preferences.taken)) {
+        const bool first = !searches && category != type->category;
+        category = type->category;
+        add(type, first ? std::string(categoryName(type->category)) : "");
+    }
+    if (menu.wish.plug) return offers;
+    for (const Group& group : editor.document.graph().groups)
+        if (group.id != editor.canvas.scope &&
+            match(menu.search, {.label = group.id, .id = group.id}) < kNoMatch)
+            offers.push_back({"", readable(group.id) + " (group)", findNodeType("group"), &group});
+    return offers;
+}
+
+/// Adds the node, and connects it to the open wire.
+void add(Editor& editor, const Offer& offer) {
+    const AddMenu& menu = editor.add;
+    const NodeType& type = *offer.type;
+    Edited edited = addNode(editor.document.graph(), editor.canvas.scope, type.id, position(menu.wish.at),
+                            offer.group ? offer.group->id : std::string());
     if (menu.wish.plug && !edited.nodes.empty()) {
         const Plug& plug = *menu.wish.plug;
         const std::string& id = edited.nodes.front();
@@ -41,8 +94,44 @@ void add(Editor& editor, const NodeType& type, std::string_view group = {}) {
             edited.graph = menu.wish.plugIsOutput ? connect(edited.graph, editor.canvas.scope, plug, *other)
                                                   : connect(edited.graph, editor.canvas.scope, *other, plug);
     }
+    if (!offer.group) take(editor.files.preferences.taken, type.id);
     apply(editor, "Add " + type.label, std::move(edited));
     ImGui::CloseCurrentPopup();
+}
+
+/// A star at the line's end: filled for a favourite, which a click on it makes or ends. Whether the mouse is
+/// on it.
+bool showStar(Editor& editor, const NodeType& type, bool seen) {
+    std::vector<std::string>& favourites = editor.files.preferences.favourites;
+    const bool is = std::ranges::find(favourites, type.id) != favourites.end();
+    const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+    const float side = hi.y - lo.y;
+    const ImVec2 corner(hi.x - side, lo.y);
+    const bool over = seen && ImGui::IsMouseHoveringRect(corner, hi);
+    if (!is && !seen) return false;
+    std::array<ImVec2, 10> points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const float angle = float(i) * std::numbers::pi_v<float> / 5.0f;
+        const float radius = side * (i % 2 == 0 ? 0.38f : 0.16f);
+        points[i] = {corner.x + 0.5f * side + radius * std::sin(angle),
+                     corner.y + 0.5f * side - radius * std::cos(angle)};
+    }
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImU32 color = themeColor(over || is ? ThemeColor::warning : ThemeColor::text);
+    if (is)
+        for (std::size_t i = 0; i < points.size(); ++i)  // a star is not convex: it has a fan of triangles
+            list->AddTriangleFilled({corner.x + 0.5f * side, corner.y + 0.5f * side}, points[i],
+                                    points[(i + 1) % points.size()], color);
+    else
+        list->AddPolyline(points.data(), int(points.size()), color, ImDrawFlags_Closed, 1.0f);
+    return over;
+}
+
+void turnFavourite(Editor& editor, const std::string& id) {
+    Preferences& preferences = editor.files.preferences;
+    if (std::erase(preferences.favourites, id) == 0) preferences.favourites.push_back(id);
+    if (const Done kept = savePreferences(preferences, preferencesPath()); !kept)
+        say(editor, format(kept.error()));
 }
 
 }  // namespace
@@ -63,16 +152,11 @@ void showAddMenu(Editor& editor) {
     ImGui::SetNextItemWidth(-1);
     if (ImGui::InputTextWithHint("##search", "Search", menu.search, sizeof menu.search)) menu.chosen = 0;
 
-    const std::vector<const NodeType*> types = findTypes(menu.search, offered(editor));
-    std::vector<const Group*> groups;
-    if (!menu.wish.plug)
-        for (const Group& group : editor.document.graph().groups)
-            if (group.id != editor.canvas.scope &&
-                std::string_view(group.id).find(menu.search) != std::string_view::npos)
-                groups.push_back(&group);
-    const int count = int(types.size() + groups.size());
-    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++menu.chosen;
-    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) --menu.chosen;
+    const std::vector<Offer> offers = offersOf(editor);
+    const int count = int(offers.size());
+    const bool down = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow)),
+               up = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow));
+    menu.chosen += int(down) - int(up);
     menu.chosen = count > 0 ? (menu.chosen % count + count) % count : 0;
     const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter));
@@ -80,33 +164,30 @@ void showAddMenu(Editor& editor) {
     ImGui::BeginChild("##found");
     if (count == 0)
         ImGui::TextDisabled(menu.wish.plug ? "Nothing of that name fits this wire" : "Nothing has that name");
-    const NodeType* taken = nullptr;
-    const Group* takenGroup = nullptr;
-    std::optional<Category> category;
-    const bool moved = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow)) ||
-                       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow));
+    const Offer* taken = nullptr;
+    const NodeType* turned = nullptr;
     for (int i = 0; i < count; ++i) {
-        const bool isType = i < int(types.size());
-        if (isType && menu.search[0] == 0 && category != types[std::size_t(i)]->category) {
-            category = types[std::size_t(i)]->category;
-            ImGui::TextDisabled("%s", std::string(categoryName(*category)).c_str());
-        }
-        const std::string label = isType ? types[std::size_t(i)]->label + "##" + types[std::size_t(i)]->id
-                                         : readable(groups[std::size_t(i) - types.size()]->id) + " (group)";
-        const bool clicked = ImGui::Selectable(("  " + label).c_str(), i == menu.chosen);
-        if (i == menu.chosen && moved) ImGui::SetScrollHereY();
-        if (ImGui::IsItemHovered() && isType) ImGui::SetTooltip("%s", types[std::size_t(i)]->doc.c_str());
-        if (!clicked && !(entered && i == menu.chosen)) continue;
-        if (isType)
-            taken = types[std::size_t(i)];
-        else
-            takenGroup = groups[std::size_t(i) - types.size()];
+        const Offer& offer = offers[std::size_t(i)];
+        if (!offer.heading.empty()) ImGui::TextDisabled("%s", offer.heading.c_str());
+        ImGui::PushID(i);
+        const bool clicked = ImGui::Selectable(("  " + offer.label).c_str(), i == menu.chosen,
+                                               ImGuiSelectableFlags_DontClosePopups);
+        const bool hovered = ImGui::IsItemHovered();
+        if (i == menu.chosen && (down || up)) ImGui::SetScrollHereY();
+        const bool onStar = !offer.group && showStar(editor, *offer.type, hovered);
+        if (hovered && !offer.group)
+            ImGui::SetTooltip("%s", onStar ? "Favourites stand first" : offer.type->doc.c_str());
+        ImGui::PopID();
+        if (clicked && onStar)
+            turned = offer.type;
+        else if (clicked || (entered && i == menu.chosen))
+            taken = &offer;
     }
     ImGui::EndChild();
     // At once, whatever has been typed.
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+    if (turned) turnFavourite(editor, turned->id);
     if (taken) add(editor, *taken);
-    if (takenGroup) add(editor, *findNodeType("group"), takenGroup->id);
     ImGui::EndPopup();
 }
 

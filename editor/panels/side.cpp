@@ -15,6 +15,7 @@ constexpr SidePanel kSidePanels[] = {
     {"parameters", "Parameters", &Panels::parameters, showParameters},
     {"scene", "Scene", &Panels::scene, showScene},
     {"statistics", "Statistics", &Panels::statistics, showStatistics},
+    {"history", "History", &Panels::history, showHistory},
 };
 
 /// With the number of problems; the tab's identity stays.

@@ -16,6 +16,7 @@
 #include "graph/document/graph.h"
 #include "runtime/gpu/device.h"
 #include "runtime/measure/mesh_requirements.h"
+#include "runtime/pictures/wish.h"
 #include "runtime/play/session.h"
 
 namespace fw::cli {
@@ -73,19 +74,14 @@ struct MergeOptions : MeshOutput {
 };
 int runMerge(const MergeOptions& options);
 
-enum class PictureFormat { png, exr };
-
 struct RenderCommandOptions {
     MeshOptions mesh;
     std::string output, size = "1280x720", view = "picture";
-    int samples = 16;
-    FieldBy quality = FieldBy::sooner;
+    PictureWish picture;                  ///< but for its size, view and format
     std::optional<PictureFormat> format;  ///< if not given, the output's ending says it; of a sequence PNG
-    bool transparent = false;
-    bool reference = false;
-    int bounces = 0;                                  ///< of paths of light; 0: as many as the solid needs
     std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
     bool range = false;                               ///< the same, within the timeline's range
+    std::optional<double> turntable;  ///< the same, of a camera that goes around in so many seconds
     bool overwrite = false;
 };
 int runRender(const RenderCommandOptions& options);

@@ -182,7 +182,8 @@ int run(int count, char** arguments) {
 
     RenderCommandOptions renderOptions;
     CLI::App* renderCommand = app.add_subcommand(
-        "render", "Make a picture of a graph, or with --from, --to or --fps one for every frame");
+        "render",
+        "Make a picture of a graph, or with --from, --to, --fps or --turntable one for every frame");
     addMesh(renderCommand, renderOptions.mesh);
     renderCommand
         ->add_option("-o,--output", renderOptions.output,
@@ -201,12 +202,24 @@ int run(int count, char** arguments) {
         ->add_option("--fps", renderOptions.framesPerSecond,
                      "Frames a second (default: the timeline's, else 30); frame n shows the time n / fps")
         ->check(finite())
-        ->check(CLI::Range(0.001, kMostFramesPerSecond))
-        ->excludes(moment);
+        ->check(CLI::Range(0.001, kMostFramesPerSecond));
     renderCommand
         ->add_flag("--range", renderOptions.range,
                    "The frames of the timeline's range (default: of all of it)")
         ->excludes(moment);
+    renderCommand
+        ->add_option("--turntable", renderOptions.turntable,
+                     "A camera that goes once around the solid in so many seconds; --time says what it shows")
+        ->check(finite())
+        ->check(CLI::Range(0.001, 3600.0))
+        ->excludes("--from")
+        ->excludes("--to")
+        ->excludes("--range");
+    renderCommand->parse_complete_callback([renderCommand, moment] {
+        if (moment->count() > 0 && renderCommand->count("--fps") > 0 &&
+            renderCommand->count("--turntable") == 0)
+            throw CLI::ExcludesError("--time", "--fps");
+    });
     renderCommand->add_flag("--overwrite", renderOptions.overwrite,
                             "Make frames anew that are there already (default: skip them)");
     static const std::map<std::string, PictureFormat> formats = {{"png", PictureFormat::png},
@@ -220,10 +233,10 @@ int run(int count, char** arguments) {
     renderCommand->add_option("--size", renderOptions.size, "Width and height in pixels: WxH")
         ->default_str(renderOptions.size);
     renderCommand
-        ->add_option("--samples", renderOptions.samples,
+        ->add_option("--samples", renderOptions.picture.samples,
                      "Frames that a picture is the mean of: of edges, soft shadows and ambient occlusion")
         ->check(CLI::Range(1, kMostSamples))
-        ->default_str(std::to_string(renderOptions.samples));
+        ->default_str(std::to_string(renderOptions.picture.samples));
     renderCommand
         ->add_option(
             "--view", renderOptions.view,
@@ -234,17 +247,17 @@ int run(int count, char** arguments) {
         ->check(oneOf(renderViews()))
         ->default_str(renderOptions.view);
     renderCommand->add_flag(
-        "--transparent", renderOptions.transparent,
+        "--transparent", renderOptions.picture.transparent,
         "The solid alone, with alpha: no sky, wall or ground behind it, nor its shadow there");
-    addQuality(renderCommand, renderOptions.quality);
+    addQuality(renderCommand, renderOptions.picture.quality);
     renderCommand->add_flag(
-        "--reference", renderOptions.reference,
+        "--reference", renderOptions.picture.reference,
         "The ground truth: sees the field itself, without a mesh, with 64 rays of ambient "
         "occlusion a sample (1,024 a pixel), each traced to its end; or, with --bounces, where light "
         "passes through something, or the scene has bounce or reflections, whole paths of light, one a "
         "sample");
     renderCommand
-        ->add_option("--bounces", renderOptions.bounces,
+        ->add_option("--bounces", renderOptions.picture.bounces,
                      "Of --reference: paths of light that are reflected by up to so many opaque surfaces")
         ->check(CLI::Range(1, kMostBounces));
 

@@ -90,8 +90,9 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
     } else {
         renderer.fog.hasHistory = false;
     }
-    std::optional<SecondaryKinds> secondary =
-        scene.draft ? std::nullopt : secondaryKinds(options.scene, scene.transmits);
+    std::optional<SecondaryKinds> secondary = scene.draft || showsNoLight(options.show)
+                                                  ? std::nullopt
+                                                  : secondaryKinds(options.scene, scene.transmits);
     if (secondary) secondary->environment = environment;
     const Bloom* bloom = bloomOf(options);
     mean = mean || options.light || bloom;
@@ -109,6 +110,8 @@ bool lightFrame(Commands& commands, Renderer& renderer, const RenderScene& scene
                       renderer.environment.words, fieldOf(renderer, scene), scene.transmits);
         if (cancelled(commands)) return false;
         addSecondary(bound, renderer.secondary, scene.transmits);
+    } else {
+        renderer.secondary.hasHistory = false;
     }
     resizeImage(commands, renderer.means, extent,
                 linear ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_UINT);

@@ -1,10 +1,12 @@
 #include "runtime/render/paths.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "runtime/render/describe.h"
 #include "runtime/render/lighting.h"
@@ -123,7 +125,12 @@ Result<Picture> renderPaths(Renderer& renderer, const RenderScene& scene, const 
                      &push, sizeof push, bound);
         if (cancelled(commands)) return Error{.message = "cancelled"};
         submit(commands);
-        i += int(push.paths);
+        const int before = std::exchange(i, i + int(push.paths));
+        if (options.grows && i < options.samples &&
+            std::bit_width(uint32_t(i)) > std::bit_width(uint32_t(before))) {
+            showPaths(renderer, options, bytes, uint32_t(i));
+            options.grows(readPicture(renderer, options));
+        }
         if (options.keepSums && millisecondsSince(kept) > kBetweenKept) {
             keep(i);
             options.keepSums();
@@ -135,9 +142,7 @@ Result<Picture> renderPaths(Renderer& renderer, const RenderScene& scene, const 
     if (last < options.samples) return Picture{};  // of the last moment
     showPaths(renderer, options, bytes, all);
     if (options.light) options.light->color = readLight(renderer, options);
-    Picture picture = readPicture(renderer);
-    picture.alpha = options.cutout;
-    return picture;
+    return readPicture(renderer, options);
 }
 
 }  // namespace fw

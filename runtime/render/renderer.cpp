@@ -1,6 +1,7 @@
 #include "runtime/render/renderer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 #include <tuple>
@@ -68,10 +69,11 @@ bool sameView(const gpu::View& a, const gpu::View& b) { return std::memcmp(&a, &
 
 }  // namespace
 
-Picture readPicture(const Renderer& renderer) {
+Picture readPicture(const Renderer& renderer, const RenderOptions& options) {
     const glm::uvec2 size = renderer.described.size;
     return {int(size.x), int(size.y),
-            download<uint8_t>(*renderer.device, renderer.readback, 4 * std::size_t(size.x) * size.y)};
+            download<uint8_t>(*renderer.device, renderer.readback, 4 * std::size_t(size.x) * size.y),
+            options.cutout};
 }
 
 std::optional<FieldKernels> createFieldKernels(const Device& device, std::string field,
@@ -245,14 +247,16 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
         commands.cancel = options.cancel;
         if (!drawFrame(commands, renderer, scene, options, view, frame > first - ahead && !lens, i))
             return Error{.message = "cancelled"};
-        if (frame + 1 == options.samples) recordReading(commands, renderer.pixels, renderer.readback);
+        const bool ends = frame + 1 == options.samples;
+        const bool grown =
+            options.grows && !ends && frame >= first && std::has_single_bit(uint32_t(frame + 1));
+        if (ends || grown) recordReading(commands, renderer.pixels, renderer.readback);
         submit(commands);
+        if (grown) options.grows(readPicture(renderer, options));
     }
     if (last < options.samples) return Picture{};  // of the last moment
     if (options.light) options.light->color = readLight(renderer, options);
-    Picture picture = readPicture(renderer);
-    picture.alpha = options.cutout;
-    return picture;
+    return readPicture(renderer, options);
 }
 
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& wishes,
@@ -331,7 +335,7 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
     submit(commands);
     renderer.slow = millisecondsSince(start) > kSlowFrame;
     renderer.shown = shows;
-    if (picture) *picture = readPicture(renderer);
+    if (picture) *picture = readPicture(renderer, options);
     return true;
 }
 

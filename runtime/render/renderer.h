@@ -70,6 +70,8 @@ enum class Primary { drawn, traced, measured };
 
 /// Views into the field: of those that shaders/render/render.h lists.
 constexpr bool showsField(uint32_t view) { return view >= RENDER_STEPS && view <= RENDER_CELLS; }
+/// Views that no light is in: what surfaces are, and how open to the sky and the sun.
+constexpr bool showsNoLight(uint32_t view) { return view >= RENDER_AMBIENT && view <= RENDER_SHADOW; }
 /// Views of particles in place of their surface.
 constexpr bool showsParticles(uint32_t view) { return view == RENDER_POINTS || view == RENDER_SPHERES; }
 
@@ -106,6 +108,8 @@ struct RenderOptions {
     /// Looked at within a frame; that of a live view can be drawn again as if this one had not begun.
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
+    /// Gets a still picture as it grows: of its first sample, and whenever it has about twice as many.
+    std::function<void(Picture)> grows = {};
 };
 
 /// Light that spills from bright places, if the picture has some.
@@ -213,8 +217,8 @@ Result<Picture> renderPicture(Renderer& renderer, const RenderScene& scene, cons
 Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const RenderOptions& options,
                         Picture* picture);
 
-/// The picture in Renderer::readback.
-Picture readPicture(const Renderer& renderer);
+/// The picture in Renderer::readback, of these options.
+Picture readPicture(const Renderer& renderer, const RenderOptions& options);
 
 /// One frame of either, for the benchmarks: what its stages take. `view.pixel` is set here. False if the
 /// commands were cancelled, before the picture was touched.

@@ -18,7 +18,8 @@ layout(binding = 3, scalar) readonly buffer Tiles { uint tiles[]; };
 
 #include "render/solid.glsl"
 
-const float kAbove = 0.6;  // cells
+const float kAbove = 0.6;    // cells
+const float kBehind = 0.05;  // cells: what is deeper within than curved surfaces are behind their planes
 
 void main() {
     fieldBegin();
@@ -52,6 +53,13 @@ void main() {
     // What is stored is a depth: where the pixel's ray meets the surface's plane.
     float along = dot(n, p - view.eye) / min(dot(n, ray), -1e-6);
     along = clamp(along, first - 2.0 * frame.cellSize, first + 2.0 * frame.cellSize);
+    // In a concave edge, whose bevel lies before both its sides, the ray may meet that side behind the other one: the point
+    // is then within what it meets first.
+    vec4 met = fieldGradient(view.eye + ray * along);
+    float steep = max(length(met.xyz), 1e-6), within = -met.w / steep, against = dot(met.xyz, ray) / steep;
+    bool behind = !cap && within > kBehind * frame.cellSize && against < -0.01;
+    n = behind ? met.xyz / steep : n;
+    along = behind ? max(along + within / against, first - 2.0 * frame.cellSize) : along;
     FieldMaterial material = fieldMaterial(view.eye + ray * along);
     uvec4 surface = packSurface(view.near / along, n, material);
     surface = hit ? surface : toGround > 0.0 ? packGround(view.near / toGround) : uvec4(0);

@@ -1,9 +1,13 @@
 // The canvas' geometry, from descriptors alone: what is where, and what the mouse hits.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "editor/canvas/fields.h"
 #include "editor/document/library.h"
+#include "editor/document/wiring.h"
 #include "editor/shortcuts.h"
+#include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
 #include "tests/editor/graphs.h"
 
@@ -204,6 +208,52 @@ TEST(Fields, ValuesStayInRange) {
     EXPECT_EQ(rangeOf(*cells, 64.0).max, cells->spec->max);
 }
 
+TEST(Wires, TheWayThroughOneLeadsFromTheFirstNodeToTheLast) {
+    const Graph graph = parsed(kSmall);
+    const Boxes boxes(graph, "");
+    const auto wireInto = [&](const std::string& node, const std::string& input) {
+        for (uint32_t i = 0; i < boxes.wires.size(); ++i)
+            if (boxes.input(boxes.wires[i]) == Plug{node, input}) return i;
+        ADD_FAILURE() << node;
+        return 0u;
+    };
+    const uint32_t a = wireInto("cut", "a"), b = wireInto("cut", "b"), last = wireInto("out", "surface");
+    const std::vector<bool> through = wayThrough(boxes, a);
+    EXPECT_TRUE(through[a] && through[wireInto("way", "value")] && through[last]);
+    EXPECT_FALSE(through[b]) << "it leads beside";
+    const std::vector<bool> all = wayThrough(boxes, last);
+    EXPECT_EQ(std::ranges::count(all, true), std::ssize(all));
+}
+
+TEST(Wires, FitWhereTheyAreNotRefused) {
+    for (const char* name : {"tower", "island", "goblet", "wet_city", "table_and_stool"}) {
+        const Result<Graph> graph =
+            readGraph(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json", nullptr);
+        if (!graph) continue;
+        std::vector<std::string> scopes{""};
+        for (const Group& group : graph->groups) scopes.push_back(group.id);
+        for (const std::string& scope : scopes) {
+            const Boxes boxes(*graph, scope);
+            const Wiring wiring(*graph, scope);
+            for (const NodeBox& box : boxes.nodes)
+                for (const Row& row : box.rows) {
+                    const Plug plug{box.node->id, row.name};
+                    const std::set<Plug> partners = wiring.partners(plug, row.output);
+                    for (const NodeBox& other : boxes.nodes)
+                        for (const Row& end : other.rows) {
+                            if (end.output == row.output) continue;
+                            const Plug to{other.node->id, end.name};
+                            const std::string why =
+                                row.output ? wiring.refusal(plug, to) : wiring.refusal(to, plug);
+                            EXPECT_EQ(partners.contains(to), why.empty())
+                                << name << ": " << plug.node << "." << plug.name << " and " << to.node << "."
+                                << to.name << ": " << why;
+                        }
+                }
+        }
+    }
+}
+
 TEST(Library, TheBestMatchIsFirst) {
     std::vector<const NodeType*> all;
     for (const NodeType& type : nodeTypes()) all.push_back(&type);
@@ -215,6 +265,60 @@ TEST(Library, TheBestMatchIsFirst) {
     EXPECT_EQ(findTypes("sph", all).front()->id, "sphere");
     EXPECT_EQ(findTypes("SUBTR", all).front()->id, "subtract");
     EXPECT_TRUE(findTypes("no such thing at all", all).empty());
+}
+
+TEST(Library, WordsCountInAnyOrderAndOtherProgramsNamesToo) {
+    std::vector<const NodeType*> all;
+    for (const NodeType& type : nodeTypes()) {
+        all.push_back(&type);
+        // Each name leads to its node, and nearly first.
+        std::istringstream names{std::string(otherNames(type.id))};
+        for (std::string name; names >> name;) {
+            const auto found = findTypes(name, all);
+            EXPECT_TRUE(std::ranges::find(found, &type) != found.end()) << name << ": " << type.id;
+        }
+    }
+    for (const auto& [typed, id] : {std::pair{"repeat polar", "polar_repeat"},
+                                    {"field mesh to", "mesh_to_field"},
+                                    {"xyz COMBINE", "combine_xyz"},
+                                    {"principled bsdf", "material"},
+                                    {"difference", "subtract"},
+                                    {"pModPolar", "polar_repeat"},
+                                    {"xform", "transform"},
+                                    {"marching cubes", "polygonize"},
+                                    {"solidify", "shell"}}) {
+        const auto found = findTypes(typed, all);
+        ASSERT_FALSE(found.empty()) << typed;
+        const std::size_t first =
+            typed == std::string("solidify") || typed == std::string("difference") ? 2 : 1;
+        EXPECT_TRUE(std::ranges::any_of(std::span(found).first(std::min(first, found.size())),
+                                        [&](const NodeType* type) { return type->id == id; }))
+            << typed << " finds " << found[0]->id;
+    }
+    EXPECT_TRUE(findTypes("polar nonsense", all).empty());
+}
+
+TEST(Library, WhatWasTakenLastComesFirst) {
+    std::vector<const NodeType*> all;
+    for (const NodeType& type : nodeTypes()) all.push_back(&type);
+    std::vector<std::string> recent;
+    take(recent, "torus");
+    take(recent, "twist");
+    take(recent, "torus");
+    EXPECT_EQ(recent, (std::vector<std::string>{"torus", "twist"}));
+    EXPECT_EQ(findTypes("t", all, recent)[0]->id, "torus");
+    EXPECT_EQ(findTypes("t", all, recent)[1]->id, "twist");
+    EXPECT_EQ(findTypes("sphere", all, {{"cut_sphere"}})[0]->id, "sphere") << "a better match all the same";
+    const auto usual = usualTypes(all, recent, 4);
+    ASSERT_EQ(usual.size(), 4u);
+    EXPECT_EQ(usual[0]->id, "torus");
+    EXPECT_EQ(usual[1]->id, "twist");
+    EXPECT_EQ(usual[2]->id, "union");
+    EXPECT_EQ(usualTypes({}, recent, 4).size(), 0u);
+    EXPECT_EQ(usualTypes(all, {{"no_such_node"}}, 1)[0]->id, "union");
+    for (int i = 0; i < 100; ++i) take(recent, "x" + std::to_string(i));
+    EXPECT_EQ(recent.size(), kMostTaken);
+    EXPECT_EQ(recent[0], "x99");
 }
 
 TEST(Shortcuts, AreReadAsTheyAreWritten) {

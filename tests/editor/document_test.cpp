@@ -44,6 +44,32 @@ TEST(Document, NamesWhatIsUndoneAndDoneAgain) {
     EXPECT_FALSE(document.graph().node("torus"));
 }
 
+TEST(Document, GoesToAnyStepOfItsList) {
+    Document document(balls(1));
+    std::vector<std::string> states{writeGraph(document.graph())};
+    for (const char* type : {"box", "torus", "cone"}) {
+        document.apply(std::string("Add ") + type, addNode(document.graph(), "", type, {}).graph);
+        states.push_back(writeGraph(document.graph()));
+    }
+    ASSERT_EQ(document.stepCount(), 4u);
+    EXPECT_EQ(document.stepName(0), "");
+    EXPECT_EQ(document.stepName(3), "Add cone");
+    for (const std::size_t step : {1u, 3u, 0u, 2u}) {
+        EXPECT_TRUE(document.goTo(step));
+        EXPECT_EQ(document.step(), step);
+        EXPECT_EQ(writeGraph(document.graph()), states[step]);
+    }
+    EXPECT_EQ(document.undoName(), "Add torus");
+    EXPECT_EQ(document.redoName(), "Add cone");
+    const uint64_t revision = document.revision();
+    EXPECT_FALSE(document.goTo(2)) << "it is there";
+    EXPECT_FALSE(document.goTo(4));
+    EXPECT_EQ(document.revision(), revision);
+    const Hand hand = document.begin("Drag");
+    EXPECT_FALSE(document.goTo(0)) << "a hand holds";
+    document.cancel(hand);
+}
+
 TEST(Document, TakesNoStepForTheSameGraph) {
     Document document(balls(1));
     const uint64_t revision = document.revision();

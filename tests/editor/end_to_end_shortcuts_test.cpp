@@ -250,6 +250,11 @@ const std::map<std::string, Case>& cases() {
              p.keys(keys);
              p.waitFor("Close");
          }},
+        {"file.render",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             p.waitFor("Samples");
+         }},
         {"edit.undo",
          [](Program& p, const std::string& keys) {
              pick(p, {"box"});
@@ -706,8 +711,8 @@ const std::map<std::string, Case>& cases() {
 }
 
 /// After these another window is needed.
-const std::set<std::string> kLast = {"file.new",  "file.open",       "file.save_as", "file.export",
-                                     "file.quit", "picture.shading", "help.node"};
+const std::set<std::string> kLast = {"file.new",    "file.open", "file.save_as",    "file.export",
+                                     "file.render", "file.quit", "picture.shading", "help.node"};
 
 /// What ids of commands begin with.
 std::string areaOf(const Command& command) {

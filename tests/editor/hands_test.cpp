@@ -304,4 +304,47 @@ TEST(Hands, TwoCopiesThatWereLeftAreBothRestored) {
     EXPECT_EQ(leftCopies(folder).size(), 0u);
 }
 
+TEST(Hands, AHundredStepsAreTakenBackAcrossScopes) {
+    DrivenEditor editor(*readGraph(FIELDWRIGHT_SOURCE_DIR "/samples/table_and_stool.field.json", nullptr));
+    NEEDS_EDITOR(editor);
+    ASSERT_FALSE(editor->document.graph().groups.empty());
+    const std::string group = editor->document.graph().groups[0].id;
+    const std::string before = writeGraph(editor->document.graph());
+    std::string presses, again;
+    for (int step = 0; step < 100; ++step) {
+        // Now inside the group, now outside: what is added there is selected there.
+        if (step % 10 == 0) enter(*editor, step % 20 == 0 ? group : "");
+        const double x = 10.0 * step;
+        apply(*editor, "Add",
+              addNode(editor->document.graph(), editor->canvas.scope, step % 3 == 0 ? "box" : "sphere",
+                      {x, 900}));
+        editor.settle();
+        presses += "ctrl+z ", again += "ctrl+y ";
+    }
+    const std::string after = writeGraph(editor->document.graph());
+    EXPECT_EQ(editor->document.stepCount(), 101u);
+    editor.keys(presses);
+    EXPECT_EQ(writeGraph(editor->document.graph()), before);
+    enter(*editor, group);
+    editor.keys(again);
+    EXPECT_EQ(writeGraph(editor->document.graph()), after);
+    enter(*editor, "");
+    editor.keys(presses);
+    EXPECT_EQ(writeGraph(editor->document.graph()), before);
+}
+
+TEST(Hands, AListOfTheStepsLeadsToEach) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    for (const char* type : {"box", "torus", "cone"})
+        apply(*editor, std::string("Add ") + type, addNode(editor->document.graph(), "", type, {0, 0}));
+    editor.keys("ctrl+h");
+    EXPECT_EQ(editor->panels.front, "history");
+    editor.keys("Up Up space");
+    EXPECT_LT(editor->document.step(), 3u);
+    EXPECT_EQ(editor->document.graph().nodes.size(), editor->document.step());
+    editor.keys("ctrl+h");
+    EXPECT_FALSE(editor->panels.history);
+}
+
 }  // namespace fw::editor::hands_test

@@ -115,7 +115,7 @@ TEST(KeyboardOnly, ReachesPanelsMenusAndBack) {
         editor.keys("ctrl+Next");
         seen.insert(editor->panels.front);
     }
-    EXPECT_EQ(seen.size(), sidePanels().size() - 1) << "all but the statistics, which are closed";
+    EXPECT_EQ(seen.size(), sidePanels().size() - 2) << "all but statistics and history, which are closed";
     editor.keys("Escape");
     EXPECT_EQ(editor->panels.keyboard, Part::canvas);
     for (const Part part : {Part::viewport, Part::side, Part::canvas}) {

@@ -39,8 +39,9 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/render", "graph system gpu mesh mesher particles"},
     {"runtime/export", "graph system mesh measure mesher"},
     {"runtime/play", "graph system gpu mesh measure bake mesher stages particles render export"},
+    {"runtime/pictures", "graph system render export play"},
     {"runtime/window", "graph gpu render"},
-    {"runtime/cli", "graph system gpu measure bake render export play window"},
+    {"runtime/cli", "graph system gpu measure bake render export play pictures window"},
 
     {"editor", "graph runtime"},
 };

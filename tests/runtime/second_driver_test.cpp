@@ -24,7 +24,7 @@ namespace fw::second_driver_test {
 const std::set<std::string> kTooMuch = {"cube_morph", "dusk_city",       "mesh_morph",
                                         "tap",        "table_and_stool", "wet_city"};
 /// Of these the light alone: secondary rays, and those through glass.
-const std::set<std::string> kTooMuchLight = {"cornell_box", "glass_of_water", "pool"};
+const std::set<std::string> kTooMuchLight = {"cornell_box", "glass_of_water", "pool", "tidal_wave"};
 
 std::vector<std::string> samples() {
     if (!std::getenv("FIELDWRIGHT_LONG")) return {"csg_part", "tower"};

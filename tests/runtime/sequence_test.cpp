@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "runtime/pictures/sequence.h"
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
 
@@ -74,6 +75,31 @@ TEST_F(Sequence, IsOfTheRangeOnlyIfAsked) {
     EXPECT_EQ(names(frames), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
     EXPECT_EQ(render(frames, {"--from", "0"}).status, 0);
     EXPECT_EQ(names(frames).size(), 8u);
+}
+
+TEST_F(Sequence, OfATurntableGoesOnceAroundAtOneTime) {
+    EXPECT_EQ(render(frames, {"--turntable", "1", "--fps", "6", "--time", "0.5", "--samples", "1"}).status,
+              0);
+    EXPECT_EQ(names(frames).size(), 6u);
+    EXPECT_NE(frame(frames, 0), frame(frames, 3)) << "the light is behind it";
+    const std::string other = folder.path("other");
+    EXPECT_EQ(render(other, {"--turntable", "1", "--fps", "6", "--time", "1", "--samples", "1"}).status, 0);
+    EXPECT_NE(frame(frames, 0), frame(other, 0)) << "another time";
+    EXPECT_EQ(
+        render(other, {"--turntable", "1", "--fps", "6", "--time", "0.5", "--samples", "1", "--overwrite"})
+            .status,
+        0);
+    for (int n = 0; n < 6; ++n) EXPECT_EQ(frame(frames, n), frame(other, n)) << n;
+    const Camera camera = turned({.position = {1, 2, 5}, .target = {1, 1, 1}}, 0.25);
+    EXPECT_NEAR(camera.position[0], 5.0, 1e-12) << "from +z towards +x";
+    EXPECT_EQ(camera.position[1], 2.0);
+    EXPECT_NEAR(camera.position[2], 1.0, 1e-12);
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--turntable", "1", "--from", "1"},
+                                                  {"--turntable", "0"},
+                                                  {"--turntable", "x"},
+                                                  {"--time", "1", "--fps", "5"}})
+        expectRefusal(render(folder.path("none"), wrong), 2, {wrong[0]});
+    EXPECT_FALSE(std::filesystem::exists(folder.path("none")));
 }
 
 TEST_F(Sequence, GoesOnWhereItStopped) {

@@ -1,4 +1,4 @@
-#include "runtime/cli/kept_paths.h"
+#include "runtime/pictures/kept_paths.h"
 
 #include <bit>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "graph/document/json.h"
 #include "runtime/system/output_file.h"
 
-namespace fw::cli {
+namespace fw {
 
 namespace {
 
@@ -81,4 +81,4 @@ void KeptPaths::remove() const {
     std::filesystem::remove(path, ignored);
 }
 
-}  // namespace fw::cli
+}  // namespace fw

@@ -1,5 +1,4 @@
-// The paths of light that a picture was left with when its command was ended, so that the same command goes
-// on.
+// The paths of light that a picture was left with when its making was ended, so that the same wish goes on.
 //
 // They lie in a file beside the picture, which goes when the picture is written. It is written whole or not
 // at all, now and then; what was traced after the last time is traced again.
@@ -7,7 +6,7 @@
 
 #include "runtime/play/player.h"
 
-namespace fw::cli {
+namespace fw {
 
 class KeptPaths {
   public:
@@ -28,4 +27,4 @@ class KeptPaths {
     std::size_t floats;  ///< of its sums
 };
 
-}  // namespace fw::cli
+}  // namespace fw
