@@ -198,6 +198,8 @@ constexpr Command kCommands[] = {
     {"file.samples", "File", "Samples …", "", everywhere, always, [](Editor& e) { proceed(e, Files::Next::samples); }},
     {"file.recovered", "File", "Recovered work …", "", everywhere,
      [](const Editor& e) { return !e.files.left.empty(); }, [](Editor& e) { proceed(e, Files::Next::recovered); }},
+    {"file.versions", "File", "Versions …", "", everywhere,
+     [](const Editor& e) { return !e.document.graph().path.empty(); }, offerVersions},
     {"file.save", "File", "Save", "Ctrl+S", everywhere, always,
      [](Editor& e) { e.files.next = Files::Next::none, save(e); }},
     {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", everywhere, always, saveAs},

@@ -86,7 +86,7 @@ bool showEntries(FileBrowser& browser, float height) {
 
 }  // namespace
 
-std::vector<FolderEntry> listFolder(const std::string& folder, const std::string& ending,
+std::vector<FolderEntry> listFolder(const std::string& folder, std::span<const std::string> endings,
                                     std::string& problem) {
     std::vector<FolderEntry> entries;
     std::error_code error;
@@ -96,8 +96,8 @@ std::vector<FolderEntry> listFolder(const std::string& folder, const std::string
         const std::string name = each->path().filename().string();
         std::error_code none;
         const bool isDirectory = each->is_directory(none);
-        if (name.starts_with('.') || (!isDirectory && (ending.empty() || !lowered(name).ends_with(ending))))
-            continue;
+        const auto ends = [low = lowered(name)](const std::string& ending) { return low.ends_with(ending); };
+        if (name.starts_with('.') || (!isDirectory && std::ranges::none_of(endings, ends))) continue;
         entries.push_back({name, isDirectory});
     }
     std::ranges::sort(entries, [](const FolderEntry& a, const FolderEntry& b) {
@@ -125,7 +125,7 @@ void open(FileBrowser& browser, FileBrowser::Kind kind, const std::string& path)
 void enter(FileBrowser& browser, const std::string& folder) {
     const bool up = folder == "..";
     browser.folder = plain(fs::path(browser.folder) / folder);
-    browser.entries = listFolder(browser.folder, browser.ending, browser.problem);
+    browser.entries = listFolder(browser.folder, browser.endings, browser.problem);
     browser.asking = false;
     if (up || browser.kind == FileBrowser::Kind::open) browser.name.clear();
     browser.fresh = true;
@@ -146,12 +146,13 @@ std::optional<std::string> choose(FileBrowser& browser) {
         return std::nullopt;
     }
     if (browser.kind == FileBrowser::Kind::open) {
-        if (!exists(path) && exists(path + browser.ending)) path += browser.ending;
+        for (const std::string& ending : browser.endings)
+            if (!exists(path) && exists(path + ending)) path += ending;
         if (exists(path)) return path;
         browser.problem = "there is no such file here";
         return std::nullopt;
     }
-    if (!folders && !lowered(path).ends_with(browser.ending)) path += browser.ending;
+    if (!folders && !lowered(path).ends_with(browser.endings.front())) path += browser.endings.front();
     if (!isFolder(fs::path(path).parent_path().string())) {
         browser.problem = "there is no such folder";
     } else if (folders && exists(path)) {

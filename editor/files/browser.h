@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,16 @@ struct FolderEntry {
     bool operator==(const FolderEntry&) const = default;
 };
 
-/// The folders and the files with this ending in a folder, folders first, by name whatever its case; hidden
-/// ones are left out. `problem` says why a folder cannot be read.
-std::vector<FolderEntry> listFolder(const std::string& folder, const std::string& ending,
+/// The folders and the files with one of these endings in a folder, folders first, by name whatever its case;
+/// hidden ones are left out. `problem` says why a folder cannot be read.
+std::vector<FolderEntry> listFolder(const std::string& folder, std::span<const std::string> endings,
                                     std::string& problem);
 
 struct FileBrowser {
     enum class Kind { open, save, folder } kind = Kind::open;
-    std::string folder;                     ///< absolute
-    std::string ending{kGraphEnding};       ///< of the files shown; of a choice of folders none are
+    std::string folder;  ///< absolute
+    /// Of the files shown; the first is that of a name without one. None: no files are.
+    std::vector<std::string> endings{std::string(kGraphEnding)};
     std::string name;                       ///< typed or chosen
     std::vector<FolderEntry> entries = {};  ///< of the folder
     std::string problem = {};               ///< why it cannot be read, or the name not be taken

@@ -20,30 +20,6 @@ std::string nameOf(const fs::path& file) { return file.filename().string(); }
 
 bool isGraph(const std::string& file) { return lowered(file).ends_with(kGraphEnding); }
 
-/// The path of the file from the document's folder on, the file brought there if need be. What was done goes
-/// to `told`.
-Result<std::string> bring(const std::string& folder, const std::string& file,
-                          std::vector<std::string>& told) {
-    const std::string name = nameOf(file);
-    const FileKind& kind = *fileInputFor(file)->input->file;
-    if (firstBadByte(file) != std::string::npos)
-        return Error{.message = "a file's name that is not UTF-8 cannot be in a graph: rename it"};
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return Error{.message = name + " is no ordinary file"};
-    if (fs::file_size(file, error) > kind.mostBytes)
-        return Error{.message = name + " has more than " + std::to_string(kind.mostBytes >> 20) +
-                                " MiB: drop a smaller " + std::string(kind.noun)};
-    const Result<BroughtFile> brought = bringFile(folder, file, name, kind);
-    if (!brought) return brought.error();
-    if (brought->how == BroughtFile::How::copied)
-        told.push_back(
-            "copied " + name + " beside the document" +
-            (brought->path == name ? "" : ", as " + brought->path + " since there is another of its name"));
-    if (brought->how == BroughtFile::How::same)
-        told.push_back("took the " + brought->path + " that is beside the document: it is the same");
-    return brought->path;
-}
-
 /// "a mesh (.glb, .gltf)" of each kind that has a node.
 std::string whatCanBeDropped() {
     std::string text;
@@ -84,6 +60,27 @@ Position placeFor(const Editor& editor, ImVec2 mouse, const std::vector<std::str
 
 }  // namespace
 
+Result<std::string> bringToDocument(const Editor& editor, const std::string& file, const FileKind& kind,
+                                    std::vector<std::string>& told) {
+    const std::string name = nameOf(file);
+    if (firstBadByte(file) != std::string::npos)
+        return Error{.message = "a file's name that is not UTF-8 cannot be in a graph: rename it"};
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return Error{.message = name + " is no ordinary file"};
+    if (fs::file_size(file, error) > kind.mostBytes)
+        return Error{.message = name + " has more than " + std::to_string(kind.mostBytes >> 20) +
+                                " MiB: take a smaller " + std::string(kind.noun)};
+    const Result<BroughtFile> brought = bringFile(workFolder(editor), file, name, kind);
+    if (!brought) return brought.error();
+    if (brought->how == BroughtFile::How::copied)
+        told.push_back(
+            "copied " + name + " beside the document" +
+            (brought->path == name ? "" : ", as " + brought->path + " since there is another of its name"));
+    if (brought->how == BroughtFile::How::same)
+        told.push_back("took the " + brought->path + " that is beside the document: it is the same");
+    return brought->path;
+}
+
 void drop(Editor& editor, const std::vector<std::string>& files) {
     if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
         return say(editor,
@@ -111,7 +108,7 @@ void drop(Editor& editor, const std::vector<std::string>& files) {
 void addDropped(Editor& editor, const DroppedFiles& dropped) {
     std::vector<std::string> told, paths;
     for (const std::string& file : dropped.files) {
-        Result<std::string> path = bring(workFolder(editor), file, told);
+        Result<std::string> path = bringToDocument(editor, file, *fileInputFor(file)->input->file, told);
         if (path)
             paths.push_back(std::move(*path));
         else

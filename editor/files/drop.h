@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "editor/document/edits.h"
+#include "graph/base/file_kind.h"
 
 namespace fw::editor {
 
@@ -22,6 +23,10 @@ struct DroppedFiles {
 
 /// Files that were dropped where the mouse is. What cannot be done is said in the status line.
 void drop(Editor& editor, const std::vector<std::string>& files);
+/// The path of the file from the document's folder on, the file brought there if need be. What was done goes
+/// to `told`.
+Result<std::string> bringToDocument(const Editor& editor, const std::string& file, const FileKind& kind,
+                                    std::vector<std::string>& told);
 /// The nodes of files, in one step of undo. The document has a file.
 void addDropped(Editor& editor, const DroppedFiles& dropped);
 

@@ -14,6 +14,7 @@ constexpr const char* kQuestion = "Unsaved changes";
 constexpr const char* kOffer = "Recovered work";
 constexpr const char* kPartly = "Parts of the file were not read";
 constexpr const char* kOutside = "Changed outside";
+constexpr const char* kVersions = "Versions";
 constexpr const char* kExporting = "An export is under way";
 constexpr std::size_t kMostShown = 12;  // problems in a message; the list in the panel has all
 
@@ -133,6 +134,27 @@ void showOutside(Editor& editor) {
     ImGui::EndPopup();
 }
 
+void showVersions(Editor& editor) {
+    Files& files = editor.files;
+    if (std::exchange(files.asksVersions, false)) ImGui::OpenPopup(kVersions);
+    if (!beginQuestion(editor, kVersions)) return;
+    ImGui::TextWrapped(
+        "What %s held before it was saved over. Going back is one step, which undo takes back.",
+        nameOf(editor).c_str());
+    const Version* chosen = confirmed() ? &files.versions.front() : nullptr;
+    for (std::size_t i = 0; i < files.versions.size(); ++i) {
+        const Version& version = files.versions[i];
+        ImGui::PushID(int(i));
+        if (ImGui::Button("Go back")) chosen = &version;
+        ImGui::SameLine();
+        ImGui::Text("until %s, %.1f kB", words(version.until).c_str(), double(version.bytes) / 1000.0);
+        ImGui::PopID();
+    }
+    if (chosen) restore(editor, *chosen);
+    if (chosen || button(editor, "Cancel") || escaped()) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
 void showMessage(Editor& editor) {
     Message& message = editor.files.message;
     if (message.title.empty()) return;
@@ -201,11 +223,20 @@ void showOffer(Editor& editor) {
 
 }  // namespace
 
+void offerVersions(Editor& editor) {
+    editor.files.versions = versionsOf(editor.document.graph().path);
+    if (editor.files.versions.empty())
+        return say(editor,
+                   "no versions are kept yet: saving keeps what the file held, once a quarter of an hour");
+    editor.files.asksVersions = true;
+}
+
 void showFileDialogs(Editor& editor) {
     showQuestion(editor);
     showPartly(editor);
     showExporting(editor);
     showOutside(editor);
+    showVersions(editor);
     showMessage(editor);
     showOffer(editor);
 }

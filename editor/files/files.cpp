@@ -185,6 +185,8 @@ bool writeFile(Editor& editor, const std::string& path) {
         if (const Done kept = keepBeside(path); !kept) return fail(kept.error());
     std::vector<std::string> told{"saved " + path};
     const Graph moved = withFiles(graph, path, told);
+    if (const Done kept = keepVersion(path); !kept)
+        told.push_back("no version of what was there is kept: " + format(kept.error()));
     if (const Done saved = saveGraph(moved, path); !saved) return fail(saved.error());
     editor.document.setPath(path);
     editor.document.apply("Save As", moved);
@@ -234,6 +236,16 @@ void reload(Editor& editor, const std::string& text) {
             "another program changed " + fileName(path) + ": it was loaded anew, undo takes that back");
 }
 
+void restore(Editor& editor, const Version& version) {
+    const Result<std::string> text = readGraphText(version.path);
+    const std::string path = editor.document.graph().path;
+    PartialGraph read = text ? parseWhatCanBeRead(*text, path) : PartialGraph{};
+    if (!text) read.findings = {text.error()};
+    if (!read.any) return tell(editor, "This version cannot be read", "It stays where it is:", read.findings);
+    editor.document.apply("Go back to " + words(version.until), placeAll(read.graph));
+    say(editor, "as it was until " + words(version.until) + ": undo takes that back, saving keeps it");
+}
+
 void restore(Editor& editor, const LeftCopy& copy) {
     const Result<Graph> graph = readCopy(copy);
     if (!graph) return tell(editor, "This copy cannot be read", "It stays where it is:", {graph.error()});
@@ -267,6 +279,26 @@ void startFiles(Editor& editor, const std::string& path) {
     if (!path.empty()) openFirst(editor, path);
 }
 
+namespace {
+
+void showPick(Editor& editor) {
+    FilePick& pick = editor.files.pick;
+    if (!pick.kind) return;
+    ImGui::PushID("pick");
+    const auto file = show(pick.browser, editor.shell.scale());
+    ImGui::PopID();
+    if (!file) return;
+    std::vector<std::string> told;
+    const Result<std::string> path = bringToDocument(editor, *file, *pick.kind, told);
+    if (path)
+        std::exchange(pick, {}).take(editor, *path);
+    else
+        told.push_back(path.error().message);
+    if (!told.empty()) say(editor, joined(told));
+}
+
+}  // namespace
+
 void showFiles(Editor& editor) {
     Files& files = editor.files;
     if (const auto path = show(files.browser, editor.shell.scale())) {
@@ -276,6 +308,7 @@ void showFiles(Editor& editor) {
             doNext(editor);
     }
     if (const auto path = show(files.samples, editor.shell)) openFile(editor, *path);
+    showPick(editor);
     // Not into what a hand is doing: it waits for that to end.
     if (!editor.document.held())
         if (const std::vector<std::string> dropped = editor.shell.takeDropped(); !dropped.empty())
@@ -293,6 +326,21 @@ void showFiles(Editor& editor) {
     const std::string title =
         nameOf(editor) + (editor.document.unsaved() ? " * - Fieldwright" : " - Fieldwright");
     if (title != files.title) editor.shell.setTitle(files.title = title);
+}
+
+void pickFile(Editor& editor, const FileKind& kind, const std::string& now,
+              std::function<void(Editor&, const std::string& path)> take) {
+    Files& files = editor.files;
+    if (editor.document.graph().path.empty() || files.origin == Origin::sample) {
+        say(editor, "save the document first: a graph reads files from its own folder");
+        return saveAs(editor);
+    }
+    files.pick = {.kind = &kind, .take = std::move(take)};
+    files.pick.browser.endings.assign(kind.endings.begin(), kind.endings.end());
+    const fs::path there = fs::path(workFolder(editor)) / now;
+    std::error_code none;
+    open(files.pick.browser, FileBrowser::Kind::open,
+         !now.empty() && fs::exists(there, none) ? there.string() : workFolder(editor));
 }
 
 bool watchFile(Editor& editor, FileWatch::Clock::time_point now) {

@@ -6,6 +6,7 @@
 // a crash left are offered at the start. Lifetime: part of the Editor.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "editor/files/assets.h"
@@ -14,6 +15,7 @@
 #include "editor/files/preferences.h"
 #include "editor/files/recovery.h"
 #include "editor/files/samples.h"
+#include "editor/files/versions.h"
 #include "editor/files/watch.h"
 
 namespace fw::editor {
@@ -26,6 +28,13 @@ struct Message {
     std::string text;
     std::vector<Error> problems = {};
     bool opening = true;
+};
+
+/// A file that is being chosen for something in the document.
+struct FilePick {
+    FileBrowser browser = {};
+    const FileKind* kind = nullptr;  ///< null: none is
+    std::function<void(Editor&, const std::string& path)> take = {};
 };
 
 struct Files {
@@ -60,13 +69,16 @@ struct Files {
     std::string waits;  ///< where to save once that is answered; empty: nowhere
     Message message;
     FileBrowser browser;
+    FilePick pick;
     Samples samples;
     Recovery recovery;
     Preferences preferences;
-    std::vector<LeftCopy> left;  ///< of crashes, not yet decided on
-    bool offers = false;         ///< these are shown
-    std::string title;           ///< that the window has
-    std::string failureTold;     ///< of the preview, last
+    std::vector<LeftCopy> left;          ///< of crashes, not yet decided on
+    bool offers = false;                 ///< these are shown
+    std::vector<Version> versions = {};  ///< of the document's file, while they are shown
+    bool asksVersions = false;           ///< these are to be opened
+    std::string title;                   ///< that the window has
+    std::string failureTold;             ///< of the preview, last
 };
 
 /// Reads preferences, looks for copies that were left, and opens the file, if there is a path. One that does
@@ -83,10 +95,17 @@ std::string pastedText(Editor& editor);
 /// The recent files as entries of ImGui's current menu.
 void showRecent(Editor& editor);
 
+/// Asks for a file of this kind, in place of `now`, if that is one; `take` gets its path from the document's
+/// folder on, to which it is brought if need be. A document without a file has to be saved first.
+void pickFile(Editor& editor, const FileKind& kind, const std::string& now,
+              std::function<void(Editor&, const std::string& path)> take);
+
 /// Does it, after a question if changes would be lost.
 void proceed(Editor& editor, Files::Next next, std::string path = {});
 /// Shows the file in place of the document; a message where that cannot be, which leaves the document.
 void openFile(Editor& editor, const std::string& path);
+/// Opens the list of what the document's file held before it was saved over.
+void offerVersions(Editor& editor);
 /// To the document's file; asks for one if it has none. Whether the file was written.
 bool save(Editor& editor);
 void saveAs(Editor& editor);
@@ -110,6 +129,8 @@ bool saveTo(Editor& editor, const std::string& path);
 void doNext(Editor& editor);
 /// The text in place of the document, as one step of undo.
 void reload(Editor& editor, const std::string& text);
+/// The version in place of the document, as one step of undo.
+void restore(Editor& editor, const Version& version);
 void restore(Editor& editor, const LeftCopy& copy);
 void showFileDialogs(Editor& editor);
 

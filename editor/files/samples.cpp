@@ -85,7 +85,7 @@ std::vector<Sample> listSamples(const std::string& folder) {
     std::vector<Sample> samples;
     std::string problem;
     if (folder.empty()) return samples;
-    for (const FolderEntry& entry : listFolder(folder, std::string(kGraphEnding), problem))
+    for (const FolderEntry& entry : listFolder(folder, {{std::string(kGraphEnding)}}, problem))
         if (!entry.folder)
             samples.push_back({(fs::path(folder) / entry.name).string(),
                                labelOf(entry.name.substr(0, entry.name.size() - kGraphEnding.size()))});

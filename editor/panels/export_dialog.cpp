@@ -61,7 +61,7 @@ void showFile(ExportDialog& dialog, float scale) {
     ImGui::SameLine(0, 4 * scale);
     if (ImGui::Button("Browse …", {-1, 0})) {
         const ExportFormat* format = exportFormat(dialog.path);
-        dialog.browser.ending = format ? format->ending : exportFormats().front().ending;
+        dialog.browser.endings = {format ? format->ending : exportFormats().front().ending};
         open(dialog.browser, FileBrowser::Kind::save, dialog.path);
     }
 }

@@ -120,15 +120,17 @@ void showPoints(const Input& input) {
     }
 }
 
-void showText(const Input& input) {
+void showText(const Input& input, float room) {
     const FileKind* kind = input.row.spec ? input.row.spec->file : nullptr;
     const Plug plug = input.plug;
     const std::string scope(input.scope()), name = input.setName();
-    editText(
-        input.editor, "##text", valueText(input.row), kind ? ("the path of " + anyOf(*kind)).c_str() : "",
-        [plug, scope, name](Editor& in, const std::string& text) {
-            in.document.apply(name, setInput(in.document.graph(), scope, plug, InputValue{.value = text}));
-        });
+    const auto commit = [plug, scope, name](Editor& in, const std::string& text) {
+        in.document.apply(name, setInput(in.document.graph(), scope, plug, InputValue{.value = text}));
+    };
+    if (kind)
+        editFile(input.editor, "##text", valueText(input.row), *kind, room, commit);
+    else
+        editText(input.editor, "##text", valueText(input.row), "", commit);
 }
 
 void showChoice(const Input& input) {
@@ -183,7 +185,7 @@ void showValue(const Input& input, const Track* track, float room, std::string& 
         return editAnimated(input.editor, "##animated", *track, range, readable(row.name), input.held());
     }
     if (row.type == Type::string && row.spec && !row.spec->options.empty()) return showChoice(input);
-    if (row.type == Type::string || row.type == Type::image) return showText(input);
+    if (row.type == Type::string || row.type == Type::image) return showText(input, room);
     if (row.type == Type::points) return showPoints(input);
     if (row.type == Type::boolean) {
         bool on = numbersOf(row).at(0) != 0.0;

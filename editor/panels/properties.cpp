@@ -228,6 +228,34 @@ void editText(Editor& editor, const char* id, const std::string& text, const cha
     followText(editor, ImGui::GetID(id), text, shown, std::move(commit));
 }
 
+namespace {
+
+/// A square button with a folder on it.
+bool folderButton(const char* id) {
+    const float side = ImGui::GetFrameHeight();
+    const bool pressed = ImGui::Button(id, {side, side});
+    const ImVec2 at = ImGui::GetItemRectMin();
+    const auto part = [&](float x, float y) { return ImVec2(at.x + x * side, at.y + y * side); };
+    const ImVec2 outline[] = {part(0.2f, 0.3f),  part(0.42f, 0.3f), part(0.5f, 0.39f),
+                              part(0.8f, 0.39f), part(0.8f, 0.72f), part(0.2f, 0.72f)};
+    ImGui::GetWindowDrawList()->AddPolyline(outline, 6, ImGui::GetColorU32(ImGuiCol_Text), ImDrawFlags_Closed,
+                                            0.06f * side);
+    return pressed;
+}
+
+}  // namespace
+
+void editFile(Editor& editor, const char* id, const std::string& path, const FileKind& kind, float room,
+              const std::function<void(Editor&, const std::string&)>& commit) {
+    ImGui::SetNextItemWidth(-room - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
+    editText(editor, id, path, ("the path of " + anyOf(kind)).c_str(), commit);
+    ImGui::SameLine();
+    ImGui::PushID(id);
+    if (folderButton("##browse")) pickFile(editor, kind, path, commit);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Choose %s", anyOf(kind).c_str());
+    ImGui::PopID();
+}
+
 bool keyButton(const char* id, bool filled, bool animated, const char* tip) {
     const float side = ImGui::GetFrameHeight();
     const ImVec2 at = ImGui::GetCursorScreenPos();

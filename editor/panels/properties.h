@@ -76,6 +76,10 @@ void follow(Editor& editor, const char* id, const Touched& touched, const std::s
 void editText(Editor& editor, const char* id, const std::string& text, const char* hint,
               std::function<void(Editor&, const std::string&)> commit);
 
+/// The path of a file: a line of text, and a button that chooses one (pickFile). `room` as in propertyRow().
+void editFile(Editor& editor, const char* id, const std::string& path, const FileKind& kind, float room,
+              const std::function<void(Editor&, const std::string&)>& commit);
+
 /// A small button with a diamond: filled where there is a key. Whether it was pressed.
 bool keyButton(const char* id, bool filled, bool animated, const char* tip);
 

@@ -76,7 +76,8 @@ void showPlace(RenderDialog& dialog, float scale) {
     ImGui::InputText("##path", &pathOf(dialog));
     ImGui::SameLine(0, 4 * scale);
     if (ImGui::Button("Browse …", {-1, 0})) {
-        dialog.browser.ending = isSequence(dialog) ? "" : endingOf(dialog);
+        dialog.browser.endings.clear();
+        if (!isSequence(dialog)) dialog.browser.endings.push_back(endingOf(dialog));
         open(dialog.browser, isSequence(dialog) ? FileBrowser::Kind::folder : FileBrowser::Kind::save,
              pathOf(dialog));
     }

@@ -165,9 +165,8 @@ void showSky(Editor& editor, const Scene& scene) {
     color(editor, "sky.ground", "Ground", scene.sky->ground);
     number(editor, "sky.strength", "Strength", "A factor on all of it.", scene.sky->strength, kStrengthRange);
     propertyRow("Picture", "An environment map, in the folder of the graph's file or in one below it.");
-    editText(
-        editor, "##image", scene.sky->image, ("the path of " + anyOf(kEnvironmentFile)).c_str(),
-        [](Editor& in, const std::string& text) {
+    editFile(
+        editor, "##image", scene.sky->image, kEnvironmentFile, 0.0f, [](Editor& in, const std::string& text) {
             const Graph& graph = in.document.graph();
             set(in, "Sky's Picture",
                 text.empty() ? clearSceneValue(graph, "sky.image") : setSceneValue(graph, "sky.image", text));

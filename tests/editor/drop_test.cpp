@@ -109,6 +109,37 @@ class Dropped : public testing::Test {
     DrivenEditor editor{graphOf(kOut)};
 };
 
+/// Of a node that is there: chosen in a window, and brought like what is dropped.
+TEST_F(Dropped, AFileIsChosenForAnInput) {
+    apply(*editor, "Add", addNode(graph(), "", "mesh_file", {0, 300}));
+    editor.settle();
+    const Plug plug{"mesh_file", "path"};
+    const auto take = [plug](Editor& in, const std::string& path) {
+        in.document.apply("Set", setInput(in.document.graph(), "", plug, InputValue{.value = path}));
+    };
+    pickFile(*editor, kMeshFile, "", take);
+    editor.settle();
+    EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+    editor.type(elsewhere("cube"));  // its ending is one that meshes have
+    editor.keys("Return");
+    EXPECT_FALSE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+    EXPECT_EQ(pathsOf(graph()), std::vector<std::string>{"cube.obj"});
+    EXPECT_TRUE(said("copied cube.obj beside the document")) << editor->notice;
+    EXPECT_TRUE(fs::exists(work("cube.obj")));
+    // What is there is offered first; leaving it changes nothing.
+    pickFile(*editor, kMeshFile, "cube.obj", take);
+    editor.settle();
+    EXPECT_EQ(editor->files.pick.browser.name, "cube.obj");
+    editor.keys("Escape");
+    EXPECT_EQ(pathsOf(graph()), std::vector<std::string>{"cube.obj"});
+    // Beside a document without a file there is no place for files.
+    editor->document.setPath("");
+    pickFile(*editor, kMeshFile, "", take);
+    EXPECT_TRUE(said("save the document first")) << editor->notice;
+    editor.settle();
+    editor.keys("Escape");
+}
+
 TEST_F(Dropped, AMeshBecomesTwoNodesInOneStepAndIsSeen) {
     writeText(work("sub/cube.obj"), cubeText());
     const Graph before = graph();

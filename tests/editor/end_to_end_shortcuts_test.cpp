@@ -459,6 +459,15 @@ const std::map<std::string, Case>& cases() {
              p.waitForChange(before, place);
              p.keys(keys);
          }},
+        {"view.history",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"ball"});
+             p.keys("Delete");
+             p.keys(keys);
+             p.clickOn("As it was opened");
+             EXPECT_EQ(nodesAfter(p), (Ids{"box", "ball", "cut", "out"}));
+             p.keys(keys, 2);  // the click gave it the keyboard
+         }},
         {"view.timeline",
          [](Program& p, const std::string& keys) {
              const Picture before = p.screen();

@@ -172,11 +172,11 @@ TEST(FileBrowser, ListsFoldersAndGraphs) {
         writeText(folder.path(name), "");
     std::string problem;
     EXPECT_EQ(
-        listFolder(folder.folder.string(), ".field.json", problem),
+        listFolder(folder.folder.string(), {{".field.json"}}, problem),
         (std::vector<FolderEntry>{
             {"zebra", true}, {"A.field.json", false}, {"b.field.json", false}, {"E.FIELD.JSON", false}}));
     EXPECT_EQ(problem, "");
-    EXPECT_TRUE(listFolder(folder.path("none"), ".field.json", problem).empty());
+    EXPECT_TRUE(listFolder(folder.path("none"), {{".field.json"}}, problem).empty());
     EXPECT_NE(problem, "");
 }
 

@@ -310,7 +310,14 @@ TEST(Hands, AHundredStepsAreTakenBackAcrossScopes) {
     ASSERT_FALSE(editor->document.graph().groups.empty());
     const std::string group = editor->document.graph().groups[0].id;
     const std::string before = writeGraph(editor->document.graph());
-    std::string presses, again;
+    const auto press = [&](const std::string& keys) {
+        for (int i = 0; i < 10; ++i) {
+            std::string ten;
+            for (int k = 0; k < 10; ++k) ten += keys + " ";
+            // GLFW takes a second press within a millisecond for the first one, told twice.
+            editor.send("key --delay 4 " + ten);
+        }
+    };
     for (int step = 0; step < 100; ++step) {
         // Now inside the group, now outside: what is added there is selected there.
         if (step % 10 == 0) enter(*editor, step % 20 == 0 ? group : "");
@@ -318,19 +325,17 @@ TEST(Hands, AHundredStepsAreTakenBackAcrossScopes) {
         apply(*editor, "Add",
               addNode(editor->document.graph(), editor->canvas.scope, step % 3 == 0 ? "box" : "sphere",
                       {x, 900}));
-        editor.settle();
-        presses += "ctrl+z ", again += "ctrl+y ";
+        if (step % 10 == 9) editor.settle();
     }
     const std::string after = writeGraph(editor->document.graph());
     EXPECT_EQ(editor->document.stepCount(), 101u);
-    editor.keys(presses);
+    press("ctrl+z");
+    EXPECT_EQ(editor->document.step(), 0u);
     EXPECT_EQ(writeGraph(editor->document.graph()), before);
     enter(*editor, group);
-    editor.keys(again);
+    press("ctrl+y");
+    EXPECT_EQ(editor->document.step(), 100u);
     EXPECT_EQ(writeGraph(editor->document.graph()), after);
-    enter(*editor, "");
-    editor.keys(presses);
-    EXPECT_EQ(writeGraph(editor->document.graph()), before);
 }
 
 TEST(Hands, AListOfTheStepsLeadsToEach) {
@@ -340,9 +345,9 @@ TEST(Hands, AListOfTheStepsLeadsToEach) {
         apply(*editor, std::string("Add ") + type, addNode(editor->document.graph(), "", type, {0, 0}));
     editor.keys("ctrl+h");
     EXPECT_EQ(editor->panels.front, "history");
-    editor.keys("Up Up space");
-    EXPECT_LT(editor->document.step(), 3u);
-    EXPECT_EQ(editor->document.graph().nodes.size(), editor->document.step());
+    editor.keys("Down space");  // the first is marked
+    EXPECT_EQ(editor->document.step(), 1u);
+    EXPECT_EQ(editor->document.graph().nodes.size(), 1u);
     editor.keys("ctrl+h");
     EXPECT_FALSE(editor->panels.history);
 }

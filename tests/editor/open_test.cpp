@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -279,6 +281,33 @@ TEST_F(FilesInWindow, AFileThatIsGoneCountsAsUnsaved) {
     fs::remove(file);
     ASSERT_TRUE(framesUntil([&] { return editor->document.unsaved(); }));
     EXPECT_NE(editor->notice.find("is gone"), std::string::npos);
+    EXPECT_TRUE(save(*editor));
+    EXPECT_FALSE(editor->document.unsaved());
+    EXPECT_EQ(readText(file), writeGraph(graph()));
+}
+
+TEST_F(FilesInWindow, AFullDiskTakesNothing) {
+    const std::string file = written("a.field.json", kGood);
+    startFiles(*editor, file);
+    frames();
+    Graph changed = graph();
+    changed.nodes[0].label = std::string(4000, 'x');
+    editor->document.apply("Rename", changed);
+    frames();
+    rlimit old{};
+    ASSERT_EQ(0, ::getrlimit(RLIMIT_FSIZE, &old));
+    const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{1000, old.rlim_max};
+    ASSERT_EQ(0, ::setrlimit(RLIMIT_FSIZE, &small));
+    const bool saved = save(*editor);
+    ASSERT_EQ(0, ::setrlimit(RLIMIT_FSIZE, &old));
+    ::signal(SIGXFSZ, handler);
+    EXPECT_FALSE(saved);
+    EXPECT_NE(editor->notice.find("File too large"), std::string::npos) << editor->notice;
+    EXPECT_TRUE(editor->document.unsaved());
+    EXPECT_EQ(readText(file), kGood);
+    EXPECT_EQ(graph(), changed);
+    // When there is room again it is saved.
     EXPECT_TRUE(save(*editor));
     EXPECT_FALSE(editor->document.unsaved());
     EXPECT_EQ(readText(file), writeGraph(graph()));

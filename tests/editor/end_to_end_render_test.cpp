@@ -1,0 +1,103 @@
+// The render dialog in the real window: a still, frames that are cancelled and gone on with, and what the
+// screen says of them.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "runtime/pictures/wish.h"
+#include "tests/editor/program.h"
+
+namespace fw::editor::test::end_to_end_render_test {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDocument = R"({"fieldwright": 1, "nodes": [
+    {"id": "ball", "type": "sphere", "at": [0, 0]},
+    {"id": "out", "type": "output", "at": [260, 0], "inputs": {"surface": {"from": "ball"}, "resolution": 24}}],
+  "timeline": {"length": 1, "fps": 3, "tracks": [{"node": "ball", "input": "radius", "keys": [
+    {"time": 0, "value": 1}, {"time": 1, "value": 0.5}]}]}})";
+
+class EndToEndRender : public testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
+        program.save();
+        program.keys("Ctrl+Shift+E");
+        program.waitFor("Samples");
+        // Small ones, since many are made.
+        for (const auto& [before, now] : {std::pair("1280", "96"), std::pair("720", "64")}) {
+            const Area line = program.waitFor("width, height");
+            program.clickOn(before, Area{{line.hi.x, line.lo.y - 6}, {1280, line.hi.y + 6}});
+            program.type(std::string(now) + "\n");
+            program.waitFor(now, Area{{line.hi.x, line.lo.y - 6}, {1280, line.hi.y + 6}});
+        }
+    }
+    /// The words in the line of the button that closes the dialog.
+    void press(const std::string& words) {
+        const Area close = program.waitFor("Close");
+        program.clickOn(words, Area{{0, close.lo.y - 6}, {close.lo.x, close.hi.y + 6}});
+    }
+    /// A choice of the dialog's list of what to make.
+    void make(const std::string& words) {
+        program.clickOn("A picture");
+        program.clickOn(words);
+        program.waitFor("Folder");
+    }
+    void keepShot(const char* name) {
+        if (const char* shots = std::getenv("FIELDWRIGHT_SHOTS"))
+            (void)savePicture(program.screen(), std::string(shots) + "/" + name);
+    }
+    std::string beside(const std::string& ending) const {
+        const fs::path file = program.file();
+        const std::string stem = file.filename().string();
+        return (file.parent_path() / (stem.substr(0, stem.find('.')) + ending)).string();
+    }
+
+    Program program{kDocument};
+};
+
+TEST_F(EndToEndRender, AStillIsMadeAndSeen) {
+    press("Render");
+    const std::string file = beside(".png");
+    EXPECT_TRUE(eventually([&] { return fs::exists(file); }));
+    program.waitFor("done");
+    keepShot("still.png");
+    EXPECT_EQ(sizeOfPicture(file, PictureFormat::png), std::pair(96, 64));
+    program.waitFor("is there and will be replaced");
+    program.clickOn("Take off the list");
+    program.waitUntilGone("done");
+    program.keys("Escape");
+    program.waitUntilGone("Samples");
+}
+
+TEST_F(EndToEndRender, FramesAreMadeAndCounted) {
+    make("Frames of the timeline");
+    program.waitFor("3 frames.");
+    press("Render");
+    program.waitFor("3 frames made");
+    keepShot("frames.png");
+    for (const char* name : {"000000.png", "000001.png", "000002.png"})
+        EXPECT_TRUE(fs::exists(beside("_frames") + "/" + name)) << name;
+    EXPECT_FALSE(fs::exists(beside("_frames") + "/000003.png"));
+    fs::remove(beside("_frames") + "/000001.png");
+    press("Render");
+    program.waitFor("1 frames made, 2 were there");
+    EXPECT_TRUE(fs::exists(beside("_frames") + "/000001.png"));
+}
+
+TEST_F(EndToEndRender, ATurntableIsCancelledAndGoneOnWith) {
+    make("A turntable");
+    program.waitFor("Once around in");
+    program.waitFor("12 frames.");
+    press("Render");
+    program.clickOn("Cancel");
+    program.waitFor("cancelled after");
+    keepShot("cancelled.png");
+    EXPECT_FALSE(fs::exists(beside("_frames") + "/000011.png"));
+    program.clickOn("Go on");
+    program.waitFor("frames made");
+    EXPECT_TRUE(fs::exists(beside("_frames") + "/000011.png"));
+}
+
+}  // namespace fw::editor::test::end_to_end_render_test
