@@ -229,29 +229,16 @@ void showExport(Editor& editor) {
         dialog.told = true;
         if (!dialog.open) say(editor, outcome(*state));
     }
-    if (!dialog.open) return;
-    const bool busy = std::exchange(dialog.busy, false);
     const float scale = editor.shell.scale();
-    const ImVec2 whole = ImGui::GetMainViewport()->Size;
-    const float width = std::min(520.0f * scale, 0.95f * whole.x);
-    ImGui::SetNextWindowPos({0.5f * whole.x, 0.25f * whole.y}, ImGuiCond_Appearing, {0.5f, 0.0f});
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, 0.95f * whole.y});
-    if (std::exchange(dialog.toFront, false)) ImGui::SetNextWindowFocus();
-    if (ImGui::Begin("Export", &dialog.open,
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                         ImGuiWindowFlags_NoSavedSettings)) {
+    showStaying(dialog, "Export", 520.0f * scale, 0.25f, [&] {
         showSettings(editor);
         if (state) showJob(editor, *state);
         ImGui::Separator();
         showButtons(editor);
-        if (const auto path = show(dialog.browser, scale))
-            dialog.path = *path;
-        else if (!busy && ImGui::IsWindowFocused() &&
-                 ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
-            dialog.open = false;
-        dialog.busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    }
-    ImGui::End();
+        const auto path = show(dialog.browser, scale);
+        if (path) dialog.path = *path;
+        return path.has_value();
+    });
 }
 
 }  // namespace fw::editor

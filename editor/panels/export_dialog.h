@@ -10,15 +10,13 @@
 
 #include "editor/files/browser.h"
 #include "editor/files/export_job.h"
+#include "editor/panels/staying_dialog.h"
 
 namespace fw::editor {
 
 struct Editor;
 
-struct ExportDialog {
-    bool open = false;
-    bool toFront = false;  ///< it was just asked for
-    bool busy = false;     ///< a field or a menu of it had the keyboard in the last frame
+struct ExportDialog : StayingDialog {
     std::string path = {};
     std::string forFile = {};                              ///< the document's file when `path` was proposed
     bool givesResolution = false;                          ///< else the output node's

@@ -391,36 +391,21 @@ void showRender(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
     const std::vector<RenderItem> items = dialog.queue ? dialog.queue->items() : std::vector<RenderItem>();
     tell(editor, items);
-    if (!dialog.open) return;
-    const bool busy = std::exchange(dialog.busy, false);
     const float scale = editor.shell.scale();
-    const ImVec2 whole = ImGui::GetMainViewport()->Size;
-    const float width = std::min(540.0f * scale, 0.95f * whole.x);
-    ImGui::SetNextWindowPos({0.5f * whole.x, 0.04f * whole.y}, ImGuiCond_Appearing, {0.5f, 0.0f});
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, 0.92f * whole.y});
-    if (std::exchange(dialog.toFront, false)) ImGui::SetNextWindowFocus();
-    if (ImGui::Begin("Render", &dialog.open,
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                         ImGuiWindowFlags_NoSavedSettings)) {
+    showStaying(dialog, "Render", 540.0f * scale, 0.04f, [&] {
         showRenderSettings(editor);
         showRenderButtons(editor);
-        if (!items.empty()) {
-            ImGui::Separator();
-            for (const RenderItem& item : items) {
-                ImGui::PushID(int(item.id));
-                showItem(dialog, item, scale);
-                ImGui::PopID();
-            }
-            showPicture(editor, items);
+        if (!items.empty()) ImGui::Separator();
+        for (const RenderItem& item : items) {
+            ImGui::PushID(int(item.id));
+            showItem(dialog, item, scale);
+            ImGui::PopID();
         }
-        if (const auto path = show(dialog.browser, scale))
-            pathOf(dialog) = *path;
-        else if (!busy && ImGui::IsWindowFocused() &&
-                 ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
-            dialog.open = false;
-        dialog.busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-    }
-    ImGui::End();
+        if (!items.empty()) showPicture(editor, items);
+        const auto path = show(dialog.browser, scale);
+        if (path) pathOf(dialog) = *path;
+        return path.has_value();
+    });
 }
 
 }  // namespace fw::editor

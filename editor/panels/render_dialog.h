@@ -13,6 +13,7 @@
 
 #include "editor/files/browser.h"
 #include "editor/files/render_queue.h"
+#include "editor/panels/staying_dialog.h"
 
 namespace fw::editor {
 
@@ -22,10 +23,7 @@ class Shell;
 /// What is made of the document.
 enum class RenderSubject : unsigned char { still, timeline, range, turntable };
 
-struct RenderDialog {
-    bool open = false;
-    bool toFront = false;  ///< it was just asked for
-    bool busy = false;     ///< a field or a menu of it had the keyboard in the last frame
+struct RenderDialog : StayingDialog {
     RenderSubject subject = RenderSubject::still;
     std::string file = {}, folder = {};  ///< of a still, of frames
     std::string forFile = {};            ///< the document's file when they were proposed

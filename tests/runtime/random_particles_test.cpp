@@ -110,7 +110,7 @@ class Chain {
 };
 
 TEST(RandomParticles, ArePlayedOrRefused) {
-    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 500 : 12;
+    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 150 : 12;
     test::TempDir dir;
     uint32_t played = 0, refused = 0;
     for (uint32_t seed = 1; seed <= most; ++seed) {
