@@ -34,9 +34,9 @@ struct SequenceWish {
     PictureWish picture = {};
     std::string folder = {};
     FrameRange frames = {};
-    bool overwrite = false;             ///< frames that are there already; else they are passed over
-    std::optional<double> turntable = {};    ///< the moment that a camera goes around, seconds on the timeline
-    std::optional<Camera> camera = {};  ///< in place of the scene's
+    bool overwrite = false;                ///< frames that are there already; else they are passed over
+    std::optional<double> turntable = {};  ///< the moment that a camera goes around, seconds on the timeline
+    std::optional<Camera> camera = {};     ///< in place of the scene's
 };
 
 std::string pathOf(const SequenceWish& wish, long frame);
