@@ -28,6 +28,7 @@ Area openCode(Program& program) {
     if (bar > 250) program.drag({{1050, bar}, {1050, bar - 60}, {1050, 200}});
     EXPECT_TRUE(eventually([&] { return program.waitFor("Inspector").lo.y < 250; }));
     program.click(program.title("wave"));
+    program.waitFor("no exact distance");  // what the check says moves the rest down when it comes
     const Area heading = program.waitFor("Ctrl+Enter applies it");
     return {{program.view.panel.hi.x, heading.hi.y}, {1275, 795}};
 }
