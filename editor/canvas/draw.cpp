@@ -92,13 +92,13 @@ void drawWire(const Pen& pen, const Curve& wire, ImU32 color, float width) {
 
 void drawWires(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks) {
     const Area seen = pen.view.seen();
+    const bool lit = canvas.lit.size() == boxes.wires.size();
     for (std::size_t i = 0; i < boxes.wires.size(); ++i) {
         const Wire& wire = boxes.wires[i];
         const Curve path = curve(boxes.start(wire), boxes.end(wire));
         if (!path.area().grown(4).overlaps(seen)) continue;
         const NodeBox &from = boxes.nodes[wire.from], &to = boxes.nodes[wire.to];
         ImU32 color = typeColor(from.rows[wire.fromRow].type);
-        const bool lit = canvas.lit.size() == boxes.wires.size();
         const bool chosen =
             lit ? canvas.lit[i]
                 : canvas.selection.contains(from.node->id) || canvas.selection.contains(to.node->id);
@@ -147,9 +147,9 @@ void drawRows(const Pen& pen, const Canvas& canvas, const NodeBox& box) {
     const CanvasGesture& gesture = canvas.gesture;
     const bool wires = gesture.kind == CanvasGesture::Kind::wire;
     const auto counts = [&](const Row& row) {
+        if (!wires) return true;
         const Plug plug{box.node->id, row.name};
-        return !wires ||
-               (row.output == gesture.plugIsOutput ? plug == gesture.plug : gesture.partners.contains(plug));
+        return row.output == gesture.plugIsOutput ? plug == gesture.plug : gesture.partners.contains(plug);
     };
     const ImU32 ink = themeColor(ThemeColor::text), quiet = themeColor(ThemeColor::quiet);
     const bool words = pen.view.unit() >= kTextZoom;

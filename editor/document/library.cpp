@@ -113,10 +113,4 @@ std::vector<const NodeType*> usualTypes(std::span<const NodeType* const> among,
     return usual;
 }
 
-void take(std::vector<std::string>& recent, const std::string& id) {
-    std::erase(recent, id);
-    recent.insert(recent.begin(), id);
-    if (recent.size() > kMostTaken) recent.resize(kMostTaken);
-}
-
 }  // namespace fw::editor

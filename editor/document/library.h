@@ -14,13 +14,14 @@ namespace fw::editor {
 /// words parted by blanks; empty for most.
 std::string_view otherNames(std::string_view type);
 
-/// How well what stands there is what was typed, 0 the best; `kNoMatch` if any of its words, in whatever
-/// order, is in none of the names.
+/// What something is called.
 struct SearchedNames {
     std::string label;  ///< as it is shown
     std::string id = {}, others = {}, category = {}, doc = {};
 };
 inline constexpr int kNoMatch = 100;
+/// How well these are what was typed, 0 the best; `kNoMatch` if one of its words, in whatever order, is in
+/// none of them.
 int match(std::string_view typed, const SearchedNames& names);
 
 /// Those of `among` that the words match, the best first: a label that begins so, a word of it that does,
@@ -32,9 +33,5 @@ std::vector<const NodeType*> findTypes(std::string_view typed, std::span<const N
 /// At most `count` of `among`: ids in `recent` first, in their order, then those that graphs have most of.
 std::vector<const NodeType*> usualTypes(std::span<const NodeType* const> among,
                                         std::span<const std::string> recent, std::size_t count);
-
-/// The id as the first of those that were taken last, which are at most `kMostTaken`.
-void take(std::vector<std::string>& recent, const std::string& id);
-inline constexpr std::size_t kMostTaken = 24;
 
 }  // namespace fw::editor

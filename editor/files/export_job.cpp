@@ -2,11 +2,10 @@
 
 #include <atomic>
 #include <mutex>
-#include <new>
 #include <thread>
 #include <utility>
 
-#include "graph/check/check.h"
+#include "editor/files/attempt.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/export/outputs.h"
 #include "runtime/play/mesh_program.h"
@@ -98,8 +97,7 @@ Result<ExportJob::Shared::Opened> ExportJob::Shared::open() {
         return kept.error();
     OpeningDevice opening(std::launch::async, wish.device);
     if (!start("check")) return kStopped;
-    findings = check(*wish.graph);
-    std::erase_if(findings, [](const Error& each) { return each.severity != Error::Severity::error; });
+    findings = errorsOf(*wish.graph);
     if (!findings.empty()) return findings.front();
     if (!start("compile")) return kStopped;
     CompileOptions options;
@@ -208,15 +206,9 @@ Result<ExportState> ExportJob::Shared::make() {
 
 void ExportJob::Shared::run() {
     const Clock::time_point begin = Clock::now();
-    const auto attempt = [this]() -> Result<ExportState> {
-        try {
-            return onceMoreIfLost([this] { return make(); },
-                                  [this] { change([](ExportState& now) { now.again = true; }); });
-        } catch (const std::bad_alloc&) {
-            return Error{.message = "out of memory: lower the resolution, or give a smaller region"};
-        } catch (const std::exception& error) { return Error{.message = error.what()}; }
-    };
-    Result<ExportState> made = attempt();
+    Result<ExportState> made =
+        attempt([this] { return make(); }, [this] { change([](ExportState& now) { now.again = true; }); },
+                "lower the resolution, or give a smaller region");
     change([&](ExportState& now) {
         if (made) {
             made->again = now.again;

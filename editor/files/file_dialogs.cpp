@@ -99,7 +99,7 @@ void showExporting(Editor& editor) {
                              "are there stay.");
     const bool waits = button(editor, "Wait for it") || confirmed() || escaped();
     ImGui::SameLine();
-    if (button(editor, "Quit") || !(exports(editor) || renders(editor))) editor.quit = true;
+    if (button(editor, "Quit") || !makesFiles(editor)) editor.quit = true;
     if (waits) editor.quit = false;
     if (waits || editor.quit) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();

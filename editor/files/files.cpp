@@ -43,8 +43,7 @@ void tell(Editor& editor, std::string title, std::string text, std::vector<Error
 
 void remember(Editor& editor, const std::string& path) {
     addRecent(editor.files.preferences, path);
-    if (const Done kept = savePreferences(editor.files.preferences, preferencesPath()); !kept)
-        say(editor, format(kept.error()));
+    keepPreferences(editor);
 }
 
 /// Shows what was read of the file.
@@ -117,6 +116,18 @@ std::string nameOf(const Editor& editor) {
     return path.empty() || editor.files.origin == Origin::sample ? "untitled" : fileName(path);
 }
 
+std::string stemOf(const Editor& editor) {
+    const std::string name = fileName(editor.document.graph().path);
+    return name.empty() ? "untitled" : name.substr(0, name.find('.'));
+}
+
+void keepPreferences(Editor& editor) {
+    if (const Done kept = savePreferences(editor.files.preferences, preferencesPath()); !kept)
+        say(editor, format(kept.error()));
+}
+
+bool makesFiles(const Editor& editor) { return exports(editor) || renders(editor); }
+
 std::string workFolder(const Editor& editor) {
     const Files& files = editor.files;
     const std::string& path = editor.document.graph().path;
@@ -173,7 +184,7 @@ void doNext(Editor& editor) {
         case Next::drop: addDropped(editor, std::exchange(files.dropped, {})); break;
         case Next::samples: files.samples.opening = true; break;
         case Next::recovered: files.offers = true; break;
-        case Next::quit: (exports(editor) || renders(editor) ? files.asksExport : editor.quit) = true; break;
+        case Next::quit: (makesFiles(editor) ? files.asksExport : editor.quit) = true; break;
     }
 }
 

@@ -104,6 +104,8 @@ void pickFile(Editor& editor, const FileKind& kind, const std::string& now,
 void proceed(Editor& editor, Files::Next next, std::string path = {});
 /// Shows the file in place of the document; a message where that cannot be, which leaves the document.
 void openFile(Editor& editor, const std::string& path);
+/// Saves the preferences, or says why that cannot be.
+void keepPreferences(Editor& editor);
 /// Opens the list of what the document's file held before it was saved over.
 void offerVersions(Editor& editor);
 /// To the document's file; asks for one if it has none. Whether the file was written.
@@ -119,6 +121,10 @@ std::string keepForNextTime(Editor& editor);
 void take(Editor& editor, Graph graph);
 /// What the document is called: its file's name, or "untitled".
 std::string nameOf(const Editor& editor);
+/// What files of it are called, but for their endings.
+std::string stemOf(const Editor& editor);
+/// Whether an export or a picture is under way, which ends with the program.
+bool makesFiles(const Editor& editor);
 /// Where new files go: the folder of the document's own file, else the one last looked into, or worked in.
 std::string workFolder(const Editor& editor);
 bool writeFile(Editor& editor, const std::string& path);

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "editor/document/library.h"
+#include "graph/library/node_type.h"
 #include "runtime/system/output_file.h"
 #include "runtime/system/user_folder.h"
 
@@ -101,13 +101,17 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     return file->commit();
 }
 
+void toFront(std::vector<std::string>& texts, const std::string& text, std::size_t most) {
+    std::erase(texts, text);
+    texts.insert(texts.begin(), text);
+    if (texts.size() > most) texts.resize(most);
+}
+
 void addRecent(Preferences& preferences, const std::string& path) {
     std::error_code error;
     const std::filesystem::path full = std::filesystem::absolute(path, error);
     const std::string name = error ? path : full.lexically_normal().string();
-    std::erase(preferences.recent, name);
-    preferences.recent.insert(preferences.recent.begin(), name);
-    if (preferences.recent.size() > kMostRecent) preferences.recent.resize(kMostRecent);
+    toFront(preferences.recent, name, kMostRecent);
 }
 
 }  // namespace fw::editor

@@ -35,6 +35,9 @@ Preferences readPreferences(const std::string& path, std::string& problem);
 /// Makes the folder if need be. Nothing for an empty path. Errors: as OutputFile.
 Done savePreferences(const Preferences& preferences, const std::string& path);
 
+inline constexpr std::size_t kMostTaken = 24;
+/// The text as the first of at most `most`.
+void toFront(std::vector<std::string>& texts, const std::string& text, std::size_t most);
 /// The file as the first of the recent ones.
 void addRecent(Preferences& preferences, const std::string& path);
 

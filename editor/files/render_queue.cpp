@@ -5,11 +5,10 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
-#include <new>
 #include <thread>
 #include <utility>
 
-#include "graph/check/check.h"
+#include "editor/files/attempt.h"
 #include "runtime/export/outputs.h"
 #include "runtime/pictures/kept_paths.h"
 #include "runtime/system/clock.h"
@@ -103,8 +102,7 @@ Done checkOutputs(const RenderWish& wish) {
 Result<Player> RenderQueue::Shared::open(const RenderWish& wish) {
     start("checking the graph", 0.0f);
     if (const Done free = checkOutputs(wish); !free) return free.error();
-    findings = check(*wish.graph);
-    std::erase_if(findings, [](const Error& each) { return each.severity != Error::Severity::error; });
+    findings = errorsOf(*wish.graph);
     if (!findings.empty()) return findings.front();
     if (cancel) return kStopped;
     start("opening the device", 0.01f);
@@ -133,17 +131,12 @@ Done RenderQueue::Shared::still(const RenderWish& wish, Player& player) {
     LightPicture light;
     if (wish.picture.format == PictureFormat::exr) render.light = &light;
     std::optional<KeptPaths> kept;
-    PathSums sums;
     if (tracesPaths(render)) {
         kept.emplace(wish.path, player, render);
-        sums = kept->read();
-        if (sums.paths > 0) note("went on from " + std::to_string(sums.paths) + " samples that were kept");
-        render.sums = &sums;
-        render.keepSums = [&] { (void)kept->write(sums); };  // the picture does not depend on it
-        const Result<Scene> scene = player.scene();
-        if (scene && scene->fog && scene->fog->density > 0.0)
-            note("paths of light leave out the scene's fog");
+        if (const int paths = kept->goOn(render); paths > 0)
+            note("went on from " + std::to_string(paths) + " samples that were kept");
     }
+    if (leavesOutFog(render, player)) note("paths of light leave out the scene's fog");
     start("tracing light", kOpened);
     Result<Picture> picture = player.frame(render);
     if (!picture) return picture.error();
@@ -210,15 +203,9 @@ Done RenderQueue::Shared::make(const RenderWish& wish) {
 }
 
 void RenderQueue::Shared::run(const RenderWish& wish) {
-    const auto attempt = [&]() -> Done {
-        try {
-            return onceMoreIfLost([&] { return make(wish); },
-                                  [this] { change([](RenderState& now) { now.again = true; }); });
-        } catch (const std::bad_alloc&) {
-            return Error{.message = "out of memory: make the picture smaller, or lower the resolution"};
-        } catch (const std::exception& error) { return Error{.message = error.what()}; }
-    };
-    const Done made = attempt();
+    const Done made =
+        attempt([&] { return make(wish); }, [this] { change([](RenderState& now) { now.again = true; }); },
+                "make the picture smaller, or lower the resolution");
     change([&](RenderState& now) {
         if (made) {
             now.phase = RenderPhase::done, now.stage = "done", now.part = 1.0f;

@@ -94,7 +94,7 @@ void add(Editor& editor, const Offer& offer) {
             edited.graph = menu.wish.plugIsOutput ? connect(edited.graph, editor.canvas.scope, plug, *other)
                                                   : connect(edited.graph, editor.canvas.scope, *other, plug);
     }
-    if (!offer.group) take(editor.files.preferences.taken, type.id);
+    if (!offer.group) toFront(editor.files.preferences.taken, type.id, kMostTaken);
     apply(editor, "Add " + type.label, std::move(edited));
     ImGui::CloseCurrentPopup();
 }
@@ -128,10 +128,9 @@ bool showStar(Editor& editor, const NodeType& type, bool seen) {
 }
 
 void turnFavourite(Editor& editor, const std::string& id) {
-    Preferences& preferences = editor.files.preferences;
-    if (std::erase(preferences.favourites, id) == 0) preferences.favourites.push_back(id);
-    if (const Done kept = savePreferences(preferences, preferencesPath()); !kept)
-        say(editor, format(kept.error()));
+    std::vector<std::string>& favourites = editor.files.preferences.favourites;
+    if (std::erase(favourites, id) == 0) favourites.push_back(id);
+    keepPreferences(editor);
 }
 
 }  // namespace

@@ -37,9 +37,7 @@ std::string printed(const char* format, Values... values) {
 
 /// A file in the folder that one works in, named as the document's.
 std::string proposal(const Editor& editor) {
-    const std::string name = fs::path(editor.document.graph().path).filename().string();
-    const std::string stem = name.empty() ? "untitled" : name.substr(0, name.find('.'));
-    return (fs::path(workFolder(editor)) / (stem + ".glb")).string();
+    return (fs::path(workFolder(editor)) / (stemOf(editor) + ".glb")).string();
 }
 
 void showFormat(ExportDialog& dialog) {

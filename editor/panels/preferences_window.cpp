@@ -13,8 +13,7 @@ constexpr float kScales[] = {0.0f, 0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f, 
 
 void keep(Editor& editor) {
     editor.keymap = keymapOf(editor.files.preferences);
-    if (const Done kept = savePreferences(editor.files.preferences, preferencesPath()); !kept)
-        say(editor, format(kept.error()));
+    keepPreferences(editor);
 }
 
 std::string percent(float scale) { return std::to_string(int(std::lround(100.0f * scale))) + " %"; }

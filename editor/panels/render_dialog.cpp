@@ -43,8 +43,7 @@ std::string endingOf(const RenderDialog& dialog) { return "." + nameOf(dialog.pi
 
 void propose(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
-    const std::string name = fs::path(editor.document.graph().path).filename().string();
-    const std::string stem = name.empty() ? "untitled" : name.substr(0, name.find('.'));
+    const std::string stem = stemOf(editor);
     const fs::path folder = workFolder(editor);
     dialog.file = (folder / (stem + endingOf(dialog))).string();
     dialog.folder = (folder / (stem + "_frames")).string();
@@ -150,6 +149,14 @@ void showTimes(Editor& editor) {
     ImGui::Checkbox("made anew##overwrite", &dialog.overwrite);
 }
 
+/// A number of the dialog, which outlives the frame.
+void dragWhole(Editor& editor, const char* id, int& number, NumberRange range) {
+    range.whole = true;
+    const double now = number;
+    dragNumbers(editor, id, std::span(&now, 1), range,
+                [&number](std::span<const double> to) { number = int(std::lround(to[0])); });
+}
+
 void showLight(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
     PictureWish& wish = dialog.picture;
@@ -162,10 +169,7 @@ void showLight(Editor& editor) {
     const bool picture = wish.view == RENDER_PICTURE;
     propertyRow("Samples",
                 "Frames that a picture is the mean of: of edges, soft shadows and ambient occlusion.");
-    const double samples = wish.samples;
-    dragNumbers(editor, "##samples", std::span(&samples, 1),
-                {.min = 1, .max = kMostSamples, .speed = 0.2, .whole = true},
-                [&wish](std::span<const double> to) { wish.samples = int(std::lround(to[0])); });
+    dragWhole(editor, "##samples", wish.samples, {.min = 1, .max = kMostSamples, .speed = 0.2});
     propertyRow("Camera");
     ImGui::Checkbox("as the viewport sees it##camera", &dialog.asSeen);
     ImGui::BeginDisabled(!picture);
@@ -186,10 +190,7 @@ void showLight(Editor& editor) {
     if (wish.reference && picture) {
         propertyRow("   bounces",
                     "Paths of light reflected by up to so many surfaces. 0: as many as the solid needs.");
-        const double bounces = wish.bounces;
-        dragNumbers(editor, "##bounces", std::span(&bounces, 1),
-                    {.min = 0, .max = kMostBounces, .speed = 0.1, .whole = true},
-                    [&wish](std::span<const double> to) { wish.bounces = int(std::lround(to[0])); });
+        dragWhole(editor, "##bounces", wish.bounces, {.min = 0, .max = kMostBounces, .speed = 0.1});
     }
 }
 

@@ -159,12 +159,7 @@ class Stage {
     /// Notes by what camera the picture was seen, where an orbit would start.
     void see(float aspect) {
         if (viewer.ownCamera) return;
-        const Result<Scene> scene = player.scene();
-        if (scene && scene->camera) {
-            viewer.seen = *scene->camera;
-        } else if (const auto points = player.outline(); points && !points->empty()) {
-            viewer.seen = framingCamera(*points, aspect);
-        }
+        if (const auto camera = player.camera(aspect); camera && *camera) viewer.seen = **camera;
     }
 
     /// Makes the next pictures larger or smaller, if this one was very quick or slow. Rarely: the renderer

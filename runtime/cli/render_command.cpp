@@ -106,27 +106,20 @@ int runRender(const RenderCommandOptions& options) {
     LightPicture light;
     if (wish.format == PictureFormat::exr) render.light = &light;
     std::optional<KeptPaths> keptPaths;
-    PathSums sums;
     if (tracesPaths(render)) {
-        keptPaths.emplace(options.output, *player, render);
-        sums = keptPaths->read();
-        const auto tell = [&sums, &wish] {
-            whenEnded({.said = "; " + std::to_string(sums.paths) + " of " + std::to_string(wish.samples) +
+        const auto tell = [&wish](int paths) {
+            whenEnded({.said = "; " + std::to_string(paths) + " of " + std::to_string(wish.samples) +
                                " samples are kept: the same command goes on"});
         };
-        if (sums.paths > 0) {
+        keptPaths.emplace(options.output, *player, render);
+        if (const int paths = keptPaths->goOn(render, tell); paths > 0) {
             std::fprintf(stderr, "%s: note: goes on from %d samples that were kept\n", options.output.c_str(),
-                         sums.paths);
-            tell();
+                         paths);
+            tell(paths);
         }
-        render.sums = &sums;
-        render.keepSums = [&keptPaths, &sums, tell] {
-            if (keptPaths->write(sums)) tell();  // the picture does not depend on it
-        };
-        if (const Result<Scene> scene = player->scene(); scene && scene->fog && scene->fog->density > 0.0)
-            std::fprintf(stderr, "%s: note: paths of light leave out the scene's fog\n",
-                         options.output.c_str());
     }
+    if (leavesOutFog(render, *player))
+        std::fprintf(stderr, "%s: note: paths of light leave out the scene's fog\n", options.output.c_str());
     const Result<Picture> picture = player->frame(render);
     if (!picture) return badInput(options.mesh, picture.error());
     const auto isThere = [&] {

@@ -47,25 +47,34 @@ KeptPaths::KeptPaths(const std::string& output, const Player& player, const Rend
       samples(options.samples),
       floats(4 * std::size_t(options.width) * std::size_t(options.height)) {}
 
+int KeptPaths::goOn(RenderOptions& render, std::function<void(int paths)> kept) {
+    sums = read();
+    render.sums = &sums;
+    render.keepSums = [this, kept = std::move(kept)] {
+        if (write() && kept) kept(sums.paths);  // the picture does not depend on it
+    };
+    return sums.paths;
+}
+
 PathSums KeptPaths::read() const {
     std::ifstream file(path, std::ios::binary);
     Head head;
     const Head mine;
-    PathSums sums;
+    PathSums there;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) ||
         std::memcmp(head.name, mine.name, 8) != 0 || head.key != key || head.paths < 1 ||
         head.paths > samples)
-        return sums;
-    sums.sums.resize(floats);
-    if (!file.read(reinterpret_cast<char*>(sums.sums.data()), std::streamsize(floats * sizeof(float))))
+        return there;
+    there.sums.resize(floats);
+    if (!file.read(reinterpret_cast<char*>(there.sums.data()), std::streamsize(floats * sizeof(float))))
         return {};
-    for (const float value : sums.sums)
+    for (const float value : there.sums)
         if (!std::isfinite(value)) return {};
-    sums.paths = int(head.paths);
-    return sums;
+    there.paths = int(head.paths);
+    return there;
 }
 
-Done KeptPaths::write(const PathSums& sums) const {
+Done KeptPaths::write() const {
     Result<OutputFile> file = OutputFile::open(path, nullptr);
     if (!file) return file.error();
     Head head;

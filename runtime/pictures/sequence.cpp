@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "runtime/export/outputs.h"
-#include "runtime/render/view.h"
 
 namespace fw {
 
@@ -73,18 +72,13 @@ Camera turned(Camera camera, double part) {
 Result<Picture> drawFrame(Player& player, const SequenceWish& wish, long frame, RenderOptions render) {
     player.seek(wish.turntable.value_or(wish.frames.time(frame)));
     render.scene.camera = wish.camera;
-    if (wish.turntable) {
-        if (!render.scene.camera) {
-            const Result<Scene> scene = player.scene();
-            if (!scene) return scene.error();
-            render.scene.camera = scene->camera;
-        }
-        if (!render.scene.camera) {
-            const auto outline = player.outline();
-            if (!outline) return outline.error();
-            if (outline->empty()) return player.frame(render);  // which says what is wrong
-            render.scene.camera = framingCamera(*outline, float(render.width) / float(render.height));
-        }
+    if (wish.turntable && !render.scene.camera) {
+        const Result<std::optional<Camera>> camera =
+            player.camera(float(render.width) / float(render.height));
+        if (!camera) return camera.error();
+        render.scene.camera = *camera;
+    }
+    if (wish.turntable && render.scene.camera) {  // without one frame() says what is wrong
         const double part = double(frame - wish.frames.first) / double(wish.frames.count());
         render.scene.camera = turned(*render.scene.camera, part);
         render.scene.camera->shutter = 0.0;  // the moment is one

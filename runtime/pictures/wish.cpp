@@ -65,6 +65,11 @@ bool tracesPaths(const RenderOptions& render) {
     return render.reference && render.bounces > 0 && render.show == RENDER_PICTURE;
 }
 
+bool leavesOutFog(const RenderOptions& render, const Player& player) {
+    const Result<Scene> scene = player.scene();
+    return tracesPaths(render) && scene && scene->fog && scene->fog->density > 0.0;
+}
+
 Done save(const Picture& picture, const LightPicture& light, PictureFormat format, const std::string& path,
           const std::function<void()>& kept) {
     return format == PictureFormat::exr ? saveLight(light, path, kept) : savePicture(picture, path, kept);

@@ -33,8 +33,10 @@ const std::vector<std::string>& renderViews();
 RenderOptions renderOptions(const PictureWish& wish, const Player& player);
 /// Who evaluates the field for it: kernels if its view traces it.
 FieldBy renderedBy(const PictureWish& wish);
-/// Whether it is made of paths of light, which can be kept when it is ended (kept_paths.h).
+/// Whether it is made of paths of light, which can be kept when it is ended (kept_paths.h); and whether these
+/// leave out a fog that the scene has.
 bool tracesPaths(const RenderOptions& render);
+bool leavesOutFog(const RenderOptions& render, const Player& player);
 
 /// Writes the picture, of which an EXR file has the light; `kept` as in OutputFile::commit(). Errors: as
 /// OutputFile.

@@ -470,6 +470,15 @@ Result<Scene> Player::scene() const {
     return scene;
 }
 
+Result<std::optional<Camera>> Player::camera(float aspect) {
+    const Result<Scene> scene = this->scene();
+    if (!scene) return scene.error();
+    if (scene->camera) return scene->camera;
+    const auto framed = outline();
+    if (!framed) return framed.error();
+    return framed->empty() ? std::nullopt : std::optional(framingCamera(*framed, aspect));
+}
+
 Done Player::reload(Graph graph) { return reload(std::move(graph), options); }
 
 bool Player::compiling() {

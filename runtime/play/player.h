@@ -138,6 +138,10 @@ class Player {
     const EnvironmentMapPtr& environment() const { return now.environment; }
     /// The scene now. Errors as readScene.
     Result<Scene> scene() const;
+    /// Through what camera a picture without one of its own is seen now: the scene's, else one that frames
+    /// the outline, in a picture so many times as wide as high; none of an empty solid. Errors as scene() and
+    /// outline().
+    Result<std::optional<Camera>> camera(float aspect);
     /// Points of the solid's surface at even steps through the timeline: what a picture without a camera
     /// frames, so that it rests while the solid moves. Errors as Session::polygonise.
     Result<std::span<const gpu::MeshVertex>> outline();

@@ -6,6 +6,7 @@
 #include "editor/canvas/fields.h"
 #include "editor/document/library.h"
 #include "editor/document/wiring.h"
+#include "editor/files/preferences.h"
 #include "editor/shortcuts.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
@@ -229,7 +230,7 @@ TEST(Wires, FitWhereTheyAreNotRefused) {
     for (const char* name : {"tower", "island", "goblet", "wet_city", "table_and_stool"}) {
         const Result<Graph> graph =
             readGraph(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json", nullptr);
-        if (!graph) continue;
+        ASSERT_TRUE(graph) << name;
         std::vector<std::string> scopes{""};
         for (const Group& group : graph->groups) scopes.push_back(group.id);
         for (const std::string& scope : scopes) {
@@ -271,7 +272,7 @@ TEST(Library, WordsCountInAnyOrderAndOtherProgramsNamesToo) {
     std::vector<const NodeType*> all;
     for (const NodeType& type : nodeTypes()) {
         all.push_back(&type);
-        // Each name leads to its node, and nearly first.
+        // Each name leads to its node.
         std::istringstream names{std::string(otherNames(type.id))};
         for (std::string name; names >> name;) {
             const auto found = findTypes(name, all);
@@ -302,9 +303,9 @@ TEST(Library, WhatWasTakenLastComesFirst) {
     std::vector<const NodeType*> all;
     for (const NodeType& type : nodeTypes()) all.push_back(&type);
     std::vector<std::string> recent;
-    take(recent, "torus");
-    take(recent, "twist");
-    take(recent, "torus");
+    toFront(recent, "torus", kMostTaken);
+    toFront(recent, "twist", kMostTaken);
+    toFront(recent, "torus", kMostTaken);
     EXPECT_EQ(recent, (std::vector<std::string>{"torus", "twist"}));
     EXPECT_EQ(findTypes("t", all, recent)[0]->id, "torus");
     EXPECT_EQ(findTypes("t", all, recent)[1]->id, "twist");
@@ -316,7 +317,7 @@ TEST(Library, WhatWasTakenLastComesFirst) {
     EXPECT_EQ(usual[2]->id, "union");
     EXPECT_EQ(usualTypes({}, recent, 4).size(), 0u);
     EXPECT_EQ(usualTypes(all, {{"no_such_node"}}, 1)[0]->id, "union");
-    for (int i = 0; i < 100; ++i) take(recent, "x" + std::to_string(i));
+    for (int i = 0; i < 100; ++i) toFront(recent, "x" + std::to_string(i), kMostTaken);
     EXPECT_EQ(recent.size(), kMostTaken);
     EXPECT_EQ(recent[0], "x99");
 }

@@ -97,8 +97,7 @@ TEST_F(Pictures, HaveTheBytesOfTheCommand) {
     RenderWish light = wish(folder.path("light.exr"));
     light.picture.format = PictureFormat::exr;
     RenderWish normals = wish(folder.path("normals.png"));
-    normals.picture.view = 2;
-    normals.picture.transparent = false;
+    normals.picture.view = RENDER_NORMALS;
     RenderWish paths = wish(folder.path("paths.png"));
     paths.picture.reference = true;
     paths.picture.bounces = 2;
