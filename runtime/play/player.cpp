@@ -436,7 +436,9 @@ std::pair<int, double> Player::shutter(const RenderOptions& wishes) const {
 
 Result<Picture> Player::frame(const RenderOptions& options_) {
     RenderOptions part = options_;
-    const auto [moments, apart] = shutter(options_);
+    const std::pair<int, double> open = shutter(options_);
+    const int moments = open.first;
+    const double apart = open.second;  // seconds; clang keeps no binding for what is called later
     const struct Rest {
         Player& player;
         const double seconds = player.seconds;
