@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using RenderPhase = RenderState::Phase;
 
 constexpr float kOpened = 0.05f;  // part of the work before the first picture, about
+constexpr int kKeptSide = 1024;   // pixels of the pictures that are kept to look at
 
 }  // namespace
 
@@ -65,14 +66,14 @@ struct RenderQueue::Shared {
     Done make(const RenderWish& wish);
     void run(const RenderWish& wish);
     void work();
+    // Of what runs:
     std::vector<Error> findings;  ///< errors of the graph, where they ended it
+    bool capped = false;          ///< the surface leaves the region in one of the pictures made
 
     inline static const Error kStopped{.message = "cancelled"};
 };
 
-namespace {
-
-SequenceWish framesOf(const RenderWish& wish) {
+SequenceWish sequenceOf(const RenderWish& wish) {
     SequenceWish frames{.picture = wish.picture,
                         .folder = wish.path,
                         .frames = *wish.frames,
@@ -82,26 +83,64 @@ SequenceWish framesOf(const RenderWish& wish) {
     return frames;
 }
 
-/// Whether the wish's files can be where it wants them.
-Done checkOutputs(const RenderWish& wish) {
+namespace {
+
+/// Whether a file can be made there: what took hours must not end at its writing.
+Done checkWritable(const std::string& path) {
+    const Result<OutputFile> file = OutputFile::open(path, nullptr);
+    return file ? done() : Done(file.error());
+}
+
+/// Whether the wish's files can be where it wants them. A sequence's folder is made.
+Done makePlace(const RenderWish& wish) {
     if (const Done fits = checkPictureSize(wish.picture.width, wish.picture.height); !fits) return fits;
     if (wish.frames) {
         std::error_code failure;
         if (fs::exists(wish.path, failure) && !fs::is_directory(wish.path, failure))
             return Error{.message = wish.path + " is a file: a sequence goes into a folder"};
-        return checkFrames(framesOf(wish), *wish.graph);
+        const SequenceWish frames = sequenceOf(wish);
+        if (const Done free = checkFrames(frames, *wish.graph); !free) return free;
+        fs::create_directories(wish.path, failure);
+        if (!fs::is_directory(wish.path, failure))
+            return Error{.message = wish.path + ": cannot make the folder: " + failure.message()};
+        return checkWritable(pathOf(frames, frames.frames.first));
     }
     if (lowerExtension(wish.path) != "." + nameOf(wish.picture.format))
         return Error{.message = wish.path + ": the name has to end in ." + nameOf(wish.picture.format)};
     if (const Done distinct = checkDistinct(wish.graph->path, {wish.path}); !distinct) return distinct;
-    return checkReplacesNone(filesRead(*wish.graph), {wish.path});
+    if (const Done kept = checkReplacesNone(filesRead(*wish.graph), {wish.path}); !kept) return kept;
+    return checkWritable(wish.path);
+}
+
+/// The picture with the means of k x k pixels in place of them, for the least k by which no side is longer.
+std::shared_ptr<const Picture> reduced(const std::shared_ptr<const Picture>& picture, int longest) {
+    if (!picture) return nullptr;
+    const int k = (std::max(picture->width, picture->height) + longest - 1) / longest;
+    if (k <= 1) return picture;
+    auto small = std::make_shared<Picture>();
+    small->width = std::max(picture->width / k, 1), small->height = std::max(picture->height / k, 1);
+    small->alpha = picture->alpha;
+    small->pixels.resize(4 * std::size_t(small->width) * std::size_t(small->height));
+    for (std::size_t i = 0; i < small->pixels.size(); ++i) {
+        const int x = int(i / 4) % small->width * k, y = int(i / 4) / small->width * k;
+        const int right = std::min(x + k, picture->width), low = std::min(y + k, picture->height);
+        int sum = 0;
+        for (int v = y; v < low; ++v)
+            for (int u = x; u < right; ++u)
+                sum +=
+                    picture
+                        ->pixels[4 * (std::size_t(v) * std::size_t(picture->width) + std::size_t(u)) + i % 4];
+        const int count = (right - x) * (low - y);
+        small->pixels[i] = uint8_t((sum + count / 2) / count);
+    }
+    return small;
 }
 
 }  // namespace
 
 Result<Player> RenderQueue::Shared::open(const RenderWish& wish) {
     start("checking the graph", 0.0f);
-    if (const Done free = checkOutputs(wish); !free) return free.error();
+    if (const Done place = makePlace(wish); !place) return place.error();
     findings = errorsOf(*wish.graph);
     if (!findings.empty()) return findings.front();
     if (cancel) return kStopped;
@@ -145,17 +184,14 @@ Done RenderQueue::Shared::still(const RenderWish& wish, Player& player) {
     };
     if (const Done written = save(*picture, light, wish.picture.format, wish.path, isThere); !written)
         return written;
+    capped = player.capped();
     change([](RenderState& now) { now.ready = now.made = 1; });
     show(std::move(*picture));
     return done();
 }
 
 Done RenderQueue::Shared::sequence(const RenderWish& wish, Player& player) {
-    const SequenceWish frames = framesOf(wish);
-    std::error_code failure;
-    fs::create_directories(frames.folder, failure);
-    if (!fs::is_directory(frames.folder, failure))
-        return Error{.message = frames.folder + ": cannot make the folder: " + failure.message()};
+    const SequenceWish frames = sequenceOf(wish);
     RenderOptions render = renderOptions(wish.picture, player);
     render.framesPerSecond = frames.frames.framesPerSecond;
     render.cancel = &cancel;
@@ -177,6 +213,7 @@ Done RenderQueue::Shared::sequence(const RenderWish& wish, Player& player) {
             if (const Done written = save(*picture, light, wish.picture.format, pathOf(frames, frame));
                 !written)
                 return written;
+            capped = capped || player.capped();
             show(std::move(*picture));
         }
         change([&](RenderState& now) {
@@ -198,15 +235,19 @@ Done RenderQueue::Shared::make(const RenderWish& wish) {
     if (const std::string why = player->whyDraft(); !why.empty() && wish.picture.quality == FieldBy::sooner)
         note("a draft, of the mesh alone: " + why);
     if (const std::optional<Error> coarser = player->coarser()) note(coarser->message);
-    if (player->capped()) note("the surface leaves the region and was closed at its boundary");
+    if (capped) note("the surface leaves the region and was closed at its boundary");
     return done();
 }
 
 void RenderQueue::Shared::run(const RenderWish& wish) {
+    std::error_code none;
+    const bool fresh = wish.frames && !fs::exists(wish.path, none);
     const Done made =
         attempt([&] { return make(wish); }, [this] { change([](RenderState& now) { now.again = true; }); },
                 "make the picture smaller, or lower the resolution");
+    if (fresh && !made) fs::remove(wish.path, none);  // which it only is if nothing was put there
     change([&](RenderState& now) {
+        now.picture = reduced(now.picture, kKeptSide);
         if (made) {
             now.phase = RenderPhase::done, now.stage = "done", now.part = 1.0f;
         } else if (cancel) {
@@ -234,7 +275,7 @@ void RenderQueue::Shared::work() {
             next->state = {.phase = RenderPhase::running};
             running = next->id;
             wish = next->wish;
-            cancel = false;
+            cancel = capped = false;
             findings.clear();
         }
         run(wish);
@@ -268,10 +309,7 @@ void RenderQueue::cancel(uint64_t id) {
     if (!item) return;
     if (item->state.phase == RenderPhase::waiting)
         item->state = {.phase = RenderPhase::cancelled, .stage = "cancelled"};
-    if (item->state.phase == RenderPhase::running) {
-        item->state.stage = "cancelling …";
-        shared->cancel = true;
-    }
+    if (item->state.phase == RenderPhase::running) item->state.cancelling = shared->cancel = true;
 }
 
 void RenderQueue::goOn(uint64_t id) {

@@ -32,18 +32,23 @@ struct RenderWish {
     DeviceOptions device = {};              ///< that makes them
 };
 
+/// The frames of a wish that has some.
+SequenceWish sequenceOf(const RenderWish& wish);
+
 /// How far a wish is, and what came of it.
 struct RenderState {
     enum class Phase : unsigned char { waiting, running, done, failed, cancelled } phase = Phase::waiting;
-    const char* stage = "waiting";                ///< words for what is being done
-    float part = 0.0f;                            ///< of the work that lies behind, 0 to 1
-    long ready = 0, passed = 0;                   ///< frames that there are; those that were there before
-    double seconds = 0.0;                         ///< that the frames made took, and
-    long made = 0;                                ///< how many they are
-    bool again = false;                           ///< the device was lost, and opened anew
-    std::shared_ptr<const Picture> picture = {};  ///< as it grows; of a sequence that of the last frame
-    std::vector<Error> problems = {};             ///< why it failed
-    std::vector<std::string> notes = {};          ///< what to know of what was made
+    const char* stage = "waiting";  ///< words for what is being done
+    float part = 0.0f;              ///< of the work that lies behind, 0 to 1
+    long ready = 0, passed = 0;     ///< frames that there are; those that were there before
+    double seconds = 0.0;           ///< that the frames made took, and
+    long made = 0;                  ///< how many they are
+    bool cancelling = false;        ///< it is to end, and has not yet
+    bool again = false;             ///< the device was lost, and opened anew
+    /// As it grows, of a sequence that of the last frame; smaller when it has ended.
+    std::shared_ptr<const Picture> picture = {};
+    std::vector<Error> problems = {};     ///< why it failed
+    std::vector<std::string> notes = {};  ///< what to know of what was made
 };
 
 struct RenderItem {

@@ -35,41 +35,44 @@ std::string printed(const char* format, Values... values) {
     return text;
 }
 
-/// A file in the folder that one works in, named as the document's.
-std::string proposal(const Editor& editor) {
-    return (fs::path(workFolder(editor)) / (stemOf(editor) + ".glb")).string();
+void setPath(ExportDialog& dialog, std::string path) {
+    if (exportFormat(path)) dialog.ending = fs::path(path).extension().string();
+    dialog.of.path = std::move(path);
 }
 
-void showFormat(ExportDialog& dialog) {
+void showFormat(Editor& editor) {
     propertyRow("Format");
-    const ExportFormat* chosen = exportFormat(dialog.path);
+    const std::string path = exportPath(editor);
+    const ExportFormat* chosen = exportFormat(path);
     if (!ImGui::BeginCombo("##format", chosen ? chosen->ending + 1 : "not known")) return;
     for (const ExportFormat& format : exportFormats()) {
         const std::string label = std::string(format.ending + 1) + "   " + format.about;
         if (ImGui::Selectable(label.c_str(), &format == chosen))
-            dialog.path = fs::path(dialog.path).replace_extension(format.ending).string();
+            setPath(editor.exporting, fs::path(path).replace_extension(format.ending).string());
     }
     ImGui::EndCombo();
 }
 
-void showFile(ExportDialog& dialog, float scale) {
-    const float room = 90.0f * scale;
+void showFile(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    const float scale = editor.shell.scale(), room = 90.0f * scale;
     propertyRow("File", {}, room);
-    ImGui::InputText("##file", &dialog.path);
+    std::string path = exportPath(editor);
+    if (ImGui::InputText("##file", &path)) setPath(dialog, path);
     ImGui::SameLine(0, 4 * scale);
     if (ImGui::Button("Browse …", {-1, 0})) {
-        const ExportFormat* format = exportFormat(dialog.path);
+        const ExportFormat* format = exportFormat(path);
         dialog.browser.endings = {format ? format->ending : exportFormats().front().ending};
-        open(dialog.browser, FileBrowser::Kind::save, dialog.path);
+        open(dialog.browser, FileBrowser::Kind::save, path);
     }
 }
 
 void showSettings(Editor& editor) {
     ExportDialog& dialog = editor.exporting;
     if (!beginProperties("export")) return;
-    showFormat(dialog);
-    showFile(dialog, editor.shell.scale());
-    if (const ExportFormat* format = exportFormat(dialog.path); format && format->manifold) {
+    showFormat(editor);
+    showFile(editor);
+    if (const ExportFormat* format = exportFormat(exportPath(editor)); format && format->manifold) {
         propertyRow("Solid", "For programs that compute with solids (EXT_mesh_manifold).");
         ImGui::Checkbox("marked as one##manifold", &dialog.manifold);
     }
@@ -84,34 +87,38 @@ void showSettings(Editor& editor) {
             dialog.resolution = std::clamp(dialog.resolution, 1, kMostResolution);
     }
     propertyRow("Region");
-    own = !dialog.givesRegion;
-    if (ImGui::Checkbox("found from the solid##region", &own)) dialog.givesRegion = !own;
-    if (dialog.givesRegion) {
+    ExportDialog::OfDocument& of = dialog.of;
+    own = !of.givesRegion;
+    if (ImGui::Checkbox("found from the solid##region", &own)) of.givesRegion = !own;
+    if (of.givesRegion) {
         propertyRow("   least corner, m");
-        dragNumbers(editor, "##least", std::span(dialog.region).first(3), {},
-                    [&dialog](std::span<const double> to) { std::ranges::copy(to, dialog.region.begin()); });
+        dragNumbers(editor, "##least", std::span(of.region).first(3), {},
+                    [&of](std::span<const double> to) { std::ranges::copy(to, of.region.begin()); });
         propertyRow("   greatest corner, m");
-        dragNumbers(
-            editor, "##greatest", std::span(dialog.region).last(3), {},
-            [&dialog](std::span<const double> to) { std::ranges::copy(to, dialog.region.begin() + 3); });
+        dragNumbers(editor, "##greatest", std::span(of.region).last(3), {},
+                    [&of](std::span<const double> to) { std::ranges::copy(to, of.region.begin() + 3); });
     }
     if (!editor.graph->timeline->is_null()) {
         propertyRow("Time, s", "The moment of the timeline that is exported.");
-        dragNumbers(editor, "##time", std::span(&dialog.seconds, 1), {.min = 0.0},
-                    [&dialog](std::span<const double> to) { dialog.seconds = to[0]; });
+        const double seconds = of.seconds.value_or(editor.viewport.seconds);
+        dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0},
+                    [&of](std::span<const double> to) { of.seconds = to[0]; });
     }
     endProperties();
 }
 
 void begin(Editor& editor) {
     ExportDialog& dialog = editor.exporting;
-    ExportWish wish{
-        .graph = editor.graph, .path = dialog.path, .seconds = dialog.seconds, .device = editor.device};
-    const std::array<double, 6>& r = dialog.region;
-    const ExportFormat* format = exportFormat(dialog.path);
+    const ExportDialog::OfDocument& of = dialog.of;
+    ExportWish wish{.graph = editor.graph,
+                    .path = exportPath(editor),
+                    .seconds = of.seconds.value_or(editor.viewport.seconds),
+                    .device = editor.device};
+    const std::array<double, 6>& r = of.region;
+    const ExportFormat* format = exportFormat(wish.path);
     wish.manifold = dialog.manifold && format && format->manifold;
     if (dialog.givesResolution) wish.mesh.resolution = dialog.resolution;
-    if (dialog.givesRegion) wish.mesh.region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
+    if (of.givesRegion) wish.mesh.region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
     dialog.job.reset();
     dialog.job = std::make_unique<ExportJob>(std::move(wish), [] { Shell::wake(); });
     dialog.told = false;
@@ -168,14 +175,15 @@ void showButtons(Editor& editor) {
     if (exports(editor)) {
         if (ImGui::Button("Cancel export", size)) dialog.job->cancel();
     } else {
+        const std::string path = exportPath(editor);
         std::error_code error;
-        if (fs::exists(dialog.path, error))
+        if (fs::exists(path, error))
             wrapped(themeColor(ThemeColor::warning),
-                    fs::path(dialog.path).filename().string() + " is there and will be replaced.");
-        if (!exportFormat(dialog.path))
+                    fs::path(path).filename().string() + " is there and will be replaced.");
+        if (!exportFormat(path))
             wrapped(themeColor(ThemeColor::error),
                     "The name has to end in one of the formats: choose one above.");
-        ImGui::BeginDisabled(!exportFormat(dialog.path));
+        ImGui::BeginDisabled(!exportFormat(path));
         if (ImGui::Button("Export", size)) begin(editor);
         ImGui::EndDisabled();
     }
@@ -211,12 +219,16 @@ bool exports(const Editor& editor) {
     return editor.exporting.job && editor.exporting.job->state().phase == Phase::running;
 }
 
+std::string exportPath(const Editor& editor) {
+    const ExportDialog& dialog = editor.exporting;
+    const bool typed = dialog.of.document == editor.viewport.document && !dialog.of.path.empty();
+    return typed ? dialog.of.path
+                 : (fs::path(workFolder(editor)) / (stemOf(editor) + dialog.ending)).string();
+}
+
 void openExport(Editor& editor) {
     ExportDialog& dialog = editor.exporting;
-    const std::string& file = editor.document.graph().path;
-    if (dialog.path.empty() || dialog.forFile != file) dialog.path = proposal(editor);
-    dialog.forFile = file;
-    dialog.seconds = editor.viewport.seconds;
+    dialog.of.seconds.reset();
     dialog.open = dialog.toFront = true;
 }
 
@@ -227,6 +239,8 @@ void showExport(Editor& editor) {
         dialog.told = true;
         if (!dialog.open) say(editor, outcome(*state));
     }
+    const uint64_t document = editor.viewport.document;
+    if (dialog.of.document != document) dialog.of = {.document = document};
     const float scale = editor.shell.scale();
     showStaying(dialog, "Export", 520.0f * scale, 0.25f, [&] {
         showSettings(editor);
@@ -234,7 +248,7 @@ void showExport(Editor& editor) {
         ImGui::Separator();
         showButtons(editor);
         const auto path = show(dialog.browser, scale);
-        if (path) dialog.path = *path;
+        if (path) setPath(dialog, *path);
         return path.has_value();
     });
 }

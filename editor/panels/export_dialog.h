@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "editor/files/browser.h"
@@ -17,14 +18,18 @@ namespace fw::editor {
 struct Editor;
 
 struct ExportDialog : StayingDialog {
-    std::string path = {};
-    std::string forFile = {};                              ///< the document's file when `path` was proposed
-    bool givesResolution = false;                          ///< else the output node's
-    int resolution = 256;                                  ///< cells along the longest side
-    bool givesRegion = false;                              ///< else found from the solid
-    std::array<double, 6> region = {-1, -1, -1, 1, 1, 1};  ///< least corner, greatest corner, metres
-    double seconds = 0.0;                                  ///< on the timeline
-    bool manifold = false;                                 ///< of glTF: marked as a solid
+    /// What is asked of the document that is shown; of another one it begins anew.
+    struct OfDocument {
+        uint64_t document = 0;     ///< Viewport::document
+        std::string path = {};     ///< as typed or chosen; empty: the one proposed
+        bool givesRegion = false;  ///< else found from the solid
+        std::array<double, 6> region = {-1, -1, -1, 1, 1, 1};  ///< least corner, greatest corner, metres
+        std::optional<double> seconds = {};                    ///< on the timeline; none: what is seen
+    } of;
+    std::string ending = ".glb";   ///< of what is proposed
+    bool givesResolution = false;  ///< else the output node's
+    int resolution = 256;          ///< cells along the longest side
+    bool manifold = false;         ///< of glTF: marked as a solid
     FileBrowser browser;
     std::unique_ptr<ExportJob> job = {};
     bool told = true;  ///< what came of the job was said
@@ -32,6 +37,8 @@ struct ExportDialog : StayingDialog {
 
 /// Opens it, or brings it to the front. A file beside the document's is proposed.
 void openExport(Editor& editor);
+/// Where the file goes: as typed, else beside the document's.
+std::string exportPath(const Editor& editor);
 /// One frame of it, if it is open; says what came of an export that ended while it was not.
 void showExport(Editor& editor);
 /// Whether an export is under way.

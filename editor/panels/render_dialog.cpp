@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "editor/editor.h"
 #include "editor/panels/properties.h"
@@ -36,17 +38,25 @@ constexpr Size kSizes[] = {{"1280 × 720", 1280, 720},
 
 bool isSequence(const RenderDialog& dialog) { return dialog.subject != RenderSubject::still; }
 
-/// The path that counts.
-std::string& pathOf(RenderDialog& dialog) { return isSequence(dialog) ? dialog.folder : dialog.file; }
-
 std::string endingOf(const RenderDialog& dialog) { return "." + nameOf(dialog.picture.format); }
 
-void propose(Editor& editor) {
+/// What was typed, of a still or of frames; empty: what is proposed counts.
+std::string& typedPath(RenderDialog& dialog) {
+    return isSequence(dialog) ? dialog.of.folder : dialog.of.file;
+}
+
+/// Where it goes: as typed, else beside the document's file.
+std::string pathOf(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
-    const std::string stem = stemOf(editor);
-    const fs::path folder = workFolder(editor);
-    dialog.file = (folder / (stem + endingOf(dialog))).string();
-    dialog.folder = (folder / (stem + "_frames")).string();
+    if (const std::string& typed = typedPath(dialog); !typed.empty()) return typed;
+    const char* frames = dialog.subject == RenderSubject::turntable ? "_turntable" : "_frames";
+    return (fs::path(workFolder(editor)) /
+            (stemOf(editor) + (isSequence(dialog) ? std::string(frames) : endingOf(dialog))))
+        .string();
+}
+
+double secondsOf(const Editor& editor) {
+    return editor.rendering.of.seconds.value_or(editor.viewport.seconds);
 }
 
 /// The frames that are asked for. Errors: there are none.
@@ -55,7 +65,7 @@ Result<FrameRange> framesOf(Editor& editor) {
     const Timeline* timeline = timelineOf(editor);
     const Timeline none;
     const Timeline& all = timeline ? *timeline : none;
-    const double rate = dialog.framesPerSecond > 0.0 ? dialog.framesPerSecond : all.framesPerSecond;
+    const double rate = dialog.of.framesPerSecond > 0.0 ? dialog.of.framesPerSecond : all.framesPerSecond;
     switch (dialog.subject) {
         case RenderSubject::turntable: return framesBetween(0.0, dialog.turn, rate);
         case RenderSubject::range:
@@ -65,20 +75,22 @@ Result<FrameRange> framesOf(Editor& editor) {
     }
 }
 
-void showPlace(RenderDialog& dialog, float scale) {
+void showPlace(Editor& editor) {
+    RenderDialog& dialog = editor.rendering;
+    const float scale = editor.shell.scale();
     propertyRow(isSequence(dialog) ? "Folder" : "File",
                 isSequence(dialog)
                     ? "A frame is a file in it, named after its number. Those that are there stay: so "
                       "what was stopped goes on."
                     : "",
                 90.0f * scale);
-    ImGui::InputText("##path", &pathOf(dialog));
+    std::string path = pathOf(editor);
+    if (ImGui::InputText("##path", &path)) typedPath(dialog) = path;
     ImGui::SameLine(0, 4 * scale);
     if (ImGui::Button("Browse …", {-1, 0})) {
         dialog.browser.endings.clear();
         if (!isSequence(dialog)) dialog.browser.endings.push_back(endingOf(dialog));
-        open(dialog.browser, isSequence(dialog) ? FileBrowser::Kind::folder : FileBrowser::Kind::save,
-             pathOf(dialog));
+        open(dialog.browser, isSequence(dialog) ? FileBrowser::Kind::folder : FileBrowser::Kind::save, path);
     }
 }
 
@@ -89,7 +101,8 @@ void showFormat(RenderDialog& dialog) {
     const bool light = dialog.picture.format == PictureFormat::exr;
     const auto choose = [&](PictureFormat format) {
         dialog.picture.format = format;
-        dialog.file = fs::path(dialog.file).replace_extension(nameOf(format)).string();
+        std::string& typed = dialog.of.file;
+        if (!typed.empty()) typed = fs::path(typed).replace_extension(nameOf(format)).string();
     };
     if (ImGui::RadioButton("PNG", !light)) choose(PictureFormat::png);
     ImGui::SameLine();
@@ -129,8 +142,9 @@ void showTimes(Editor& editor) {
     const bool rests = dialog.subject == RenderSubject::still || dialog.subject == RenderSubject::turntable;
     if (rests && !editor.graph->timeline->is_null()) {
         propertyRow("Time, s", "The moment of the timeline that is shown.");
-        dragNumbers(editor, "##time", std::span(&dialog.seconds, 1), {.min = 0.0},
-                    [&dialog](std::span<const double> to) { dialog.seconds = to[0]; });
+        const double seconds = secondsOf(editor);
+        dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0},
+                    [&dialog](std::span<const double> to) { dialog.of.seconds = to[0]; });
     }
     if (dialog.subject == RenderSubject::turntable) {
         propertyRow("Once around in, s");
@@ -139,12 +153,12 @@ void showTimes(Editor& editor) {
     }
     if (!isSequence(dialog)) return;
     const Timeline* timeline = timelineOf(editor);
-    const double rate = dialog.framesPerSecond > 0.0 ? dialog.framesPerSecond
-                                                     : (timeline ? *timeline : Timeline()).framesPerSecond;
+    const double rate = dialog.of.framesPerSecond > 0.0 ? dialog.of.framesPerSecond
+                                                        : (timeline ? *timeline : Timeline()).framesPerSecond;
     propertyRow("Frames a second");
     dragNumbers(editor, "##rate", std::span(&rate, 1),
                 {.min = 0.1, .max = kMostFramesPerSecond, .speed = 0.2},
-                [&dialog](std::span<const double> to) { dialog.framesPerSecond = to[0]; });
+                [&dialog](std::span<const double> to) { dialog.of.framesPerSecond = to[0]; });
     propertyRow("Frames there are", "Those of the same size are passed over; or made anew.");
     ImGui::Checkbox("made anew##overwrite", &dialog.overwrite);
 }
@@ -200,7 +214,7 @@ void showRenderSettings(Editor& editor) {
     propertyRow("Make");
     std::size_t subject = std::size_t(dialog.subject);
     if (chooseName("##subject", kSubjects, subject)) dialog.subject = RenderSubject(subject);
-    showPlace(dialog, editor.shell.scale());
+    showPlace(editor);
     showFormat(dialog);
     showSize(editor);
     showTimes(editor);
@@ -212,9 +226,9 @@ void showRenderSettings(Editor& editor) {
 Result<RenderWish> wishOf(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
     RenderWish wish{.graph = editor.graph,
-                    .path = pathOf(dialog),
+                    .path = pathOf(editor),
                     .picture = dialog.picture,
-                    .seconds = dialog.seconds,
+                    .seconds = secondsOf(editor),
                     .turntable = dialog.subject == RenderSubject::turntable,
                     .overwrite = dialog.overwrite,
                     .device = editor.device};
@@ -235,7 +249,7 @@ Result<RenderWish> wishOf(Editor& editor) {
 void begin(Editor& editor, RenderWish wish) {
     RenderDialog& dialog = editor.rendering;
     if (!dialog.queue) dialog.queue = std::make_unique<RenderQueue>([] { Shell::wake(); });
-    dialog.queue->add(std::move(wish));
+    dialog.awaited.insert(dialog.queue->add(std::move(wish)));
     dialog.looked = 0;
 }
 
@@ -249,6 +263,7 @@ std::string duration(double seconds) {
 /// "frame 12 of 120, 0:42 left"
 std::string progressOf(const RenderItem& item) {
     const RenderState& state = item.state;
+    if (state.cancelling) return "cancelling …";
     if (!item.wish.frames || state.ready == 0) return state.stage;
     const long all = item.wish.frames->count();
     std::string words = "frame " + std::to_string(state.ready) + " of " + std::to_string(all);
@@ -302,11 +317,13 @@ void showItem(RenderDialog& dialog, const RenderItem& item, float scale) {
     ImGui::SetCursorScreenPos({at.x + width - buttons, at.y + 0.4f * line});
     RenderQueue& queue = *dialog.queue;
     if (runs) {
+        ImGui::BeginDisabled(state.cancelling);
         if (ImGui::SmallButton("Cancel")) queue.cancel(item.id);
+        ImGui::EndDisabled();
         return ImGui::SetCursorScreenPos({at.x, at.y + 2.2f * line});
     }
     if (state.phase != RenderPhase::done) {
-        if (ImGui::SmallButton("Go on")) queue.goOn(item.id);
+        if (ImGui::SmallButton("Go on")) queue.goOn(item.id), dialog.awaited.insert(item.id);
         ImGui::SameLine();
     }
     if (ImGui::SmallButton("Take off the list")) queue.remove(item.id);
@@ -319,7 +336,7 @@ void showPicture(Editor& editor, const std::vector<RenderItem>& items) {
     const auto chosen = std::ranges::find(items, dialog.looked, &RenderItem::id);
     const RenderItem* item = chosen != items.end() ? &*chosen : nullptr;
     for (const RenderItem& each : items)  // what was last worked at
-        if (chosen == items.end() && each.state.picture) item = &each;
+        if (chosen == items.end() && (each.state.picture || !each.state.problems.empty())) item = &each;
     if (!item) return;
     if (item->state.picture) {
         const Picture& picture = *item->state.picture;
@@ -338,22 +355,41 @@ void showPicture(Editor& editor, const std::vector<RenderItem>& items) {
     for (const Error& problem : item->state.problems) wrapped(themeColor(ThemeColor::error), format(problem));
 }
 
-void showRenderButtons(Editor& editor) {
+/// How many of the frames lie in the folder already. While nothing is made they are counted now and then, for
+/// others may put some there; of very many only when others are asked for.
+long framesThere(Editor& editor, const RenderWish& wish, const std::vector<RenderItem>& items) {
+    constexpr long kMany = 1000;
+    RenderDialog::Counted& counted = editor.rendering.counted;
+    const SequenceWish frames = sequenceOf(wish);
+    const std::string asked = pathOf(frames, frames.frames.first) + pathOf(frames, frames.frames.last - 1) +
+                              std::to_string(wish.picture.width) + "x" + std::to_string(wish.picture.height);
+    long made = 0;
+    for (const RenderItem& item : items) made += item.state.made;
+    const double now = ImGui::GetTime();
+    const bool old = made != counted.made || (now > counted.seconds + 1.0 && counted.there < kMany);
+    if (asked != counted.asked || (old && !renders(editor)))
+        counted = {asked, made, now, fw::framesThere(frames)};
+    return counted.there;
+}
+
+void showRenderButtons(Editor& editor, const std::vector<RenderItem>& items) {
     RenderDialog& dialog = editor.rendering;
     const ImVec2 size{110 * editor.shell.scale(), 0};
     Result<RenderWish> wish = wishOf(editor);
     std::string wrong = wish ? "" : wish.error().message;
     std::error_code error;
-    const std::string& path = pathOf(dialog);
-    if (path.empty()) {
-        wrong = "Give it a name.";
-    } else if (!isSequence(dialog) && fs::path(path).extension() != endingOf(dialog)) {
+    const std::string path = pathOf(editor);
+    if (!isSequence(dialog) && fs::path(path).extension() != endingOf(dialog)) {
         wrong = "The name has to end in " + endingOf(dialog) + ".";
     } else if (!isSequence(dialog) && fs::exists(path, error)) {
         wrapped(themeColor(ThemeColor::warning),
                 fs::path(path).filename().string() + " is there and will be replaced.");
     } else if (wish && wish->frames) {
         wrapped(themeColor(ThemeColor::text), std::to_string(wish->frames->count()) + " frames.");
+        if (const long there = framesThere(editor, *wish, items); there > 0)
+            wrapped(themeColor(ThemeColor::warning),
+                    std::to_string(there) + (dialog.overwrite ? " are there and will be replaced."
+                                                              : " are there and stay as they are."));
     }
     if (!wrong.empty()) wrapped(themeColor(ThemeColor::error), wrong);
     ImGui::BeginDisabled(!wrong.empty());
@@ -368,10 +404,11 @@ void tell(Editor& editor, const std::vector<RenderItem>& items) {
     RenderDialog& dialog = editor.rendering;
     for (const RenderItem& item : items) {
         const RenderPhase phase = item.state.phase;
-        if (item.id <= dialog.heard || phase == RenderPhase::waiting || phase == RenderPhase::running)
-            continue;
-        dialog.heard = item.id;
-        if (!dialog.open) say(editor, fs::path(item.wish.path).filename().string() + ": " + outcomeOf(item));
+        if (phase == RenderPhase::waiting || phase == RenderPhase::running) {
+            dialog.awaited.insert(item.id);
+        } else if (dialog.awaited.erase(item.id) > 0 && !dialog.open) {
+            say(editor, fs::path(item.wish.path).filename().string() + ": " + outcomeOf(item));
+        }
     }
 }
 
@@ -381,10 +418,7 @@ bool renders(const Editor& editor) { return editor.rendering.queue && editor.ren
 
 void openRender(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
-    const std::string& file = editor.document.graph().path;
-    if (dialog.file.empty() || dialog.forFile != file) propose(editor);
-    dialog.forFile = file;
-    dialog.seconds = editor.viewport.seconds;
+    dialog.of.seconds.reset();
     dialog.open = dialog.toFront = true;
 }
 
@@ -392,10 +426,16 @@ void showRender(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
     const std::vector<RenderItem> items = dialog.queue ? dialog.queue->items() : std::vector<RenderItem>();
     tell(editor, items);
+    const uint64_t document = editor.viewport.document;
+    if (dialog.of.document != document) dialog.of = {.document = document};
+    if (items.empty() && dialog.texture) {
+        editor.shell.forget(std::exchange(dialog.texture, nullptr));
+        dialog.textured.reset();
+    }
     const float scale = editor.shell.scale();
     showStaying(dialog, "Render", 540.0f * scale, 0.04f, [&] {
         showRenderSettings(editor);
-        showRenderButtons(editor);
+        showRenderButtons(editor, items);
         if (!items.empty()) ImGui::Separator();
         for (const RenderItem& item : items) {
             ImGui::PushID(int(item.id));
@@ -404,7 +444,7 @@ void showRender(Editor& editor) {
         }
         if (!items.empty()) showPicture(editor, items);
         const auto path = show(dialog.browser, scale);
-        if (path) pathOf(dialog) = *path;
+        if (path) typedPath(dialog) = *path;
         return path.has_value();
     });
 }

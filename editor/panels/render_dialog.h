@@ -9,6 +9,8 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "editor/files/browser.h"
@@ -24,21 +26,32 @@ class Shell;
 enum class RenderSubject : unsigned char { still, timeline, range, turntable };
 
 struct RenderDialog : StayingDialog {
+    /// What is asked of the document that is shown; of another one it begins anew.
+    struct OfDocument {
+        uint64_t document = 0;               ///< Viewport::document
+        std::string file = {}, folder = {};  ///< as typed or chosen; empty: the one proposed
+        std::optional<double> seconds = {};  ///< on the timeline, of what rests; none: what is seen
+        double framesPerSecond = 0.0;        ///< 0: the timeline's
+    } of;
     RenderSubject subject = RenderSubject::still;
-    std::string file = {}, folder = {};  ///< of a still, of frames
-    std::string forFile = {};            ///< the document's file when they were proposed
     PictureWish picture = {};
-    double seconds = 0.0;          ///< on the timeline, of what rests
-    double framesPerSecond = 0.0;  ///< 0: the timeline's
-    double turn = 4.0;             ///< seconds that a turntable takes
+    double turn = 4.0;  ///< seconds that a turntable takes
     bool overwrite = false;
     bool asSeen = false;  ///< by the viewport's camera, rather than the document's
     FileBrowser browser;
     std::unique_ptr<RenderQueue> queue = {};  ///< null: nothing was asked for yet
     uint64_t looked = 0;                      ///< the item whose picture is shown; 0: the last one
-    uint64_t heard = 0;                       ///< items up to this one have ended, and it was said
+    std::set<uint64_t> awaited = {};          ///< items that had not ended when they were last looked at
     ImTextureID texture = nullptr;
     std::shared_ptr<const Picture> textured = {};  ///< what is in the texture
+
+    /// How many of the frames that are asked for are there already, and of what that was counted when.
+    struct Counted {
+        std::string asked = {};
+        long made = 0;         ///< by the queue until then
+        double seconds = 0.0;  ///< of ImGui's clock
+        long there = 0;
+    } counted;
 };
 
 /// Opens it, or brings it to the front. Files beside the document's are proposed.

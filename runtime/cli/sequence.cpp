@@ -58,22 +58,22 @@ Result<FrameRange> framesOf(const Graph& graph, const RenderCommandOptions& opti
 }  // namespace
 
 int runSequence(const RenderCommandOptions& options, const PictureWish& picture) {
+    SequenceWish wish{.picture = picture, .folder = options.output, .overwrite = options.overwrite};
+    if (options.turntable) wish.turntable = options.mesh.graph.time;
     if (const std::string ending = lowerExtension(options.output); ending == ".png" || ending == ".exr")
-        return badUsage(options.output + ": a sequence goes into a folder, in files " +
-                        frameName(0, picture.format) + " and so on: give its name" +
+        return badUsage(options.output +
+                        ": a sequence goes into a folder, a file for each frame: give its name" +
                         (ending == ".exr" ? ", and --format exr" : ""));
     std::error_code failure;
     if (fs::exists(options.output, failure) && !fs::is_directory(options.output, failure))
         return badUsage(options.output + ": this is a file: a sequence goes into a folder");
 
-    SequenceWish wish{.picture = picture, .folder = options.output, .overwrite = options.overwrite};
-    if (options.turntable) wish.turntable = options.mesh.graph.time;
     const auto accept = [&](const Graph& graph) {
         const Result<FrameRange> frames = framesOf(graph, options);
-        if (!frames) return badUsage(frames.error().message);
+        if (!frames) return badUsage(frames.error().message + " (--from, --to, --fps, --turntable)");
         wish.frames = *frames;
         const Done free = checkFrames(wish, graph);
-        return free ? kDone : badUsage(free.error().message);
+        return free ? kDone : badUsage(free.error().message + " (--size, -o, --overwrite)");
     };
     std::optional<Player> player;
     {

@@ -30,9 +30,15 @@ uint64_t keyOf(const Player& player, const RenderOptions& options) {
     for (int axis = 0; axis < 3; ++axis) add(region.lo[axis]), add(region.hi[axis]);
     add(options.width), add(options.height), add(options.bounces), add(player.resolution());
     if (options.cutout) add(1);
+    std::optional<Camera> camera = options.scene.camera;
+    if (const Result<Scene> scene = player.scene(); !camera && scene) camera = scene->camera;
+    if (camera) {
+        for (int axis = 0; axis < 3; ++axis) add(camera->position[axis]), add(camera->target[axis]);
+        for (const double number : {camera->fov, camera->aperture, camera->focus, camera->shutter})
+            add(number);
+    }
     // Which of the samples are of which moment depends on how many there are.
-    if (const Result<Scene> scene = player.scene(); scene && scene->camera && scene->camera->shutter > 0.0)
-        add(options.samples);
+    if (camera && camera->shutter > 0.0) add(options.samples);
     if (player.environment())
         for (const Radiance& texel : player.environment()->texels)
             for (const float value : texel) add(value);

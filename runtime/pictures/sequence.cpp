@@ -1,6 +1,7 @@
 #include "runtime/pictures/sequence.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -17,30 +18,49 @@ Result<FrameRange> framesBetween(double from, double to, double framesPerSecond)
     const double first = std::ceil(from * framesPerSecond - 1e-6),
                  last = std::ceil(to * framesPerSecond - 1e-6);
     if (from < 0.0) {
-        error.message = "--from must be 0 or later";
+        error.message = "a sequence begins at 0 s or later";
     } else if (!(first < last)) {
-        error.message = "there is no frame from --from (" + std::to_string(from) + " s) up to --to (" +
-                        std::to_string(to) + " s, not included)";
+        error.message = "there is no frame from " + std::to_string(from) + " s up to " + std::to_string(to) +
+                        " s (not included)";
     } else if (last > kMostFrames) {
-        error.message = "frames are numbered up to " + std::to_string(kMostFrames) + ": lower --to or --fps";
+        error.message = "frames are numbered up to " + std::to_string(kMostFrames) +
+                        ": end sooner, or have fewer of them a second";
     } else {
         return FrameRange{static_cast<long>(first), static_cast<long>(last), framesPerSecond};
     }
     return error;
 }
 
-std::string frameName(long frame, PictureFormat format) {
-    std::string number = std::to_string(frame);
-    return std::string(6 - std::min<std::size_t>(number.size(), 6), '0') + number + "." + nameOf(format);
+std::string frameName(const SequenceWish& wish, long frame) {
+    const std::string number = std::to_string(frame);
+    return std::string(6 - std::min<std::size_t>(number.size(), 6), '0') + number +
+           (wish.turntable ? "_of_" + std::to_string(wish.frames.count()) : "") + "." +
+           nameOf(wish.picture.format);
 }
 
 std::string pathOf(const SequenceWish& wish, long frame) {
-    return (fs::path(wish.folder) / frameName(frame, wish.picture.format)).string();
+    return (fs::path(wish.folder) / frameName(wish, frame)).string();
 }
 
 bool isThere(const SequenceWish& wish, long frame) {
     return !wish.overwrite && sizeOfPicture(pathOf(wish, frame), wish.picture.format) ==
                                   std::pair(wish.picture.width, wish.picture.height);
+}
+
+long framesThere(const SequenceWish& wish) {
+    SequenceWish kept = wish;
+    kept.overwrite = false;
+    long there = 0;
+    std::error_code failure;
+    fs::directory_iterator each(wish.folder, failure);
+    for (; !failure && each != fs::directory_iterator(); each.increment(failure)) {
+        const std::string name = each->path().filename().string();
+        long frame = -1;
+        std::from_chars(name.data(), name.data() + name.size(), frame);
+        there += frame >= wish.frames.first && frame < wish.frames.last && name == frameName(wish, frame) &&
+                 isThere(kept, frame);
+    }
+    return there;
 }
 
 Done checkFrames(const SequenceWish& wish, const Graph& graph) {
@@ -56,7 +76,7 @@ Done checkFrames(const SequenceWish& wish, const Graph& graph) {
         if (there && *there != std::pair(wish.picture.width, wish.picture.height))
             return Error{.message = path + " is there already, with " + std::to_string(there->first) + "x" +
                                     std::to_string(there->second) +
-                                    " pixels: give that --size, another folder, or --overwrite"};
+                                    " pixels: give that size, another folder, or have it made anew"};
     }
     return done();
 }

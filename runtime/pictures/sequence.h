@@ -3,7 +3,8 @@
 // Frame n shows the time n / fps, whatever the sequence that it belongs to, and is named after n: so
 // sequences of one graph, size and rate can be extended, taken up again after a stop, and shared between
 // machines. A picture is the same bytes in whatever order the frames are made. On a turntable frame n of N
-// is seen from n / N of the way around, at one moment of the timeline.
+// is seen from n / N of the way around, at one moment of the timeline; its name tells N, so that frames of
+// another turntable, or of the timeline, are never taken for its own.
 #pragma once
 
 #include <string>
@@ -26,9 +27,6 @@ inline constexpr long kMostFrames = 1'000'000;
 /// The frames with from <= time < to. Errors: times below zero, no frame between them, more than kMostFrames.
 Result<FrameRange> framesBetween(double from, double to, double framesPerSecond);
 
-/// "000042.png"
-std::string frameName(long frame, PictureFormat format);
-
 /// What there is to be of a sequence, in a folder.
 struct SequenceWish {
     PictureWish picture = {};
@@ -39,9 +37,14 @@ struct SequenceWish {
     std::optional<Camera> camera = {};     ///< in place of the scene's
 };
 
+/// "000042.png", of a turntable "000042_of_120.png".
+std::string frameName(const SequenceWish& wish, long frame);
 std::string pathOf(const SequenceWish& wish, long frame);
 /// Whether the frame's picture lies there and is to stay.
 bool isThere(const SequenceWish& wish, long frame);
+
+/// How many of its frames are there, whether they are to stay or not.
+long framesThere(const SequenceWish& wish);
 
 /// Whether the frames may be written: none is a file that the graph reads, another thing than a file, or a
 /// picture of another size that is to stay. The Error names the frame.

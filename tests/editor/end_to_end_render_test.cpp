@@ -76,6 +76,7 @@ TEST_F(EndToEndRender, FramesAreMadeAndCounted) {
     program.waitFor("3 frames.");
     press("Render");
     program.waitFor("3 frames made");
+    program.waitFor("3 are there and stay as they are");
     keepShot("frames.png");
     for (const char* name : {"000000.png", "000001.png", "000002.png"})
         EXPECT_TRUE(fs::exists(beside("_frames") + "/" + name)) << name;
@@ -88,16 +89,30 @@ TEST_F(EndToEndRender, FramesAreMadeAndCounted) {
 
 TEST_F(EndToEndRender, ATurntableIsCancelledAndGoneOnWith) {
     make("A turntable");
-    program.waitFor("Once around in");
-    program.waitFor("12 frames.");
+    // So many that none of what follows comes too late.
+    const Area line = program.waitFor("Once around in");
+    const Area value{{line.hi.x, line.lo.y - 6}, {1280, line.hi.y + 6}};
+    program.clickOn("4", value);
+    program.type("3600\n");
+    program.waitFor("10800 frames.");
+    const std::string folder = beside("_turntable");
+    const auto made = [&] {
+        std::error_code none;
+        fs::directory_iterator each(folder, none);
+        return none ? 0 : std::distance(each, fs::directory_iterator());
+    };
     press("Render");
+    ASSERT_TRUE(eventually([&] { return fs::exists(folder + "/000001_of_10800.png"); }));
     program.clickOn("Cancel");
     program.waitFor("cancelled after");
     keepShot("cancelled.png");
-    EXPECT_FALSE(fs::exists(beside("_frames") + "/000011.png"));
+    const auto before = made();
+    EXPECT_LT(before, 10800);
     program.clickOn("Go on");
-    program.waitFor("frames made");
-    EXPECT_TRUE(fs::exists(beside("_frames") + "/000011.png"));
+    EXPECT_TRUE(eventually([&] { return made() > before + 1; }));
+    program.clickOn("Cancel");
+    program.waitFor("cancelled after");
+    EXPECT_FALSE(fs::exists(folder + "/010799_of_10800.png"));
 }
 
 }  // namespace fw::editor::test::end_to_end_render_test

@@ -318,8 +318,8 @@ TEST_F(FilesInWindow, AnExportIsNotEndedUnasked) {
     frames();
     openExport(*editor);
     frames();
-    EXPECT_EQ(fs::path(editor->exporting.path).filename(), "tower.glb");
-    EXPECT_NE(fs::path(editor->exporting.path).parent_path(), samplesFolder());
+    EXPECT_EQ(fs::path(exportPath(*editor)).filename(), "tower.glb");
+    EXPECT_NE(fs::path(exportPath(*editor)).parent_path(), samplesFolder());
     std::mutex held;
     std::unique_lock holds(held);
     editor->exporting.job = std::make_unique<ExportJob>(

@@ -131,9 +131,10 @@ TEST_F(Pictures, FramesAndTurntablesHaveTheBytesOfTheCommand) {
         byCommand("turned", {"--turntable", "2", "--fps", "2", "--time", "1", "--samples", "1"});
     for (const char* name : {"000000.png", "000001.png", "000002.png", "000003.png"}) {
         EXPECT_EQ(readText(folder.path("mine") + "/" + name), readText(theirs + "/" + name)) << name;
-        EXPECT_EQ(readText(folder.path("turn") + "/" + name), readText(turned + "/" + name)) << name;
+        const std::string of4 = std::string(name).insert(6, "_of_4");
+        EXPECT_EQ(readText(folder.path("turn") + "/" + of4), readText(turned + "/" + of4)) << name;
     }
-    EXPECT_NE(readText(turned + "/000000.png"), readText(turned + "/000001.png"));
+    EXPECT_NE(readText(turned + "/000000_of_4.png"), readText(turned + "/000001_of_4.png"));
 }
 
 TEST_F(Pictures, ASequenceGoesOnWhereItWasCancelled) {
@@ -248,6 +249,50 @@ TEST_F(Pictures, SayWhyTheyCannotBe) {
     // What had failed can be gone on with when it is mended, and the queue goes on.
     EXPECT_EQ(finish(queue->add(wish(folder.path("b.png")))).phase, Phase::done);
     EXPECT_FALSE(fs::exists(folder.path("a.png")));
+}
+
+TEST_F(Pictures, ThatCannotBeWrittenAreToldBeforeTheyAreMade) {
+    bool lit = false;
+    hook = [&] {
+        for (const RenderItem& item : queue->items()) lit = lit || item.state.picture || item.state.made > 0;
+    };
+    EXPECT_NE(refusal(wish(folder.path("none/a.png"))).find("cannot create a file"), std::string::npos);
+    fs::create_directories(folder.path("a.png"));
+    EXPECT_NE(refusal(wish(folder.path("a.png"))).find("is a folder"), std::string::npos);
+    writeText(folder.path("file"), "");
+    EXPECT_NE(refusal(frames(folder.path("file/mine"))), "");
+    EXPECT_FALSE(lit);
+    // A folder that was made for frames of which there are none goes.
+    RenderWish broken = frames(folder.path("mine"));
+    broken.graph = std::make_shared<const Graph>(
+        *parseGraph(R"({"fieldwright": 1, "nodes": [{"id": "out", "type": "output"}]})", "", nullptr));
+    EXPECT_NE(refusal(broken), "");
+    queue.reset();
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.field.json", "a.png", "file"}));
+}
+
+TEST_F(Pictures, OfWhatHasEndedAreKeptSmall) {
+    RenderWish large = wish(folder.path("a.png"), 1);
+    large.picture.width = 2100, large.picture.height = 40;
+    large.picture.view = RENDER_NORMALS;
+    std::shared_ptr<const Picture> whole;
+    hook = [&] {
+        for (const RenderItem& item : queue->items())
+            if (item.state.phase == Phase::running && item.state.picture) whole = item.state.picture;
+    };
+    const RenderState state = finish(queue->add(large));
+    queue.reset();
+    ASSERT_TRUE(whole && state.picture);
+    EXPECT_EQ(whole->width, 2100);
+    EXPECT_EQ(state.picture->width, 700);
+    EXPECT_EQ(state.picture->height, 13);
+    const auto mean = [](const Picture& picture) {
+        double sum = 0.0;
+        for (const uint8_t value : picture.pixels) sum += value;
+        return sum / double(picture.pixels.size());
+    };
+    EXPECT_NEAR(mean(*whole), mean(*state.picture), 2.0);
+    EXPECT_EQ(sizeOfPicture(large.path, PictureFormat::png), std::pair(2100, 40));
 }
 
 TEST_F(Pictures, AreEndedWithTheProgram) {

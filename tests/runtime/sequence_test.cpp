@@ -80,16 +80,24 @@ TEST_F(Sequence, IsOfTheRangeOnlyIfAsked) {
 TEST_F(Sequence, OfATurntableGoesOnceAroundAtOneTime) {
     EXPECT_EQ(render(frames, {"--turntable", "1", "--fps", "6", "--time", "0.5", "--samples", "1"}).status,
               0);
+    const auto of6 = [](const std::string& path, int n) {
+        return readText(path + "/00000" + std::to_string(n) + "_of_6.png");
+    };
     EXPECT_EQ(names(frames).size(), 6u);
-    EXPECT_NE(frame(frames, 0), frame(frames, 3)) << "the light is behind it";
+    EXPECT_NE(of6(frames, 0), of6(frames, 3)) << "the light is behind it";
     const std::string other = folder.path("other");
     EXPECT_EQ(render(other, {"--turntable", "1", "--fps", "6", "--time", "1", "--samples", "1"}).status, 0);
-    EXPECT_NE(frame(frames, 0), frame(other, 0)) << "another time";
+    EXPECT_NE(of6(frames, 0), of6(other, 0)) << "another time";
     EXPECT_EQ(
         render(other, {"--turntable", "1", "--fps", "6", "--time", "0.5", "--samples", "1", "--overwrite"})
             .status,
         0);
-    for (int n = 0; n < 6; ++n) EXPECT_EQ(frame(frames, n), frame(other, n)) << n;
+    for (int n = 0; n < 6; ++n) EXPECT_EQ(of6(frames, n), of6(other, n)) << n;
+    // Frames of the timeline, and of a turntable of another length, are not taken for its own.
+    const CommandResult mixed = render(frames, {"--turntable", "0.5", "--fps", "6", "--samples", "1"});
+    EXPECT_EQ(mixed.status, 0);
+    EXPECT_EQ(mixed.errors.find("there already"), std::string::npos) << mixed.errors;
+    EXPECT_EQ(names(frames).size(), 9u);
     const Camera camera = turned({.position = {1, 2, 5}, .target = {1, 1, 1}}, 0.25);
     EXPECT_NEAR(camera.position[0], 5.0, 1e-12) << "from +z towards +x";
     EXPECT_EQ(camera.position[1], 2.0);
@@ -145,15 +153,15 @@ TEST_F(Sequence, RefusesWhatMakesNoSequence) {
         SCOPED_TRACE(part);
         expectRefusal(render(output, more), 2, {part});
     };
-    refuse(frames, {"--from", "1", "--to", "1"}, "there is no frame from --from");
+    refuse(frames, {"--from", "1", "--to", "1"}, "there is no frame from");
     // Before anything is looked for: a plane has no bounds.
     test::writeText(folder.path("plane.field.json"), R"({"fieldwright": 1, "nodes": [
         {"id": "a", "type": "plane"}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "a"}}}]})");
     expectRefusal(
         runCommand({"render", folder.path("plane.field.json"), "-o", frames, "--from", "3", "--to", "1"}), 2,
-        {"there is no frame from --from"});
+        {"there is no frame from"});
     std::filesystem::remove(folder.path("plane.field.json"));
-    refuse(frames, {"--from", "-1"}, "--from must be 0 or later");
+    refuse(frames, {"--from", "-1"}, "begins at 0 s or later");
     refuse(frames, {"--to", "1e9"}, "frames are numbered up to 1000000");
     refuse(frames, {"--fps", "0"}, "--fps");
     refuse(folder.path("a.png"), {"--to", "1"}, "a sequence goes into a folder");

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "graph/document/json.h"
+#include "runtime/pictures/kept_paths.h"
 #include "runtime/play/player.h"
 #include "tests/support/command.h"
 #include "tests/support/gpu.h"
@@ -129,6 +130,44 @@ TEST(Shutter, SequencesCountByTheirRateAndPathsGoOnWithinAMoment) {
     stopped.progress = {};
     ASSERT_TRUE(player.frame(stopped));
     EXPECT_EQ(kept.sums, whole.sums);
+}
+
+TEST(Shutter, PathsAreKeptForTheirCameraAlone) {
+    const test::TempDir folder;
+    const std::string output = folder.path("a.png");
+    const Player player = open("");
+    const Camera camera{.position = {3, 0, 4}};
+    RenderOptions wish{.width = 8, .height = 4, .samples = 40, .reference = true, .bounces = 1};
+    wish.scene.camera = camera;
+    const auto goesOnFrom = [&](RenderOptions options) {
+        return KeptPaths(output, player, options).goOn(options);
+    };
+    {
+        KeptPaths kept(output, player, wish);
+        RenderOptions render = wish;
+        EXPECT_EQ(kept.goOn(render), 0);
+        *render.sums = {.paths = 3, .sums = std::vector<float>(4 * 8 * 4, 1.0f)};
+        render.keepSums();
+    }
+    EXPECT_EQ(goesOnFrom(wish), 3);
+    RenderOptions other = wish;
+    other.scene.camera.reset();  // the scene's
+    EXPECT_EQ(goesOnFrom(other), 0);
+    other.scene.camera = camera, other.scene.camera->position[0] += 1e-9;
+    EXPECT_EQ(goesOnFrom(other), 0);
+    other.scene.camera = camera, other.scene.camera->aperture = 0.1;
+    EXPECT_EQ(goesOnFrom(other), 0);
+    // Of an open shutter which paths are of which moment depends on how many there are to be.
+    for (const double shutter : {0.0, 90.0}) {
+        wish.scene.camera->shutter = shutter;
+        KeptPaths kept(output, player, wish);
+        RenderOptions render = wish;
+        kept.goOn(render);
+        *render.sums = {.paths = 3, .sums = std::vector<float>(4 * 8 * 4, 1.0f)};
+        render.keepSums();
+        other = wish, other.samples = 50;
+        EXPECT_EQ(goesOnFrom(other), shutter > 0.0 ? 0 : 3);
+    }
 }
 
 TEST(Lens, OfTheLiveViewIsOpenWhileItRests) {
