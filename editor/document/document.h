@@ -69,8 +69,8 @@ class Document {
     /// False if there is nothing to undo or a hand holds.
     bool undo();
     bool redo();
-    /// The steps that there are: 0 is the graph as it was opened, step i what stepName(i) made; and which of
-    /// them the graph is.
+    /// The steps that there are: step i is what stepName(i) made, and the first has no name if it is the
+    /// graph as it was opened, which kMostSteps later is forgotten; and which of them the graph is.
     std::size_t stepCount() const { return steps.size(); }
     const std::string& stepName(std::size_t step) const { return steps[step].name; }
     std::size_t step() const { return at; }

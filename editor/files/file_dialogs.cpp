@@ -124,6 +124,7 @@ void showOutside(Editor& editor) {
     }
     leave = leave || escaped();
     if (load) reload(editor, *files.outside);
+    files.keepsNext = files.keepsNext || (keep && !load);
     if (load || leave) files.next = Next::none;
     if (load || keep || leave) {
         files.outside.reset();

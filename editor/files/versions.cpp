@@ -59,20 +59,25 @@ std::vector<Version> versionsOf(const std::string& file) {
     return versions;
 }
 
-Done keepVersion(const std::string& file, Wall::time_point now) {
+Done keepVersion(const std::string& file, bool always, Wall::time_point now) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return done();
     std::vector<Version> versions = versionsOf(file);
-    // A clock that was set back keeps one too many rather than none.
-    if (!versions.empty() && now >= versions[0].until && now < versions[0].until + kBetweenVersions)
-        return done();
+    // Those of a time to come are of before the clock was set back: they come last.
+    std::ranges::stable_partition(versions, [&](const Version& each) { return each.until <= now; });
+    const bool justNow =
+        !versions.empty() && versions[0].until <= now && now < versions[0].until + kBetweenVersions;
+    if (justNow && !always) return done();
     std::ifstream from(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(from), {}};
     if (!from) return Error{.message = "cannot be read, so no version of it was kept", .file = file};
     const fs::path folder = versionsFolder(file);
     fs::create_directories(folder, error);
-    Result<OutputFile> copy =
-        OutputFile::open((folder / (stamp(now) + std::string(kGraphEnding))).string(), nullptr);
+    const auto named = [&](Wall::time_point time) {
+        return folder / (stamp(time) + std::string(kGraphEnding));
+    };
+    while (fs::exists(named(now), error)) now += std::chrono::seconds(1);
+    Result<OutputFile> copy = OutputFile::open(named(now).string(), nullptr);
     if (!copy) return copy.error();
     copy->write(text);
     if (Done written = copy->commit(); !written) return written;
@@ -80,12 +85,17 @@ Done keepVersion(const std::string& file, Wall::time_point now) {
     return done();
 }
 
-std::string words(Wall::time_point time) {
-    const std::time_t seconds = Wall::to_time_t(time);
-    std::tm parts{};
-    localtime_r(&seconds, &parts);
+std::string words(Wall::time_point time, Wall::time_point now) {
+    const auto parts = [](Wall::time_point of) {
+        const std::time_t seconds = Wall::to_time_t(of);
+        std::tm local{};
+        localtime_r(&seconds, &local);
+        return local;
+    };
+    const std::tm local = parts(time);
+    const char* format = local.tm_year == parts(now).tm_year ? "%-d %B, %H:%M" : "%-d %B %Y, %H:%M";
     std::array<char, 64> text{};
-    return {text.data(), std::strftime(text.data(), text.size(), "%-d %B, %H:%M", &parts)};
+    return {text.data(), std::strftime(text.data(), text.size(), format, &local)};
 }
 
 }  // namespace fw::editor

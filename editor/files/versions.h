@@ -2,7 +2,8 @@
 // back at.
 //
 // They lie in a hidden folder beside the file, ".tower.field.json.versions", a file each, named after the
-// time until which it stood. At most one of a quarter of an hour is kept, and the last ten.
+// time until which it stood. One of a quarter of an hour is kept, and besides what a save would have lost for
+// good; of all these the last ten.
 #pragma once
 
 #include <chrono>
@@ -28,11 +29,12 @@ struct Version {
 /// Of the file, the last first. None where there is no such folder.
 std::vector<Version> versionsOf(const std::string& file);
 
-/// Called before the file is replaced: keeps what it holds, unless it is not there or a version was kept less
-/// than kBetweenVersions ago. Errors: the folder cannot be made, the copy not be written.
-Done keepVersion(const std::string& file, Wall::time_point now = Wall::now());
+/// Called before the file is replaced: keeps what it holds, unless it is not there or, where it need not be
+/// kept `always`, a version was less than kBetweenVersions ago. Errors: the folder cannot be made, the copy
+/// not be written.
+Done keepVersion(const std::string& file, bool always = false, Wall::time_point now = Wall::now());
 
-/// "26 November, 14:05", in local time.
-std::string words(Wall::time_point time);
+/// "26 November 2026, 14:05", in local time; without the year if it is this one.
+std::string words(Wall::time_point time, Wall::time_point now = Wall::now());
 
 }  // namespace fw::editor

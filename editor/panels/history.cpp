@@ -1,4 +1,6 @@
 // The steps of undo as a list, the last below: a click takes back all after it, or does all up to it again.
+#include <utility>
+
 #include "editor/editor.h"
 
 namespace fw::editor {
@@ -20,6 +22,11 @@ void showHistory(Editor& editor) {
             if (step > now) ImGui::PopStyleColor();
             ImGui::PopID();
         }
+    if (std::exchange(editor.panelState.historyAt, now) != now) {
+        const float line = ImGui::GetTextLineHeightWithSpacing(), top = line * float(now),
+                    room = ImGui::GetWindowHeight(), from = ImGui::GetScrollY();
+        if (top < from || top + line > from + room) ImGui::SetScrollY(top - 0.5f * room);
+    }
     document.goTo(goTo);
 }
 

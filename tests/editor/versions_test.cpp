@@ -22,11 +22,11 @@ const Wall::time_point kNoon = Wall::from_time_t(1'800'000'000);
 TEST(Versions, OneOfAQuarterOfAnHourAndTheLastTenAreKept) {
     const TempDir folder;
     const std::string file = folder.path("a.field.json");
-    EXPECT_TRUE(keepVersion(file, kNoon)) << "there is nothing to keep";
+    EXPECT_TRUE(keepVersion(file, false, kNoon)) << "there is nothing to keep";
     EXPECT_TRUE(versionsOf(file).empty());
     for (int minute = 0; minute <= 300; minute += 5) {
         writeText(file, "as of minute " + std::to_string(minute));
-        ASSERT_TRUE(keepVersion(file, kNoon + minutes(minute)));
+        ASSERT_TRUE(keepVersion(file, false, kNoon + minutes(minute)));
     }
     const std::vector<Version> versions = versionsOf(file);
     ASSERT_EQ(versions.size(), kMostVersions);
@@ -40,9 +40,42 @@ TEST(Versions, OneOfAQuarterOfAnHourAndTheLastTenAreKept) {
     EXPECT_TRUE(versionsOf(folder.path("b.field.json")).empty());
     writeText(fs::path(versions[0].path).parent_path() / "mine.txt", "mine");
     EXPECT_EQ(versionsOf(file).size(), kMostVersions);
-    // A clock that was set back loses none.
-    ASSERT_TRUE(keepVersion(file, kNoon - minutes(60)));
-    EXPECT_EQ(versionsOf(file).size(), kMostVersions);
+}
+
+TEST(Versions, AClockThatWasSetBackLosesNone) {
+    const TempDir folder;
+    const std::string file = folder.path("a.field.json");
+    for (int i = 0; i < int(kMostVersions); ++i) {
+        writeText(file, "before " + std::to_string(i));
+        ASSERT_TRUE(keepVersion(file, false, kNoon + minutes(15 * i)));
+    }
+    // An hour's saves, two days back: still one of a quarter, each in the place of the first of before.
+    for (int minute = 0; minute < 60; minute += 5) {
+        writeText(file, "after " + std::to_string(minute));
+        ASSERT_TRUE(keepVersion(file, false, kNoon - minutes(2 * 24 * 60 - minute)));
+    }
+    std::vector<std::string> texts;
+    for (const Version& version : versionsOf(file)) texts.push_back(readText(version.path));
+    EXPECT_EQ(texts, (std::vector<std::string>{"before 9", "before 8", "before 7", "before 6", "before 5",
+                                               "before 4", "after 45", "after 30", "after 15", "after 0"}));
+}
+
+TEST(Versions, WhatWouldBeLostForGoodIsAlwaysKept) {
+    const TempDir folder;
+    const std::string file = folder.path("a.field.json");
+    for (const char* text : {"one", "two", "three"}) {
+        writeText(file, text);
+        ASSERT_TRUE(keepVersion(file, true, kNoon));
+    }
+    const std::vector<Version> versions = versionsOf(file);
+    ASSERT_EQ(versions.size(), 3u) << "within a second too";
+    EXPECT_EQ(readText(versions[0].path), "three");
+    EXPECT_EQ(readText(versions[2].path), "one");
+}
+
+TEST(Versions, AreToldWithTheYearIfItIsAnother) {
+    EXPECT_EQ(words(kNoon, kNoon).find("2027"), std::string::npos);
+    EXPECT_NE(words(kNoon, kNoon + minutes(400 * 24 * 60)).find("2027"), std::string::npos);
 }
 
 TEST(Versions, WhatCannotBeKeptIsSaid) {
@@ -50,7 +83,7 @@ TEST(Versions, WhatCannotBeKeptIsSaid) {
     const std::string file = folder.path("a.field.json");
     writeText(file, "before");
     writeText(folder.path(".a.field.json.versions"), "a file where the folder should be");
-    EXPECT_FALSE(keepVersion(file, kNoon));
+    EXPECT_FALSE(keepVersion(file, false, kNoon));
     EXPECT_EQ(readText(file), "before");
 }
 
@@ -81,6 +114,56 @@ TEST(Versions, AreKeptBySavingAndComeBackAsAStep) {
     EXPECT_NE(readText(file), kBall) << "until it is saved the file stays";
     editor.keys("ctrl+z");
     EXPECT_EQ(editor->document.graph().nodes.size(), 1u);
+}
+
+TEST(Versions, WhatUndoCannotGiveBackIsKeptWhateverTheTime) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string file = editor.path("a.field.json"), other = editor.path("b.field.json");
+    writeText(file, kBall);
+    writeText(other, "of another program");
+    openFile(*editor, file);
+    editor.settle();
+    const auto change = [&](const char* label) {
+        Graph graph = editor->document.graph();
+        graph.nodes[0].label = label;
+        editor->document.apply("Label", graph);
+    };
+    change("one");
+    ASSERT_TRUE(writeFile(*editor, file));
+    change("two");
+    ASSERT_TRUE(writeFile(*editor, file));
+    ASSERT_EQ(versionsOf(file).size(), 1u) << "one of a quarter of an hour";
+    // Going back, and saving that.
+    const std::string two = readText(file);
+    restore(*editor, versionsOf(file)[0]);
+    ASSERT_TRUE(writeFile(*editor, file));
+    ASSERT_EQ(versionsOf(file).size(), 2u);
+    EXPECT_EQ(readText(versionsOf(file)[0].path), two);
+    change("three");
+    ASSERT_TRUE(writeFile(*editor, file));
+    EXPECT_EQ(versionsOf(file).size(), 2u) << "once";
+    // Over another file.
+    ASSERT_TRUE(writeFile(*editor, other));
+    ASSERT_EQ(versionsOf(other).size(), 1u);
+    EXPECT_EQ(readText(versionsOf(other)[0].path), "of another program");
+}
+
+TEST(Versions, OfWhichAPartCannotBeReadSayIt) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string file = editor.path("a.field.json");
+    writeText(file, kBall);
+    openFile(*editor, file);
+    editor.settle();
+    std::string damaged = kBall;
+    damaged.insert(damaged.find("{\"id\": \"out\""), "{\"id\": 7}, ");
+    const std::string version = editor.path("damaged.field.json");
+    writeText(version, damaged);
+    restore(*editor, Version{version, kNoon, damaged.size()});
+    EXPECT_EQ(editor->document.graph().nodes.size(), 2u);
+    EXPECT_EQ(editor->files.message.title, "Not all could be read");
+    EXPECT_FALSE(editor->files.found.empty()) << "listed under Problems";
 }
 
 TEST(Versions, NoneKeepsSavingFromBeingDone) {
