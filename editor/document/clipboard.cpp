@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/document/brought_groups.h"
 #include "editor/document/layout.h"
 #include "editor/document/soundness.h"
 #include "editor/document/wiring.h"
@@ -14,24 +15,6 @@ namespace fw::editor {
 namespace {
 
 constexpr const char* kSource = "clipboard";  ///< the file that errors name
-
-/// The groups that the nodes show, and those that these show, in the order of `groups`.
-std::vector<Group> groupsFor(const std::vector<Node>& nodes, const std::vector<Group>& groups) {
-    std::set<std::string_view> needed;
-    std::vector<const std::vector<Node>*> open{&nodes};
-    while (!open.empty()) {
-        const std::vector<Node>& next = *open.back();
-        open.pop_back();
-        for (const Node& node : next)
-            if (!node.group.empty() && needed.insert(node.group).second)
-                for (const Group& group : groups)
-                    if (group.id == node.group) open.push_back(&group.nodes);
-    }
-    std::vector<Group> found;
-    for (const Group& group : groups)
-        if (needed.contains(group.id)) found.push_back(group);
-    return found;
-}
 
 /// Takes off all wires that come from none of the nodes. `wiring` is of the graph that they were in.
 void unlinkOutside(std::vector<Node>& nodes, const Wiring& wiring) {
@@ -119,32 +102,6 @@ Result<Wrapped> wrapped(const std::string& text) {
 Error placed(Error error, const Wrapped& whole) {
     if (error.line == whole.line) error.column = std::max(1, error.column - whole.shift);
     return error;
-}
-
-/// The groups of `from` that `to` lacks are added to it, under another id where one of that id is another
-/// group.
-void addGroups(Graph& from, Graph& to) {
-    FreshIds ids(to.groups);
-    std::unordered_map<std::string, std::string> renamed;
-    std::vector<Group> added;
-    for (Group& group : from.groups) {
-        const Group* there = to.group(group.id);
-        if (there && *there == group) continue;
-        const std::string former = group.id;
-        group.id = ids.next(group.id);
-        if (group.id != former) renamed.emplace(former, group.id);
-        added.push_back(std::move(group));
-    }
-    const auto follow = [&](std::vector<Node>& nodes) {
-        for (Node& node : nodes)
-            if (const auto found = renamed.find(node.group); found != renamed.end())
-                node.group = found->second;
-    };
-    follow(from.nodes);
-    for (Group& group : added) {
-        follow(group.nodes);
-        to.groups.push_back(std::move(group));
-    }
 }
 
 /// Moves the nodes so that the middle of them is at `at`.

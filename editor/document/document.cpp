@@ -155,7 +155,10 @@ Blocks blocksOf(const std::vector<Node>& nodes, const Blocks& former) {
 }
 
 GroupPart partOf(const Group& group, const GroupPart& former) {
-    Group declared{group.id, group.inputs, group.outputs, {}, group.extra, group.place};
+    Group declared;
+    declared.id = group.id, declared.file = group.file, declared.taken = group.taken;
+    declared.inputs = group.inputs, declared.outputs = group.outputs;
+    declared.extra = group.extra, declared.place = group.place;
     return {shared(former.declared, std::move(declared)), blocksOf(group.nodes, former.nodes)};
 }
 

@@ -37,6 +37,7 @@ struct Error {
     int codeColumn = 0;        ///< 1-based column inside the node's code
     Severity severity = Severity::error;
     Code code = Code::other;
+    bool operator==(const Error&) const = default;
 };
 
 /// "tower.field.json:12:5: error: node 'cut', input 'b', code 1:14: message"; parts that are unknown are left

@@ -94,9 +94,14 @@ struct GroupOutput {
 };
 
 /// A reusable subgraph. Its node of type group_input has the group's inputs as outputs; the inputs of its
-/// node of type group_output are the group's outputs.
+/// node of type group_output are the group's outputs. It may be a copy of the group in another graph file:
+/// the copy is what counts, so that a document needs no other to be made, and the editor tells when they
+/// differ.
 struct Group {
     std::string id;
+    std::string file = {};  ///< that it is a copy of, a path from this document's folder; empty: none
+    std::string taken =
+        {};  ///< what both were when they were last the same (editor/document/linked_groups.h)
     std::vector<GroupInput> inputs;
     std::vector<GroupOutput> outputs;
     std::vector<Node> nodes;

@@ -353,10 +353,12 @@ class Reader {
         group = to.id;
         const bool sound = forMembers(value, [&](std::string_view key, uint32_t keyAt, uint32_t i) {
             if (key == "id") return true;
+            if (key == "file") return read(i, key, to.file);
+            if (key == "taken") return read(i, key, to.taken);
             if (key == "inputs") return readList(i, key, to.inputs, &Reader::readGroupInput, kMaxSockets);
             if (key == "outputs") return readList(i, key, to.outputs, &Reader::readGroupOutput, kMaxSockets);
             if (key == "nodes") return readNodes(i, to.nodes);
-            return unknown(keyAt, to.extra, {"id", "inputs", "outputs", "nodes"});
+            return unknown(keyAt, to.extra, {"id", "file", "taken", "inputs", "outputs", "nodes"});
         });
         group.clear();
         return sound;

@@ -265,6 +265,8 @@ Json jsonOf(const std::vector<Entry>& entries) {
 
 Json jsonOf(const Group& group) {
     Json object = {{"id", group.id}};
+    if (!group.file.empty()) object["file"] = group.file;
+    if (!group.taken.empty()) object["taken"] = group.taken;
     if (!group.inputs.empty()) object["inputs"] = jsonOf(group.inputs);
     if (!group.outputs.empty()) object["outputs"] = jsonOf(group.outputs);
     object["nodes"] = jsonOf(group.nodes);

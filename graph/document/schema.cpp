@@ -169,6 +169,9 @@ Json groupSchema() {
     const Json name = refer("name"), type = {{"enum", types}};
     return object(
         {{"id", refer("id")},
+         {"file", described("The graph file of which the group is a copy; the editor tells when they differ.",
+                            {{"type", "string"}})},
+         {"taken", described("A digest of both, of when they were last the same.", {{"type", "string"}})},
          {"inputs",
           {{"type", "array"},
            {"maxItems", kMaxSockets},
