@@ -68,6 +68,17 @@ bool groupActive(const Editor& editor) {
     return box && !box->node->group.empty();
 }
 
+/// The group that is shown by the active node, else the one that one is in; empty: none.
+std::string groupIdHere(const Editor& editor) {
+    const NodeBox* box = editor.boxes->find(editor.canvas.active);
+    return box && !box->node->group.empty() ? box->node->group : scopeOf(editor);
+}
+bool groupHere(const Editor& editor) { return graphOf(editor).group(groupIdHere(editor)) != nullptr; }
+bool linkedHere(const Editor& editor) {
+    const Group* group = graphOf(editor).group(groupIdHere(editor));
+    return group && !group->file.empty();
+}
+
 void ungroupActive(Editor& editor) {
     apply(editor, "Ungroup", ungroup(graphOf(editor), scopeOf(editor), editor.canvas.active));
 }
@@ -200,6 +211,7 @@ constexpr Command kCommands[] = {
      [](const Editor& e) { return !e.files.left.empty(); }, [](Editor& e) { proceed(e, Files::Next::recovered); }},
     {"file.versions", "File", "Versions …", "", everywhere,
      [](const Editor& e) { return !e.document.graph().path.empty(); }, offerVersions},
+    {"file.missing", "File", "Missing files …", "", everywhere, always, openMissingFiles},
     {"file.save", "File", "Save", "Ctrl+S", everywhere, always,
      [](Editor& e) { e.files.next = Files::Next::none, save(e); }},
     {"file.save_as", "File", "Save as …", "Ctrl+Shift+S", everywhere, always, saveAs},
@@ -277,6 +289,14 @@ constexpr Command kCommands[] = {
     {"node.ungroup", "Node", "Ungroup", "Ctrl+Shift+G", canvas, groupActive, ungroupActive},
     {"node.enter", "Node", "Enter or leave group", "Ctrl+Tab", canvas,
      [](const Editor& e) { return groupActive(e) || !e.canvas.scope.empty(); }, enterOrLeave},
+    {"node.link", "Node", "Group to a file …", "", canvas, groupHere,
+     [](Editor& e) { askToLink(e, groupIdHere(e)); }},
+    {"node.update_link", "Node", "Update group from its file", "", canvas, linkedHere,
+     [](Editor& e) { updateGroup(e, groupIdHere(e)); }},
+    {"node.write_link", "Node", "Write group to its file", "", canvas, linkedHere,
+     [](Editor& e) { writeGroup(e, groupIdHere(e)); }},
+    {"node.unlink", "Node", "Make group local", "", canvas, linkedHere,
+     [](Editor& e) { unlinkGroup(e, groupIdHere(e)); }},
     {"node.frame", "Node", "Comment frame", "Ctrl+J", canvas, anySelected,
      [](Editor& e) { e.document.apply("Add Frame", frameNodes(graphOf(e), scopeOf(e), selected(e))); }},
     {"node.layout", "Node", "Lay out", "Ctrl+L", canvas, always, layOutNodes, true},
@@ -339,6 +359,7 @@ constexpr Command kCommands[] = {
     {"view.scene", "View", "Scene", "", everywhere, always, [](Editor& e) { togglePanel(e, "scene"); }},
     {"view.statistics", "View", "Statistics", "", everywhere, always, [](Editor& e) { togglePanel(e, "statistics"); }},
     {"view.history", "View", "History", "Ctrl+H", everywhere, always, [](Editor& e) { togglePanel(e, "history"); }},
+    {"view.library", "View", "Library", "", everywhere, always, [](Editor& e) { togglePanel(e, "library"); }},
     {"view.next_panel", "View", "Next panel", "Ctrl+PageDown", everywhere, always, [](Editor& e) { turnPanels(e, 1); },
      true},
     {"view.previous_panel", "View", "Previous panel", "Ctrl+PageUp", everywhere, always,
@@ -428,10 +449,12 @@ void runShortcuts(Editor& editor) {
     if (ImGui::IsKeyPressed(space, false))
         editor.canvas.spacePans = io.NavActive || io.KeyCtrl || io.KeyShift || io.KeyAlt;
     const bool panel = editor.panels.keyboard == Part::side || editor.panels.keyboard == Part::timeline;
-    if (ImGui::IsKeyReleased(space) && !std::exchange(editor.canvas.spacePans, false) && !panel)
+    if (ImGui::IsKeyReleased(space) && !std::exchange(editor.canvas.spacePans, false) && !panel &&
+        !editor.outline.focused)
         addHere(editor);
     const bool picture = editor.viewport.hovered || editor.panels.keyboard == Part::viewport;
     const auto heard = [&](const Command& command, const Shortcut& shortcut) {
+        if (editor.outline.focused && command.heard != Heard::everywhere) return false;
         if (command.heard == Heard::picture) return picture;
         if (command.heard == Heard::timeline && (picture || editor.panels.keyboard != Part::timeline))
             return false;

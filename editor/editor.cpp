@@ -96,6 +96,7 @@ void showCanvasPart(Editor& editor) {
     drawAnew(editor);
     const CanvasWishes wishes =
         showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
+    takeDraggedPart(editor);
     if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);
@@ -259,11 +260,14 @@ std::map<std::string, double, std::less<>> costsOf(const Editor& editor) {
     double all = 0.0;
     for (const NodeEffort& effort : editor.viewport.shown.efforts) {
         all += effort.sample;
-        const auto [scope, id] = placeOf(*editor.graph, effort.node);
-        if (editor.canvas.scope.empty())
-            costs[effort.node.substr(0, effort.node.find('/'))] += effort.sample;
-        else if (scope == editor.canvas.scope)
+        // Of "tower/window/pane" the node here is the one whose place is in the scope shown.
+        for (std::size_t end = 0; end != std::string::npos;) {
+            end = effort.node.find('/', end + 1);
+            const auto [scope, id] = placeOf(*editor.graph, std::string_view(effort.node).substr(0, end));
+            if (scope != editor.canvas.scope) continue;
             costs[id] += effort.sample;
+            break;
+        }
     }
     for (auto& [id, cost] : costs) cost /= std::max(all, 1.0);
     return costs;
@@ -283,12 +287,13 @@ CanvasMarks marksOf(Editor& editor) {
     for (const auto& [path, thumbnail] : editor.thumbnails.shown)
         if (std::string id = here(path); !id.empty()) marks.thumbnails.emplace(std::move(id), &thumbnail);
     marks.exactness = [&editor](const std::string& id) { return exactnessOf(editor, id); };
-    for (const Error& finding : shown.findings) {
-        const std::string id = here(finding.node);
-        if (id.empty()) continue;
-        const Error*& worst = marks.findings[id];
-        if (!worst || finding.severity == Error::Severity::error) worst = &finding;
-    }
+    for (const std::vector<Error>* some : {&editor.files.groups.findings(), &shown.findings})
+        for (const Error& finding : *some) {
+            const std::string id = here(finding.node);
+            if (id.empty()) continue;
+            const Error*& worst = marks.findings[id];
+            if (!worst || finding.severity == Error::Severity::error) worst = &finding;
+        }
     marks.animated = movedFields(editor);
     if (editor.canvas.costs) marks.costs = costsOf(editor);
     return marks;

@@ -18,7 +18,9 @@
 #include "editor/document/document.h"
 #include "editor/files/files.h"
 #include "editor/keymap.h"
+#include "editor/outline/window.h"
 #include "editor/panels/export_dialog.h"
+#include "editor/panels/library.h"
 #include "editor/panels/panel_state.h"
 #include "editor/panels/render_dialog.h"
 #include "editor/panels/windows.h"
@@ -48,7 +50,7 @@ enum class Part : unsigned char { canvas, viewport, side, timeline };
 
 struct Panels {
     bool inspector = true, outliner = true, problems = true, parameters = true, scene = true,
-         timeline = false, statistics = false, history = false;
+         timeline = false, statistics = false, history = false, library = false;
     float side = 0.36f;             ///< of the window's width, for viewport and inspector
     float top = 0.55f;              ///< of its height, for the viewport
     float low = 0.25f;              ///< of the window's height, for the timeline
@@ -80,6 +82,8 @@ struct Editor {
     Files files;
     ExportDialog exporting;
     RenderDialog rendering;
+    LibraryPanel library;
+    outline::Window outline;
 
     /// The document as it is drawn: of revision `drawn`.
     std::shared_ptr<const Graph> graph;
@@ -124,5 +128,6 @@ void showTimeline(Editor& editor);
 void showViewport(Editor& editor);
 void showStatistics(Editor& editor);
 void showHistory(Editor& editor);
+void showLibrary(Editor& editor);
 
 }  // namespace fw::editor

@@ -60,6 +60,13 @@ void adopt(Editor& editor, PartialGraph read, const std::string& text, const std
                  " could not be read and are left out here. The file keeps them: saving asks before it is "
                  "replaced. They stay listed under Problems.",
              files.found);
+    std::error_code none;
+    const std::size_t missing =
+        missingFiles(editor.document.graph(), fs::absolute(path, none).parent_path().string()).size();
+    if (missing > 0)
+        say(editor, std::to_string(missing) +
+                        (missing == 1 ? " file that it names is" : " files that it names are") +
+                        " missing: File, Missing files looks for what is");
 }
 
 /// A copy of the file beside it, under a name that is free.
@@ -79,7 +86,8 @@ std::string folderOf(const std::string& path) { return fs::path(absolute(path)).
 /// The graph with the files that it reads in the folder of its new file.
 Graph withFiles(const Graph& graph, const std::string& path, std::vector<std::string>& told) {
     if (graph.path.empty() || sameFile(folderOf(graph.path), folderOf(path))) return graph;
-    return bringFiles(graph, folderOf(graph.path), folderOf(path), told);
+    return withLinksFrom(bringFiles(graph, folderOf(graph.path), folderOf(path), told), folderOf(graph.path),
+                         folderOf(path));
 }
 
 /// Where a file goes that has no name of its own yet.
@@ -118,7 +126,9 @@ std::string nameOf(const Editor& editor) {
 
 std::string stemOf(const Editor& editor) {
     const std::string name = fileName(editor.document.graph().path);
-    return name.empty() ? "untitled" : name.substr(0, name.find('.'));
+    if (name.empty()) return "untitled";
+    return name.ends_with(kGraphEnding) ? name.substr(0, name.size() - kGraphEnding.size())
+                                        : fs::path(name).stem().string();
 }
 
 void keepPreferences(Editor& editor) {
@@ -153,8 +163,12 @@ void take(Editor& editor, Graph graph) {
     editor.files.origin = Origin::own;
     editor.files.found.clear();
     editor.files.outside.reset();
+    editor.files.keepsNext = false;
     editor.files.waits.clear();
     editor.files.watch.follow({}, {});
+    editor.files.groups.forget();
+    editor.outline.open = false;
+    editor.outline.does = outline::Window::Does::nothing;
 }
 
 void openFile(Editor& editor, const std::string& path) {
@@ -191,12 +205,13 @@ void doNext(Editor& editor) {
 bool writeFile(Editor& editor, const std::string& path) {
     Files& files = editor.files;
     const Graph graph = editor.document.graph();
+    const bool another = graph.path.empty() || !sameFile(path, graph.path);
     const auto fail = [&](const Error& error) { return say(editor, format(error)), false; };
     if (files.origin == Origin::partly && sameFile(path, graph.path))
         if (const Done kept = keepBeside(path); !kept) return fail(kept.error());
     std::vector<std::string> told{"saved " + path};
     const Graph moved = withFiles(graph, path, told);
-    if (const Done kept = keepVersion(path); !kept)
+    if (const Done kept = keepVersion(path, another || files.keepsNext); !kept)
         told.push_back("no version of what was there is kept: " + format(kept.error()));
     if (const Done saved = saveGraph(moved, path); !saved) return fail(saved.error());
     editor.document.setPath(path);
@@ -205,6 +220,7 @@ bool writeFile(Editor& editor, const std::string& path) {
     files.origin = Origin::own;
     files.found.clear();
     files.outside.reset();
+    files.keepsNext = false;
     files.watch.follow(path, writeGraph(moved));
     files.recovery.discard();
     say(editor, joined(told));
@@ -254,7 +270,15 @@ void restore(Editor& editor, const Version& version) {
     if (!text) read.findings = {text.error()};
     if (!read.any) return tell(editor, "This version cannot be read", "It stays where it is:", read.findings);
     editor.document.apply("Go back to " + words(version.until), placeAll(read.graph));
+    editor.files.keepsNext = true;
+    editor.files.found = std::move(read.findings);
     say(editor, "as it was until " + words(version.until) + ": undo takes that back, saving keeps it");
+    if (!read.whole)
+        tell(editor, "Not all could be read",
+             "Parts of the version until " + words(version.until) +
+                 " could not be read and are left out here. It stays where it is. They stay listed under "
+                 "Problems.",
+             editor.files.found);
 }
 
 void restore(Editor& editor, const LeftCopy& copy) {
@@ -308,6 +332,14 @@ void showPick(Editor& editor) {
     if (!told.empty()) say(editor, joined(told));
 }
 
+void showLinking(Editor& editor) {
+    Files& files = editor.files;
+    ImGui::PushID("link");
+    const auto path = show(files.linkBrowser, editor.shell.scale());
+    ImGui::PopID();
+    if (path && editor.document.graph().group(files.linking)) linkGroup(editor, files.linking, *path);
+}
+
 }  // namespace
 
 void showFiles(Editor& editor) {
@@ -320,6 +352,8 @@ void showFiles(Editor& editor) {
     }
     if (const auto path = show(files.samples, editor.shell)) openFile(editor, *path);
     showPick(editor);
+    showLinking(editor);
+    showMissingFiles(editor);
     // Not into what a hand is doing: it waits for that to end.
     if (!editor.document.held())
         if (const std::vector<std::string> dropped = editor.shell.takeDropped(); !dropped.empty())
@@ -359,8 +393,10 @@ bool watchFile(Editor& editor, FileWatch::Clock::time_point now) {
     // Not under what is being done: it waits for that to end.
     if (editor.document.held() || files.outside || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
         return false;
-    const bool assets = files.assets.look(editor.graph, now);
+    bool assets = files.assets.look(editor.graph, now);
+    files.missing.look(editor.graph, assets, now);
     if (assets) editor.document.outdate();
+    assets = files.groups.look(editor.graph, now) || assets;
     std::optional<FileWatch::Change> change = files.watch.look(now);
     if (!change) return assets;
     const std::string name = fileName(editor.document.graph().path);

@@ -12,6 +12,8 @@
 #include "editor/files/assets.h"
 #include "editor/files/browser.h"
 #include "editor/files/drop.h"
+#include "editor/files/group_links.h"
+#include "editor/files/missing_files.h"
 #include "editor/files/preferences.h"
 #include "editor/files/recovery.h"
 #include "editor/files/samples.h"
@@ -63,6 +65,10 @@ struct Files {
     std::vector<Error> found;  ///< when the file was read
     FileWatch watch;
     AssetWatch assets;
+    GroupLinks groups;
+    std::string linking = {};  ///< the group for which `linkBrowser` asks where it is to be written
+    FileBrowser linkBrowser;
+    MissingFilesDialog missing;
     std::string copied, copiedFrom;  ///< the last text that was copied here, and the file of its graph
     std::optional<std::string>
         outside;        ///< what another program wrote, while it is asked what to do about it
@@ -76,9 +82,11 @@ struct Files {
     std::vector<LeftCopy> left;          ///< of crashes, not yet decided on
     bool offers = false;                 ///< these are shown
     std::vector<Version> versions = {};  ///< of the document's file, while they are shown
-    bool asksVersions = false;           ///< these are to be opened
-    std::string title;                   ///< that the window has
-    std::string failureTold;             ///< of the preview, last
+    /// The file holds what undo cannot give back: saving keeps it as a version, however old the last one is.
+    bool keepsNext = false;
+    bool asksVersions = false;  ///< these are to be opened
+    std::string title;          ///< that the window has
+    std::string failureTold;    ///< of the preview, last
 };
 
 /// Reads preferences, looks for copies that were left, and opens the file, if there is a path. One that does

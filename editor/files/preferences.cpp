@@ -67,6 +67,9 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
     take(
         all, "scale", isScale, [&](const Json& value) { preferences.scale = value.get<float>(); }, problem);
     take(
+        all, "library", [](const Json& value) { return value.is_string(); },
+        [&](const Json& value) { preferences.library = value.get<std::string>(); }, problem);
+    take(
         all, "shortcuts", [](const Json& value) { return value.is_object(); },
         [&](const Json& value) {
             for (const auto& [id, keys] : value.items())
@@ -87,6 +90,7 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     all["recent"] = preferences.recent;
     if (!preferences.taken.empty()) all["taken"] = preferences.taken;
     if (!preferences.favourites.empty()) all["favourites"] = preferences.favourites;
+    if (!preferences.library.empty()) all["library"] = preferences.library;
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
     if (!preferences.panels->is_null()) all["panels"] = preferences.panels;

@@ -88,7 +88,7 @@ Recovery::Recovery(std::string folder) {
 Recovery::~Recovery() {
     if (writing.valid()) writing.wait();
     if (lock < 0) return;
-    if (!copied) unlink(lockOf(file).c_str());
+    if (!copied) ::unlink(lockOf(file).c_str());
     close(lock);
 }
 
@@ -128,7 +128,7 @@ Done Recovery::keepNow(const Graph& graph) {
 
 void Recovery::discard() {
     if (writing.valid()) writing.wait();
-    if (std::exchange(copied, false)) unlink(file.c_str());
+    if (std::exchange(copied, false)) ::unlink(file.c_str());
     changed = false;
 }
 
@@ -141,7 +141,7 @@ std::vector<LeftCopy> leftCopies(const std::string& folder) {
         if (path.ends_with(kLock) && std::time(nullptr) - changedAt(path) > kStaleSeconds) {
             // Of a process that died without a copy. A young one may be of an editor that is just starting.
             const std::string copy = path.substr(0, path.size() - kLock.size()) + std::string(kGraphEnding);
-            if (access(copy.c_str(), F_OK) != 0 && isLeft(copy)) unlink(path.c_str());
+            if (access(copy.c_str(), F_OK) != 0 && isLeft(copy)) ::unlink(path.c_str());
         }
         if (!path.ends_with(kGraphEnding) || stat(path.c_str(), &status) != 0 || !isLeft(path)) continue;
         LeftCopy copy{path, {}, localTime(status.st_mtime)};
@@ -171,8 +171,8 @@ Result<Graph> readCopy(const LeftCopy& copy) {
 }
 
 void removeCopy(const LeftCopy& copy) {
-    unlink(copy.file.c_str());
-    unlink(lockOf(copy.file).c_str());
+    ::unlink(copy.file.c_str());
+    ::unlink(lockOf(copy.file).c_str());
 }
 
 }  // namespace fw::editor

@@ -22,6 +22,7 @@ struct Offer {
     std::string label;
     const NodeType* type = nullptr;
     const Group* group = nullptr;
+    const LibraryPart* part = nullptr;
 };
 
 /// What the menu can add: all types that can be added here, or those that fit the open wire.
@@ -50,7 +51,7 @@ std::vector<Offer> offersOf(const Editor& editor) {
     const bool searches = menu.search[0] != 0;
     std::vector<Offer> offers;
     const auto add = [&](const NodeType* type, std::string heading) {
-        offers.push_back({std::move(heading), type->label, type, nullptr});
+        offers.push_back({std::move(heading), type->label, type});
     };
     if (!searches) {
         const auto part = [&](std::span<const NodeType* const> some, const char* heading) {
@@ -75,12 +76,23 @@ std::vector<Offer> offersOf(const Editor& editor) {
         if (group.id != editor.canvas.scope &&
             match(menu.search, {.label = group.id, .id = group.id}) < kNoMatch)
             offers.push_back({"", readable(group.id) + " (group)", findNodeType("group"), &group});
+    // Of many parts those that are asked for.
+    for (const LibraryPart& part : editor.library.parts)
+        if (searches &&
+            match(menu.search, {.label = part.label, .id = {}, .others = {}, .category = part.folder}) <
+                kNoMatch)
+            offers.push_back({"", part.label + " (library)", nullptr, nullptr, &part});
     return offers;
 }
 
 /// Adds the node, and connects it to the open wire.
 void add(Editor& editor, const Offer& offer) {
     const AddMenu& menu = editor.add;
+    if (offer.part) {
+        const LibraryPart part = *offer.part;
+        addPart(editor, part, position(menu.wish.at), false);
+        return ImGui::CloseCurrentPopup();
+    }
     const NodeType& type = *offer.type;
     Edited edited = addNode(editor.document.graph(), editor.canvas.scope, type.id, position(menu.wish.at),
                             offer.group ? offer.group->id : std::string());
@@ -140,6 +152,7 @@ void showAddMenu(Editor& editor) {
     if (menu.opened) {
         menu.search[0] = 0;
         menu.chosen = 0;
+        lookAtLibrary(editor);
         ImGui::OpenPopup(kPopup);
         ImGui::SetNextWindowPos(editor.canvas.view.toScreen(menu.wish.at));
     }
@@ -173,8 +186,9 @@ void showAddMenu(Editor& editor) {
                                                ImGuiSelectableFlags_DontClosePopups);
         const bool hovered = ImGui::IsItemHovered();
         if (i == menu.chosen && (down || up)) ImGui::SetScrollHereY();
-        const bool onStar = !offer.group && showStar(editor, *offer.type, hovered);
-        if (hovered && !offer.group)
+        const bool ofType = offer.type && !offer.group;
+        const bool onStar = ofType && showStar(editor, *offer.type, hovered);
+        if (hovered && ofType)
             ImGui::SetTooltip("%s", onStar ? "Favourites stand first" : offer.type->doc.c_str());
         ImGui::PopID();
         if (clicked && onStar)

@@ -63,7 +63,7 @@ void showNames(Editor& editor, const NodeBox& box) {
 
 /// What was found about the node, but for its code.
 void showFindings(const Editor& editor, const std::string& path) {
-    for (const Error& finding : editor.viewport.shown.findings) {
+    for (const Error& finding : problemsOf(editor)) {
         if (finding.node != path || finding.codeLine > 0) continue;
         const bool error = finding.severity == Error::Severity::error;
         wrapped(themeColor(error ? ThemeColor::error : ThemeColor::warning),

@@ -77,6 +77,9 @@ void showPoints(const Input& input) {
     if (input.row.value)
         if (const auto* given = std::get_if<std::vector<double>>(&input.row.value->value)) numbers = *given;
     const std::size_t count = numbers.size() / 2;
+    if (ImGui::SmallButton("Draw …")) openOutline(input.editor, input.plug.node, input.plug.name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The outline in a window of its own, to be drawn by hand");
+    ImGui::SameLine();
     if (!ImGui::TreeNode("points", "%zu points", count)) return;
     const float line = ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("##points", {0, line * float(std::clamp<std::size_t>(count, 1, kPointsShown))});

@@ -7,6 +7,7 @@
 #include "editor/document/group_sockets.h"
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/theme.h"
 #include "graph/document/input_value.h"
 
 namespace fw::editor {
@@ -93,10 +94,38 @@ void add(Editor& editor, const std::string& group, GroupSide side) {
     state.newSocket.clear();
 }
 
+/// Of what file the group is a copy, how the two stand, and what can be done about it.
+void showLink(Editor& editor, const Group& group) {
+    if (group.file.empty()) {
+        if (ImGui::Button("Link to a file …")) askToLink(editor, group.id);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Writes the group into a file of its own, that other documents can use too");
+        return;
+    }
+    ImGui::TextWrapped("A copy of %s", group.file.c_str());
+    const GroupLinks::Link* link = editor.files.groups.of(group.id);
+    const std::string words = link ? wordsOf(*link) : "";
+    wrapped(themeColor(words.empty() ? ThemeColor::quiet : ThemeColor::warning),
+            words.empty() ? "The two are the same." : words);
+    ImGui::BeginDisabled(!link || !link->problem.empty() || link->state == LinkState::same);
+    if (ImGui::Button("Update")) updateGroup(editor, group.id);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Takes what the file holds, as one step");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!link || (link->problem.empty() && link->state == LinkState::same));
+    if (ImGui::Button("Write the file")) writeGroup(editor, group.id);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the file holds now is kept beside it");
+    ImGui::SameLine();
+    if (ImGui::Button("Make it local")) unlinkGroup(editor, group.id);
+}
+
 }  // namespace
 
 void showGroupSockets(Editor& editor, const std::string& id) {
     const Group* group = editor.graph->group(id);
+    ImGui::Spacing();
+    showLink(editor, *group);
     ImGui::Spacing();
     ImGui::Text("Inputs of the group %s", readable(id).c_str());
     for (std::size_t i = 0; i < group->inputs.size(); ++i) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "editor/canvas/fields.h"
+#include "editor/panels/problems.h"
 #include "editor/timeline/state.h"
 #include "graph/document/scene.h"
 #include "graph/document/timeline.h"
@@ -43,6 +44,9 @@ struct PanelState {
     int newInputType = 0;
     std::string newSocket;
     int newSocketType = int(Type::scalar);
+
+    ShownProblems problems;
+    std::size_t historyAt = 0;  ///< the step of undo that the history showed as the present one
 
     std::string search;            ///< of the outliner
     std::set<std::string> folded;  ///< the scopes whose nodes it hides

@@ -16,12 +16,14 @@ constexpr SidePanel kSidePanels[] = {
     {"scene", "Scene", &Panels::scene, showScene},
     {"statistics", "Statistics", &Panels::statistics, showStatistics},
     {"history", "History", &Panels::history, showHistory},
+    {"library", "Library", &Panels::library, showLibrary},
 };
 
 /// With the number of problems; the tab's identity stays.
 std::string labelOf(const SidePanel& panel, const Editor& editor) {
     std::string label = panel.label;
-    const std::size_t found = editor.viewport.shown.findings.size() + editor.files.found.size();
+    const std::size_t found = editor.viewport.shown.findings.size() + editor.files.found.size() +
+                              editor.files.groups.findings().size();
     if (panel.open == &Panels::problems && found > 0) label += " (" + std::to_string(found) + ")";
     return label + "###" + panel.id;
 }

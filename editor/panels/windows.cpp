@@ -28,6 +28,7 @@ void showAbout(Editor& editor) {
 
 void showWindows(Editor& editor) {
     code::showWindow(editor);
+    showOutline(editor);
     showPalette(editor);
     showPreferences(editor);
     showReference(editor);

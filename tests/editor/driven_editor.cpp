@@ -23,7 +23,7 @@ void hand(const std::string& words) {
 
 DrivenEditor::DrivenEditor(Graph graph, int width, int height) : display(width, height) {
     if (!display.works() || fw::test::runProgram("xdotool version").status != 0) return;
-    for (const char* variable : {"XDG_CONFIG_HOME", "XDG_STATE_HOME"})
+    for (const char* variable : {"XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME"})
         setenv(variable, folder.path(variable).c_str(), 1);
     shell.emplace(ShellOptions{.width = width, .height = height, .scale = 1.0f});
     it.emplace(*shell, std::move(graph), DeviceOptions{});
@@ -35,7 +35,7 @@ DrivenEditor::DrivenEditor(Graph graph, int width, int height) : display(width, 
 DrivenEditor::~DrivenEditor() {
     it.reset();
     shell.reset();
-    for (const char* variable : {"XDG_CONFIG_HOME", "XDG_STATE_HOME"}) unsetenv(variable);
+    for (const char* variable : {"XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME"}) unsetenv(variable);
 }
 
 void DrivenEditor::settle() {

@@ -137,6 +137,7 @@ void Program::start(const std::vector<std::string>& arguments) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         setenv("XDG_CONFIG_HOME", folder.path("config").c_str(), 1);
         setenv("XDG_STATE_HOME", folder.path("state").c_str(), 1);
+        setenv("XDG_DATA_HOME", folder.path("data").c_str(), 1);
         setenv("XDG_CACHE_HOME", caches.folder.c_str(), 1);
         if (chdir(folder.folder.c_str()) != 0) _exit(125);
         std::vector<std::string> words = {FIELDWRIGHT_BINARY_DIR "/fieldwright-editor", "--scale", "1"};

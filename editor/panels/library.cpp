@@ -1,0 +1,265 @@
+#include "editor/panels/library.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "editor/canvas/keyboard.h"
+#include "editor/document/library.h"
+#include "editor/editor.h"
+#include "editor/shell/theme.h"
+#include "graph/document/json.h"
+
+namespace fw::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr float kTile = 92.0f;            // pixels at scale 1: a picture's side
+constexpr double kLookSeconds = 2.0;      // between two readings of the folder
+constexpr const char* kPayload = "part";  // ImGui's, the index of a part
+
+int64_t stampOf(const std::string& path) {
+    std::error_code none;
+    return int64_t(fs::last_write_time(path, none).time_since_epoch().count());
+}
+
+/// The picture of a part; empty if it makes no solid, or cannot be read.
+Picture pictureOfPart(const std::string& path) {
+    try {
+        const Result<Graph> graph = readGraph(path, nullptr);
+        if (!graph) return {};
+        const std::string node = shownNode(*graph);
+        if (node.empty()) return {};
+        Result<Thumbnail> made = thumbnail(*graph, node);
+        return made ? std::move(made->picture) : Picture();
+    } catch (const std::exception&) { return {}; }
+}
+
+/// Takes the picture that was made, and begins that of the first of these that has none.
+void makePictures(Editor& editor, const std::vector<const LibraryPart*>& seen) {
+    LibraryPanel& panel = editor.library;
+    if (panel.picture.valid()) {
+        if (panel.picture.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+        const Picture picture = panel.picture.get();
+        LibraryPanel::Tile& tile = panel.tiles[panel.working];
+        tile.stamp = panel.workingStamp, tile.made = true;
+        if (!picture.pixels.empty())
+            tile.texture = editor.shell.show(tile.texture, picture);
+        else if (tile.texture)
+            editor.shell.forget(std::exchange(tile.texture, nullptr));
+    }
+    for (const LibraryPart* part : seen) {
+        const int64_t stamp = stampOf(part->path);
+        const LibraryPanel::Tile& tile = panel.tiles[part->path];
+        if (tile.made && tile.stamp == stamp) continue;
+        panel.working = part->path, panel.workingStamp = stamp;
+        panel.picture = std::async(std::launch::async, [path = part->path] {
+            Picture picture = pictureOfPart(path);
+            Shell::wake();
+            return picture;
+        });
+        return;
+    }
+}
+
+/// The middle of what is seen of the canvas, below what was put there before.
+Position inSight(const Editor& editor) {
+    return position(freePlace(*editor.boxes, editor.canvas.view.middle));
+}
+
+/// "Hex bolt", cut with "…" to fit.
+std::string fitted(const std::string& label, float width) {
+    if (ImGui::CalcTextSize(label.c_str()).x <= width) return label;
+    std::string cut = label;
+    while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width) {
+        do cut.pop_back();
+        while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80);
+        if (!cut.empty() && static_cast<unsigned char>(cut.back()) >= 0xC0) cut.pop_back();
+    }
+    return cut + "…";
+}
+
+struct Asked {
+    const LibraryPart* add = nullptr;
+    bool linked = false;
+    const LibraryPart* open = nullptr;
+    const LibraryPart* remove = nullptr;
+};
+
+void showTile(Editor& editor, const LibraryPart& part, std::size_t index, float width, Asked& asked) {
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::Selectable("##part", false, 0, {width, width + line + 4.0f})) asked.add = &part;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\nA click adds it, a drag to the canvas puts it there.", part.label.c_str());
+    if (ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceNoHoldToOpenOthers)) {
+        ImGui::SetDragDropPayload(kPayload, &index, sizeof index);
+        ImGui::TextUnformatted(part.label.c_str());
+        ImGui::EndDragDropSource();
+    }
+    if (ImGui::BeginPopupContextItem("part")) {
+        if (ImGui::MenuItem("Add")) asked.add = &part;
+        if (ImGui::MenuItem("Add linked to its file")) asked.add = &part, asked.linked = true;
+        ImGui::Separator();
+        if (ImGui::MenuItem("Open")) asked.open = &part;
+        if (ImGui::MenuItem("Remove from the library")) asked.remove = &part;
+        ImGui::EndPopup();
+    }
+    const auto found = editor.library.tiles.find(part.path);
+    const ImTextureID texture = found == editor.library.tiles.end() ? nullptr : found->second.texture;
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImVec2 lo(at.x + 3, at.y + 3), hi(at.x + width - 3, at.y + width - 3);
+    if (texture)
+        list->AddImageRounded(texture, lo, hi, {0, 0}, {1, 1}, IM_COL32_WHITE, 4.0f);
+    else
+        list->AddRectFilled(lo, hi, themeColor(ThemeColor::node), 4.0f);
+    list->AddText({lo.x, at.y + width}, themeColor(ThemeColor::text), fitted(part.label, width - 6).c_str());
+}
+
+/// The parts whose label or folder has every word that was typed, in their order.
+std::vector<std::size_t> foundParts(const LibraryPanel& panel) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < panel.parts.size(); ++i) {
+        const LibraryPart& part = panel.parts[i];
+        if (match(panel.search, {.label = part.label, .id = {}, .others = {}, .category = part.folder}) <
+            kNoMatch)
+            found.push_back(i);
+    }
+    return found;
+}
+
+void keepSelected(Editor& editor) {
+    LibraryPanel& panel = editor.library;
+    const std::string name = partName(panel.name);
+    if (const Done kept = keepPart(editor, name); !kept) return say(editor, format(kept.error()));
+    say(editor, "kept as " + name + " in the library");
+    panel.name.clear();
+    panel.looked = {};
+}
+
+void showKeeping(Editor& editor) {
+    LibraryPanel& panel = editor.library;
+    const float em = ImGui::GetFontSize();
+    ImGui::BeginDisabled(editor.canvas.selection.empty());
+    ImGui::SetNextItemWidth(-8.5f * em);
+    const bool entered = ImGui::InputTextWithHint("##name", "a name for the selected nodes", &panel.name,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    ImGui::BeginDisabled(panel.name.empty());
+    if (ImGui::Button("Keep", {3.6f * em, 0}) || (entered && !panel.name.empty())) keepSelected(editor);
+    ImGui::EndDisabled();
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("Keeps the selected nodes, with their values, as a part");
+    ImGui::SameLine();
+    if (ImGui::Button("Folder …", {-1, 0})) {
+        panel.browser.endings.clear();
+        std::error_code none;
+        const bool there = fs::is_directory(panel.folder, none);
+        open(panel.browser, FileBrowser::Kind::folder, there ? panel.folder : "");
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Parts lie in %s", panel.folder.c_str());
+}
+
+void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& asked) {
+    LibraryPanel& panel = editor.library;
+    const float scale = editor.shell.scale(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const float room = ImGui::GetContentRegionAvail().x;
+    const int columns = std::max(1, int((room + gap) / (kTile * scale + gap)));
+    const float width = (room - gap * float(columns - 1)) / float(columns);
+    const float high = width + ImGui::GetTextLineHeight() + 4.0f;
+    std::vector<const LibraryPart*> seen;
+    for (std::size_t i = 0; i < found.size();) {
+        const std::string& folder = panel.parts[found[i]].folder;
+        if (!folder.empty()) ImGui::TextDisabled("%s", folder.c_str());
+        for (int column = 0; i < found.size() && panel.parts[found[i]].folder == folder; ++i) {
+            if (column > 0) ImGui::SameLine();
+            column = (column + 1) % columns;
+            const LibraryPart& part = panel.parts[found[i]];
+            if (!ImGui::IsRectVisible({width, high})) {
+                ImGui::Dummy({width, high});
+                continue;
+            }
+            seen.push_back(&part);
+            ImGui::PushID(part.path.c_str());
+            showTile(editor, part, found[i], width, asked);
+            ImGui::PopID();
+        }
+    }
+    makePictures(editor, seen);
+}
+
+}  // namespace
+
+void lookAtLibrary(Editor& editor) {
+    LibraryPanel& panel = editor.library;
+    const std::string folder = libraryFolder(editor.files.preferences);
+    const SteadyClock::time_point now = SteadyClock::now();
+    if (folder == panel.folder && std::chrono::duration<double>(now - panel.looked).count() < kLookSeconds)
+        return;
+    panel.folder = folder, panel.looked = now;
+    panel.parts = listParts(folder, panel.problem);
+    std::erase_if(panel.tiles, [&](const auto& tile) {
+        const bool gone = std::ranges::find(panel.parts, tile.first, &LibraryPart::path) == panel.parts.end();
+        if (gone && tile.second.texture) editor.shell.forget(tile.second.texture);
+        return gone;
+    });
+}
+
+void takeDraggedPart(Editor& editor) {
+    const ImGuiPayload* payload = ImGui::GetDragDropPayload();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (!payload || !payload->IsDataType(kPayload) || !ImGui::IsMouseReleased(0) ||
+        !editor.canvas.view.panel.contains(mouse))
+        return;
+    const std::size_t index = *static_cast<const std::size_t*>(payload->Data);
+    if (index >= editor.library.parts.size()) return;
+    const LibraryPart part = editor.library.parts[index];
+    addPart(editor, part, position(editor.canvas.view.toCanvas(mouse)), ImGui::GetIO().KeyAlt);
+    editor.panels.next = Part::canvas;
+}
+
+void showLibrary(Editor& editor) {
+    LibraryPanel& panel = editor.library;
+    lookAtLibrary(editor);
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##search", "Search the library", &panel.search);
+    showKeeping(editor);
+    const std::vector<std::size_t> found = foundParts(panel);
+    Asked asked;
+    ImGui::BeginChild("##parts");
+    if (!panel.problem.empty()) ImGui::TextWrapped("%s", panel.problem.c_str());
+    if (panel.parts.empty())
+        ImGui::TextWrapped(
+            "Nothing is kept yet. Select nodes, give them a name above, and keep them: they are here in "
+            "every "
+            "document.");
+    else if (found.empty())
+        ImGui::TextDisabled("Nothing has that name");
+    showParts(editor, found, asked);
+    ImGui::EndChild();
+    if (const auto folder = show(panel.browser, editor.shell.scale())) {
+        editor.files.preferences.library = *folder;
+        keepPreferences(editor);
+    }
+    if (asked.add) {
+        const LibraryPart part = *asked.add;
+        addPart(editor, part, inSight(editor), asked.linked);
+    }
+    if (asked.open) proceed(editor, Files::Next::open, asked.open->path);
+    if (asked.remove) {
+        std::error_code error;
+        if (const Done kept = keepVersion(asked.remove->path, true); !kept)
+            return say(editor, format(kept.error()));
+        fs::remove(asked.remove->path, error);
+        say(editor, error ? "it cannot be removed: " + error.message()
+                          : asked.remove->label + " is no part of the library any more");
+        panel.looked = {};
+    }
+}
+
+}  // namespace fw::editor
