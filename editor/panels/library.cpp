@@ -145,7 +145,7 @@ void showKeeping(Editor& editor) {
     LibraryPanel& panel = editor.library;
     const float em = ImGui::GetFontSize();
     ImGui::BeginDisabled(editor.canvas.selection.empty());
-    ImGui::SetNextItemWidth(-8.5f * em);
+    ImGui::SetNextItemWidth(-9.8f * em);
     const bool entered = ImGui::InputTextWithHint("##name", "a name for the selected nodes", &panel.name,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();

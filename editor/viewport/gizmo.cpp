@@ -158,6 +158,27 @@ glm::dvec3 Handle::tip(int axis, double length) const {
     return origin + glm::normalize(axes[axis]) * length;
 }
 
+namespace {
+
+/// Where the grip of this input begins, and where it ends, in the node's space.
+glm::dvec3 gripBase(const Node& node, const NodeType& type, const InputSpec& input);
+glm::dvec3 gripEnd(const Node& node, const NodeType& type, const InputSpec& input) {
+    const glm::dvec3 numbers = vectorOf(inputNumbers(node, input.name));
+    if (!input.grip) return numbers;  // a place
+    const auto& [x, y, z] = input.grip.along;
+    return gripBase(node, type, input) + numbers.x * glm::dvec3(x, y, z);
+}
+glm::dvec3 gripBase(const Node& node, const NodeType& type, const InputSpec& input) {
+    const std::string& from = input.grip.from;
+    const bool opposite = from.starts_with('-');
+    const int index = inputIndex(type, std::string_view(from).substr(opposite ? 1 : 0));
+    if (index < 0) return glm::dvec3(0.0);
+    const glm::dvec3 end = gripEnd(node, type, type.inputs[std::size_t(index)]);
+    return opposite ? -end : end;
+}
+
+}  // namespace
+
 std::vector<Handle> handlesOf(const Node& node, const Placement& placement,
                               const std::set<std::string>& animated) {
     const NodeType* type = findNodeType(node.type);
@@ -178,6 +199,8 @@ std::vector<Handle> handlesOf(const Node& node, const Placement& placement,
             handle.kind = Kind::scale;
         else if (isExtent(input))
             handle.kind = Kind::extent;
+        else if (input.grip)
+            handle.kind = Kind::extent, handle.count = 1, handle.least = input.min;
         else
             continue;
         const InputValue* given = node.input(input.name);
@@ -194,6 +217,11 @@ std::vector<Handle> handlesOf(const Node& node, const Placement& placement,
                                      : handle.kind == Kind::extent ? glm::dvec3(0.0)
                                                                    : centre);
         handle.axes = placement.linear;
+        if (input.grip) {
+            const auto& [x, y, z] = input.grip.along;
+            handle.origin = placement.of(gripBase(node, *type, input));
+            handle.axes[0] = placement.linear * glm::dvec3(x, y, z);
+        }
         if (handle.kind == Kind::turn) {
             // Turns about x come first: what follows turns their axis too.
             const glm::dmat3 axes(turned({0, numbers.y, numbers.z})[0], turned({0, 0, numbers.z})[1],
@@ -235,6 +263,7 @@ std::optional<HandleHit> handleAt(const std::vector<Handle>& handles, const Lens
     double least = kNear * scale;
     for (std::size_t i = 0; i < handles.size(); ++i)
         for (const int axis : {kAcrossView, 0, 1, 2}) {
+            if (axis >= handles[i].count && axis != kAcrossView) continue;
             const double away = distanceOf(handles[i], axis, lens, mouse, scale);
             if (away < least) hit = HandleHit{i, axis}, least = axis == kAcrossView ? 0.0 : away;
         }
@@ -270,7 +299,7 @@ std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, boo
             case Kind::extent:
                 number = rounded(number + by,
                                  snapped ? kMetreStep : grain(pixel / glm::length(handle.axes[int(i)])));
-                if (handle.kind == Kind::extent) number = std::max(number, 0.0);
+                if (handle.kind == Kind::extent) number = std::max(number, handle.least);
                 break;
             case Kind::turn:
                 number = rounded(number + glm::degrees(by), snapped ? kDegreeStep : fine ? 0.01 : 0.1);

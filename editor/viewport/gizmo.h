@@ -38,6 +38,8 @@ struct Handle {
     enum class Kind : unsigned char { move, turn, scale, extent } kind = Kind::move;
     std::string node, input;
     std::vector<double> numbers;  ///< one or three
+    int count = 3;                ///< of axes that it has: of a length with a grip the one that it lies along
+    double least = 0.0;           ///< of an extent
     glm::dvec3 origin{0.0};       ///< in the picture
     /// Of a metre along x, y and z of the node's space; of turns the axes, of unit length.
     glm::dmat3 axes{1.0};

@@ -39,7 +39,7 @@ std::string doing(const Editor& editor, const Handle& handle) {
 void tell(const Editor& editor, const Gizmo& gizmo, const HandleHit& hit) {
     const Handle& handle = gizmo.grips.handles[hit.handle];
     std::string words = doing(editor, handle);
-    if (hit.axis != kAcrossView) words += std::string(" · ") + kAxisNames[hit.axis];
+    if (hit.axis != kAcrossView && handle.count == 3) words += std::string(" · ") + kAxisNames[hit.axis];
     if (handle.node.empty())
         words += "\nAdds a node: " + typeFor(gizmo.tool).label;
     else
@@ -148,8 +148,9 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
         const auto colorOf = [&](int axis, ImU32 plain) {
             return !handle.refusal.empty() ? kRefused : lit(axis) ? themeColor(ThemeColor::active) : plain;
         };
-        for (int axis = 0; axis < 3; ++axis)
-            brush.axis(handle, axis, colorOf(axis, axisColor(std::size_t(axis))), lit(axis));
+        for (int axis = 0; axis < handle.count; ++axis)
+            brush.axis(handle, axis,
+                       colorOf(axis, handle.count == 1 ? kAtOnce : axisColor(std::size_t(axis))), lit(axis));
         const auto at = lens.project(handle.origin);
         if (handle.kind == Kind::move && at) {
             const float radius = (lit(kAcrossView) ? 7.0f : 5.0f) * brush.scale;

@@ -14,6 +14,7 @@
 // whole surfaces.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -48,6 +49,14 @@ struct InputDefault {
     std::string text;
 };
 
+/// Where in space a length can be taken hold of: at the end of `along` times it, from the end of another
+/// input's grip, or from the place that the other one is. In the node's own space.
+struct Grip {
+    std::array<double, 3> along = {0, 0, 0};  ///< of unit length; 0: it has none
+    std::string from = {};  ///< the other input, "-name" for the opposite end; empty: the origin
+    explicit operator bool() const { return along != std::array<double, 3>{0, 0, 0}; }
+};
+
 struct InputSpec {
     std::string name;
     Type type;
@@ -60,6 +69,7 @@ struct InputSpec {
     bool positive = false;           ///< must be > 0 (min alone allows equality)
     bool whole = false;              ///< of a surface: what it is, light passing through it or not
     const FileKind* file = nullptr;  ///< of an image, or a string that is the path of a file: its kind
+    Grip grip = {};                  ///< of a scalar that is a length
 };
 
 struct OutputSpec {

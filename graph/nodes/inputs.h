@@ -43,6 +43,14 @@ inline InputSpec length(std::string name, double value, std::string doc) {
             .doc = std::move(doc)};
 }
 
+/// A length or coordinate that can be taken hold of in space (Grip).
+inline InputSpec gripped(std::array<double, 3> along, InputSpec input, std::string from = {}) {
+    input.grip = {along, std::move(from)};
+    return input;
+}
+inline constexpr std::array<double, 3> kRight = {1, 0, 0}, kUp = {0, 1, 0}, kDown = {0, -1, 0},
+                                       kToEye = {0, 0, 1};
+
 /// A length above 0.
 inline InputSpec positiveLength(std::string name, double value, std::string doc) {
     InputSpec input = length(std::move(name), value, std::move(doc));

@@ -270,7 +270,7 @@ TEST(Gizmo, TheMouseFindsWhatIsDrawnThere) {
     const Lens lens(kCamera, kPlace);
     const std::vector<Handle> arrows = handlesOf(
         nodeOf(R"({"id": "a", "type": "capsule", "inputs": {"a": [0, -1, 0], "b": [0, 1, 0]}})"), {}, {});
-    ASSERT_EQ(arrows.size(), 2u) << "both ends";
+    ASSERT_EQ(arrows.size(), 3u) << "both ends, and the thickness";
     const double length = kHandlePixels * lens.metresPerPixel({0, 1, 0});
     EXPECT_EQ(handleAt(arrows, lens, seenAt(lens, arrows[1].tip(2, 0.9 * length)), 1.0), (HandleHit{1, 2}));
     EXPECT_EQ(handleAt(arrows, lens, seenAt(lens, arrows[0].tip(0, 0.9 * length)), 1.0), (HandleHit{0, 0}));
@@ -295,12 +295,12 @@ TEST(Gizmo, WhatIsWiredOrAnimatedIsRefusedWithAReason) {
     const std::vector<Handle> moved = handlesOf(plain, {}, {"a.offset"});
     ASSERT_EQ(moved.size(), 1u);
     EXPECT_NE(moved[0].refusal, "");
-    EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "sphere"})"), {}, {}).empty());
+    EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "gyroid"})"), {}, {}).empty());
     EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "output"})"), {}, {}).empty());
 }
 
 const char* const kChain = R"(
-  {"id": "ball", "type": "sphere"},
+  {"id": "ball", "type": "tetrahedron"},
   {"id": "soft", "type": "offset", "inputs": {"surface": {"from": "ball"}}},
   {"id": "there", "type": "translate", "inputs": {"surface": {"from": "soft"}, "offset": [0, 1, 0]}},
   {"id": "block", "type": "box"},
@@ -308,6 +308,58 @@ const char* const kChain = R"(
   {"id": "all", "type": "transform", "inputs": {"surface": {"from": "both"}, "translation": [2, 0, 0]}},
   {"id": "lone", "type": "box"},
   {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}})";
+
+TEST(Gizmo, GripsOfLengthsEndWhereTheLengthDoes) {
+    // A shape that is larger has at its grip's end what it had before: the surface, or the middle of its
+    // tube.
+    std::size_t grips = 0;
+    for (const NodeType& type : nodeTypes()) {
+        const bool shape = type.category == Category::shape || type.category == Category::shape2d;
+        for (const InputSpec& input : type.inputs) {
+            if (!input.grip) continue;
+            ++grips;
+            EXPECT_EQ(input.unit, "m") << type.id << "." << input.name;
+            EXPECT_EQ(input.type, Type::scalar) << type.id << "." << input.name;
+            const int from =
+                inputIndex(type, input.grip.from.substr(input.grip.from.starts_with('-') ? 1 : 0));
+            EXPECT_TRUE(input.grip.from.empty() || from >= 0) << type.id << "." << input.name;
+            if (!shape || type.id == "extrude") continue;
+            double fields[2] = {};
+            for (int i = 0; i < 2; ++i) {
+                Graph graph =
+                    nodes(R"({"id": "out", "type": "output", "inputs": {"surface": {"from": "it"}}})");
+                Node node;
+                node.id = "it", node.type = type.id;
+                const double value = input.value.numbers.at(0) * (i == 0 ? 1.0 : 1.1) + (i == 0 ? 0.0 : 0.01);
+                node.set(input.name, {.value = value});
+                const Handle handle = handleOf(node, input.name);
+                const glm::dvec3 tip = handle.tip(0, 1.0);
+                graph.nodes.push_back(node);
+                const Result<Program> program = compile(graph, {});
+                ASSERT_TRUE(program) << format(program.error());
+                fields[i] = evaluate(program->ir, program->distance(), {}, {tip.x, tip.y, tip.z});
+            }
+            EXPECT_NEAR(fields[0], fields[1], 1e-9) << type.id << "." << input.name;
+        }
+    }
+    EXPECT_GT(grips, 30u);
+}
+
+TEST(Gizmo, ALengthIsDraggedAlongItsGrip) {
+    const Camera camera{.position = {0, 0, 10}, .target = {0, 0, 0}, .fov = 40};
+    const Lens lens(camera, kPlace);
+    const Handle handle =
+        handleOf(nodeOf(R"({"id": "a", "type": "cone", "inputs": {"height": 2, "radius": 1}})"), "radius");
+    EXPECT_EQ(handle.count, 1);
+    EXPECT_EQ(handle.origin, glm::dvec3(0, -2, 0)) << "at the base";
+    HandleDrag drag = takeHandle(handle, 0, lens, seenAt(lens, {1, -2, 0}), 1.0);
+    expectNumbers(dragTo(drag, lens, seenAt(lens, {1.5, -2, 0}), false, false), {1.5}, 0.02);
+    expectNumbers(dragTo(drag, lens, seenAt(lens, {-3, -2, 0}), false, false), {0.0}, 1e-12);
+    expectNumbers(dragTo(drag, lens, seenAt(lens, {1.52, -2, 0}), false, true), {1.5}, 1e-12);
+    const auto hit = handleAt({handle}, lens, seenAt(lens, {1, -2, 0}), 1.0);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->axis, 0);
+}
 
 TEST(Grips, AShapeIsHeldWhereItStands) {
     const Graph graph = nodes(kChain);
