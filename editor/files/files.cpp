@@ -2,6 +2,7 @@
 
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "editor/document/layout.h"
@@ -307,6 +308,10 @@ void startFiles(Editor& editor, const std::string& path) {
     std::string problem;
     editor.files.preferences = readPreferences(preferencesPath(), problem);
     editor.keymap = keymapOf(editor.files.preferences);
+    const auto navigation = std::ranges::find(kNavigationNames, editor.files.preferences.navigation,
+                                              [](const char* name) { return std::string(name); });
+    if (navigation != std::end(kNavigationNames))
+        editor.viewport.navigation = Navigation(navigation - std::begin(kNavigationNames));
     arrange(editor, editor.files.preferences.panels);
     editor.files.left = leftCopies();
     editor.files.offers = !editor.files.left.empty();
@@ -424,7 +429,13 @@ std::string pastedText(Editor& editor) {
     const std::string& path = editor.document.graph().path;
     if (text != files.copied || files.copiedFrom.empty() || path == files.copiedFrom) return text;
     const Result<Graph> nodes = parseGraph(text, files.copiedFrom, nullptr);
-    if (!nodes || namedFiles(*nodes).empty()) return text;
+    if (!nodes) return text;
+    const bool linked =
+        std::ranges::any_of(nodes->groups, [](const Group& group) { return !group.file.empty(); });
+    if (namedFiles(*nodes).empty())
+        return linked ? writeGraph(withLinksFrom(*nodes, folderOf(files.copiedFrom),
+                                                 path.empty() ? std::string() : folderOf(path)))
+                      : text;
     if (path.empty() || files.origin == Origin::sample) {
         say(editor, "the nodes read files of " + folderOf(files.copiedFrom) +
                         ": save the document, and paste them again to have copies of these");

@@ -70,6 +70,9 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
         all, "library", [](const Json& value) { return value.is_string(); },
         [&](const Json& value) { preferences.library = value.get<std::string>(); }, problem);
     take(
+        all, "navigation", [](const Json& value) { return value.is_string(); },
+        [&](const Json& value) { preferences.navigation = value.get<std::string>(); }, problem);
+    take(
         all, "shortcuts", [](const Json& value) { return value.is_object(); },
         [&](const Json& value) {
             for (const auto& [id, keys] : value.items())
@@ -91,6 +94,7 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     if (!preferences.taken.empty()) all["taken"] = preferences.taken;
     if (!preferences.favourites.empty()) all["favourites"] = preferences.favourites;
     if (!preferences.library.empty()) all["library"] = preferences.library;
+    if (!preferences.navigation.empty()) all["navigation"] = preferences.navigation;
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
     if (!preferences.panels->is_null()) all["panels"] = preferences.panels;

@@ -22,9 +22,10 @@ struct Preferences {
     std::map<std::string, std::string> shortcuts = {};  ///< id of a command to keys, "Ctrl+Z"; where changed
     std::vector<std::string> taken = {};                ///< ids of node types, the last added first
     std::vector<std::string> favourites = {};           ///< the same, of those that were marked
-    std::string library = {};  ///< the folder of parts; empty: the usual one (parts.h)
-    KeptJson panels;           ///< an object: how window and panels stand (arrangement.h)
-    KeptJson extra;            ///< unknown keys
+    std::string library = {};     ///< the folder of parts; empty: the usual one (parts.h)
+    std::string navigation = {};  ///< one of kNavigationNames (viewport.h); empty: the first
+    KeptJson panels;              ///< an object: how window and panels stand (arrangement.h)
+    KeptJson extra;               ///< unknown keys
     bool operator==(const Preferences&) const = default;
 };
 

@@ -20,7 +20,7 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr float kTile = 92.0f;            // pixels at scale 1: a picture's side
 constexpr double kLookSeconds = 2.0;      // between two readings of the folder
-constexpr const char* kPayload = "part";  // ImGui's, the index of a part
+constexpr const char* kPayload = "part";  // ImGui's, the path of a part
 
 int64_t stampOf(const std::string& path) {
     std::error_code none;
@@ -90,14 +90,14 @@ struct Asked {
     const LibraryPart* remove = nullptr;
 };
 
-void showTile(Editor& editor, const LibraryPart& part, std::size_t index, float width, Asked& asked) {
+void showTile(Editor& editor, const LibraryPart& part, float width, Asked& asked) {
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##part", false, 0, {width, width + line + 4.0f})) asked.add = &part;
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s\nA click adds it, a drag to the canvas puts it there.", part.label.c_str());
     if (ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceNoHoldToOpenOthers)) {
-        ImGui::SetDragDropPayload(kPayload, &index, sizeof index);
+        ImGui::SetDragDropPayload(kPayload, part.path.c_str(), part.path.size() + 1);
         ImGui::TextUnformatted(part.label.c_str());
         ImGui::EndDragDropSource();
     }
@@ -186,7 +186,7 @@ void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& ask
             }
             seen.push_back(&part);
             ImGui::PushID(part.path.c_str());
-            showTile(editor, part, found[i], width, asked);
+            showTile(editor, part, width, asked);
             ImGui::PopID();
         }
     }
@@ -216,9 +216,10 @@ void takeDraggedPart(Editor& editor) {
     if (!payload || !payload->IsDataType(kPayload) || !ImGui::IsMouseReleased(0) ||
         !editor.canvas.view.panel.contains(mouse))
         return;
-    const std::size_t index = *static_cast<const std::size_t*>(payload->Data);
-    if (index >= editor.library.parts.size()) return;
-    const LibraryPart part = editor.library.parts[index];
+    const auto found =
+        std::ranges::find(editor.library.parts, static_cast<const char*>(payload->Data), &LibraryPart::path);
+    if (found == editor.library.parts.end()) return;
+    const LibraryPart part = *found;
     addPart(editor, part, position(editor.canvas.view.toCanvas(mouse)), ImGui::GetIO().KeyAlt);
     editor.panels.next = Part::canvas;
 }

@@ -147,6 +147,22 @@ void showCommands(Editor& editor) {
     ImGui::EndTable();
 }
 
+void showNavigation(Editor& editor) {
+    std::size_t chosen = std::size_t(editor.viewport.navigation);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("The picture by mouse");
+    ImGui::SameLine(12.0f * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(18.0f * ImGui::GetFontSize());
+    if (!ImGui::BeginCombo("##navigation", kNavigationWords[chosen])) return;
+    for (std::size_t i = 0; i < std::size(kNavigationWords); ++i)
+        if (ImGui::Selectable(kNavigationWords[i], i == chosen)) {
+            editor.viewport.navigation = Navigation(i);
+            editor.files.preferences.navigation = kNavigationNames[i];
+            keep(editor);
+        }
+    ImGui::EndCombo();
+}
+
 }  // namespace
 
 void showPreferences(Editor& editor) {
@@ -170,6 +186,7 @@ void showPreferences(Editor& editor) {
                                     (waited ? ImGuiWindowFlags_NoNavInputs : ImGuiWindowFlags_None)))
         return stopWaiting(window);
     showScale(editor);
+    showNavigation(editor);
     ImGui::Separator();
     if (opens) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);

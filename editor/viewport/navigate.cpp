@@ -22,21 +22,36 @@ bool anyFlyKey() {
     return std::ranges::any_of(std::string_view("WASDQE"), [](char key) { return ImGui::IsKeyDown(key); });
 }
 
-void begin(Viewport& viewport) {
+constexpr double kZoomNotches = 12.0;  // of the wheel, that a drag over the picture's height is worth
+
+/// What a button does when it goes down: ImGui's 0 is the left one, 1 the right one, 2 the middle one.
+Does doneBy(Navigation navigation, int button) {
     const ImGuiIO& io = ImGui::GetIO();
-    for (int button = 0; button < 3; ++button) {
-        if (!ImGui::IsMouseClicked(button)) continue;
-        const Does turns = io.KeyShift ? Does::pan : Does::orbit;
-        const Does does = button == 0 ? Does::click : button == 1 ? Does::pan : turns;
-        viewport.drag = {does, button};
+    const Does turns = io.KeyShift ? Does::pan : Does::orbit;
+    switch (navigation) {
+        case Navigation::usual: return button == 0 ? Does::click : button == 1 ? Does::pan : turns;
+        case Navigation::blender:
+            return button == 0 ? Does::click : button == 1 ? Does::look : io.KeyCtrl ? Does::zoom : turns;
+        case Navigation::maya:
+            if (!io.KeyAlt) return button == 0 ? Does::click : button == 1 ? Does::look : Does::nothing;
+            return button == 0 ? Does::orbit : button == 1 ? Does::zoom : Does::pan;
     }
+    return Does::nothing;
+}
+
+void begin(Viewport& viewport) {
+    for (int button = 0; button < 3; ++button)
+        if (ImGui::IsMouseClicked(button)) viewport.drag = {doneBy(viewport.navigation, button), button};
 }
 
 void drag(Viewport& viewport) {
     const ImGuiIO& io = ImGui::GetIO();
     CameraDrag& hand = viewport.drag;
     if (hand.does == Does::click && ImGui::IsMouseDragging(hand.button, kStill))
-        hand.does = io.KeyShift ? Does::pan : Does::orbit;
+        hand.does = viewport.navigation != Navigation::usual ? Does::nothing
+                    : io.KeyShift                            ? Does::pan
+                                                             : Does::orbit;
+    if (hand.does == Does::nothing) return;
     if (hand.button == 1 && anyFlyKey()) hand.does = Does::look;
     if (hand.does == Does::click) return;
     const double side = std::max(double(viewport.place.height()), 1.0), dx = double(io.MouseDelta.x) / side,
@@ -46,6 +61,8 @@ void drag(Viewport& viewport) {
     if (hand.does == Does::orbit) turn(viewport.orbit, dx, dy);
     if (hand.does == Does::pan) pan(viewport.orbit, dx, dy);
     if (hand.does == Does::look) look(viewport.orbit, dx, dy);
+    if (hand.does == Does::zoom)
+        zoom(viewport.orbit, kZoomNotches * (dx + dy), 0.0, 0.0, double(viewport.aspect()));
     if (flies(viewport))
         fly(viewport.orbit, either('W', 'S'), either('D', 'A'), either('E', 'Q'),
             std::min(double(io.DeltaTime), kLongestStep), io.KeyShift);

@@ -4,6 +4,7 @@
 //     left or middle drag            orbits; with Shift pans
 //     right drag                     pans; with W A S D Q E flies, the mouse turning the head (Shift: faster)
 //     wheel                          zooms to the cursor
+//     (as Blender has it, or Maya and Houdini: Navigation)
 //     left drag on a handle          moves, turns or scales (Shift: fine, Ctrl: in steps, Escape: back)
 //     click                          selects the node that made what is hit (Ctrl or Shift: also)
 //
@@ -26,9 +27,20 @@ namespace fw::editor {
 
 struct Editor;
 
+/// Whose way of moving the camera by the mouse. Under all of them a click selects and the wheel zooms.
+enum class Navigation : unsigned char {
+    usual,    ///< the table above
+    blender,  ///< the middle button orbits, with Shift pans, with Ctrl zooms; the right one flies
+    maya      ///< Alt and the left button orbits, the middle one pans, the right one zooms; Houdini's too
+};
+/// As preferences have them, in the order of Navigation; and for a person.
+inline constexpr const char* kNavigationNames[] = {"usual", "blender", "maya"};
+inline constexpr const char* kNavigationWords[] = {"Usual: left orbits, right pans", "As in Blender",
+                                                   "As in Maya and Houdini"};
+
 /// What the button that went down over the picture does until it goes up.
 struct CameraDrag {
-    enum class Does : unsigned char { nothing, click, orbit, pan, look } does = Does::nothing;
+    enum class Does : unsigned char { nothing, click, orbit, pan, zoom, look } does = Does::nothing;
     int button = 0;  ///< ImGui's
 
     bool busy() const { return does != Does::nothing; }
@@ -68,7 +80,8 @@ struct Viewport {
     ImTextureID texture = nullptr;
     PreviewResult shown = {};  ///< the last result; its picture is in the texture
 
-    Area place;  ///< of the picture, pixels of the window
+    Navigation navigation = Navigation::usual;  ///< of the preferences
+    Area place;                                 ///< of the picture, pixels of the window
     bool hovered = false;
     CameraDrag drag;
     Gizmo gizmo;

@@ -352,4 +352,50 @@ TEST(Hands, AListOfTheStepsLeadsToEach) {
     EXPECT_FALSE(editor->panels.history);
 }
 
+TEST(Hands, TheCameraFollowsThemAsOneIsUsedTo) {
+    DrivenEditor editor(test::graphOf(R"({"id": "a", "type": "box", "at": [0, 0]},
+        {"id": "out", "type": "output", "at": [240, 0], "inputs": {"surface": {"from": "a"}, "resolution": 16}})"));
+    NEEDS_EDITOR(editor);
+    editor.waitForPicture();
+    Viewport& view = editor->viewport;
+    const auto drag = [&](int button, const std::string& held) {
+        view.ownCamera = false;
+        const ImVec2 at(view.place.lo.x + 60, view.place.lo.y + 60);
+        const auto place = [](float x, float y) {
+            return "mousemove " + std::to_string(int(x)) + " " + std::to_string(int(y)) + " ";
+        };
+        const std::string down = held.empty() ? "" : "keydown " + held + " ",
+                          up = held.empty() ? "" : "keyup " + held;
+        editor.send(place(at.x, at.y) + down + "mousedown " + std::to_string(button) + " " +
+                    place(at.x + 20, at.y + 10) + place(at.x + 40, at.y + 20) + "mouseup " +
+                    std::to_string(button) + " " + up);
+        if (!view.ownCamera) return std::string("nothing");
+        const Camera before = view.shown.seen, after = view.orbit.camera();
+        const auto away = [](const Camera& camera) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) sum += std::pow(camera.position[i] - camera.target[i], 2);
+            return std::sqrt(sum);
+        };
+        if (std::abs(away(after) - away(before)) > 1e-3 * away(before)) return std::string("zoom");
+        double moved = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) moved += std::abs(after.target[i] - before.target[i]);
+        return std::string(moved > 1e-6 ? "pan" : "orbit");
+    };
+    EXPECT_EQ(drag(1, ""), "orbit");
+    EXPECT_EQ(drag(1, "shift"), "pan");
+    EXPECT_EQ(drag(2, ""), "orbit");
+    EXPECT_EQ(drag(3, ""), "pan");
+    view.navigation = Navigation::blender;
+    EXPECT_EQ(drag(1, ""), "nothing");
+    EXPECT_EQ(drag(2, ""), "orbit");
+    EXPECT_EQ(drag(2, "shift"), "pan");
+    EXPECT_EQ(drag(2, "ctrl"), "zoom");
+    view.navigation = Navigation::maya;
+    EXPECT_EQ(drag(1, ""), "nothing");
+    EXPECT_EQ(drag(1, "alt"), "orbit");
+    EXPECT_EQ(drag(2, "alt"), "pan");
+    EXPECT_EQ(drag(3, "alt"), "zoom");
+    EXPECT_EQ(drag(2, ""), "nothing");
+}
+
 }  // namespace fw::editor::hands_test

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "editor/document/clipboard.h"
 #include "editor/document/linked_groups.h"
 #include "tests/editor/driven_editor.h"
 #include "tests/editor/graphs.h"
@@ -209,6 +210,14 @@ TEST(LinkedGroups, PathsFollowADocumentThatIsSavedElsewhere) {
     linkGroup(*editor, "bolt", part);
     ASSERT_TRUE(writeFile(*editor, editor.path("deep/er/b.field.json")));
     EXPECT_EQ(editor->document.graph().group("bolt")->file, "../../bolt.field.json");
+    // So do those of what is copied into another document.
+    editor.settle();
+    copyText(*editor, copyNodes(editor->document.graph(), "", NodeIds{"one"}));
+    writeText(editor.path("deep/c.field.json"), R"({"fieldwright": 1, "nodes": []})");
+    openFile(*editor, editor.path("deep/c.field.json"));
+    editor.settle();
+    EXPECT_NE(pastedText(*editor).find("\"file\": \"../bolt.field.json\""), std::string::npos)
+        << pastedText(*editor);
 }
 
 }  // namespace fw::editor::linked_groups_test

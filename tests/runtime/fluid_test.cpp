@@ -426,7 +426,10 @@ glm::dvec3 axesOf(const std::vector<glm::vec3>& places) {
 }
 
 TEST_F(Fluid, TensionMakesABallOfABarAndNoEnergy) {
-    for (const float tension : {0.0f, 0.4f, 1e6f}) {  // the last is cut to what a step can take
+    // The last is cut to what a step can take.
+    const std::vector<float> tensions =
+        std::getenv("FIELDWRIGHT_LONG") ? std::vector{0.0f, 0.4f, 1e6f} : std::vector{0.4f};
+    for (const float tension : tensions) {
         const FluidConfig config{.spacing = 0.1f,
                                  .lo = glm::vec3(-2.0f),
                                  .hi = glm::vec3(2.0f),
