@@ -8,6 +8,7 @@
 #include "editor/document/layout.h"
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
+#include "editor/files/graph_folder.h"
 #include "graph/document/json.h"
 
 namespace fw::editor {
@@ -61,9 +62,8 @@ void adopt(Editor& editor, PartialGraph read, const std::string& text, const std
                  " could not be read and are left out here. The file keeps them: saving asks before it is "
                  "replaced. They stay listed under Problems.",
              files.found);
-    std::error_code none;
     const std::size_t missing =
-        missingFiles(editor.document.graph(), fs::absolute(path, none).parent_path().string()).size();
+        missingFiles(editor.document.graph(), graphFolder(editor.document.graph())).size();
     if (missing > 0)
         say(editor, std::to_string(missing) +
                         (missing == 1 ? " file that it names is" : " files that it names are") +

@@ -5,6 +5,7 @@
 
 #include "editor/document/paths.h"
 #include "editor/editor.h"
+#include "editor/files/graph_folder.h"
 #include "editor/files/watch.h"
 #include "graph/document/json.h"
 #include "runtime/system/output_file.h"
@@ -14,11 +15,6 @@ namespace fw::editor {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string folderOfGraph(const Graph& graph) {
-    std::error_code error;
-    return graph.path.empty() ? std::string() : fs::absolute(graph.path, error).parent_path().string();
-}
 
 std::string fullPath(const std::string& folder, const std::string& file) {
     std::error_code error;
@@ -57,7 +53,7 @@ void writeTo(Editor& editor, const std::string& group, const std::string& path, 
     const Graph& graph = editor.document.graph();
     if (const Done written = writeText(path, textOfGroup(graph, group)); !written)
         return say(editor, format(written.error()));
-    editor.document.apply(name, linked(graph, group, pathFrom(folderOfGraph(graph), path)));
+    editor.document.apply(name, linked(graph, group, pathFrom(graphFolder(graph), path)));
     editor.files.groups.forget();
     say(editor, "wrote " + path);
 }
@@ -90,7 +86,7 @@ bool GroupLinks::look(const std::shared_ptr<const Graph>& graph, Clock::time_poi
     bool changed = another;
     for (const Group& group : graph->groups) {
         if (group.file.empty()) continue;
-        const std::string path = fullPath(folderOfGraph(*graph), group.file);
+        const std::string path = fullPath(graphFolder(*graph), group.file);
         if (named.contains(path)) continue;
         const auto known = files.find(path);
         File file = known == files.end() ? File{fw::FileWatch(path), {}, {}} : known->second;
@@ -102,7 +98,7 @@ bool GroupLinks::look(const std::shared_ptr<const Graph>& graph, Clock::time_poi
     links.clear(), found.clear();
     for (const Group& group : graph->groups) {
         if (group.file.empty()) continue;
-        Link link{.group = group.id, .path = fullPath(folderOfGraph(*graph), group.file), .problem = {}};
+        Link link{.group = group.id, .path = fullPath(graphFolder(*graph), group.file), .problem = {}};
         const File& file = files.at(link.path);
         link.problem = file.problem;
         if (link.problem.empty())
@@ -151,7 +147,7 @@ void updateGroup(Editor& editor, const std::string& group) {
     const Result<ShownGroup> shown = text ? groupShownBy(*text, path) : Result<ShownGroup>(text.error());
     if (!shown) return say(editor, format(shown.error()));
     // Files that it reads lie beside its file.
-    const std::string folder = folderOfGraph(editor.document.graph());
+    const std::string folder = graphFolder(editor.document.graph());
     std::vector<std::string> told;
     ShownGroup brought = *shown;
     if (!folder.empty())

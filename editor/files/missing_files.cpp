@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "editor/editor.h"
+#include "editor/files/graph_folder.h"
 #include "editor/files/watch.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
@@ -27,11 +28,6 @@ int alike(const fs::path& a, const fs::path& b) {
            one[one.size() - 1 - std::size_t(count)] == other[other.size() - 1 - std::size_t(count)])
         ++count;
     return count;
-}
-
-std::string documentsFolder(const Editor& editor) {
-    std::error_code error;
-    return fs::absolute(editor.document.graph().path, error).parent_path().string();
 }
 
 /// The files that were found in place of those that are missing, brought to the document: one step of undo.
@@ -66,7 +62,7 @@ void relink(Editor& editor, const std::vector<NamedFile>& missing,
 
 void showList(Editor& editor, const std::vector<NamedFile>& missing) {
     MissingFilesDialog& dialog = editor.files.missing;
-    const std::string folder = documentsFolder(editor);
+    const std::string folder = graphFolder(editor.document.graph());
     ImGui::TextWrapped(
         "These files are not where the document has them. What is found goes beside the document, if it is "
         "not there or in a folder below already.");
@@ -91,7 +87,8 @@ void showList(Editor& editor, const std::vector<NamedFile>& missing) {
                         [&](const NamedFile& each) { return each.path == file.path ? path : each.path; });
             in.document.apply("Relink File", std::move(graph));
             in.document.outdate();
-            in.files.missing.opening = !missingFiles(in.document.graph(), documentsFolder(in)).empty();
+            in.files.missing.opening =
+                !missingFiles(in.document.graph(), graphFolder(in.document.graph())).empty();
         });
     }
     const float wide = 150.0f * editor.shell.scale();
@@ -147,12 +144,11 @@ void MissingFilesDialog::look(const std::shared_ptr<const Graph>& graph, bool ch
     if (changed) seen.reset();
     if (seen == graph || std::chrono::duration<double>(now - looked).count() < kWatchSeconds) return;
     seen = graph, looked = now;
-    std::error_code error;
-    known = missingFiles(*graph, fs::absolute(graph->path, error).parent_path().string());
+    known = missingFiles(*graph, graphFolder(*graph));
 }
 
 void openMissingFiles(Editor& editor) {
-    if (missingFiles(editor.document.graph(), documentsFolder(editor)).empty())
+    if (missingFiles(editor.document.graph(), graphFolder(editor.document.graph())).empty())
         return say(editor, "no file that the document names is missing");
     editor.files.missing.opening = true;
 }
@@ -168,7 +164,8 @@ void showMissingFiles(Editor& editor) {
     ImGui::PopID();
     const bool shown = ImGui::IsPopupOpen(kMissingTitle);
     if (!shown && !folder) return;
-    const std::vector<NamedFile> missing = missingFiles(editor.document.graph(), documentsFolder(editor));
+    const std::vector<NamedFile> missing =
+        missingFiles(editor.document.graph(), graphFolder(editor.document.graph()));
     if (folder) relink(editor, missing, lookFor(missing, *folder));
     const ImVec2 whole = ImGui::GetMainViewport()->Size;
     const float scale = editor.shell.scale();

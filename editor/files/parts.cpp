@@ -6,6 +6,7 @@
 #include "editor/document/clipboard.h"
 #include "editor/document/wiring.h"
 #include "editor/editor.h"
+#include "editor/files/graph_folder.h"
 #include "graph/base/words.h"
 #include "graph/document/json.h"
 #include "runtime/system/output_file.h"
@@ -13,16 +14,7 @@
 
 namespace fw::editor {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-std::string folderOfDocument(const Graph& graph) {
-    std::error_code error;
-    return graph.path.empty() ? std::string() : fs::absolute(graph.path, error).parent_path().string();
-}
-
-}  // namespace
 
 std::string libraryFolder(const Preferences& preferences) {
     if (!preferences.library.empty()) return preferences.library;
@@ -79,7 +71,7 @@ Done keepPart(const Editor& editor, const std::string& name) {
     Result<Graph> part = parseGraph(copyNodes(graph, editor.canvas.scope, selected), "", nullptr);
     if (!part) return part.error();
     std::vector<std::string> told;
-    const std::string own = folderOfDocument(graph);
+    const std::string own = graphFolder(graph);
     if (!own.empty()) part = withLinksFrom(bringFiles(*part, own, folder, told), own, folder);
     const std::string path = (fs::path(folder) / (name + std::string(kGraphEnding))).string();
     if (const Done kept = keepVersion(path, true); !kept) return kept;
@@ -90,7 +82,7 @@ void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked_)
     Result<Graph> graph = readGraph(part.path, nullptr);
     if (!graph) return say(editor, format(graph.error()));
     const std::string from = fs::path(part.path).parent_path().string(),
-                      to = folderOfDocument(editor.document.graph());
+                      to = graphFolder(editor.document.graph());
     std::vector<std::string> told;
     const bool reads = !namedFiles(*graph).empty();
     if (reads && (to.empty() || editor.files.origin == Files::Origin::sample)) {

@@ -131,13 +131,7 @@ void nudge(Program& program, const std::string& keys, int x, int y) {
     EXPECT_EQ(sign(after[1] - before[1]), y);
 }
 
-/// Whether the picture is a small one, which rests sooner: where all that is pressed is for it.
-bool smallPicture = false;
-
-Area picturePart(const Program& program) {
-    const float left = program.view.panel.hi.x + 20;
-    return smallPicture ? Area{{left, 80}, {1260, 200}} : Area{{left, 120}, {1260, 400}};
-}
+Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
 
 /// The picture of the solid, once it has come to rest.
 Picture restingPicture(Program& program) {
@@ -760,9 +754,6 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
                 ASSERT_TRUE(program->works())
                     << "Xvfb, xdotool or xclip is not installed: run ./.install test";
                 original = program->save();
-                smallPicture = GetParam() == "picture";
-                const float side = program->view.panel.hi.x + 200;
-                if (smallPicture) program->drag({{side, 441}, {side, 330}, {side, 220}});
             }
             program->moveTo({200, 60});
             program->frameAll();
