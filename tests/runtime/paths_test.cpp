@@ -105,6 +105,8 @@ TEST_F(Paths, AWhiteBallInAWhiteSkyVanishes) {
     for (const char* metallic : {"0", "1"})
         for (const char* roughness : {"0", "0.1", "0.3", "0.6", "1"}) {
             SCOPED_TRACE(filled("metallic $, roughness $", {std::string(metallic), roughness}));
+            if (roughness == std::string("0.1") || roughness == std::string("0.6"))
+                if (!std::getenv("FIELDWRIGHT_LONG")) continue;
             const Traced ball =
                 trace(solid(kBall, filled(R"("base_color": [1, 1, 1], "metallic": $, "roughness": $)",
                                           {std::string(metallic), roughness})),

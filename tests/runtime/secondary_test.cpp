@@ -128,6 +128,7 @@ TEST_F(Secondary, AWallLendsItsColour) {
 /// table, and what goes to and fro within it.
 TEST_F(Secondary, IsNearWholePaths) {
     for (const auto& [name, most] : {std::pair("cornell_box", 0.035), std::pair("glass_of_water", 0.04)}) {
+        if (name == std::string("cornell_box") && !std::getenv("FIELDWRIGHT_LONG")) continue;
         SCOPED_TRACE(name);
         Player player = playerOf(
             readGraph(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json", nullptr));
@@ -160,6 +161,7 @@ Camera turned(const Player& player, double degrees) {
 
 TEST_F(Secondary, AfterFiveDegreesThereAreNoGhosts) {
     for (const char* name : {"cornell_box", "wet_city"}) {
+        if (name == std::string("wet_city") && !std::getenv("FIELDWRIGHT_LONG")) continue;
         SCOPED_TRACE(name);
         Player player = playerOf(
             readGraph(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/" + name + ".field.json", nullptr));
@@ -239,10 +241,12 @@ TEST_F(Secondary, APictureDoesNotDependOnThoseBefore) {
 
 /// What people write: a picture, never a crash.
 TEST_F(Secondary, AnyMediumHasAPicture) {
+    int number = 0;
     for (const char* medium :
          {R"("ior": 1)", R"("ior": 0.5)", R"("ior": 3)", R"("absorption": [1e9, 1e9, 1e9])",
           R"("absorption": [0, 0, 0])", R"("roughness": 1)", R"("transmission": 0.3)"}) {
         SCOPED_TRACE(medium);
+        if (number++ % 2 != 0 && !std::getenv("FIELDWRIGHT_LONG")) continue;
         const std::string nodes =
             std::string(R"({"id": "ball", "type": "sphere"},
             {"id": "glass", "type": "material", "inputs": {"surface": {"from": "ball"}, "base_color": [1, 1, 1])") +

@@ -142,7 +142,9 @@ std::string samplePath(const std::string& name) {
 }
 
 TEST(Tiles, MakeUpTheWholeMesh) {
-    for (const char* name : {"tower", "csg_part", "menger", "brick_block", "gyroid_sphere", "dusk_city"}) {
+    int number = 0;  // every other without FIELDWRIGHT_LONG
+    for (const char* name : {"tower", "csg_part", "menger", "brick_block", "dusk_city", "gyroid_sphere"}) {
+        if (number++ % 2 != 0 && !std::getenv("FIELDWRIGHT_LONG")) continue;
         const Result<Graph> graph = readGraph(samplePath(name), nullptr);
         ASSERT_TRUE(graph);
         Session session = sessionOf(programOf(*graph));
@@ -197,7 +199,9 @@ TEST(Tiles, ByTapesMakeUpTheWholeMesh) {
 }
 
 TEST(Tiles, OfDualContouringMakeUpTheWholeMesh) {
+    int number = 0;  // every other without FIELDWRIGHT_LONG
     for (const char* name : {"tower", "csg_part", "menger", "gyroid_sphere", "dusk_city", "island"}) {
+        if (number++ % 2 != 0 && !std::getenv("FIELDWRIGHT_LONG")) continue;
         SCOPED_TRACE(name);
         const Result<Graph> graph = readGraph(samplePath(name), nullptr);
         ASSERT_TRUE(graph);
