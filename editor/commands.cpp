@@ -202,13 +202,15 @@ void keepMenusClosed() {
         ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
 }
 
+bool manyTabs(const Editor& editor) { return editor.tabs.all.size() > 1; }
+
 using enum Heard;
 constexpr Command kCommands[] = {
-    {"file.new", "File", "New", "Ctrl+N", everywhere, always, [](Editor& e) { proceed(e, Files::Next::fresh); }},
-    {"file.open", "File", "Open …", "Ctrl+O", everywhere, always, [](Editor& e) { proceed(e, Files::Next::browse); }},
-    {"file.samples", "File", "Samples …", "", everywhere, always, [](Editor& e) { proceed(e, Files::Next::samples); }},
+    {"file.new", "File", "New", "Ctrl+N", everywhere, always, newDocument},
+    {"file.open", "File", "Open …", "Ctrl+O", everywhere, always, askForFile},
+    {"file.samples", "File", "Samples …", "", everywhere, always, [](Editor& e) { e.files.samples.opening = true; }},
     {"file.recovered", "File", "Recovered work …", "", everywhere,
-     [](const Editor& e) { return !e.files.left.empty(); }, [](Editor& e) { proceed(e, Files::Next::recovered); }},
+     [](const Editor& e) { return !e.files.left.empty(); }, [](Editor& e) { e.files.offers = true; }},
     {"file.versions", "File", "Versions …", "", everywhere,
      [](const Editor& e) { return !e.document.graph().path.empty(); }, offerVersions},
     {"file.missing", "File", "Missing files …", "", everywhere, always, openMissingFiles},
@@ -394,6 +396,10 @@ constexpr Command kCommands[] = {
     {"canvas.move_right", "", "Move to the right", "Ctrl+Right", canvas, anySelected, moveBy<1, 0>},
     {"canvas.move_up", "", "Move up", "Ctrl+Up", canvas, anySelected, moveBy<0, -1>},
     {"canvas.move_down", "", "Move down", "Ctrl+Down", canvas, anySelected, moveBy<0, 1>},
+    {"file.next_document", "File", "Next document", "Alt+PageDown", everywhere, manyTabs, [](Editor& e) { turnTabs(e, 1); },
+     true},
+    {"file.last_document", "File", "Last document", "Alt+PageUp", everywhere, manyTabs, [](Editor& e) { turnTabs(e, -1); }},
+    {"file.close", "File", "Close", "Ctrl+W", everywhere, always, [](Editor& e) { proceed(e, Files::Next::close); }},
     {"file.quit", "File", "Quit", "Ctrl+Q", everywhere, always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
 };
 

@@ -177,6 +177,7 @@ void showEditor(Editor& editor) {
     ImGui::PopStyleVar();
     if (ImGui::BeginMenuBar()) {
         showMenus(editor);
+        showTabs(editor);
         ImGui::EndMenuBar();
     }
     runShortcuts(editor);

@@ -17,6 +17,7 @@
 #include "editor/code/code_editor.h"
 #include "editor/document/document.h"
 #include "editor/files/files.h"
+#include "editor/files/tabs.h"
 #include "editor/keymap.h"
 #include "editor/outline/window.h"
 #include "editor/panels/export_dialog.h"
@@ -80,6 +81,7 @@ struct Editor {
     double noticeUntil = 0.0;  ///< seconds of ImGui's clock
     bool quit = false;
     Files files;
+    Tabs tabs;
     ExportDialog exporting;
     RenderDialog rendering;
     LibraryPanel library;

@@ -96,10 +96,10 @@ int run(const Options& options) {
     }
     onDisplayLost({});
     keepArrangement(editor, preferencesPath());
-    if (signal == 0) return editor.files.recovery.discard(), kDone;
+    if (signal == 0) return discardKept(editor), kDone;
     const std::string kept = keepForNextTime(editor);
     if (kept.empty())
-        editor.files.recovery.discard();
+        discardKept(editor);
     else
         complain("ended by a signal. " + kept);
     return 128 + signal;

@@ -85,7 +85,7 @@ void drop(Editor& editor, const std::vector<std::string>& files) {
     if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
         return say(editor,
                    "nothing was done with what was dropped: close the window that asks, and drop it again");
-    if (files.size() == 1 && isGraph(files[0])) return proceed(editor, Files::Next::open, files[0]);
+    if (files.size() == 1 && isGraph(files[0])) return openFile(editor, files[0]);
     DroppedFiles known;
     std::vector<std::string> others;
     for (const std::string& file : files) (fileInputFor(file) ? known.files : others).push_back(file);

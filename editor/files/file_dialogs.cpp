@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "editor/editor.h"
+#include "editor/files/tabs.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -53,6 +54,8 @@ void showQuestion(Editor& editor) {
     ImGui::SameLine();
     if (button(editor, "Discard")) {
         ImGui::CloseCurrentPopup();
+        // The last one stays until the editor ends: that may be asked about once more.
+        if (files.next == Next::quit && unsavedTab(editor)) closeTab(editor);
         doNext(editor);
     }
     ImGui::SameLine();
@@ -197,7 +200,6 @@ void showOffer(Editor& editor) {
     if (!ImGui::IsPopupOpen(kOffer)) ImGui::OpenPopup(kOffer);
     if (!ImGui::BeginPopupModal(kOffer, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
     ImGui::TextUnformatted("The editor ended before these changes were saved:");
-    bool restored = false;
     for (std::size_t i = 0; i < files.left.size(); ++i) {
         const LeftCopy copy = files.left[i];
         ImGui::PushID(int(i));
@@ -208,15 +210,11 @@ void showOffer(Editor& editor) {
         const bool remove = ImGui::Button("Delete");
         ImGui::PopID();
         if (opens) restore(editor, copy);
-        restored = opens;
         if (remove) removeCopy(copy);
         if (!opens && !remove) continue;
         files.left.erase(files.left.begin() + std::ptrdiff_t(i));
         break;
     }
-    // One at a time: the next would take the place of this one before it is saved.
-    if (restored && !files.left.empty())
-        say(editor, "the other recovered work waits under File, Recovered work");
     if (files.left.empty() || ImGui::Button("Later") || escaped()) files.offers = false;
     if (!files.offers) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();

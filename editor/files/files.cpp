@@ -9,6 +9,7 @@
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
 #include "editor/files/graph_folder.h"
+#include "editor/files/tabs.h"
 #include "graph/document/json.h"
 
 namespace fw::editor {
@@ -20,16 +21,6 @@ using Next = Files::Next;
 using Origin = Files::Origin;
 
 std::string fileName(const std::string& path) { return fs::path(path).filename().string(); }
-
-std::string absolute(const std::string& path) {
-    std::error_code error;
-    return fs::absolute(path, error).lexically_normal().string();
-}
-
-bool sameFile(const std::string& a, const std::string& b) {
-    std::error_code error;
-    return absolute(a) == absolute(b) || fs::equivalent(a, b, error);
-}
 
 /// A document that makes something at once: a box to cut.
 Graph freshGraph() {
@@ -48,10 +39,19 @@ void remember(Editor& editor, const std::string& path) {
     keepPreferences(editor);
 }
 
+/// The file's document, in place of what is open of it without unsaved changes.
+void takeOf(Editor& editor, Graph graph, const std::string& path) {
+    if (const auto open = tabOf(editor, path)) showTab(editor, *open);
+    if (isOf(editor, path) && !editor.document.unsaved())
+        replaceDocument(editor, Document(placeAll(graph)));
+    else
+        take(editor, std::move(graph));
+}
+
 /// Shows what was read of the file.
 void adopt(Editor& editor, PartialGraph read, const std::string& text, const std::string& path) {
     Files& files = editor.files;
-    take(editor, std::move(read.graph));
+    takeOf(editor, std::move(read.graph), path);
     files.origin = isSample(path) ? Origin::sample : read.whole ? Origin::own : Origin::partly;
     files.found = std::move(read.findings);
     files.watch.follow(path, text);
@@ -120,9 +120,10 @@ void openFirst(Editor& editor, const std::string& path) {
 
 }  // namespace
 
-std::string nameOf(const Editor& editor) {
-    const std::string& path = editor.document.graph().path;
-    return path.empty() || editor.files.origin == Origin::sample ? "untitled" : fileName(path);
+std::string nameOf(const Editor& editor) { return nameOf(editor.document.graph(), editor.files.origin); }
+
+std::string nameOf(const Graph& graph, Origin origin) {
+    return graph.path.empty() || origin == Origin::sample ? "untitled" : fileName(graph.path);
 }
 
 std::string stemOf(const Editor& editor) {
@@ -150,29 +151,16 @@ std::string workFolder(const Editor& editor) {
 }
 
 void take(Editor& editor, Graph graph) {
-    ImGui::ClearActiveID();  // it would go on with what is typed, over another document
-    editor.document = Document(placeAll(graph));
-    editor.viewport.forget(editor.shell);
-    editor.panelState = {};
-    editor.add = {};
-    editor.frameMenu = {};
-    editor.drawn = 0;
-    const bool minimap = editor.canvas.minimap;
-    editor.canvas = Canvas();
-    editor.canvas.minimap = minimap;
-    editor.thumbnails.clear(editor.shell);
-    editor.files.origin = Origin::own;
-    editor.files.found.clear();
-    editor.files.outside.reset();
-    editor.files.keepsNext = false;
-    editor.files.waits.clear();
-    editor.files.watch.follow({}, {});
-    editor.files.groups.forget();
-    editor.outline.open = false;
-    editor.outline.does = outline::Window::Does::nothing;
+    if (!isUntouched(editor)) openTab(editor);
+    replaceDocument(editor, Document(placeAll(graph)));
 }
 
 void openFile(Editor& editor, const std::string& path) {
+    if (const auto open = tabOf(editor, path)) {
+        showTab(editor, *open);
+        if (editor.document.unsaved())
+            return say(editor, nameOf(editor) + " is open here, with unsaved changes");
+    }
     const Result<std::string> text = readGraphText(path);
     PartialGraph read;
     if (text)
@@ -185,21 +173,25 @@ void openFile(Editor& editor, const std::string& path) {
     adopt(editor, std::move(read), *text, path);
 }
 
+void newDocument(Editor& editor) { take(editor, freshGraph()); }
+
+void askForFile(Editor& editor) {
+    const bool sample = editor.files.origin == Origin::sample;
+    open(editor.files.browser, FileBrowser::Kind::open, sample ? "" : editor.document.graph().path);
+}
+
 void doNext(Editor& editor) {
     Files& files = editor.files;
     switch (std::exchange(files.next, Next::none)) {
         case Next::none: break;
-        case Next::fresh: take(editor, freshGraph()); break;
-        case Next::browse: {
-            const bool sample = files.origin == Origin::sample;
-            open(files.browser, FileBrowser::Kind::open, sample ? "" : editor.document.graph().path);
-            break;
-        }
-        case Next::open: openFile(editor, files.nextPath); break;
         case Next::drop: addDropped(editor, std::exchange(files.dropped, {})); break;
-        case Next::samples: files.samples.opening = true; break;
-        case Next::recovered: files.offers = true; break;
-        case Next::quit: (makesFiles(editor) ? files.asksExport : editor.quit) = true; break;
+        case Next::close: closeTab(editor); break;
+        case Next::quit:
+            if (const auto unsaved = unsavedTab(editor)) {
+                showTab(editor, *unsaved);
+                return proceed(editor, Next::quit);
+            }
+            (makesFiles(editor) ? files.asksExport : editor.quit) = true;
     }
 }
 
@@ -291,7 +283,7 @@ void restore(Editor& editor, const LeftCopy& copy) {
     // As a change of what the file holds, so that it is not lost again.
     PartialGraph before;
     if (text) before = parseWhatCanBeRead(*text, copy.original);
-    take(editor, std::move(before.graph));
+    takeOf(editor, std::move(before.graph), copy.original);
     editor.document.setPath(copy.original);
     editor.document.apply("Recover", found);
     if (text) {
@@ -301,7 +293,6 @@ void restore(Editor& editor, const LeftCopy& copy) {
                                                       : Origin::partly;
     }
     if (editor.files.recovery.keepNow(found)) removeCopy(copy);
-    editor.files.offers = false;
 }
 
 void startFiles(Editor& editor, const std::string& path) {
@@ -453,16 +444,14 @@ void showRecent(Editor& editor) {
     for (const std::string& path : recent) {
         std::error_code error;
         const bool gone = !fs::exists(path, error);
-        if (ImGui::MenuItem(path.c_str(), gone ? "gone" : nullptr, false, !gone))
-            proceed(editor, Next::open, path);
+        if (ImGui::MenuItem(path.c_str(), gone ? "gone" : nullptr, false, !gone)) openFile(editor, path);
     }
     ImGui::EndMenu();
 }
 
-void proceed(Editor& editor, Next next, std::string path) {
+void proceed(Editor& editor, Next next) {
     editor.document.settle();  // what is being typed is one of the changes
     editor.files.next = next;
-    editor.files.nextPath = std::move(path);
     if (editor.document.unsaved())
         editor.files.asks = true;
     else
@@ -488,7 +477,9 @@ std::string keepForNextTime(Editor& editor) {
     try {
         editor.document.settle();
     } catch (...) {}  // what is being typed is less than all the rest
-    if (!editor.document.unsaved()) return {};
+    // Those of the documents behind were kept when another came before them.
+    if (!editor.document.unsaved())
+        return unsavedTab(editor) ? "The unsaved changes are offered at the next start." : "";
     const Done kept = editor.files.recovery.keepNow(editor.document.graph());
     if (!kept) return "The unsaved changes could not be kept: " + format(kept.error());
     return "The unsaved changes are kept in " + editor.files.recovery.path() +

@@ -1,9 +1,10 @@
 // The document's file: new, open, save, and the questions that come with them.
 //
-// What would lose changes waits for an answer. A file of which a part cannot be read opens with the rest, and
-// is not replaced without being asked for, nor without what it held being kept beside it. What another
-// program does to the file is noticed. A copy of unsaved changes is kept meanwhile (recovery.h); copies that
-// a crash left are offered at the start. Lifetime: part of the Editor.
+// What is opened comes before what is there, which stays open behind it (tabs.h). What would lose changes
+// waits for an answer. A file of which a part cannot be read opens with the rest, and is not replaced without
+// being asked for, nor without what it held being kept beside it. What another program does to the file is
+// noticed. A copy of unsaved changes is kept meanwhile (recovery.h); copies that a crash left are offered at
+// the start. Lifetime: part of the Editor.
 #pragma once
 
 #include <functional>
@@ -39,54 +40,49 @@ struct FilePick {
     std::function<void(Editor&, const std::string& path)> take = {};
 };
 
-struct Files {
-    /// What is to happen once the changes are saved or given up.
-    enum class Next : unsigned char {
-        none,
-        fresh,
-        browse,
-        open,
-        drop,
-        samples,
-        recovered,
-        quit
-    } next = Next::none;
-    std::string nextPath;  ///< of Next::open
-    DroppedFiles dropped;  ///< of Next::drop
-    bool asks = false;     ///< the question about changes is to be opened
+/// How a document and its file stand, while it is open.
+struct DocumentFile {
     /// What saving does to the file that the document was read from.
     enum class Origin : unsigned char {
         own,     ///< replaces it
         sample,  ///< nothing: the document is a copy, whose pictures lie beside the original
         partly,  ///< asks: it holds what could not be read
     } origin = Origin::own;
-    bool asksExport = false;   ///< the question about an export that goes on is to be opened
-    bool asksPartly = false;   ///< that question is to be opened
     std::vector<Error> found;  ///< when the file was read
     FileWatch watch;
+    std::optional<std::string>
+        outside;        ///< what another program wrote, while it is asked what to do about it
+    std::string waits;  ///< where to save once that is answered; empty: nowhere
+    /// The file holds what undo cannot give back: saving keeps it as a version, however old the last one is.
+    bool keepsNext = false;
+    Recovery recovery;
+};
+
+/// All about files: of the document in front, and of the editor.
+struct Files : DocumentFile {
+    /// What is to happen once the changes are saved or given up.
+    enum class Next : unsigned char { none, drop, close, quit } next = Next::none;
+    DroppedFiles dropped;     ///< of Next::drop
+    bool asks = false;        ///< the question about changes is to be opened
+    bool asksExport = false;  ///< the question about an export that goes on is to be opened
+    bool asksPartly = false;  ///< that question is to be opened
     AssetWatch assets;
     GroupLinks groups;
     std::string linking = {};  ///< the group for which `linkBrowser` asks where it is to be written
     FileBrowser linkBrowser;
     MissingFilesDialog missing;
     std::string copied, copiedFrom;  ///< the last text that was copied here, and the file of its graph
-    std::optional<std::string>
-        outside;        ///< what another program wrote, while it is asked what to do about it
-    std::string waits;  ///< where to save once that is answered; empty: nowhere
     Message message;
     FileBrowser browser;
     FilePick pick;
     Samples samples;
-    Recovery recovery;
     Preferences preferences;
     std::vector<LeftCopy> left;          ///< of crashes, not yet decided on
     bool offers = false;                 ///< these are shown
     std::vector<Version> versions = {};  ///< of the document's file, while they are shown
-    /// The file holds what undo cannot give back: saving keeps it as a version, however old the last one is.
-    bool keepsNext = false;
-    bool asksVersions = false;  ///< these are to be opened
-    std::string title;          ///< that the window has
-    std::string failureTold;    ///< of the preview, last
+    bool asksVersions = false;           ///< these are to be opened
+    std::string title;                   ///< that the window has
+    std::string failureTold;             ///< of the preview, last
 };
 
 /// Reads preferences, looks for copies that were left, and opens the file, if there is a path. One that does
@@ -109,8 +105,11 @@ void pickFile(Editor& editor, const FileKind& kind, const std::string& now,
               std::function<void(Editor&, const std::string& path)> take);
 
 /// Does it, after a question if changes would be lost.
-void proceed(Editor& editor, Files::Next next, std::string path = {});
-/// Shows the file in place of the document; a message where that cannot be, which leaves the document.
+void proceed(Editor& editor, Files::Next next);
+void newDocument(Editor& editor);
+void askForFile(Editor& editor);
+/// Shows the file before the document, or where it is open; a message where that cannot be, which leaves the
+/// document.
 void openFile(Editor& editor, const std::string& path);
 /// Saves the preferences, or says why that cannot be.
 void keepPreferences(Editor& editor);
@@ -125,10 +124,11 @@ void saveAs(Editor& editor);
 std::string keepForNextTime(Editor& editor);
 
 // For files.cpp and file_dialogs.cpp alone:
-/// The document in place of what there was, with nothing selected.
+/// The document before what there was, with nothing selected.
 void take(Editor& editor, Graph graph);
 /// What the document is called: its file's name, or "untitled".
 std::string nameOf(const Editor& editor);
+std::string nameOf(const Graph& graph, DocumentFile::Origin origin);
 /// What files of it are called, but for their endings.
 std::string stemOf(const Editor& editor);
 /// Whether an export or a picture is under way, which ends with the program.

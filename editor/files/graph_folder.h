@@ -1,4 +1,4 @@
-// Where a graph's own files lie.
+// Where a graph's file and its own files lie.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,17 @@
 #include "graph/document/graph.h"
 
 namespace fw::editor {
+
+inline std::string absolute(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::absolute(path, error).lexically_normal().string();
+}
+
+/// Whether both lead to one file, which need not exist.
+inline bool sameFile(const std::string& a, const std::string& b) {
+    std::error_code error;
+    return absolute(a) == absolute(b) || std::filesystem::equivalent(a, b, error);
+}
 
 /// The folder of the graph's file, absolute; empty if it has none yet.
 inline std::string graphFolder(const Graph& graph) {

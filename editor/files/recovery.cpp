@@ -85,6 +85,16 @@ Recovery::Recovery(std::string folder) {
     if (lock < 0) file.clear();
 }
 
+Recovery::Recovery(Recovery&& other) noexcept : Recovery(std::string()) { *this = std::move(other); }
+
+Recovery& Recovery::operator=(Recovery&& other) noexcept {
+    std::swap(file, other.file), std::swap(lock, other.lock), std::swap(copied, other.copied);
+    std::swap(kept, other.kept), std::swap(changed, other.changed), std::swap(seen, other.seen);
+    std::swap(changedAt, other.changedAt), std::swap(seenAt, other.seenAt);
+    std::swap(writing, other.writing);
+    return *this;
+}
+
 Recovery::~Recovery() {
     if (writing.valid()) writing.wait();
     if (lock < 0) return;

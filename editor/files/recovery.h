@@ -33,8 +33,10 @@ class Recovery {
 
     /// Keeps copies in this folder, which is made if need be; none if it is empty or cannot be made.
     explicit Recovery(std::string folder = recoveryFolder());
-    Recovery(const Recovery&) = delete;
-    Recovery& operator=(const Recovery&) = delete;
+    /// The two change places: of a temporary, what there was before stays where it is, as the destructor has
+    /// it.
+    Recovery(Recovery&& other) noexcept;
+    Recovery& operator=(Recovery&& other) noexcept;
     ~Recovery();
 
     /// To be called now and then, at least every few seconds while the document changes. Starts to write a

@@ -251,7 +251,7 @@ void showLibrary(Editor& editor) {
         const LibraryPart part = *asked.add;
         addPart(editor, part, inSight(editor), asked.linked);
     }
-    if (asked.open) proceed(editor, Files::Next::open, asked.open->path);
+    if (asked.open) openFile(editor, asked.open->path);
     if (asked.remove) {
         std::error_code error;
         if (const Done kept = keepVersion(asked.remove->path, true); !kept)

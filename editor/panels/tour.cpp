@@ -86,7 +86,7 @@ void startTour(Editor& editor) {
     const std::string folder = samplesFolder();
     if (folder.empty()) return say(editor, "the samples are not installed: the tour has no tower to show");
     editor.windows.tour = true;
-    proceed(editor, Files::Next::open, folder + "/tower.field.json");
+    openFile(editor, folder + "/tower.field.json");
 }
 
 void showTour(Editor& editor) {

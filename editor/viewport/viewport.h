@@ -66,8 +66,8 @@ struct Gizmo {
     std::set<std::string> held(const std::string& scope) const;
 };
 
-/// What the viewport shows and how.
-struct Viewport {
+/// What a document is shown of, and how it is looked at.
+struct DocumentLook {
     bool ownCamera = false;  ///< rather than the scene's, or the solid framed
     Orbit orbit;             ///< of the own camera
     uint32_t view = RENDER_PICTURE;
@@ -75,6 +75,10 @@ struct Viewport {
     Slice slice;           ///< of the views on a plane
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline
+};
+
+/// What the viewport shows and how.
+struct Viewport : DocumentLook {
     bool playing = false;
     uint64_t document = 0;  ///< another number for another document
     ImTextureID texture = nullptr;

@@ -220,6 +220,37 @@ const std::map<std::string, Case>& cases() {
              p.keys(keys);
              EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
          }},
+        {"file.next_document",
+         [](Program& p, const std::string& keys) {
+             const std::string title = p.title();
+             p.keys("Ctrl+N");
+             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.title() == title; }));
+             p.keys("Ctrl+W");
+             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+         }},
+        {"file.last_document",
+         [](Program& p, const std::string& keys) {
+             const std::string title = p.title();
+             p.keys("Ctrl+N");
+             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.title() == title; }));
+         }},
+        {"file.close",
+         [](Program& p, const std::string& keys) {
+             pick(p, {"box"});
+             p.keys("Delete");
+             p.keys(keys);
+             p.waitFor("Discard");
+             p.keys("Escape");
+             p.waitUntilGone("Discard");
+             p.keys("Ctrl+Z");
+             p.save();
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+         }},
         {"file.open",
          [](Program& p, const std::string& keys) {
              writeText(p.path("other.field.json"), R"({"fieldwright": 1, "nodes": []})");
@@ -720,8 +751,9 @@ const std::map<std::string, Case>& cases() {
 }
 
 /// After these another window is needed.
-const std::set<std::string> kLast = {"file.new",    "file.open", "file.save_as",    "file.export",
-                                     "file.render", "file.quit", "picture.shading", "help.node"};
+const std::set<std::string> kLast = {"file.new",  "file.next_document", "file.last_document", "file.close",
+                                     "file.open", "file.save_as",       "file.export",        "file.render",
+                                     "file.quit", "picture.shading",    "help.node"};
 
 /// What ids of commands begin with.
 std::string areaOf(const Command& command) {

@@ -83,7 +83,7 @@ TEST(Hands, WhatIsTypedIsAmongTheChangesThatAreAskedAbout) {
     editor.keys("F2");
     editor.type("head");
     EXPECT_FALSE(editor->document.unsaved());
-    proceed(*editor, Files::Next::fresh);
+    proceed(*editor, Files::Next::close);
     EXPECT_TRUE(editor->document.unsaved());
     EXPECT_TRUE(editor->files.asks);
     EXPECT_EQ(editor->document.graph().node("ball")->label, "head");
@@ -281,27 +281,20 @@ TEST(Hands, TwoCopiesThatWereLeftAreBothRestored) {
     editor.settle();
     ASSERT_EQ(editor->files.left.size(), 2u);
     ASSERT_TRUE(editor->files.offers);
-    restore(*editor, editor->files.left[0]);
-    editor->files.left.erase(editor->files.left.begin());
-    editor.keys("Escape");
+    for (const LeftCopy& copy : std::vector(editor->files.left)) restore(*editor, copy);
     editor.settle();
-    const std::string first = writeGraph(editor->document.graph());
     EXPECT_TRUE(editor->document.unsaved());
-    EXPECT_FALSE(editor->files.offers) << "the offer would put the next one in place of this one";
-    ASSERT_EQ(editor->files.left.size(), 1u);
-    // To the other by the menu: the first is asked about, saved, and stays.
-    ASSERT_TRUE(command("file.recovered").can(*editor));
-    command("file.recovered").run(*editor);
-    EXPECT_TRUE(editor->files.asks);
-    editor->document.setPath(editor.path("first.field.json"));
-    ASSERT_TRUE(save(*editor));
-    doNext(*editor);
-    editor.keys("Escape");
-    restore(*editor, editor->files.left[0]);
+    const std::string last = writeGraph(editor->document.graph());
+    ASSERT_EQ(editor->tabs.all.size(), 2u);
+    turnTabs(*editor, 1);
     EXPECT_TRUE(editor->document.unsaved());
-    EXPECT_NE(writeGraph(editor->document.graph()), first);
-    EXPECT_EQ(fw::test::readText(editor.path("first.field.json")), first);
-    EXPECT_EQ(leftCopies(folder).size(), 0u);
+    std::set<std::string> both = {last, writeGraph(editor->document.graph())};
+    const auto asRead = [](const char* text) { return writeGraph(placeAll(test::parsed(text))); };
+    EXPECT_EQ(both, (std::set<std::string>{asRead(kBall), asRead(kBlock)}));
+    // Of each there is a copy again, in place of the one that was left.
+    EXPECT_TRUE(std::filesystem::exists(editor->files.recovery.path()));
+    EXPECT_FALSE(std::filesystem::exists(folder + "/1-0.field.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder + "/2-0.field.json"));
 }
 
 TEST(Hands, AHundredStepsAreTakenBackAcrossScopes) {

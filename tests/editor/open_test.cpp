@@ -185,16 +185,18 @@ TEST_F(FilesInWindow, RemembersWhatWasOpenedAndHearsOfDroppedFiles) {
     std::string problem;
     EXPECT_EQ(readPreferences(preferencesPath(), problem).recent, (std::vector<std::string>{b, a}));
 
-    // Unsaved changes are asked about first.
+    // What is unsaved stays open behind.
     Graph changed = graph();
     changed.node("ball")->label = "x";
     editor->document.apply("Rename", changed);
     paths[0] = a.c_str();
     drop(shell->window(), 1, paths);
     frames();
+    EXPECT_EQ(graph().path, a);
+    ASSERT_TRUE(unsavedTab(*editor));
+    showTab(*editor, *unsavedTab(*editor));
     EXPECT_EQ(graph().path, b);
-    EXPECT_EQ(editor->files.next, Files::Next::open);
-    EXPECT_EQ(editor->files.nextPath, a);
+    EXPECT_EQ(graph().node("ball")->label, "x");
 }
 
 TEST_F(FilesInWindow, SamplesOpenAsCopies) {

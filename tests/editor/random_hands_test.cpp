@@ -172,8 +172,7 @@ struct RandomHands {
                 return;
             case 1:  // as dropped on the window, or from the menu
                 if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-                proceed(*editor, Files::Next::open,
-                        editor.path("other" + std::to_string(below(texts.size())) + ".field.json"));
+                openFile(*editor, editor.path("other" + std::to_string(below(texts.size())) + ".field.json"));
                 last = "open";
                 return;
             case 2:

@@ -1,0 +1,166 @@
+// Several documents in one window.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "editor/document/edits.h"
+#include "editor/files/tabs.h"
+#include "graph/document/json.h"
+#include "tests/editor/driven_editor.h"
+#include "tests/editor/program.h"
+
+namespace fw::editor::test::tabs_test {
+
+using fw::test::readText;
+using fw::test::writeText;
+
+constexpr const char* kBall =
+    R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": "sphere", "at": [0, 0]},
+        {"id": "out", "type": "output", "at": [260, 0], "inputs": {"surface": {"from": "ball"}, "resolution": 16}}]})";
+constexpr const char* kBlock =
+    R"({"fieldwright": 1, "nodes": [{"id": "block", "type": "box", "at": [0, 0]},
+        {"id": "out", "type": "output", "at": [260, 0], "inputs": {"surface": {"from": "block"}, "resolution": 16}}]})";
+
+Graph larger(const Graph& graph, const char* node, const char* input) {
+    return setNumber(graph, "", {node, input}, 0, 2.5);
+}
+
+TEST(Tabs, EachDocumentIsAsItWasLeft) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string ball = editor.path("ball.field.json"), block = editor.path("block.field.json");
+    writeText(ball, kBall), writeText(block, kBlock);
+    openFile(*editor, ball);
+    EXPECT_EQ(editor->tabs.all.size(), 1u) << "nothing was there to keep";
+    editor->document.apply("Larger", larger(editor->document.graph(), "ball", "radius"));
+    editor->canvas.select({"ball"});
+    editor->viewport.pinned = "ball";
+    editor->viewport.ownCamera = true, editor->viewport.orbit.distance = 17;
+    editor.settle();
+    const std::string changed = writeGraph(editor->document.graph());
+
+    openFile(*editor, block);
+    editor.settle();
+    ASSERT_EQ(editor->tabs.all.size(), 2u);
+    EXPECT_EQ(nameOf(*editor), "block.field.json");
+    EXPECT_FALSE(editor->document.unsaved());
+    EXPECT_TRUE(editor->canvas.selection.empty());
+    EXPECT_EQ(editor->viewport.pinned, "");
+    EXPECT_FALSE(editor->viewport.ownCamera);
+    EXPECT_FALSE(editor->document.canUndo());
+    editor->document.apply("Longer", larger(editor->document.graph(), "block", "half_extents"));
+
+    editor.keys("alt+Next");
+    EXPECT_EQ(writeGraph(editor->document.graph()), changed);
+    EXPECT_EQ(editor->canvas.selection, std::set<std::string>{"ball"});
+    EXPECT_EQ(editor->viewport.pinned, "ball");
+    EXPECT_EQ(editor->viewport.orbit.distance, 17);
+    editor.keys("ctrl+z");
+    EXPECT_FALSE(editor->document.unsaved());
+    editor.keys("ctrl+shift+z");
+    EXPECT_EQ(writeGraph(editor->document.graph()), changed);
+    editor.waitForPicture();
+    EXPECT_TRUE(editor->viewport.shown.current);
+
+    // A file that is open is shown, not read again over its changes.
+    openFile(*editor, block);
+    EXPECT_EQ(editor->tabs.all.size(), 2u);
+    EXPECT_EQ(nameOf(*editor), "block.field.json");
+    EXPECT_TRUE(editor->document.unsaved());
+    EXPECT_NE(editor->notice.find("unsaved"), std::string::npos) << editor->notice;
+    // Saving is of the one in front.
+    EXPECT_TRUE(save(*editor));
+    EXPECT_EQ(readText(ball), kBall);
+    EXPECT_NE(readText(block), kBlock);
+}
+
+TEST(Tabs, WhatChangesBehindIsNoticedInFront) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string ball = editor.path("ball.field.json"), block = editor.path("block.field.json");
+    writeText(ball, kBall), writeText(block, kBlock);
+    openFile(*editor, ball);
+    openFile(*editor, block);
+    writeText(ball, kBlock);
+    turnTabs(*editor, 1);
+    EXPECT_TRUE(watchFile(*editor, FileWatch::Clock::now() + std::chrono::seconds(10)));
+    EXPECT_TRUE(editor->document.graph().node("block"));
+    editor.keys("ctrl+z");
+    EXPECT_TRUE(editor->document.graph().node("ball"));
+}
+
+TEST(Tabs, QuitAsksOfEachAndKeepsWhatIsUnsavedTillThen) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string ball = editor.path("ball.field.json"), block = editor.path("block.field.json");
+    writeText(ball, kBall), writeText(block, kBlock);
+    openFile(*editor, ball);
+    editor->document.apply("Larger", larger(editor->document.graph(), "ball", "radius"));
+    openFile(*editor, block);
+    // What is behind would survive a crash.
+    ASSERT_TRUE(unsavedTab(*editor));
+    const Recovery& kept = editor->tabs.all[*unsavedTab(*editor)]->file.recovery;
+    const std::string copy = kept.path();
+    EXPECT_TRUE(std::filesystem::exists(copy));
+    EXPECT_NE(copy, editor->files.recovery.path());
+    EXPECT_NE(keepForNextTime(*editor), "");
+
+    editor->document.apply("Longer", larger(editor->document.graph(), "block", "half_extents"));
+    editor.keys("ctrl+q");
+    EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+    editor.keys("Escape");
+    EXPECT_FALSE(editor->quit);
+    EXPECT_EQ(editor->tabs.all.size(), 2u);
+    editor.keys("ctrl+q Return");  // saves this one, and asks of the other
+    EXPECT_NE(readText(block), kBlock);
+    EXPECT_FALSE(editor->quit);
+    EXPECT_EQ(nameOf(*editor), "ball.field.json");
+    EXPECT_EQ(readText(ball), kBall);
+    editor.keys("Return");
+    EXPECT_NE(readText(ball), kBall);
+    EXPECT_TRUE(editor->quit);
+    discardKept(*editor);
+    EXPECT_FALSE(std::filesystem::exists(copy));
+}
+
+TEST(Tabs, AClosedOneLeavesItsNeighbour) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    for (const char* name : {"a", "b", "c"}) {
+        const std::string path = editor.path(std::string(name) + ".field.json");
+        writeText(path, kBall);
+        openFile(*editor, path);
+    }
+    ASSERT_EQ(editor->tabs.all.size(), 3u);
+    showTab(*editor, 1);
+    editor.keys("ctrl+w");
+    EXPECT_EQ(nameOf(*editor), "c.field.json");
+    editor.keys("ctrl+w ctrl+w");
+    ASSERT_EQ(editor->tabs.all.size(), 1u);
+    EXPECT_EQ(nameOf(*editor), "untitled");
+    EXPECT_TRUE(isUntouched(*editor));
+    editor.keys("ctrl+w");
+    EXPECT_TRUE(isUntouched(*editor));
+    // The copies' folder holds nothing of those that were closed.
+    discardKept(*editor);
+    for (const auto& entry : std::filesystem::directory_iterator(recoveryFolder()))
+        EXPECT_FALSE(entry.path().string().ends_with(".field.json")) << entry.path();
+}
+
+TEST(EndToEndTabs, AreSeenAndClicked) {
+    Program program(kBall);
+    ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
+    program.save();
+    const std::string title = program.title();
+    const Area bar{{0, 0}, {1280, 30}};
+    program.keys("Ctrl+N");
+    const Area other = program.waitFor("document.field.json", bar);
+    program.waitFor("untitled", bar);
+    program.click(other.centre());
+    EXPECT_TRUE(eventually([&] { return program.title() == title; }));
+    program.click(program.waitFor("untitled", bar).centre(), 2);
+    program.waitUntilGone("untitled");
+    EXPECT_EQ(program.title(), title);
+}
+
+}  // namespace fw::editor::test::tabs_test
