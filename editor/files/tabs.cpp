@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/document/layout.h"
 #include "editor/editor.h"
@@ -155,10 +156,11 @@ void showTabs(Editor& editor) {
         const bool front = i == tabs.front;
         const std::string name = label(i);
         ImGui::PushID(int(i));
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        if (ImGui::Selectable("##tab", front, ImGuiSelectableFlags_AllowItemOverlap, {width, 0})) shown = i;
-        const bool hovered = ImGui::IsItemHovered();
-        if (hovered && ImGui::IsMouseClicked(2)) closed = i;
+        const ImVec2 cursor = ImGui::GetCursorScreenPos(),
+                     at(std::floor(cursor.x),
+                        cursor.y + ImGui::GetCurrentWindow()->DC.CurrLineTextBaseOffset);
+        const bool pressed = ImGui::Selectable("##tab", front, 0, {width, 0}),
+                   hovered = ImGui::IsItemHovered();
         if (hovered) {
             const std::string& path = documentAt(editor, i).graph().path;
             ImGui::SetTooltip("%s", path.empty() ? name.c_str() : path.c_str());
@@ -175,8 +177,11 @@ void showTabs(Editor& editor) {
                 ImGui::GetWindowDrawList()->AddLine(
                     {centre.x - 0.25f * letter, centre.y - way * 0.25f * letter},
                     {centre.x + 0.25f * letter, centre.y + way * 0.25f * letter}, color);
-            if (over && shown == i) shown.reset(), closed = i;
         }
+        if (hovered && (ImGui::IsMouseClicked(2) || (pressed && ImGui::GetIO().MousePos.x > hi.x)))
+            closed = i;
+        else if (pressed)
+            shown = i;
         ImGui::PopID();
     }
     if (count < tabs.all.size() &&
