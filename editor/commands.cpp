@@ -338,9 +338,19 @@ constexpr Command kCommands[] = {
     {"picture.move", "Picture", "Move", "W", picture, pictured, use<Tool::move>, true},
     {"picture.rotate", "Picture", "Rotate", "E", picture, pictured, use<Tool::turn>},
     {"picture.scale", "Picture", "Scale", "R", picture, pictured, use<Tool::scale>},
+    {"picture.measure", "Picture", "Measure a length", "Shift+M", picture, pictured,
+     [](Editor& e) { useMeasure(e, Measure::length); }, true},
+    {"picture.wall", "Picture", "Measure a wall", "Shift+T", picture, pictured,
+     [](Editor& e) { useMeasure(e, Measure::wall); }},
+    {"picture.line", "Picture", "Plot along a line", "Shift+K", picture, pictured,
+     [](Editor& e) { useMeasure(e, Measure::line); }},
+    {"picture.clear", "Picture", "Clear what is measured", "Escape", picture, canClearProbe, clearProbe},
     {"view.frame", "View", "Frame selection", "F", canvas, always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", canvas, always, [](Editor& e) { frame(e, true); }},
     {"view.costs", "View", "Costs on the nodes", "", everywhere, always, [](Editor& e) { e.canvas.costs = !e.canvas.costs; }},
+    {"view.exactness", "View", "Exactness on the wires", "", everywhere, always,
+     [](Editor& e) { e.canvas.exactness = !e.canvas.exactness; }},
+    {"view.probe", "View", "Probe", "Alt+P", everywhere, always, toggleProbe},
     {"view.minimap", "View", "Minimap", "", everywhere, always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
     {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P", canvas, anyActive,
      [](Editor& e) { pin(e, e.canvas.active); }},
@@ -418,6 +428,10 @@ bool shows(const Command& command, const Editor& editor) {
     const std::string_view id = command.id;
     if (id == "view.minimap") return editor.canvas.minimap;
     if (id == "view.costs") return editor.canvas.costs;
+    if (id == "view.exactness") return editor.canvas.exactness;
+    if (id == "picture.measure") return editor.probe.tool == Measure::length;
+    if (id == "picture.wall") return editor.probe.tool == Measure::wall;
+    if (id == "picture.line") return editor.probe.tool == Measure::line;
     if (id == "view.timeline") return editor.panels.timeline;
     for (const SidePanel& panel : sidePanels())
         if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;

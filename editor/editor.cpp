@@ -297,6 +297,7 @@ CanvasMarks marksOf(Editor& editor) {
         }
     marks.animated = movedFields(editor);
     if (editor.canvas.costs) marks.costs = costsOf(editor);
+    if (editor.panels.probe) marks.values = &editor.probe.values;
     return marks;
 }
 

@@ -26,6 +26,7 @@
 #include "editor/panels/render_dialog.h"
 #include "editor/panels/windows.h"
 #include "editor/preview/preview.h"
+#include "editor/probe/probe.h"
 #include "editor/viewport/viewport.h"
 
 namespace fw::editor {
@@ -51,7 +52,7 @@ enum class Part : unsigned char { canvas, viewport, side, timeline };
 
 struct Panels {
     bool inspector = true, outliner = true, problems = true, parameters = true, scene = true,
-         timeline = false, statistics = false, history = false, library = false;
+         timeline = false, statistics = false, history = false, library = false, probe = false;
     float side = 0.36f;             ///< of the window's width, for viewport and inspector
     float top = 0.55f;              ///< of its height, for the viewport
     float low = 0.25f;              ///< of the window's height, for the timeline
@@ -70,6 +71,7 @@ struct Editor {
     Document document;
     Canvas canvas;
     Viewport viewport;
+    Probe probe;
     AddMenu add;
     FrameMenu frameMenu;
     Panels panels;
@@ -118,7 +120,7 @@ void pin(Editor& editor, const std::string& id);
 /// Shows the node: enters its scope, selects and frames it. `path` as in Error::node: "group/node".
 void reveal(Editor& editor, std::string_view path);
 
-// panels/ and viewport/, each in the rest of ImGui's current window
+// panels/, viewport/ and probe/, each in the rest of ImGui's current window
 void showAddMenu(Editor& editor);
 void showFrameMenu(Editor& editor);
 void showInspector(Editor& editor);
@@ -131,5 +133,6 @@ void showViewport(Editor& editor);
 void showStatistics(Editor& editor);
 void showHistory(Editor& editor);
 void showLibrary(Editor& editor);
+void showProbe(Editor& editor);
 
 }  // namespace fw::editor

@@ -13,6 +13,7 @@
 //     double click                 enters a group; on a frame's title: its words and colour
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <set>
@@ -40,6 +41,14 @@ struct CanvasWishes {
     std::optional<std::size_t> frame;  ///< the index of a comment frame whose words are to be changed
 };
 
+/// What one output of a node gives at a place, in words; and as a colour, linear, if it is one.
+struct OutputValue {
+    std::string output, words;
+    std::optional<std::array<double, 3>> color = {};
+};
+/// By node id. Of outputs that are not here there is nothing to be said.
+using CanvasValues = std::map<std::string, std::vector<OutputValue>, std::less<>>;
+
 /// What the canvas shows besides the document.
 struct CanvasMarks {
     std::map<std::string, const Error*, std::less<>>
@@ -51,6 +60,7 @@ struct CanvasMarks {
     std::map<std::string, double, std::less<>> costs;  ///< by node id: its part of a sample of the field
     /// Of each "node.input" that the timeline moves.
     std::map<std::string, MovedField, std::less<>> animated;
+    const CanvasValues* values = nullptr;  ///< that outputs have at the place probed; none is: nullptr
 };
 
 /// What the mouse has begun on the canvas.
@@ -94,6 +104,7 @@ struct Canvas {
     CanvasGesture gesture;
     bool minimap = true;
     bool costs = false;        ///< shown on the nodes
+    bool exactness = false;    ///< shown on the wires: those that are no distance are broken
     bool spacePans = false;    ///< Space went down and was used to pan: its release asks for nothing
     bool frameNext = true;     ///< show all nodes with the next frame
     double restedSince = 0.0;  ///< seconds of ImGui's clock, when the mouse last moved
@@ -112,6 +123,10 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
 
 /// Whether nodes are seen large enough to have their numbers edited on them.
 bool showsFields(const CanvasView& view);
+
+/// How far a wire's surface can be trusted, as it is drawn: plain, in dashes, in dots.
+enum class WireTrust : unsigned char { exact, bound, steep };
+WireTrust trustOf(const Exactness& exactness);
 
 /// Draws boxes, wires, frames and minimap over what is there (used by showCanvas).
 void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& marks, const Shell& shell);

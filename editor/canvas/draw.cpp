@@ -75,11 +75,42 @@ void drawFrames(const Pen& pen, const Boxes& boxes) {
     }
 }
 
-void drawWire(const Pen& pen, const Curve& wire, ImU32 color, float width) {
+/// The wire with gaps: `on` pixels of every `period`.
+void drawBroken(const Pen& pen, const Curve& wire, ImU32 color, float width, float on, float period) {
+    constexpr int kSteps = 64;
+    ImVec2 last = pen.view.toScreen(wire.points[0]);
+    float along = 0.0f;
+    for (int i = 1; i <= kSteps; ++i) {
+        const ImVec2 next = pen.view.toScreen(wire.at(float(i) / kSteps));
+        const float length = std::hypot(next.x - last.x, next.y - last.y);
+        const auto at = [&](float pixels) {
+            const float part = length > 0.0f ? (pixels - along) / length : 0.0f;
+            return ImVec2(last.x + part * (next.x - last.x), last.y + part * (next.y - last.y));
+        };
+        Area step{last, last};
+        step.add(next);
+        const bool seen = step.grown(width).overlaps(pen.view.panel);
+        for (float from = std::floor(along / period) * period; seen && from < along + length;
+             from += period) {
+            const float a = std::max(from, along), b = std::min(from + on, along + length);
+            if (a < b) pen.list->AddLine(at(a), at(b), color, width);
+        }
+        along += length;
+        last = next;
+    }
+}
+
+void drawWire(const Pen& pen, const Curve& wire, ImU32 color, float width,
+              WireTrust trust = WireTrust::exact) {
     ImVec2 p[4];
     for (int i = 0; i < 4; ++i) p[i] = pen.view.toScreen(wire.points[i]);
     // Whole pixels: then a piece is two triangles whose soft edge is a texture, otherwise six.
-    pen.list->AddBezierCubic(p[0], p[1], p[2], p[3], color, std::max(1.0f, std::round(width)));
+    const float whole = std::max(1.0f, std::round(width));
+    if (trust == WireTrust::exact)
+        pen.list->AddBezierCubic(p[0], p[1], p[2], p[3], color, whole);
+    else
+        drawBroken(pen, wire, color, whole, (trust == WireTrust::bound ? 4.0f : 1.0f) * whole,
+                   (trust == WireTrust::bound ? 7.0f : 3.0f) * whole);
     // Which way it leads: an arrowhead in the middle.
     const ImVec2 middle = pen.view.toScreen(wire.at(0.5f)), on = pen.view.toScreen(wire.at(0.54f));
     const float x = on.x - middle.x, y = on.y - middle.y, length = std::sqrt(x * x + y * y);
@@ -106,8 +137,12 @@ void drawWires(const Pen& pen, const Canvas& canvas, const Boxes& boxes, const C
             color = faded(color, kDimmed);
         else if (!chosen)
             color = faded(color, from.node->muted || to.node->muted ? 0.35f : 0.8f);
+        const NodeExactness* known = canvas.exactness && from.rows[wire.fromRow].type == Type::surface
+                                         ? marks.exactness(from.node->id)
+                                         : nullptr;
         drawWire(pen, path, color,
-                 (chosen ? 1.4f : 1.0f) * kWireWidth * pen.view.scale * std::max(pen.view.zoom, 0.5f));
+                 (chosen ? 1.4f : 1.0f) * kWireWidth * pen.view.scale * std::max(pen.view.zoom, 0.5f),
+                 known ? trustOf(known->exactness) : WireTrust::exact);
         if (!marks.spoiledBy.empty() && from.node->id == marks.spoiledBy) {
             const ImVec2 middle = pen.view.toScreen(path.at(0.3f));
             pen.list->AddCircle(middle, 4.0f * pen.view.unit(), themeColor(ThemeColor::warning), 0, 1.5f);
@@ -246,6 +281,53 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
     }
 }
 
+/// What the outputs give at the place probed: in their rows, or below a node without rows.
+void drawValues(const Pen& pen, const NodeBox& box, const CanvasValues& all) {
+    if (pen.view.unit() < kTextZoom) return;
+    const auto its = all.find(box.node->id);
+    const bool small = box.reroute || box.node->collapsed;
+    const float unit = pen.view.unit(), side = 0.8f * pen.size;
+    for (const Row& row : box.rows) {
+        if (!row.output) continue;
+        const OutputValue* value = nullptr;
+        if (its != all.end())
+            for (const OutputValue& each : its->second)
+                if (each.output == row.name) value = &each;
+        const std::string words = value ? value->words : "–";
+        const ImU32 ink = themeColor(value ? ThemeColor::active : ThemeColor::quiet);
+        const bool colored = value && value->color;
+        const float wide = pen.width(words) + (colored ? side + 5.0f * unit : 0.0f);
+        ImVec2 at;
+        float room = 0.0f;
+        if (small) {
+            const Area area = pen.view.toScreen(box.area);
+            at = {area.centre().x - 0.5f * wide, area.hi.y + 0.5f * pen.size + 4.0f * unit};
+            pen.list->AddRectFilled({at.x - 4.0f * unit, at.y - 0.6f * pen.size},
+                                    {at.x + wide + 4.0f * unit, at.y + 0.6f * pen.size},
+                                    themeColor(ThemeColor::node), 0.5f * kRounding * unit);
+        } else {
+            const ImVec2 socket = pen.view.toScreen(box.socket(row));
+            at = {pen.view.toScreen(box.area.lo).x + 10.0f * unit, socket.y};
+            room = socket.x - 18.0f * unit - pen.width(readable(row.name)) - at.x;
+        }
+        if (colored) {
+            const auto shown = [&](std::size_t i) {
+                return float(std::pow(std::clamp((*value->color)[i], 0.0, 1.0), 1.0 / 2.2));
+            };
+            const ImVec2 lo(at.x, at.y - 0.5f * side), hi(at.x + side, at.y + 0.5f * side);
+            pen.list->AddRectFilled(lo, hi,
+                                    ImGui::ColorConvertFloat4ToU32({shown(0), shown(1), shown(2), 1}));
+            pen.list->AddRect(lo, hi, themeColor(ThemeColor::edge));
+            at.x += side + 5.0f * unit, room -= side + 5.0f * unit;
+        }
+        if (small)
+            pen.text(at, ink, words);
+        else if (room > 0.0f)
+            pen.text(at, ink, words, room);
+        if (small) break;  // its outputs have one place
+    }
+}
+
 /// A tag on the node's upper edge with its part of what a sample of the field costs, the redder the more.
 void drawCost(const Pen& pen, const NodeBox& box, double part) {
     const float heat = float(std::sqrt(part));  // else all but the first would look alike
@@ -338,6 +420,10 @@ void drawGesture(const Pen& pen, const Canvas& canvas, const Boxes& boxes) {
 
 }  // namespace
 
+WireTrust trustOf(const Exactness& exactness) {
+    return exactness.exact() ? WireTrust::exact : exactness.bound() ? WireTrust::bound : WireTrust::steep;
+}
+
 bool hasMinimap(const Canvas& canvas, const Boxes& boxes) {
     const Area place = minimapArea(canvas.view), &panel = canvas.view.panel;
     return canvas.minimap && !boxes.nodes.empty() && 2.0f * place.width() < panel.width() &&
@@ -376,6 +462,7 @@ void drawCanvas(const Canvas& canvas, const Boxes& boxes, const CanvasMarks& mar
         drawNode(pen, canvas, box, marks);
         if (const auto cost = marks.costs.find(box.node->id); cost != marks.costs.end())
             drawCost(pen, box, cost->second);
+        if (marks.values) drawValues(pen, box, *marks.values);
     }
     drawGesture(pen, canvas, boxes);
     if (hasMinimap(canvas, boxes)) drawMinimap(pen, canvas, boxes);

@@ -423,6 +423,8 @@ struct Mouse {
             text += ", distance: " + exactnessText(trust);
             if (!trust.exact()) text += "\nnot exact since " + spoiledBy;
         }
+        if (canvas.exactness)
+            text += "\n\nPlain: exact. Dashes: a bound. Dots: may be steeper than a distance.";
         ImGui::SetTooltip("%s", text.c_str());
     }
 

@@ -36,6 +36,7 @@ Json arrangementOf(const Editor& editor) {
     all["timeline"] = panels.timeline;
     all["minimap"] = editor.canvas.minimap;
     all["costs"] = editor.canvas.costs;
+    all["exactness"] = editor.canvas.exactness;
     all["side"] = panels.side;
     all["top"] = panels.top;
     all["low"] = panels.low;
@@ -50,6 +51,7 @@ void arrange(Editor& editor, const Json& all) {
     take(all, "timeline", panels.timeline);
     take(all, "minimap", editor.canvas.minimap);
     take(all, "costs", editor.canvas.costs);
+    take(all, "exactness", editor.canvas.exactness);
     take(all, "side", panels.side);
     take(all, "top", panels.top);
     take(all, "low", panels.low);

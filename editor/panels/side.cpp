@@ -17,6 +17,7 @@ constexpr SidePanel kSidePanels[] = {
     {"statistics", "Statistics", &Panels::statistics, showStatistics},
     {"history", "History", &Panels::history, showHistory},
     {"library", "Library", &Panels::library, showLibrary},
+    {"probe", "Probe", &Panels::probe, showProbe},
 };
 
 /// With the number of problems; the tab's identity stays.

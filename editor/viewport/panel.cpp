@@ -95,8 +95,11 @@ void showViewport(Editor& editor) {
     view.hovered = ImGui::IsItemHovered();
     ImGui::SetItemAllowOverlap();  // by the buttons of the gizmo
     const ImGuiIO& io = ImGui::GetIO();
-    if (view.texture && !followGizmo(editor) && navigate(view))
+    const bool measures = editor.probe.tool != Measure::nothing && !view.gizmo.drag;
+    if (measures) view.gizmo.hovered.reset();
+    if (view.texture && (measures || !followGizmo(editor)) && navigate(view) && !takeProbeClick(editor))
         pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
+    followProbe(editor);
     if (const Aside::Answer answer = view.aside.take()) answer(editor);
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (view.texture)
@@ -105,6 +108,7 @@ void showViewport(Editor& editor) {
         list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
     showGizmo(editor);
     showCameraPath(editor);
+    showProbeMarks(editor);
     const float scale = editor.shell.scale();
     if (const std::optional<double> share = editor.preview.baking())
         caption(place,

@@ -22,15 +22,6 @@ namespace {
 constexpr int kHalvings = 13;  // of the ray's way through the region: finer than a pixel sees it
 constexpr int kRefinings = 30;
 
-/// The document as it is shown at a time.
-Graph shownAt(const Graph& graph, const std::string& pinned, double& seconds) {
-    Graph shown = showingNode(graph, pinned);
-    const Result<Timeline> timeline = readTimeline(shown);
-    if (!timeline) return shown;
-    seconds = timelineTime(*timeline, seconds);
-    return atTime(shown, *timeline, seconds);
-}
-
 /// Behind the nodes that begin a surface, offsets.
 class Probes {
   public:
@@ -222,6 +213,14 @@ std::vector<double> slopesByParameter(const Ir& ir, IrId root, std::span<const d
 
 }  // namespace
 
+Graph shownAt(const Graph& graph, const std::string& pinned, double& seconds) {
+    Graph shown = showingNode(graph, pinned);
+    const Result<Timeline> timeline = readTimeline(shown);
+    if (!timeline) return shown;
+    seconds = timelineTime(*timeline, seconds);
+    return atTime(shown, *timeline, seconds);
+}
+
 struct Picker::Probed {
     Probes probes;
     std::optional<Program> program;  ///< none if the graph has errors
@@ -252,16 +251,28 @@ const Picker::Probed& Picker::probedOf(const Seen& seen) {
     return *probed;
 }
 
-std::string Picker::pick(const Seen& seen, double x, double y) {
+const Tape* Picker::field(const Seen& seen) {
+    const Probed& known = probedOf(seen);
+    return known.program ? &known.tape : nullptr;
+}
+
+std::optional<Point> Picker::hit(const Seen& seen, double x, double y) {
     const Ray ray = rayThrough(seen, x, y);
     const auto part = within(seen.region, ray);
-    if (!part) return {};
+    const Tape* tape = part ? field(seen) : nullptr;
+    if (!tape) return std::nullopt;
+    const auto t = Along(ray).hit(*tape, part->first, part->second);
+    if (!t) return std::nullopt;
+    const glm::dvec3 at = ray.at(*t);
+    return Point{at.x, at.y, at.z};
+}
+
+std::string Picker::pick(const Seen& seen, double x, double y) {
+    const std::optional<Point> at = hit(seen, x, y);
+    if (!at) return {};
     const auto& [probes, program, parameters, tape] = probedOf(seen);
-    if (!program) return {};
-    const auto t = Along(ray).hit(tape, part->first, part->second);
-    if (!t) return {};
     const std::vector<double> slopes =
-        slopesByParameter(program->ir, program->distance(), parameters, ray.at(*t));
+        slopesByParameter(program->ir, program->distance(), parameters, {(*at)[0], (*at)[1], (*at)[2]});
     const auto most = std::ranges::max_element(slopes, {}, [](double slope) { return std::abs(slope); });
     if (most == slopes.end() || *most == 0.0) return {};
     return probes.path(program->live[std::size_t(most - slopes.begin())].name);

@@ -32,6 +32,8 @@ struct Seen {
     Camera camera = {};
     double aspect = 1.0;                         ///< width by height
     std::vector<FieldVolumePtr> particles = {};  ///< as PreviewResult
+
+    bool operator==(const Seen&) const = default;
 };
 
 class Picker {
@@ -42,6 +44,10 @@ class Picker {
     /// The node's path, as the compiler names it (document/paths.h); empty where nothing is hit, or the graph
     /// has errors. x and y are from -1 to 1, y upwards.
     std::string pick(const Seen& seen, double x, double y);
+    /// Where the solid is hit first, in the picture's space; none where pick() hits nothing.
+    std::optional<Point> hit(const Seen& seen, double x, double y);
+    /// The field of what is seen, as it is measured; nullptr if the graph has errors. Until the next call.
+    const Tape* field(const Seen& seen);
 
   private:
     struct Probed;
@@ -51,6 +57,10 @@ class Picker {
     Seen asked;
     std::unique_ptr<Probed> probed;  ///< of what was asked
 };
+
+/// The document with the node in place of its output, if one is pinned, at a time; `seconds` become those of
+/// the timeline.
+Graph shownAt(const Graph& graph, const std::string& pinned, double& seconds);
 
 /// The box around the solid that this node of the document makes, in its own space; none if it makes none, or
 /// has no end.

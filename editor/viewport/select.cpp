@@ -68,19 +68,29 @@ void frameSolid(Editor& editor) {
     });
 }
 
+Seen seenIn(const Editor& editor) {
+    const Viewport& viewport = editor.viewport;
+    return {.graph = editor.graph,
+            .revision = editor.document.revision(),
+            .pinned = viewport.pinned,
+            .seconds = viewport.seconds,
+            .region = viewport.shown.region,
+            .camera = viewport.shown.seen,
+            .aspect = double(viewport.aspect()),
+            .particles = viewport.shown.particles};
+}
+
+std::pair<double, double> mouseIn(const Viewport& viewport) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos, middle = viewport.place.centre();
+    return {double((mouse.x - middle.x) / (0.5f * viewport.place.width())),
+            double((middle.y - mouse.y) / (0.5f * viewport.place.height()))};
+}
+
 void pickUnderMouse(Editor& editor, bool besides) {
     Viewport& viewport = editor.viewport;
-    const ImVec2 mouse = ImGui::GetIO().MousePos, middle = viewport.place.centre();
-    const double x = double((mouse.x - middle.x) / (0.5f * viewport.place.width())),
-                 y = double((middle.y - mouse.y) / (0.5f * viewport.place.height()));
-    Seen seen{.graph = editor.graph,
-              .revision = editor.document.revision(),
-              .pinned = viewport.pinned,
-              .seconds = viewport.seconds,
-              .region = viewport.shown.region,
-              .camera = viewport.shown.seen,
-              .aspect = double(viewport.aspect()),
-              .particles = viewport.shown.particles};
+    const auto mouse = mouseIn(viewport);
+    const double x = mouse.first, y = mouse.second;
+    Seen seen = seenIn(editor);
     viewport.aside.ask([&picker = viewport.picker, seen = std::move(seen), x, y, besides]() -> Aside::Answer {
         return [path = picker.pick(seen, x, y), besides](Editor& to) { selectHit(to, path, besides); };
     });

@@ -116,6 +116,9 @@ void frameSolid(Editor& editor);
 /// The mouse on the selected node's handles: whether it has one. Before showGizmo(), which draws them.
 bool followGizmo(Editor& editor);
 void showGizmo(Editor& editor);
+/// What the picture shows, for a Picker; and where the mouse is in it, from -1 to 1, y upwards.
+Seen seenIn(const Editor& editor);
+std::pair<double, double> mouseIn(const Viewport& viewport);
 /// Looks for the node whose shape is under the mouse, and selects it when it is found: in place of what is
 /// selected, or besides.
 void pickUnderMouse(Editor& editor, bool besides);

@@ -73,6 +73,11 @@ Lowered GraphLowering::lowerOpaque(const Node& target) {
     return made;
 }
 
+const LoweredNodes* GraphLowering::nodesIn(const std::string& prefix) const {
+    const auto found = lowered.find(prefix);
+    return found == lowered.end() ? nullptr : &found->second;
+}
+
 Lowered GraphLowering::lower(const NodeAt& at) {
     if (state.ir.size() > 2 * kMaxIrOperations) return failure({});
     if (state.opaquePart) {

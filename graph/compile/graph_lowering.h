@@ -69,6 +69,8 @@ class GraphLowering {
                                  const Lowered* groupInput, const std::vector<const Node*>& targets);
     /// What the target, a node of the document that was lowered, gives without what light passes through.
     Lowered lowerOpaque(const Node& target);
+    /// What was lowered of the document's nodes, or of an instance's by its prefix; nullptr if nothing was.
+    const LoweredNodes* nodesIn(const std::string& prefix) const;
 
     // ---- for hooks
 
