@@ -1,9 +1,11 @@
 // How the canvas looks. The farther one is away, the less is drawn: below kFieldZoom numbers are not boxed,
 // below kTextZoom there is no text.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "editor/canvas/canvas.h"
+#include "editor/ramps/hand.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -15,6 +17,7 @@ constexpr float kGrid = 24.0f;
 constexpr float kRounding = 5.0f;
 constexpr float kLeastShape = 2.0f;  // pixels: what is smaller has neither shape nor round corners
 constexpr float kWireWidth = 2.5f;
+constexpr int kPiecesOfRow = 3;   // between two stops of a ramp
 constexpr float kDimmed = 0.25f;  // what does not count beside what does
 
 ImU32 faded(ImU32 color, float alpha) {
@@ -177,6 +180,17 @@ void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool
     }
 }
 
+/// A ramp's colours where other rows have their value.
+void drawStops(const Pen& pen, const NodeBox& box, const Row& row) {
+    const ramps::List stops{Type::stops, entriesOf(row)};
+    const auto how = std::ranges::find(box.rows, "interpolation", &Row::name);
+    const Area place =
+        pen.view.toScreen(Area{{box.area.centre().x, box.area.lo.y + row.y - 0.3f * kRowHeight},
+                               {box.area.hi.x - 10.0f, box.area.lo.y + row.y + 0.3f * kRowHeight}});
+    ramps::drawRamp(pen.list, place.lo, place.hi, stops, how != box.rows.end() ? valueText(*how) : "",
+                    ramps::placesOf(stops), kPiecesOfRow);
+}
+
 void drawRows(const Pen& pen, const Canvas& canvas, const NodeBox& box) {
     // While a wire is under the mouse, those sockets count that it fits.
     const CanvasGesture& gesture = canvas.gesture;
@@ -199,7 +213,10 @@ void drawRows(const Pen& pen, const Canvas& canvas, const NodeBox& box) {
                 const float room =
                     (row.fields == 1 ? 0.5f * box.area.width() - 14.0f : box.area.width() - 24.0f);
                 pen.text({at.x + inset, at.y}, row.linked ? quiet : ink, name, room * pen.view.unit());
-                const std::string value = row.fields == 0 && !row.linked ? valueText(row) : std::string();
+                const bool ramp = row.type == Type::stops && !row.linked;
+                if (ramp) drawStops(pen, box, row);
+                const std::string value =
+                    row.fields == 0 && !row.linked && !ramp ? valueText(row) : std::string();
                 if (!value.empty())
                     pen.text({at.x + 0.5f * box.area.width() * pen.view.unit(), at.y}, quiet, value,
                              (0.5f * box.area.width() - 10.0f) * pen.view.unit());

@@ -61,6 +61,13 @@ std::optional<NextField> nextField(std::string_view scope, const NodeBox& box, c
                      numbersOf(next()).at(std::size_t(component))};
 }
 
+/// "5 points"
+std::string countText(Type type, std::size_t numbers) {
+    const std::size_t count = numbers / std::size_t(entrySize(type));
+    const std::string words = std::to_string(count) + " " + std::string(typeName(type));
+    return count == 1 ? words.substr(0, words.size() - 1) : words;
+}
+
 void showChoice(Document& document, std::string_view scope, const NodeBox& box, const Row& row,
                 const NumberLook& look) {
     const Area& place = look.place;
@@ -127,15 +134,21 @@ NumberRange rangeOf(const Row& row, double start) {
     return range;
 }
 
+std::vector<double> entriesOf(const Row& row) {
+    const auto* given = row.value ? std::get_if<std::vector<double>>(&row.value->value) : nullptr;
+    if (given) return listOf(row.value->entry) == row.type ? *given : std::vector<double>();
+    return row.spec && entrySize(row.spec->type) > 0 ? row.spec->value.numbers : std::vector<double>();
+}
+
 std::string valueText(const Row& row) {
     if (row.value) {
         if (const auto* words = std::get_if<std::string>(&row.value->value)) return *words;
         if (const auto* list = std::get_if<std::vector<double>>(&row.value->value))
-            if (row.value->pairs) return std::to_string(list->size() / 2) + " points";
+            if (const auto type = listOf(row.value->entry)) return countText(*type, list->size());
     }
     if (!row.spec) return "";
     if (row.spec->value.kind == InputDefault::Kind::position) return "position";
-    if (row.type == Type::points) return std::to_string(row.spec->value.numbers.size() / 2) + " points";
+    if (row.type && entrySize(*row.type) > 0) return countText(*row.type, row.spec->value.numbers.size());
     return row.spec->value.text;
 }
 

@@ -30,6 +30,8 @@ std::vector<double> numbersOf(const Row& row);
 NumberRange rangeOf(const Row& row, double start);
 /// The words that stand for a value without fields: "position", "a.png", "12 points".
 std::string valueText(const Row& row);
+/// The numbers of a list, entry by entry; none if it is no list.
+std::vector<double> entriesOf(const Row& row);
 
 /// One field of a row of the node. Changes go to the document: of what the timeline moves, as keys at the
 /// time shown.

@@ -72,7 +72,7 @@ bool same(const Json& a, const Json& b) {
 }
 
 bool same(const InputValue& a, const InputValue& b) {
-    if (a.value.index() != b.value.index() || a.pairs != b.pairs || !same(a.extra, b.extra)) return false;
+    if (a.value.index() != b.value.index() || a.entry != b.entry || !same(a.extra, b.extra)) return false;
     if (const double* number = std::get_if<double>(&a.value)) return same(*number, std::get<double>(b.value));
     const auto* numbers = std::get_if<std::vector<double>>(&a.value);
     if (!numbers) return a.value == b.value;

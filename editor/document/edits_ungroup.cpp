@@ -37,7 +37,7 @@ std::vector<double> numbersOf(const InputValue& value) {
     if (const double* number = std::get_if<double>(&value.value)) return {*number};
     if (const bool* flag = std::get_if<bool>(&value.value)) return {*flag ? 1.0 : 0.0};
     const auto* numbers = std::get_if<std::vector<double>>(&value.value);
-    return numbers && !value.pairs ? *numbers : std::vector<double>{};
+    return numbers && value.entry == 0 ? *numbers : std::vector<double>{};
 }
 
 InputValue valueOf(const std::vector<double>& numbers) {

@@ -75,6 +75,8 @@ constexpr std::pair<std::string_view, std::string_view> kNames[] = {
     {"combine_xyz", "make vector merge"},
     {"separate_xyz", "break vector split"},
     {"map_range", "fit remap rescale"},
+    {"color_ramp", "colorramp gradient colour_map gradient_map palette"},
+    {"curve", "float_curve rgb_curves ramp_parameter spline remap levels"},
     {"mix", "blend interpolate fade"},
     {"expression", "script wrangle vex glsl formula custom"},
     {"material", "shader principled bsdf color colour paint glass metal roughness"},

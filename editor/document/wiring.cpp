@@ -9,7 +9,7 @@ namespace fw::editor {
 namespace {
 
 /// Inputs of these types hold what is written into them; there is nothing to wire to them.
-bool takesNoWire(Type type) { return type == Type::string || type == Type::points || type == Type::image; }
+bool takesNoWire(Type type) { return type == Type::string || entrySize(type) > 0 || type == Type::image; }
 
 const GroupSockets* socketsOf(const Groups& groups, std::string_view scope) {
     const auto found = groups.byId.find(scope);

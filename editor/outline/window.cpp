@@ -41,7 +41,7 @@ std::optional<Points> pointsOf(const Editor& editor) {
 Graph withPoints(const Editor& editor, const Points& points) {
     const Window& window = editor.outline;
     InputValue value{.value = points.numbers};
-    value.pairs = true;
+    value.entry = entrySize(Type::points);
     return setInput(editor.document.graph(), window.scope, {window.node, window.input}, std::move(value));
 }
 
@@ -310,7 +310,7 @@ void showPlaceOf(Editor& editor, const Points& points) {
                     InputValue value{.value = numbers};
                     std::ranges::copy(
                         to, std::get<std::vector<double>>(value.value).begin() + std::ptrdiff_t(2 * at));
-                    value.pairs = true;
+                    value.entry = entrySize(Type::points);
                     return setInput(graph, scope, plug, std::move(value));
                 });
 }

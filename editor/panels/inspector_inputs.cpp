@@ -8,6 +8,7 @@
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
 #include "editor/timeline/fields_in_time.h"
+#include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -67,15 +68,11 @@ void showColor(const Input& input) {
 }
 
 void setPoints(const Input& input, std::vector<double> numbers) {
-    InputValue value{.value = std::move(numbers)};
-    value.pairs = true;
-    input.set(std::move(value));
+    input.set(listValue(Type::points, std::move(numbers)));
 }
 
 void showPoints(const Input& input) {
-    std::vector<double> numbers = input.row.spec ? input.row.spec->value.numbers : std::vector<double>();
-    if (input.row.value)
-        if (const auto* given = std::get_if<std::vector<double>>(&input.row.value->value)) numbers = *given;
+    std::vector<double> numbers = entriesOf(input.row);
     const std::size_t count = numbers.size() / 2;
     if (ImGui::SmallButton("Draw …")) openOutline(input.editor, input.plug.node, input.plug.name);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The outline in a window of its own, to be drawn by hand");
@@ -97,7 +94,7 @@ void showPoints(const Input& input) {
                             InputValue value{.value = numbers};
                             std::ranges::copy(
                                 to, std::get<std::vector<double>>(value.value).begin() + std::ptrdiff_t(at));
-                            value.pairs = true;
+                            value.entry = entrySize(Type::points);
                             return setInput(graph, scope, plug, std::move(value));
                         });
             ImGui::SameLine();
@@ -121,6 +118,28 @@ void showPoints(const Input& input) {
                       numbers.begin() + std::ptrdiff_t(*removed) + 2);
         setPoints(input, std::move(numbers));
     }
+}
+
+/// What a word among the node's inputs says; the default where it is wired, or is none.
+std::string wordOf(const NodeBox& box, std::string_view name) {
+    const auto row = std::ranges::find(box.rows, name, &Row::name);
+    return row != box.rows.end() && row->type == Type::string && !row->linked ? valueText(*row) : "";
+}
+
+void showEntries(const Input& input, float room) {
+    const ramps::List list{*input.row.type, entriesOf(input.row)};
+    const ramps::Shown shown{input.editor,
+                             std::string(input.scope()),
+                             input.plug.node,
+                             input.plug.name,
+                             list,
+                             wordOf(input.box, "interpolation"),
+                             wordOf(input.box, "ends"),
+                             ImGui::GetContentRegionAvail().x - room};
+    if (list.type == Type::stops)
+        ramps::showRamp(shown);
+    else
+        ramps::showCurve(shown);
 }
 
 void showText(const Input& input, float room) {
@@ -189,6 +208,7 @@ void showValue(const Input& input, const Track* track, float room, std::string& 
     }
     if (row.type == Type::string && row.spec && !row.spec->options.empty()) return showChoice(input);
     if (row.type == Type::string || row.type == Type::image) return showText(input, room);
+    if (row.type == Type::stops || (row.spec && row.spec->ordered)) return showEntries(input, room);
     if (row.type == Type::points) return showPoints(input);
     if (row.type == Type::boolean) {
         bool on = numbersOf(row).at(0) != 0.0;

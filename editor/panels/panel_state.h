@@ -12,6 +12,7 @@
 
 #include "editor/canvas/fields.h"
 #include "editor/panels/problems.h"
+#include "editor/ramps/hand.h"
 #include "editor/timeline/state.h"
 #include "graph/document/scene.h"
 #include "graph/document/timeline.h"
@@ -38,6 +39,7 @@ struct PanelState {
     NumberHand number;
     TextEdit text;
     HeldValue held;
+    RampHand ramp;
     ImGuiID refocus = 0;  ///< a text field that gets the keyboard again in the next frame
 
     std::string newInput;  ///< names typed for inputs to be added
@@ -62,6 +64,7 @@ struct PanelState {
     std::set<std::string> heldInputs() const {
         std::set<std::string> all = heldBy(number);
         all.insert(held.inputs.begin(), held.inputs.end());
+        all.merge(ramp.held());
         return all;
     }
 };

@@ -302,6 +302,7 @@ void followHands(Editor& editor) {
     PanelState& state = editor.panelState;
     const Document& document = editor.document;
     state.number.follow(document);
+    state.ramp.follow(document);
     if (state.held.field != 0 && !document.holds(state.held.hand)) state.held = {};
     if (state.text.field == 0 || document.holds(state.text.hand)) return;
     // Its words are the document's by now: the field must not go on with them over what came since.

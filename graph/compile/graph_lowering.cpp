@@ -199,11 +199,18 @@ Value GraphLowering::literal(const NodeAt& at, const InputSpec& spec, const Inpu
         if (const auto* flag = std::get_if<bool>(&given->value)) numbers = {*flag ? 1.0 : 0.0};
         if (const auto* list = std::get_if<std::vector<double>>(&given->value)) numbers = *list;
     }
+    const bool ordered = spec.type == Type::stops || spec.ordered;
     const bool mayBeLive =
-        (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3) &&
+        (spec.type == Type::scalar || spec.type == Type::vec2 || spec.type == Type::vec3 || ordered) &&
         !numbers.empty() && !folded;
     if (mayBeLive && canBeLive) canBeLive->push_back(at.path() + "." + spec.name);
     const std::string name = mayBeLive ? liveName(at, spec.name) : std::string();
+    if (!name.empty() && ordered) {
+        value.points = std::make_shared<const std::vector<double>>(numbers);
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            value.livePoints.push_back(liveComponent(name, int(i), numbers[i]));
+        return value;
+    }
     if (!name.empty()) {
         // Its numbers are no constants of the program: the code is the same whatever they are.
         language::Lowering apart;
@@ -224,7 +231,7 @@ Value GraphLowering::literal(const NodeAt& at, const InputSpec& spec, const Inpu
                 report(at, spec.name, image.error());
         }
     }
-    if (spec.type == Type::points)
+    if (entrySize(spec.type) > 0)
         value.points = std::make_shared<const std::vector<double>>(numbers);
     else if (componentCount(spec.type) > 0 && !numbers.empty())
         value = spec.type == Type::surface

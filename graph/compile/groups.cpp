@@ -14,9 +14,10 @@ Type literalType(const InputValue& input) {
     if (std::holds_alternative<bool>(input.value)) return Type::boolean;
     if (std::holds_alternative<std::string>(input.value)) return Type::string;
     if (const auto* numbers = std::get_if<std::vector<double>>(&input.value))
-        return input.pairs || numbers->size() > 3 ? Type::points
-               : numbers->size() == 2             ? Type::vec2
-                                                  : Type::vec3;
+        return input.entry > 0        ? *listOf(input.entry)
+               : numbers->size() > 3  ? Type::points
+               : numbers->size() == 2 ? Type::vec2
+                                      : Type::vec3;
     return Type::scalar;
 }
 

@@ -50,10 +50,10 @@ struct Link {
 };
 
 struct InputValue {
-    /// number, boolean, string, numbers (vectors; points as x,y pairs), or link
+    /// number, boolean, string, numbers (vectors; lists entry by entry), or link
     std::variant<double, bool, std::string, std::vector<double>, Link> value;
     TextPosition at = {};
-    bool pairs = false;   ///< numbers written as a list of pairs: [[x, y], …]
+    int entry = 0;  ///< numbers of an entry, if they are a list of points (2): [[x, y], …], or of stops (4)
     KeptJson extra = {};  ///< of a link
     bool operator==(const InputValue&) const = default;
 };

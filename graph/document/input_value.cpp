@@ -21,11 +21,12 @@ bool isKind(Type type, const InputValue& value) {
         case Type::boolean: return std::holds_alternative<bool>(value.value);
         case Type::integer: return number && (!std::isfinite(*number) || *number == std::round(*number));
         case Type::scalar: return number;
-        case Type::vec2: return array && !value.pairs && array->size() == 2;
-        case Type::vec3: return array && !value.pairs && array->size() == 3;
+        case Type::vec2: return array && value.entry == 0 && array->size() == 2;
+        case Type::vec3: return array && value.entry == 0 && array->size() == 3;
         case Type::string:
         case Type::image: return std::holds_alternative<std::string>(value.value);
-        case Type::points: return array && value.pairs;
+        case Type::points:
+        case Type::stops: return array && value.entry == entrySize(type);
         case Type::surface:
         case Type::mesh:
         case Type::particles: return false;
@@ -53,6 +54,12 @@ InputValue numbersValue(std::span<const double> numbers) {
     return value;
 }
 
+InputValue listValue(Type type, std::vector<double> numbers) {
+    InputValue value{.value = std::move(numbers)};
+    value.entry = entrySize(type);
+    return value;
+}
+
 std::optional<std::string> valueProblem(Type type, const InputSpec* spec, const InputValue& value) {
     if (!isKind(type, value)) return "expected " + std::string(expectedOf(type)) + ", not " + describe(value);
     if (const auto* word = std::get_if<std::string>(&value.value))
@@ -67,6 +74,7 @@ std::optional<std::string> valueProblem(Type type, const InputSpec* spec, const 
         if (!spec) continue;
         if (auto problem = rangeProblem(*spec, number)) return problem;
     }
+    if (type == Type::stops || (spec && spec->ordered)) return orderProblem(type, numbers);
     return {};
 }
 
@@ -80,6 +88,7 @@ std::string_view expectedOf(Type type) {
         case Type::surface: return "a link to a node with a surface, {\"from\": \"node\"}";
         case Type::string: return "a string";
         case Type::points: return "an array of [x, y] pairs";
+        case Type::stops: return "an array of stops [position, red, green, blue]";
         case Type::image: return "the path of a picture, a string";
         case Type::mesh: return "a link to a node with a mesh, {\"from\": \"node\"}";
         case Type::particles: return "a link to a node with particles, {\"from\": \"node\"}";
@@ -95,8 +104,9 @@ std::string describe(const InputValue& input) {
         std::string operator()(const std::string& value) const { return "the string " + inQuotes(value); }
         std::string operator()(const std::vector<double>& numbers) const {
             if (numbers.empty()) return "an empty array";
-            return input.pairs ? "an array of " + plural(numbers.size() / 2, "pair")
-                               : "an array of " + plural(numbers.size(), "number");
+            if (input.entry == 0) return "an array of " + plural(numbers.size(), "number");
+            return "an array of " + plural(numbers.size() / std::size_t(input.entry),
+                                           input.entry == entrySize(Type::points) ? "pair" : "stop");
         }
         std::string operator()(const Link& link) const { return "a link to " + inQuotes(link.node); }
     } text{input};

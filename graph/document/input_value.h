@@ -14,9 +14,12 @@ namespace fw {
 /// One number, or the list of several, as an input holds them.
 InputValue numbersValue(std::span<const double> numbers);
 
-/// What is wrong with `value` for an input of this type: its kind, a component out of range or not finite, a
-/// word that is none of the options. `spec` adds the ranges and options of a library input; it may be null.
-/// Empty if the value fits. Not for links.
+/// The entries of a list of this type, as an input holds them.
+InputValue listValue(Type type, std::vector<double> numbers);
+
+/// What is wrong with `value` for an input of this type: its kind, a component out of range or not finite,
+/// what orderProblem() finds, a word that is none of the options. `spec` adds the ranges and options of a
+/// library input; it may be null. Empty if the value fits. Not for links.
 std::optional<std::string> valueProblem(Type type, const InputSpec* spec, const InputValue& value);
 
 /// What an input of this type can be given: "three numbers [x, y, z] or a link".

@@ -283,26 +283,35 @@ class Reader {
     }
 
     bool failInput(uint32_t value, std::string_view given) {
-        return fail(value,
-                    "an input is a number, true or false, a string, an array of numbers, an array of [x, y] "
-                    "pairs, or a link {\"from\": \"node\"}; this is " +
-                        std::string(given) + " (leave the input out for its default)");
+        return fail(
+            value,
+            "an input is a number, true or false, a string, an array of numbers, an array of [x, y] "
+            "pairs or of [position, red, green, blue] stops, or a link {\"from\": \"node\"}; this is " +
+                std::string(given) + " (leave the input out for its default)");
     }
 
     bool readNumbers(uint32_t value, InputValue& to) {
         std::vector<double> numbers;
         const uint32_t last = list[value].next;
-        to.pairs = value + 1 < last && list[value + 1].kind == Kind::array;
+        const bool entries = value + 1 < last && list[value + 1].kind == Kind::array;
+        if (entries)
+            to.entry = list[value + 1].next == value + 6 ? entrySize(Type::stops) : entrySize(Type::points);
         for (uint32_t i = value + 1; i < last; i = list[i].next) {
-            if (list[i].kind != (to.pairs ? Kind::array : Kind::number))
+            if (list[i].kind != (entries ? Kind::array : Kind::number))
                 return failInput(i, std::string(kindName(list[i].kind)) + " inside an array of " +
-                                        (to.pairs ? "pairs" : "numbers"));
-            if (to.pairs) {
-                if (list[i].next != i + 3 || list[i + 1].kind != Kind::number ||
-                    list[i + 2].kind != Kind::number)
-                    return failInput(i, "an array of something other than two numbers");
-                numbers.push_back(numberOf(list[i + 1]));
-                numbers.push_back(numberOf(list[i + 2]));
+                                        (!entries        ? "numbers"
+                                         : to.entry == 2 ? "pairs"
+                                                         : "stops"));
+            if (entries) {
+                const uint32_t end = i + 1 + uint32_t(to.entry);
+                if (list[i].next != end ||
+                    !std::all_of(list.begin() + i + 1, list.begin() + end,
+                                 [](const JsonToken& token) { return token.kind == Kind::number; }))
+                    return failInput(i, i == value + 1 && to.entry == 2
+                                            ? "an array of something other than two numbers, or four"
+                                        : to.entry == 2 ? "an array of something other than two numbers"
+                                                        : "an array of something other than four numbers");
+                for (uint32_t k = i + 1; k < end; ++k) numbers.push_back(numberOf(list[k]));
             } else {
                 numbers.push_back(numberOf(list[i]));
             }

@@ -204,11 +204,11 @@ Json jsonOf(const InputValue& input) {
         Json operator()(const std::string& value) const { return value; }
         Json operator()(const std::vector<double>& numbers) const {
             Json array = Json::array();
-            if (!input.pairs)
-                for (const double number : numbers) array.push_back(number);
-            else
-                for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
-                    array.push_back({numbers[i], numbers[i + 1]});
+            const auto entry = static_cast<std::size_t>(input.entry);
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                if (entry > 0 && i % entry == 0) array.push_back(Json::array());
+                (entry > 0 ? array.back() : array).push_back(numbers[i]);
+            }
             return array;
         }
         Json operator()(const Link& link) const {

@@ -72,7 +72,13 @@ Json valueSchema(const InputSpec& spec) {
             if (!spec.options.empty()) schema["enum"] = spec.options;
             return schema;
         }
-        case Type::points: return {{"type", "array"}, {"items", array({{"type", "number"}}, 2)}};
+        case Type::points:
+        case Type::stops: {
+            Json schema = {{"type", "array"}, {"items", array({{"type", "number"}}, entrySize(spec.type))}};
+            if (spec.type == Type::stops || spec.ordered)
+                schema["minItems"] = 1, schema["maxItems"] = kMostStops;
+            return schema;
+        }
         case Type::image: return {{"type", "string"}};
         case Type::surface:
         case Type::mesh:
@@ -96,10 +102,9 @@ Json defaultValue(const InputSpec& spec) {
     if (spec.type == Type::integer || spec.type == Type::scalar) return shortNumber(numbers[0]);
     Json values = Json::array();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (spec.type != Type::points)
-            values.push_back(shortNumber(numbers[i]));
-        else if (i + 1 < numbers.size() && i % 2 == 0)
-            values.push_back(Json::array({shortNumber(numbers[i]), shortNumber(numbers[i + 1])}));
+        const auto entry = std::size_t(entrySize(spec.type));
+        if (entry > 0 && i % entry == 0) values.push_back(Json::array());
+        (entry > 0 ? values.back() : values).push_back(shortNumber(numbers[i]));
     }
     return values;
 }
@@ -353,7 +358,7 @@ std::string fileSchema() {
                  {"output", described("Name of its output; the first if absent.", {{"type", "string"}})}},
                 {"from"})},
         {"value",
-         {{"description", "A number, a switch, a word, a vector, a list of points, or a link."},
+         {{"description", "A number, a switch, a word, a vector, a list of points or stops, or a link."},
           {"anyOf", Json::array({number,
                                  {{"type", "boolean"}},
                                  {{"type", "string"}},

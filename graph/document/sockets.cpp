@@ -175,7 +175,7 @@ std::vector<std::string> idsOf(const Scope& scope) {
 std::optional<Type> typeOfValue(const InputValue& value) {
     if (std::holds_alternative<double>(value.value)) return Type::scalar;
     const auto* numbers = std::get_if<std::vector<double>>(&value.value);
-    if (!numbers || value.pairs) return {};
+    if (!numbers || value.entry > 0) return {};
     if (numbers->size() == 2) return Type::vec2;
     if (numbers->size() == 3) return Type::vec3;
     return {};

@@ -45,6 +45,12 @@ uint32_t addNumber(std::vector<TapeStep>& draft, uint32_t name) {
     return uint32_t(draft.size() + 2);
 }
 
+/// Whether there is no kernel of the operation for these operands, one bit each, as numbers.
+bool lacksForm(Op op, int numbers) {
+    return numbers != 0 &&
+           (numbers >= OpKernels<double>::kForms || !opKernels<double>()[std::size_t(op)]->values[numbers]);
+}
+
 /// Adds a step whose operands are names, and gives its value.
 uint32_t addStep(std::vector<TapeStep>& draft, Op op, std::array<uint32_t, kMaxArity> operands, int arity) {
     uint8_t numbers = 0, positions = 0;
@@ -52,11 +58,8 @@ uint32_t addStep(std::vector<TapeStep>& draft, Op op, std::array<uint32_t, kMaxA
         if (operands[i] & kNumber) numbers |= uint8_t(1 << i);
         positions |= positionsOf(draft, operands[i]);
     }
-    const auto lacks = [op](int form) {
-        return form >= OpKernels<double>::kForms || !opKernels<double>()[std::size_t(op)]->values[form];
-    };
     if (numbers != 0) {
-        for (int i = 0; i < arity && lacks(numbers); ++i)
+        for (int i = 0; i < arity && lacksForm(op, numbers); ++i)
             if (numbers >> i & 1) operands[i] = addNumber(draft, operands[i]), numbers &= uint8_t(~(1 << i));
         for (int i = 0; i < arity; ++i) operands[i] &= ~kNumber;
     }
@@ -338,6 +341,20 @@ Tape TapeMachine<T>::shortened(const Tape& tape) {
             operands[k] = step.numbers >> k & 1 ? step.operands[k] | kNumber : names[step.operands[k]];
         if (samplesLayer(step.op)) operands[kMaxArity - 1] = step.operands[kMaxArity - 1];
         const int equal = taken[i] & 15;
+        // What has become a number and must stand in a register does so once, for all that read it.
+        const auto numbers = [&] {
+            int form = 0;
+            for (int k = 0; k < arity; ++k) form |= int((operands[k] & kNumber) != 0) << k;
+            return form;
+        };
+        for (int k = 0; k < arity && !equal; ++k) {
+            if ((step.numbers >> k & 1) || !(operands[k] & kNumber) || !lacksForm(step.op, numbers()))
+                continue;
+            const uint32_t read = step.operands[k], kept = addNumber(draft, operands[k]);
+            names[read] = kept;
+            for (int same = k; same < arity; ++same)
+                if (!(step.numbers >> same & 1) && step.operands[same] == read) operands[same] = kept;
+        }
         names[step.result] = step.op == Op::constant ? step.operands[0] | kNumber
                              : equal                 ? operands[std::size_t(equal - 1)]
                                                      : addStep(draft, step.op, operands, arity);

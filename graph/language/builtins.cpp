@@ -5,6 +5,8 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "graph/language/ramps.h"
+
 namespace fw::language {
 
 bool isVector(Type type) { return type == Type::vec2 || type == Type::vec3; }
@@ -479,6 +481,7 @@ const std::vector<Builtin>& table() {
         {"hash", 1, 2, noiseType<Type::scalar>, noise<Op::cellHash>}, {"hash3", 1, 2, noiseType<Type::vec3>, hash3},
         {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 8, withMaterialType, withMaterial},
         {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf}, {"outline", 2, 2, fixed<Type::scalar, Type::vec2, Type::points>, outlineAt},
+        {"color_ramp", 2, 3, fixed<Type::vec3, Type::scalar, Type::stops, Type::string>, colorRamp}, {"curve", 2, 4, fixed<Type::scalar, Type::scalar, Type::points, Type::string, Type::string>, curveThrough},
         {"image_color", 2, 3, imageType<Type::vec3, true>, imageColor}, {"image_grey", 2, 3, imageType<Type::scalar, true>, imageGrey}, {"image_size", 1, 1, imageType<Type::vec2, false>, imageSize},
         {"image_range", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, false); }},
         {"image_slope", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, true); }},

@@ -42,7 +42,7 @@ Value defaultValue(Lowering& state, const InputSpec& input) {
             if (input.type == Type::image) value.image = state.ir.addImage(plainImage());
             return value;
         case InputDefault::Kind::numbers:
-            if (input.type == Type::points) {
+            if (entrySize(input.type) > 0) {
                 value.points = std::make_shared<const std::vector<double>>(input.value.numbers);
                 return value;
             }
@@ -50,7 +50,7 @@ Value defaultValue(Lowering& state, const InputSpec& input) {
         case InputDefault::Kind::none: break;
     }
     if (input.type == Type::surface) return emptySurface(state);
-    if (input.type == Type::points) value.points = std::make_shared<const std::vector<double>>();
+    if (entrySize(input.type) > 0) value.points = std::make_shared<const std::vector<double>>();
     return componentCount(input.type) > 0 ? constantValue(state, input.type, {}) : value;
 }
 

@@ -1,7 +1,8 @@
 // The values that code computes with, as it is lowered: each a function of the position.
 //
 // A value is typed, and made of ids of an Ir: one for each scalar that represents it. What is no function of
-// the position (texts, points, an image) is known when the graph is compiled, and stands beside the ids.
+// the position (texts, points, stops, an image) is known when the graph is compiled, and stands beside the
+// ids.
 #pragma once
 
 #include <map>
@@ -20,12 +21,13 @@ struct ParticleRecipe;
 
 namespace fw::language {
 
-/// A typed value: componentCount(type) ids, or a text, points or an image known at compile time.
+/// A typed value: componentCount(type) ids, or a text, a list or an image known at compile time.
 struct Value {
     Type type = Type::scalar;
     std::array<IrId, kSurfaceComponents> ids{};
     std::string text{};
-    std::shared_ptr<const std::vector<double>> points{};  ///< x, y pairs
+    std::shared_ptr<const std::vector<double>> points{};  ///< of points and stops, entry by entry
+    std::vector<IrId> livePoints{};                       ///< the same where they are live; else empty
     uint32_t image = 0;                                   ///< number among Ir::images()
     std::shared_ptr<const MeshRecipe> mesh{};  ///< of a surface that stands for a mesh: how that is made
     /// Of particles: their stages, whose numbers are ids of the Lowering's ir.

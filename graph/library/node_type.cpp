@@ -82,6 +82,30 @@ std::optional<std::string> rangeProblem(const InputSpec& input, double value) {
     return "the value " + shortNumber(value) + " is out of range: it must be " + rangeWords(input);
 }
 
+std::optional<std::string> orderProblem(Type type, std::span<const double> numbers) {
+    const bool stops = type == Type::stops;
+    const std::string one = stops ? "stop" : "point",
+                      entry = stops ? "[position, red, green, blue]" : "[x, y]";
+    const auto size = static_cast<std::size_t>(entrySize(type));
+    const std::size_t count = numbers.size() / size;
+    if (count == 0) return "there is no " + one + ": give at least one, " + entry;
+    if (count > kMostStops)
+        return std::to_string(count) + " " + one + "s: at most " + std::to_string(kMostStops) +
+               " are allowed, remove some";
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string which = one + " " + std::to_string(i + 1);
+        const double at = numbers[size * i], before = i == 0 ? at : numbers[size * (i - 1)];
+        if (at < before)
+            return which + " lies at " + shortNumber(at) + ", before the one that precedes it, at " +
+                   shortNumber(before) + ": sort them by their first number";
+        for (std::size_t c = 1; stops && c < size; ++c)
+            if (numbers[size * i + c] < 0.0)
+                return "the colour of " + which + " has the component " + shortNumber(numbers[size * i + c]) +
+                       ": it must be at least 0";
+    }
+    return {};
+}
+
 NodeRole roleOf(std::string_view id) {
     const NodeType* type = findNodeType(id);
     return type ? type->role : NodeRole::plain;

@@ -6,7 +6,7 @@
 //
 // A body is field-language code (language/parser.h). Its inputs are names in scope, already evaluated at the
 // context position `p`; an input of type surface, scalar, vec2 or vec3 is also callable at another position:
-// `a(vec3(abs(p.x), p.yz))`. String, points and image inputs are visible as compile-time values.
+// `a(vec3(abs(p.x), p.yz))`. String, points, stops and image inputs are visible as compile-time values.
 //
 // What a body returns becomes the node's only output; with several outputs it assigns each by name and
 // returns nothing. A scalar returned where the output is a surface gets the default material;
@@ -45,7 +45,7 @@ std::string_view categoryName(Category category);
 /// Default of an input where the file gives none. `position` means: the context position.
 struct InputDefault {
     enum class Kind : unsigned char { none, position, numbers, text } kind = Kind::none;
-    std::vector<double> numbers;  ///< one per component; for points x,y pairs
+    std::vector<double> numbers;  ///< one per component; of a list entry by entry
     std::string text;
 };
 
@@ -69,6 +69,7 @@ struct InputSpec {
     bool positive = false;           ///< must be > 0 (min alone allows equality)
     bool whole = false;              ///< of a surface: what it is, light passing through it or not
     const FileKind* file = nullptr;  ///< of an image, or a string that is the path of a file: its kind
+    bool ordered = false;            ///< of points: as orderProblem() has it; stops always are
     Grip grip = {};                  ///< of a scalar that is a length
 };
 
@@ -150,6 +151,11 @@ inline constexpr double kLeastPositive = 1e-6;
 /// Why `value` may not be a component of this input: "the value 2 is out of range: it must be at most 1".
 /// Empty if it may.
 std::optional<std::string> rangeProblem(const InputSpec& input, double value);
+/// Entries of stops, and of points that are ordered, at most.
+inline constexpr std::size_t kMostStops = 32;
+/// Why these numbers are no stops, or no points of a curve: there are none, or more than kMostStops; the
+/// first number of an entry is below that of the one before; a colour is below 0. Empty if they are.
+std::optional<std::string> orderProblem(Type type, std::span<const double> numbers);
 /// The id of the node type whose name is nearest by edit distance: for "did you mean". Empty if none is near.
 std::string nearestNodeType(std::string_view id);
 

@@ -66,7 +66,8 @@ std::string defaultText(const InputSpec& input) {
     if (input.type == Type::boolean) return value.numbers[0] != 0 ? "true" : "false";
     std::string text;
     for (std::size_t i = 0; i < value.numbers.size(); i++) {
-        if (i > 0) text += input.type == Type::points && i % 2 == 0 ? "; " : ", ";
+        const auto entry = static_cast<std::size_t>(entrySize(input.type));
+        if (i > 0) text += entry > 0 && i % entry == 0 ? "; " : ", ";
         text += numberText(value.numbers[i]);
     }
     return text + (input.unit.empty() || input.unit == "color" ? "" : " " + input.unit);
@@ -177,10 +178,12 @@ std::string nodesJson() {
                 case InputDefault::Kind::numbers:
                     if (spec.type == Type::boolean) {
                         input["default"] = spec.value.numbers[0] != 0;
-                    } else if (spec.type == Type::points) {
+                    } else if (entrySize(spec.type) > 0) {
                         input["default"] = Json::array();
-                        for (std::size_t i = 0; i + 1 < spec.value.numbers.size(); i += 2) {
-                            input["default"].push_back({spec.value.numbers[i], spec.value.numbers[i + 1]});
+                        const auto size = static_cast<std::size_t>(entrySize(spec.type));
+                        for (std::size_t i = 0; i < spec.value.numbers.size(); ++i) {
+                            if (i % size == 0) input["default"].push_back(Json::array());
+                            input["default"].back().push_back(spec.value.numbers[i]);
                         }
                     } else if (spec.value.numbers.size() == 1) {
                         input["default"] = spec.value.numbers[0];

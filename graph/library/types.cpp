@@ -14,6 +14,7 @@ std::string_view typeName(Type type) {
         case Type::surface: return "surface";
         case Type::string: return "string";
         case Type::points: return "points";
+        case Type::stops: return "stops";
         case Type::image: return "image";
         case Type::mesh: return "mesh";
         case Type::particles: return "particles";

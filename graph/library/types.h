@@ -19,6 +19,7 @@ enum class Type : unsigned char {
     surface,    ///< distance and material: fourteen scalars, in the order of `SurfaceComponent`
     string,     ///< an enum choice, a path or a text; known when the graph is compiled
     points,     ///< a list of vec2, known when the graph is compiled
+    stops,      ///< a list of positions with a colour each, likewise
     image,      ///< the path of a picture; read when the graph is compiled (image.h)
     mesh,       ///< triangles: the result of a stage
     particles,  ///< places that move: what a simulation makes
@@ -40,6 +41,16 @@ constexpr int componentCount(Type type) {
         case Type::surface: return kSurfaceComponents;
         default: return 0;
     }
+}
+
+/// Numbers of an entry of a list of this type: x and y of points; position, red, green and blue of stops. 0
+/// for all that is no list.
+constexpr int entrySize(Type type) { return type == Type::points ? 2 : type == Type::stops ? 4 : 0; }
+/// The list whose entries have so many numbers; empty if there is none.
+constexpr std::optional<Type> listOf(int entrySize) {
+    if (entrySize == 2) return Type::points;
+    if (entrySize == 4) return Type::stops;
+    return {};
 }
 
 /// "float", "vec3", "surface", …: as written in files and in code.

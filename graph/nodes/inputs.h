@@ -138,6 +138,14 @@ inline InputSpec color(std::string name, std::vector<double> value, std::string 
             .doc = std::move(doc)};
 }
 
+/// A line with colours along it: a position, and red, green and blue, of each.
+inline InputSpec stops(std::string name, std::vector<double> value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::stops,
+            .value = numbers(std::move(value)),
+            .doc = std::move(doc)};
+}
+
 /// A whole number within a range.
 inline InputSpec integer(std::string name, int value, int min, int max, std::string doc) {
     return {.name = std::move(name),

@@ -6,6 +6,7 @@
 #include "graph/nodes/inputs.h"
 
 namespace fw {
+
 namespace {
 
 /// One operation of math or vector_math: its name and what it returns.
@@ -194,6 +195,43 @@ float span = from_max - from_min;
 float t = span == 0.0 ? (value < from_min ? 0.0 : 1.0) : (value - from_min) / span;
 if (clamped) t = clamp(t, 0.0, 1.0);
 return mix(to_min, to_max, t);)"},
+        // Both bodies call the function of the language that is called as the node is.
+        {.id = "color_ramp",
+         .label = "Colour ramp",
+         .category = Category::maths,
+         .doc = "A colour from a number, by stops along a line that have a colour each. Below the first stop "
+                "and "
+                "above the last their colours go on.",
+         .inputs =
+             {scalar("value", 0.5, "The number, on the line along which the stops lie."),
+              stops("stops", {0, 0, 0, 0, 1, 1, 1, 1},
+                    "At most 32 stops, in order: a position, which may be any number, and a colour, linear "
+                    "sRGB, each. Two in one place are a hard edge."),
+              choice("interpolation", {"linear", "smooth", "constant"},
+                     "What is between two stops, in linear light: linear is an even change, smooth begins "
+                     "and ends it slowly, constant keeps the colour up to the next stop.")},
+         .outputs = {{"color", Type::vec3}},
+         .body = "return color_ramp(value, stops, interpolation);"},
+        {.id = "curve",
+         .label = "Curve",
+         .category = Category::maths,
+         .doc = "A number from a number, by a curve through points.",
+         .inputs = {scalar("value", 0.5, "The number, along the curve's x."),
+                    {.name = "points",
+                     .type = Type::points,
+                     .value = numbers({0, 0, 1, 1}),
+                     .doc = "At most 32 points, x and y each, in order of x. Two with one x are a jump.",
+                     .ordered = true},
+                    choice(
+                        "interpolation", {"smooth", "linear"},
+                        "What is between two points: smooth is a curve that rises only where the points do, "
+                        "linear a straight line."),
+                    choice(
+                        "ends", {"linear", "constant"},
+                        "What is beyond the first and the last point: linear goes on as steeply as the curve "
+                        "ends, constant stays as high.")},
+         .outputs = {{"value", Type::scalar}},
+         .body = "return curve(value, points, interpolation, ends);"},
         {.id = "mix",
          .label = "Mix",
          .category = Category::maths,

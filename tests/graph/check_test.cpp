@@ -127,7 +127,7 @@ TEST(Check, NumbersThatAreNotFinite) {
     for (const double value : {double(NAN), double(INFINITY), -double(INFINITY)}) {
         Graph graph =
             *parseGraph("{\"fieldwright\": 1, \"nodes\": [" + std::string(kBall) + "]}", "", nullptr);
-        graph.nodes[0].set("radius", {value, {}, false, {}});
+        graph.nodes[0].set("radius", {value, {}, 0, {}});
         std::vector<Error> findings = checkStructure(graph);
         ASSERT_EQ(findings.size(), 1u);
         EXPECT_EQ(format(findings[0]),

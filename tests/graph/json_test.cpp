@@ -91,7 +91,7 @@ TEST(Json, ReadsEveryShapeOfInput) {
     EXPECT_EQ(std::get<std::vector<double>>(inputOf("[1, 2]").value), (std::vector<double>{1, 2}));
     EXPECT_TRUE(std::get<std::vector<double>>(inputOf("[]").value).empty());
     const InputValue points = inputOf("[[1, 2], [3, 4]]");
-    EXPECT_TRUE(points.pairs);
+    EXPECT_EQ(points.entry, 2);
     EXPECT_EQ(std::get<std::vector<double>>(points.value), (std::vector<double>{1, 2, 3, 4}));
     EXPECT_EQ(std::get<Link>(inputOf("{\"output\": \"o\", \"from\": \"m\"}").value), (Link{"m", "o"}));
     EXPECT_EQ(std::get<double>(inputOf("5e-324").value), 5e-324);

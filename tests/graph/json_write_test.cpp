@@ -44,9 +44,9 @@ TEST(JsonWrite, LaysLongThingsOutOverLines) {
     node.id = "n", node.type = "polygon", node.at = {1.5, -2};
     std::vector<double> numbers;
     for (int i = 0; i < 60; ++i) numbers.push_back(i + 0.25);
-    node.set("points", {numbers, {}, true, {}});
-    node.set("row", {numbers, {}, false, {}});
-    node.set("word", {std::string("a"), {}, false, {}});
+    node.set("points", {numbers, {}, 2, {}});
+    node.set("row", {numbers, {}, 0, {}});
+    node.set("word", {std::string("a"), {}, 0, {}});
     graph.nodes.push_back(node);
     const std::string text = writeGraph(graph);
     EXPECT_NE(text.find("    {\"id\": \"n\", \"type\": \"polygon\", \"at\": [1.5, -2],\n     \"inputs\": {\n "
@@ -77,7 +77,7 @@ TEST(JsonWrite, WritesNumbersShortAndExact) {
         Graph graph;
         graph.nodes.push_back({});
         graph.nodes[0].id = "a", graph.nodes[0].type = "value";
-        graph.nodes[0].set("value", {number, {}, false, {}});
+        graph.nodes[0].set("value", {number, {}, 0, {}});
         EXPECT_NE(writeGraph(graph).find("\"value\": " + std::string(text) + "}"), std::string::npos)
             << writeGraph(graph);
     }
@@ -155,15 +155,18 @@ class RandomGraphs {
     }
 
     InputValue value() {
-        switch (below(6)) {
-            case 0: return {number(), {}, false, {}};
-            case 1: return {below(2) == 1, {}, false, {}};
-            case 2: return {text(), {}, false, {}};
-            case 3: return {std::vector<double>(static_cast<std::size_t>(below(5)), number()), {}, false, {}};
+        switch (below(7)) {
+            case 0: return {number(), {}, 0, {}};
+            case 1: return {below(2) == 1, {}, 0, {}};
+            case 2: return {text(), {}, 0, {}};
+            case 3: return {std::vector<double>(static_cast<std::size_t>(below(5)), number()), {}, 0, {}};
             case 4:
                 return {
-                    std::vector<double>(static_cast<std::size_t>(2 * below(30) + 2), number()), {}, true, {}};
-            default: return {Link{text(), below(2) ? text() : ""}, {}, false, extra()};
+                    std::vector<double>(static_cast<std::size_t>(2 * below(30) + 2), number()), {}, 2, {}};
+            case 5:
+                return {
+                    std::vector<double>(static_cast<std::size_t>(4 * below(30) + 4), number()), {}, 4, {}};
+            default: return {Link{text(), below(2) ? text() : ""}, {}, 0, extra()};
         }
     }
 
@@ -300,7 +303,7 @@ TEST_F(JsonFile, NamesWhatPreventsSaving) {
         EXPECT_NE(message(path).find("no permission"), std::string::npos);
     }
     Graph broken = graph;
-    broken.nodes[0].set("rounding", {NAN, {}, false, {}});
+    broken.nodes[0].set("rounding", {NAN, {}, 0, {}});
     const Done saved = saveGraph(broken, path);
     ASSERT_FALSE(saved);
     EXPECT_EQ(saved.error().node, "tower");

@@ -9,6 +9,7 @@
 
 #include "graph/compile/compile.h"
 #include "graph/document/graph.h"
+#include "graph/document/input_value.h"
 #include "graph/evaluate/evaluate.h"
 #include "graph/library/node_type.h"
 
@@ -103,13 +104,30 @@ InputValue randomSetting(Random& random, const NodeType& type, const InputSpec& 
         case Type::boolean: return setting(chance(random, 0.7));
         case Type::integer:
             return number(std::floor(uniform(random, input.min, std::min(input.max, input.min + 7) + 1)));
+        case Type::stops: {
+            std::vector<double> places, list;
+            for (int i = 0; i < 1 + variant % 6; i++) places.push_back(uniform(random, -1, 1));
+            if (chance(random, 0.3)) places.push_back(places.front());
+            std::ranges::sort(places);
+            for (const double place : places)
+                list.insert(list.end(),
+                            {place, uniform(random, 0, 1), uniform(random, 0, 2), uniform(random, 0, 1)});
+            return listValue(Type::stops, std::move(list));
+        }
         case Type::points: {
+            if (input.ordered) {
+                std::vector<double> places, list;
+                for (int i = 0; i < 1 + variant % 6; i++) places.push_back(uniform(random, -1, 1));
+                std::ranges::sort(places);
+                for (const double place : places) list.insert(list.end(), {place, uniform(random, -1, 1)});
+                return listValue(Type::points, std::move(list));
+            }
             std::vector<double> corners;
             const int count = 1 + variant % 8;
             for (int i = 0; i < 2 * count; i++) corners.push_back(uniform(random, -1, 1));
             if (chance(random, 0.3)) corners.insert(corners.end(), corners.end() - 2, corners.end());
             InputValue outline = setting(std::move(corners));
-            outline.pairs = true;
+            outline.entry = 2;
             return outline;
         }
         case Type::scalar:
@@ -306,7 +324,7 @@ TEST(Gradient, HasUnitLengthOnTheSurfaceItself) {
     const std::vector<double> square = {-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5};
     for (const std::vector<double>& outline : {square, std::vector<double>(square.rbegin(), square.rend())}) {
         InputValue points = numbers(outline);
-        points.pairs = true;
+        points.entry = 2;
         onSurface("polygon", {{"points", points}}, {0.5, 0.25, 0}, {1, 0, 0});
         onSurface("polygon", {{"points", points}}, {-0.5, 0.25, 0}, {-1, 0, 0});
         onSurface("polygon", {{"points", points}}, {0.25, 0.5, 0}, {0, 1, 0});

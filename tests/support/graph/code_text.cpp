@@ -80,7 +80,9 @@ void collect(const Graph& graph, const std::string& group, const std::vector<Nod
             } else if (const auto* text = std::get_if<std::string>(&input.value)) {
                 made.type = Type::string, made.text = *text;
             } else if (const auto* numbers = std::get_if<std::vector<double>>(&input.value)) {
-                made.type = input.pairs ? Type::points : numbers->size() == 2 ? Type::vec2 : Type::vec3;
+                made.type = input.entry > 0        ? *listOf(input.entry)
+                            : numbers->size() == 2 ? Type::vec2
+                                                   : Type::vec3;
             }
             code.inputs.push_back(std::move(made));
         }
@@ -173,7 +175,11 @@ std::vector<std::pair<std::string, language::Value>> inputValues(language::Lower
             case Type::string: value.text = input.text; break;
             case Type::points:
                 value.points = std::make_shared<const std::vector<double>>(
-                    std::vector<double>{0.0, 0.0, 1.0, 0.25, 0.5, 1.0});
+                    std::vector<double>{0.0, 0.0, 0.5, 1.0, 1.0, 0.25});
+                break;
+            case Type::stops:
+                value.points = std::make_shared<const std::vector<double>>(
+                    std::vector<double>{0.0, 0.0, 0.25, 1.0, 0.5, 1.0, 0.25, 0.0});
                 break;
             case Type::boolean: value.ids[0] = state.ir.constant(1.0); break;
             default:

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "graph/check/check.h"
+#include "graph/document/input_value.h"
 #include "graph/document/sockets.h"
 #include "graph/library/node_type.h"
 
@@ -102,7 +103,19 @@ class Generator {
             if (!spec.options.empty()) node.set(spec.name, {spec.options[random() % spec.options.size()]});
             return;
         }
-        if (spec.type == Type::points || spec.value.kind != InputDefault::Kind::numbers) return;
+        if (spec.value.kind != InputDefault::Kind::numbers) return;
+        if (spec.type == Type::stops || spec.ordered) {
+            std::vector<double> list;
+            double place = 2.0 * unit() - 1.0;
+            for (int count = 1 + int(random() % 6); count > 0; --count, place += unit()) {
+                list.push_back(std::round(place * 1000.0) / 1000.0);
+                for (int i = 1; i < entrySize(spec.type); ++i)
+                    list.push_back(std::round(unit() * 1000.0) / 1000.0);
+            }
+            node.set(spec.name, listValue(spec.type, std::move(list)));
+            return;
+        }
+        if (spec.type == Type::points) return;
         if (spec.type == Type::boolean) {
             node.set(spec.name, {chance(0.5)});
         } else if (spec.type == Type::integer || spec.type == Type::scalar) {
