@@ -49,12 +49,23 @@ struct InputDefault {
     std::string text;
 };
 
-/// Where in space a length can be taken hold of: at the end of `along` times it, from the end of another
-/// input's grip, or from the place that the other one is. In the node's own space.
+/// Where in space an input can be taken hold of, in the node's own space. It begins at the origin, at the end
+/// of another input's grip, or at the place that the other one is.
 struct Grip {
-    std::array<double, 3> along = {0, 0, 0};  ///< of unit length; 0: it has none
-    std::string from = {};  ///< the other input, "-name" for the opposite end; empty: the origin
-    explicit operator bool() const { return along != std::array<double, 3>{0, 0, 0}; }
+    enum class Kind : unsigned char {
+        none,
+        length,     ///< held at `along` times it, or at the direction `with` times it
+        sizes,      ///< along x, y and z, each held at its number times that of `along`
+        angle,      ///< held where `along`, turned towards `towards`, points; per metre: of one metre
+        direction,  ///< held at its tip
+        corner      ///< of a box whose other corner is `with`: held at the middles of its three faces
+    } kind = Kind::none;
+    std::array<double, 3> along = {0, 0, 0};    ///< of a length of unit length
+    std::string from = {};                      ///< the other input, "-name" for the opposite end
+    std::array<double, 3> towards = {0, 0, 0};  ///< of unit length, across `along`
+    std::array<double, 3> middle = {0, 0, 0};   ///< of an angle, metres
+    std::string with = {};  ///< another input; of an angle the length at whose end it is held; empty: 1 m
+    explicit operator bool() const { return kind != Kind::none; }
 };
 
 struct InputSpec {
@@ -70,7 +81,7 @@ struct InputSpec {
     bool whole = false;              ///< of a surface: what it is, light passing through it or not
     const FileKind* file = nullptr;  ///< of an image, or a string that is the path of a file: its kind
     bool ordered = false;            ///< of points: as orderProblem() has it; stops always are
-    Grip grip = {};                  ///< of a scalar that is a length
+    Grip grip = {};                  ///< where it is held, unless its unit and range say so
 };
 
 struct OutputSpec {

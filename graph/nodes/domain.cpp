@@ -142,10 +142,14 @@ std::vector<NodeType> placements() {
          .category = Category::domain,
          .doc = "Replaces what lies behind a plane by the mirror image of what lies before it.",
          .inputs = {subject("The surface to mirror."),
-                    direction(
-                        "normal", {1, 0, 0},
-                        "Direction from the plane to the side that is kept; its length does not matter."),
-                    coordinate("offset", 0, "Distance of the plane from the origin along the normal.")},
+                    grippedDirection(
+                        direction(
+                            "normal", {1, 0, 0},
+                            "Direction from the plane to the side that is kept; its length does not matter."),
+                        "offset"),
+                    grippedAlong(
+                        "normal",
+                        coordinate("offset", 0, "Distance of the plane from the origin along the normal."))},
          .outputs = kSurface,
          .exactness = weakened,
          .body = R"(
@@ -284,8 +288,9 @@ return s;)"},
              {subject(
                   "The surface to repeat, moved away from the axis along +x; it should fit into its sector."),
               integer("count", 6, 1, 1024, "Number of copies around the circle."),
-              direction("axis", {0, 1, 0},
-                        "Direction of the axis through the origin; its length does not matter."),
+              grippedDirection(
+                  direction("axis", {0, 1, 0},
+                            "Direction of the axis through the origin; its length does not matter.")),
               neighbours()},
          .outputs = kSurface,
          .exactness = repeated,
@@ -337,7 +342,9 @@ std::vector<NodeType> deformations() {
          .label = "Twist",
          .category = Category::domain,
          .doc = "Turns a surface about the y axis, the more the higher; keeps its volume.",
-         .inputs = {subject("The surface to twist."), rate(45, "Degrees of turn for each metre of height.")},
+         .inputs = {subject("The surface to twist."),
+                    grippedAngle(kRight, kToEye, rate(45, "Degrees of turn for each metre of height."), {},
+                                 kUp)},
          .outputs = kSurface,
          .exactness = distortedBy("rate"),
          .body = R"(
@@ -349,7 +356,8 @@ return surface(vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x));)"},
          .label = "Bend",
          .category = Category::domain,
          .doc = "Bends a surface that lies along x, downwards at both ends.",
-         .inputs = {subject("The surface to bend."), rate(30, "Degrees of bend for each metre along x.")},
+         .inputs = {subject("The surface to bend."),
+                    grippedAngle(kRight, kDown, rate(30, "Degrees of bend for each metre along x."))},
          .outputs = kSurface,
          .exactness = distortedBy("rate"),
          .body = R"(

@@ -43,13 +43,40 @@ inline InputSpec length(std::string name, double value, std::string doc) {
             .doc = std::move(doc)};
 }
 
-/// A length or coordinate that can be taken hold of in space (Grip).
+/// A length or coordinate that can be taken hold of in space (Grip); of a vector the lengths along the axes.
 inline InputSpec gripped(std::array<double, 3> along, InputSpec input, std::string from = {}) {
-    input.grip = {along, std::move(from)};
+    input.grip = {.kind = input.type == Type::scalar ? Grip::Kind::length : Grip::Kind::sizes,
+                  .along = along,
+                  .from = std::move(from)};
+    return input;
+}
+/// A length along the direction that another input is.
+inline InputSpec grippedAlong(std::string direction, InputSpec input) {
+    input.grip = {.kind = Grip::Kind::length, .with = std::move(direction)};
+    return input;
+}
+/// An angle that turns `along` towards `towards`, held at the end of a length, or a metre from the middle.
+inline InputSpec grippedAngle(std::array<double, 3> along, std::array<double, 3> towards, InputSpec input,
+                              std::string length = {}, std::array<double, 3> middle = {0, 0, 0}) {
+    input.grip = {.kind = Grip::Kind::angle,
+                  .along = along,
+                  .towards = towards,
+                  .middle = middle,
+                  .with = std::move(length)};
+    return input;
+}
+/// A direction that begins at the end of another grip, or at the origin.
+inline InputSpec grippedDirection(InputSpec input, std::string from = {}) {
+    input.grip = {.kind = Grip::Kind::direction, .from = std::move(from)};
+    return input;
+}
+/// A corner of a box, of which another input is the opposite one.
+inline InputSpec grippedCorner(InputSpec input, std::string opposite) {
+    input.grip = {.kind = Grip::Kind::corner, .with = std::move(opposite)};
     return input;
 }
 inline constexpr std::array<double, 3> kRight = {1, 0, 0}, kUp = {0, 1, 0}, kDown = {0, -1, 0},
-                                       kToEye = {0, 0, 1};
+                                       kToEye = {0, 0, 1}, kEach = {1, 1, 1};
 
 /// A length above 0.
 inline InputSpec positiveLength(std::string name, double value, std::string doc) {

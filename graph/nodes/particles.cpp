@@ -40,7 +40,9 @@ std::vector<NodeType> particleNodes() {
                            "axis, or in one "
                            "point."),
                     place("position", {0, 0, 0}, "The middle of the shape."),
-                    lengths("size", {0.1, 0.1, 0.1}, "Half the shape's extents along x, y and z."),
+                    gripped(kEach,
+                            lengths("size", {0.1, 0.1, 0.1}, "Half the shape's extents along x, y and z."),
+                            "position"),
                     amount("rate", 1000, "1/s", "Particles a second."),
                     integer("burst", 0, 0, 1'000'000, "Particles that are there at the start."),
                     measured(positiveLength("lifetime", 2, "How long a particle lives."), "s"),
@@ -104,8 +106,10 @@ std::vector<NodeType> particleNodes() {
               amount("vorticity", 0, "1/s",
                      "How much swirls are fed, against what the solver loses of them."),
               collide,
-              place("tank_min", {-1, 0, -1}, "Lowest corner of the tank, which the fluid cannot leave."),
-              place("tank_max", {1, 2, 1}, "Highest corner of the tank."),
+              grippedCorner(
+                  place("tank_min", {-1, 0, -1}, "Lowest corner of the tank, which the fluid cannot leave."),
+                  "tank_max"),
+              grippedCorner(place("tank_max", {1, 2, 1}, "Highest corner of the tank."), "tank_min"),
               choice("neighbours", {"fast", "exact"},
                      "How a particle feels its far neighbours: fast, as they were when the step began; or "
                      "exact, in every "
@@ -215,11 +219,13 @@ std::vector<NodeType> particleNodes() {
                           std::to_string(kMostChosenMebibytes) +
                           " MiB. A blob's radius is best two to six cells, and is eight at most in a grid "
                           "that is found."),
-              corner(
-                  "region_min",
-                  "Lowest corner of the grid; found from where the particles come from, at all times of the "
-                  "timeline, if not given."),
-              corner("region_max", "Highest corner of the grid. What leaves it is cut off.")},
+              grippedCorner(corner("region_min",
+                                   "Lowest corner of the grid; found from where the particles come from, at "
+                                   "all times of the "
+                                   "timeline, if not given."),
+                            "region_max"),
+              grippedCorner(corner("region_max", "Highest corner of the grid. What leaves it is cut off."),
+                            "region_min")},
          .outputs = {{"surface", Type::surface}},
          .lower = lowerParticlesToField,
          .aliases = {"metaballs", "blobs"}},

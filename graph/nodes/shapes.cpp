@@ -13,6 +13,10 @@
 namespace fw {
 namespace {
 
+/// To a corner of a tetrahedron or a dodecahedron, of unit length; and of an icosahedron.
+constexpr std::array<double, 3> kDiagonal = {0.57735026918962576, 0.57735026918962576, 0.57735026918962576},
+                                kIcosahedronCorner = {0.85065080835203993, 0, 0.52573111211913361};
+
 /// A tube around a closed centre line whose curvature radius is `major_radius`: thicker than that, it
 /// overlaps itself.
 Exactness tubeExactness(const ExactnessArguments& node) {
@@ -37,7 +41,8 @@ std::string wall(const std::string& sum) {
 
 std::vector<InputSpec> wallInputs() {
     return {positionInput(),
-            positiveLength("period", 1, "Size of the cell that repeats in all three directions."),
+            gripped(kRight,
+                    positiveLength("period", 1, "Size of the cell that repeats in all three directions.")),
             length("thickness", 0.05, "Half the least thickness of the wall.")};
 }
 
@@ -107,7 +112,10 @@ return length(q - along * clamp(dot(q, along) / max(dot(along, along), 1e-12), 0
          .category = Category::shape,
          .doc = "A piece of an upright ring with round ends, opening downwards like a rainbow.",
          .inputs = {positionInput(),
-                    angle("half_angle", 90, 0, 180, "Angle from the top of the ring to either end."),
+                    grippedAngle(
+                        kUp, kRight,
+                        angle("half_angle", 90, 0, 180, "Angle from the top of the ring to either end."),
+                        "major_radius"),
                     gripped(kUp, length("major_radius", 0.5,
                                         "Distance from the centre to the middle of the tube.")),
                     gripped(kToEye, length("minor_radius", 0.1, "Half the thickness of the tube."),
@@ -233,7 +241,10 @@ return q > w && w * p.y < h * q ? max(planes, length(vec2(q - w, p.y - h))) : pl
          .label = "Solid angle",
          .category = Category::shape,
          .doc = "A cone with its tip at the origin, opening upwards and closed by a piece of a ball.",
-         .inputs = {positionInput(), angle("half_angle", 30, 0, 180, "Angle between the axis and the side."),
+         .inputs = {positionInput(),
+                    grippedAngle(kUp, kRight,
+                                 angle("half_angle", 30, 0, 180, "Angle between the axis and the side."),
+                                 "radius"),
                     gripped(kUp, length("radius", 1, "Distance from the tip to the round end."))},
          .outputs = kSurface,
          .exactness = always(kExact),
@@ -311,8 +322,12 @@ return min(ext3(vec3(q.x, w.yz)), ext3(vec3(w.x, q.y, w.z)), ext3(vec3(w.xy, q.z
          .category = Category::shape,
          .doc = "Everything below a plane.",
          .inputs = {positionInput(),
-                    direction("normal", {0, 1, 0}, "Direction out of the solid; its length does not matter."),
-                    coordinate("offset", 0, "Distance of the plane from the origin along the normal.")},
+                    grippedDirection(direction("normal", {0, 1, 0},
+                                               "Direction out of the solid; its length does not matter."),
+                                     "offset"),
+                    grippedAlong(
+                        "normal",
+                        coordinate("offset", 0, "Distance of the plane from the origin along the normal."))},
          .outputs = kSurface,
          .exactness = always(kExact),
          .body = "return dot(p, normalize(normal)) - offset;",
@@ -386,7 +401,8 @@ return ext2(vec2(polygon, abs(p.z) - half_height));)"},
          .label = "Tetrahedron",
          .category = Category::shape,
          .doc = "A solid of four triangles, centred at the origin.",
-         .inputs = {positionInput(), length("size", 0.75, "Distance from the centre to each corner.")},
+         .inputs = {positionInput(),
+                    gripped(kDiagonal, length("size", 0.75, "Distance from the centre to each corner."))},
          .outputs = kSurface,
          .exactness = always(kExactInside),
          .body = "return max(abs(p.x + p.y) - p.z, abs(p.x - p.y) + p.z) / sqrt(3.0) - size / 3.0;"},
@@ -397,7 +413,8 @@ return ext2(vec2(polygon, abs(p.z) - half_height));)"},
          .label = "Dodecahedron",
          .category = Category::shape,
          .doc = "A solid of twelve pentagons, centred at the origin.",
-         .inputs = {positionInput(), length("size", 0.5, "Distance from the centre to each corner.")},
+         .inputs = {positionInput(),
+                    gripped(kDiagonal, length("size", 0.5, "Distance from the centre to each corner."))},
          .outputs = kSurface,
          .exactness = always(kExactInside),
          .body = R"(
@@ -409,7 +426,9 @@ return faces - size * sqrt((5.0 + 2.0 * sqrt(5.0)) / 15.0);)"},
          .label = "Icosahedron",
          .category = Category::shape,
          .doc = "A solid of twenty triangles, centred at the origin.",
-         .inputs = {positionInput(), length("size", 0.5, "Distance from the centre to each corner.")},
+         .inputs = {positionInput(),
+                    gripped(kIcosahedronCorner,
+                            length("size", 0.5, "Distance from the centre to each corner."))},
          .outputs = kSurface,
          .exactness = always(kExactInside),
          .body = R"(
@@ -461,15 +480,15 @@ std::vector<NodeType> picturedSolids() {
          .label = "Heightfield",
          .category = Category::shape,
          .doc = "A block whose top is a relief: the lighter the picture, the higher.",
-         .inputs = {positionInput(),
-                    picture("image", " Seen from above it stands upright, with -z up."),
-                    {.name = "size",
-                     .type = Type::vec3,
-                     .value = numbers({2, 0.5, 2}),
-                     .min = 1e-6,
-                     .unit = "m",
-                     .doc = "Extent along x, height of white over black, extent along z."},
-                    length("base", 0.1, "Thickness below black, which is at y = 0.")},
+         .inputs = {positionInput(), picture("image", " Seen from above it stands upright, with -z up."),
+                    gripped({0.5, 1, 0.5},
+                            {.name = "size",
+                             .type = Type::vec3,
+                             .value = numbers({2, 0.5, 2}),
+                             .min = 1e-6,
+                             .unit = "m",
+                             .doc = "Extent along x, height of white over black, extent along z."}),
+                    gripped(kDown, length("base", 0.1, "Thickness below black, which is at y = 0."))},
          .outputs = kSurface,
          .exactness = always(kBound),
          .body = R"(
