@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <string_view>
 
 #include "editor/canvas/keyboard.h"
 #include "editor/document/library.h"
@@ -197,17 +199,36 @@ void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& ask
 
 void lookAtLibrary(Editor& editor) {
     LibraryPanel& panel = editor.library;
+    const auto take = [&](LibraryPanel::Reading read) {
+        panel.parts = std::move(read.parts), panel.problem = std::move(read.problem);
+        std::set<std::string_view> paths;
+        for (const LibraryPart& part : panel.parts) paths.insert(part.path);
+        std::erase_if(panel.tiles, [&](const auto& tile) {
+            const bool gone = !paths.contains(tile.first);
+            if (gone && tile.second.texture) editor.shell.forget(tile.second.texture);
+            return gone;
+        });
+    };
+    const auto read = [](const std::string& folder) {
+        LibraryPanel::Reading all;
+        all.parts = listParts(folder, all.problem);
+        return all;
+    };
     const std::string folder = libraryFolder(editor.files.preferences);
     const SteadyClock::time_point now = SteadyClock::now();
-    if (folder == panel.folder && std::chrono::duration<double>(now - panel.looked).count() < kLookSeconds)
-        return;
-    panel.folder = folder, panel.looked = now;
-    panel.parts = listParts(folder, panel.problem);
-    std::erase_if(panel.tiles, [&](const auto& tile) {
-        const bool gone = std::ranges::find(panel.parts, tile.first, &LibraryPart::path) == panel.parts.end();
-        if (gone && tile.second.texture) editor.shell.forget(tile.second.texture);
-        return gone;
-    });
+    // At once where it is another one, or was changed here; what others do to it is noticed meanwhile.
+    if (folder != panel.folder || panel.looked == SteadyClock::time_point()) {
+        panel.reading = {};
+        panel.folder = folder, panel.looked = now;
+        return take(read(folder));
+    }
+    if (panel.reading.valid()) {
+        if (panel.reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+        take(panel.reading.get());
+    }
+    if (std::chrono::duration<double>(now - panel.looked).count() < kLookSeconds) return;
+    panel.looked = now;
+    panel.reading = std::async(std::launch::async, read, folder);
 }
 
 void takeDraggedPart(Editor& editor) {

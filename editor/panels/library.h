@@ -29,6 +29,11 @@ struct LibraryPanel {
     std::vector<LibraryPart> parts = {};
     std::string problem = {};
     std::chrono::steady_clock::time_point looked = {};
+    struct Reading {
+        std::vector<LibraryPart> parts = {};
+        std::string problem = {};
+    };
+    std::future<Reading> reading = {};  ///< beside the interface, of what others may have changed
 
     struct Tile {
         int64_t stamp = 0;  ///< of the file, when the picture was made

@@ -16,7 +16,7 @@ using editor::PreviewWish;
 
 constexpr int kPreviewCells = 128, kPreviewWidth = 800, kPreviewHeight = 600;
 constexpr int kDrags = 60, kChanges = 12, kNodes = 200;
-constexpr double kMostDrag = 60, kMostLateDrag = 120, kMostChange = 250, kMostAsk = 1;
+constexpr double kMostDrag = 40, kMostLateDrag = 60, kMostChange = 250, kMostAsk = 1;
 
 /// A preview, and what it costs the thread that asks.
 struct Asked {

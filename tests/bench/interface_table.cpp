@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -17,14 +18,17 @@
 namespace fw::bench {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kWindowWidth = 1280, kWindowHeight = 800;
-constexpr int kFew = 100, kSome = 200, kMany = 1000, kWindowChanges = 12, kFrames = 60, kEdits = 10000;
+constexpr int kFew = 100, kMany = 1000, kWindowChanges = 12, kFrames = 60, kEdits = 10000;
 constexpr int kCodeLines = 5000;
 constexpr double kRest = 3.0;  // seconds
 constexpr int kTracks = 10, kKeys = 10'000;
-constexpr double kMostCurves = 16, kMostCode = 16, kMostCheck = 250, kMostFew = 14, kMostMany = 40,
-                 kMostStart = 1000, kMostOpen = 1000, kMostUndo = 50, kMostWindowChange = 250,
-                 kMostMeanwhile = 50, kMostRest = 2;
+constexpr int kParts = 500;
+constexpr double kMostCurves = 16, kMostCode = 16, kMostLibrary = 16, kMostCheck = 250, kMostFew = 14,
+                 kMostMany = 20, kMostStart = 600, kMostOpen = 1000, kMostUndo = 50, kMostWindowChange = 100,
+                 kMostMeanwhile = 50, kMostRest = 0;
 
 double processorSeconds() {
     rusage used{};
@@ -187,7 +191,32 @@ void interfaceTable(Bench& bench) {
         row("the same, all keys selected", window.frames(), kMostCurves);
     }
     {
-        Window window(bench, grid(kSome));
+        const fs::path folder = fs::temp_directory_path() / ("fieldwright-bench-" + std::to_string(getpid()));
+        const std::string part = writeGraph(chainOfBoxes(1, 0.0));
+        for (int i = 0; i < kParts; ++i) {
+            const fs::path room = folder / ("room " + std::to_string(i % 10));
+            fs::create_directories(room);
+            std::ofstream(room / ("part_" + std::to_string(i) + ".field.json")) << part;
+        }
+        {
+            Window window(bench, *tower);
+            editor::Editor& editor = window.editor;
+            editor.files.preferences.library = folder.string();
+            editor.panels.library = true, editor.panels.wanted = "library";
+            window.settle();
+            if (editor.library.parts.size() != std::size_t(kParts))
+                bench.fail("the library has " + std::to_string(editor.library.parts.size()) + " parts");
+            // Until those that are seen have their pictures.
+            do window.shell.waitEvents(0.02), window.frame();
+            while (editor.library.picture.valid());
+            row("a frame, library of " + std::to_string(kParts) + " parts", window.frames(), kMostLibrary);
+            editor.library.search = "7";
+            row("the same, searched", window.frames(), kMostLibrary);
+        }
+        fs::remove_all(folder);
+    }
+    {
+        Window window(bench, grid(kMany));
         const editor::PreviewResult& shown = window.editor.viewport.shown;
         // Frames one after the other until the graph is in the picture; the longest of them, and how long.
         const auto change = [&](Graph graph, bool draft) {
@@ -206,12 +235,12 @@ void interfaceTable(Bench& bench) {
         Figure longest, changed;
         std::random_device seed;
         for (int i = 0; i < kWindowChanges + 2; ++i) {
-            const Graph chain = grid(kSome - 2, double(seed()) * 1e-11);
+            const Graph chain = grid(kMany - 2, double(seed()) * 1e-11);
             change(chain, false);
             const auto [frame, all] = change(withBall(chain), true);
             if (i >= 2) longest.runs.push_back(frame), changed.runs.push_back(all);
         }
-        row("one of " + std::to_string(kSome) + " nodes added, to its picture in the window", changed,
+        row("one of " + std::to_string(kMany) + " nodes added, to its picture in the window", changed,
             kMostWindowChange);
         row("the longest frame meanwhile", longest, kMostMeanwhile);
     }
