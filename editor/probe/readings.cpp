@@ -13,6 +13,8 @@ namespace fw::editor {
 
 namespace {
 
+constexpr double kNothing = 1e-9;  // metres
+
 /// What leads to the nodes of the scope: nothing for the document, "tower/" for the first instance of a
 /// group; none if that has no instance.
 std::optional<std::string> prefixOf(const Graph& graph, const std::string& scope) {
@@ -166,7 +168,9 @@ std::string valueWords(const Reading& reading, int digits) {
     if (reading.numbers.empty()) return "being made";
     if (reading.type == Type::boolean) return reading.numbers[0] != 0.0 ? "true" : "false";
     if (reading.type == Type::surface) {
-        const std::string words = numberWords(reading.numbers[0], digits);
+        // On a surface its distance is 0 but for the last bits.
+        const double distance = std::abs(reading.numbers[0]) < kNothing ? 0.0 : reading.numbers[0];
+        const std::string words = numberWords(distance, digits);
         return std::isfinite(reading.numbers[0]) ? words + " m" : words;
     }
     if (reading.numbers.size() == 1) return numberWords(reading.numbers[0], digits);

@@ -167,6 +167,15 @@ void takeUp(Program& program, const std::string& first, const std::string& keys)
     lookAnew(program, first, keys);
 }
 
+/// The tool that measures says what it waits for, until the same keys put it down.
+void takeUpMeasure(Program& program, const std::string& keys, const std::string& hint) {
+    program.moveTo(picturePart(program).centre());
+    program.keys(keys);
+    program.waitFor(hint);
+    program.keys(keys);
+    program.waitUntilGone(hint);
+}
+
 /// The canvas looks from so much nearer.
 void zoomBy(Program& program, const std::string& keys, float by) {
     program.save();
@@ -706,6 +715,27 @@ const std::map<std::string, Case>& cases() {
              p.keys(keys);
              EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != small.pixels; }));
              p.keys("0");
+         }},
+        {"view.probe",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             p.waitFor("Selected nodes only");
+             p.keys(keys);
+             p.waitUntilGone("Selected nodes only");
+         }},
+        {"picture.measure", [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Length: click two points"); }},
+        {"picture.wall", [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Wall: click the solid"); }},
+        {"picture.line", [](Program& p, const std::string& keys) {
+             takeUpMeasure(p, keys, "Plot: click two points");
+             p.keys("Alt+P");  // its panel
+         }},
+        {"picture.clear",
+         [](Program& p, const std::string& keys) {
+             p.moveTo(picturePart(p).centre());
+             p.keys("Shift+M");
+             p.waitFor("Length: click two points");
+             p.keys(keys);
+             p.waitUntilGone("Length: click two points");
          }},
         {"canvas.left", [](Program& p, const std::string& keys) { step(p, "cut", keys, {"box"}); }},
         {"canvas.add_left", [](Program& p, const std::string& keys) { step(p, "cut", keys, {"cut", "box"}); }},

@@ -115,8 +115,8 @@ TEST(KeyboardOnly, ReachesPanelsMenusAndBack) {
         editor.keys("ctrl+Next");
         seen.insert(editor->panels.front);
     }
-    EXPECT_EQ(seen.size(), sidePanels().size() - 3)
-        << "all but statistics, history and library, which are closed";
+    EXPECT_EQ(seen.size(), sidePanels().size() - 4)
+        << "all but statistics, history, library and probe, which are closed";
     editor.keys("Escape");
     EXPECT_EQ(editor->panels.keyboard, Part::canvas);
     for (const Part part : {Part::viewport, Part::side, Part::canvas}) {
