@@ -83,14 +83,13 @@ std::vector<double> crossingsAlong(const Tape& tape, const Segment& line) {
 
 std::vector<Stretch> wallsAlong(const Tape& tape, const Segment& line, std::span<const double> crossings) {
     bool inside = valueAt(tape, line.from) < 0.0;
-    std::optional<double> begin;
+    bool whole = false;  // its beginning is a crossing
+    double begin = 0.0;
     std::vector<Stretch> walls;
     for (const double at : crossings) {
         inside = !inside;
-        if (inside)
-            begin = at;
-        else if (begin)
-            walls.push_back({*begin, at}), begin.reset();
+        if (!inside && whole) walls.push_back({begin, at});
+        whole = inside, begin = at;
     }
     return walls;
 }

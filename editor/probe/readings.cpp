@@ -79,7 +79,7 @@ const std::string& ScopeFields::take(const Seen& seen, const std::string& scope)
     // A pinned node of a group is seen through an instance, which what is pinned beside the output may be.
     const std::string besides = seen.pinned.substr(0, seen.pinned.find('/'));
     Result<NodeFields> made = compileNodeFields(graph, *prefix, besides, options);
-    if (!made) return problem = "The graph has problems.";
+    if (!made) return problem = made.error().message;
     known = std::move(*made);
     takeParticles(known.ir, seen.particles);
     for (const LiveParameter& parameter : known.live) values.push_back(parameter.value);
