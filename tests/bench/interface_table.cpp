@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -115,11 +116,12 @@ struct Window {
         }
     }
     /// Frames one after the other, as while a hand moves on the canvas.
-    Figure frames() {
+    Figure frames(const std::function<void(int)>& before = {}) {
         settle();
         Figure figure;
         for (int i = -5; i < kFrames; ++i) {
             shell.waitEvents(0.0);
+            if (before) before(i);
             const double took = frame();
             if (i >= 0) figure.runs.push_back(took);
         }
@@ -288,6 +290,14 @@ void interfaceTable(Bench& bench) {
         row("opening " + std::to_string(kMany) + " nodes, to their first frame", {{millisecondsSince(start)}},
             kMostOpen);
         row("a frame, " + std::to_string(kMany) + " nodes on the canvas", window.frames(), kMostMany);
+        editor::toggleProbe(window.editor);
+        editor::Probe& probe = window.editor.probe;
+        probe.pinned = true;
+        row("the same, with the probe's point moving", window.frames([&](int i) {
+            probe.point = Point{0.01 * i, 0.2, 0.1};
+        }),
+            kMostMany);
+        editor::toggleProbe(window.editor);
         editor::Document& document = window.editor.document;
         editor::NodeIds all;
         for (const Node& node : document.graph().nodes) all.push_back(node.id);

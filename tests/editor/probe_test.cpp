@@ -115,8 +115,8 @@ TEST(Probe, WhatHasNoFieldHasNoValue) {
     EXPECT_EQ(of(readings, "ball")->numbers, std::vector{0.5});
     for (const char* node : {"muted", "mesh", "out"}) EXPECT_FALSE(of(readings, node)) << node;
     ScopeFields fields;
-    EXPECT_TRUE(fields.take(seenOf(graphOf(R"({"id": "a", "type": "sphere"})")), "")
-                    .starts_with("the graph has no output node"));
+    const std::string without = fields.take(seenOf(graphOf(R"({"id": "a", "type": "sphere"})")), "");
+    EXPECT_NE(without.find("output"), std::string::npos) << without;
     EXPECT_EQ(
         fields.take(seenOf(graphOf(R"({"id": "a", "type": "sphere"}, {"id": "out", "type": "output"},
       {"id": "idle", "type": "group", "group": "g"})",
