@@ -144,14 +144,14 @@ void showTool(Editor& editor, const char* name, Measure tool) {
 
 void showMeasured(Editor& editor) {
     const Probe& probe = editor.probe;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Measure");
+    ImGui::SameLine();
     showTool(editor, "Length", Measure::length);
     ImGui::SameLine();
     showTool(editor, "Wall", Measure::wall);
     const std::string words = measuredWords(probe);
-    if (words.empty()) {
-        ImGui::SameLine();
-        return ImGui::TextDisabled("clicks in the picture");
-    }
+    if (words.empty()) return;
     ImGui::SameLine();
     if (ImGui::Button("Copy##measured")) ImGui::SetClipboardText(words.c_str());
     ImGui::TextUnformatted(words.c_str());
@@ -178,7 +178,11 @@ void writePlot(Editor& editor, const std::string& path) {
 }
 
 void showLine(Editor& editor) {
+    constexpr std::size_t kMost = 3;
     Probe& probe = editor.probe;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Line");
+    ImGui::SameLine();
     showTool(editor, "Two points", Measure::line);
     ImGui::BeginDisabled(!probe.point.has_value());
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -187,27 +191,29 @@ void showLine(Editor& editor) {
             lineAlong(probe, editor.viewport.shown.region, axis);
     }
     ImGui::EndDisabled();
-    if (probe.ends.size() < 2)
-        return ImGui::TextDisabled(
-            "Click two points in the picture, or go along an axis through the probe's.");
+    if (probe.ends.size() < 2) return;
     showPoint("##from", probe.ends[0]);
     showPoint("##to", probe.ends[1]);
     if (!probe.plot)
         return ImGui::TextDisabled("%s", probe.plotted.empty() ? "Select a node: its output is plotted."
                                                                : "The selected node has no value to plot.");
-    ImGui::Text("%s, %.4g m", nameAt(editor, probe.plotted).c_str(), probe.plot->line.length());
+    const Plot& plot = *probe.plot;
+    ImGui::Text("%s, %.4g m", nameAt(editor, probe.plotted).c_str(), plot.line.length());
     ImGui::SameLine();
     if (ImGui::SmallButton("Save as CSV …")) {
         probe.browser.endings = {".csv"};
+        const std::string name = stemOf(editor) + "_" + probe.plotted + ".csv";
         open(probe.browser, FileBrowser::Kind::save,
-             (std::filesystem::path(workFolder(editor)) / (stemOf(editor) + "_" + probe.plotted + ".csv"))
-                 .string());
+             (std::filesystem::path(workFolder(editor)) / name).string());
     }
-    showPlot(*probe.plot, editor.shell.scale());
-    for (const Stretch& wall : probe.plot->walls)
-        ImGui::Text("%.6g m thick, from %.6g to %.6g m", wall.thickness(), wall.from, wall.to);
-    if (probe.plot->walls.empty() && !probe.plot->crossings.empty())
-        for (double at : probe.plot->crossings) ImGui::Text("crosses zero at %.6g m", at);
+    for (std::size_t i = 0; i < std::min(plot.walls.size(), kMost); ++i)
+        ImGui::Text("%.6g m thick, from %.6g to %.6g m", plot.walls[i].thickness(), plot.walls[i].from,
+                    plot.walls[i].to);
+    if (plot.walls.size() > kMost) ImGui::TextDisabled("and %zu more", plot.walls.size() - kMost);
+    if (plot.walls.empty())
+        for (std::size_t i = 0; i < std::min(plot.crossings.size(), kMost); ++i)
+            ImGui::Text("crosses zero at %.6g m", plot.crossings[i]);
+    showPlot(plot, editor.shell.scale());
 }
 
 }  // namespace
@@ -215,9 +221,10 @@ void showLine(Editor& editor) {
 void showProbe(Editor& editor) {
     Probe& probe = editor.probe;
     showPlace(editor);
-    showReadings(editor, 0.55f * ImGui::GetWindowHeight());
-    if (ImGui::CollapsingHeader("Measure", ImGuiTreeNodeFlags_DefaultOpen)) showMeasured(editor);
-    if (ImGui::CollapsingHeader("Along a line", ImGuiTreeNodeFlags_DefaultOpen)) showLine(editor);
+    showReadings(editor, 0.5f * ImGui::GetWindowHeight());
+    ImGui::Separator();
+    showMeasured(editor);
+    showLine(editor);
     const std::optional<std::string> path = show(probe.browser, editor.shell.scale());
     if (path && probe.plot) writePlot(editor, *path);
 }

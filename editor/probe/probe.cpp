@@ -167,7 +167,8 @@ void useMeasure(Editor& editor, Measure tool) {
 
 bool canClearProbe(const Editor& editor) {
     const Probe& probe = editor.probe;
-    return probe.tool != Measure::nothing || !probe.measured.empty() || probe.wall || probe.pinned;
+    return probe.tool != Measure::nothing || !probe.measured.empty() || probe.wall || probe.pinned ||
+           !probe.wallProblem.empty();
 }
 
 void clearProbe(Editor& editor) {

@@ -16,30 +16,33 @@ using fw::test::readText;
 constexpr const char* kDocument = R"({"fieldwright": 1, "nodes": [
     {"id": "ball", "type": "sphere", "at": [0, 0], "inputs": {"radius": 0.5}},
     {"id": "box", "type": "box", "at": [0, 160], "inputs": {"half_extents": [0.1, 0.1, 0.1]}},
-    {"id": "both", "type": "union", "at": [260, 0], "inputs": {"a": {"from": "ball"}, "b": {"from": "box"}}},
-    {"id": "out", "type": "output", "at": [560, 0], "inputs": {"surface": {"from": "both"}, "resolution": 16}}],
+    {"id": "both", "type": "union", "at": [220, 0], "inputs": {"a": {"from": "ball"}, "b": {"from": "box"}}},
+    {"id": "out", "type": "output", "at": [520, 0], "inputs": {"surface": {"from": "both"}, "resolution": 16}}],
   "scene": {"camera": {"position": [0, 0, 3], "target": [0, 0, 0], "fov": 40}}})";
 
 Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
 
-/// Of the pixels along the wire from the union to the output, how many are not the canvas's.
+/// Of the pixels along the wire from the union to the output, how many are not the canvas's. The arrowhead in
+/// the middle does not count.
 double drawnPart(Program& program) {
     const ImVec2 from = program.output("both"), to = program.input("out", "surface");
-    // The first quarter: behind it is the arrowhead.
-    const Area part{{from.x + 8, from.y - 1}, {from.x + 0.25f * (to.x - from.x), from.y + 1}};
-    const Picture seen = program.screen(part);
+    const float middle = 0.5f * (from.x + to.x);
     const ImU32 canvas = themeColor(ThemeColor::canvas), grid = themeColor(ThemeColor::grid);
-    const auto near = [](const uint8_t* pixel, ImU32 color) {
-        int off = 0;
-        for (int i = 0; i < 3; ++i) off += std::abs(int(pixel[i]) - int(color >> (8 * i) & 0xff));
-        return off < 24;
+    const auto isBare = [&](const uint8_t* pixel) {
+        for (ImU32 color : {canvas, grid}) {
+            int off = 0;
+            for (int i = 0; i < 3; ++i) off += std::abs(int(pixel[i]) - int(color >> (8 * i) & 0xff));
+            if (off < 24) return true;
+        }
+        return false;
     };
-    int drawn = 0;
-    for (int x = 0; x < seen.width; ++x) {
-        const uint8_t* pixel = seen.pixels.data() + 4 * x;
-        drawn += !near(pixel, canvas) && !near(pixel, grid);
+    int drawn = 0, all = 0;
+    for (const Area& part : {Area{{from.x + 8, from.y}, {middle - 10, from.y + 1}},
+                             Area{{middle + 10, from.y}, {to.x - 8, from.y + 1}}}) {
+        const Picture seen = program.screen(part);
+        for (int x = 0; x < seen.width; ++x) drawn += !isBare(seen.pixels.data() + 4 * x), ++all;
     }
-    return double(drawn) / std::max(seen.width, 1);
+    return double(drawn) / std::max(all, 1);
 }
 
 TEST(EndToEndProbe, ReadsMeasuresAndPlots) {
@@ -88,22 +91,35 @@ TEST(EndToEndProbe, ReadsMeasuresAndPlots) {
     program.waitFor("Wall: click the solid");
     program.click(middle);
     program.waitFor("1 m", picturePart(program));
-    program.waitFor("Wall 1 m");
-    program.clickOn("Copy", Area{{program.view.panel.hi.x, 400}, {1280, 800}});
+    const auto copyAbove = [&](const Area& words) {
+        program.clickOn("Copy", Area{{program.view.panel.hi.x, words.lo.y - 40}, {1280, words.lo.y}});
+    };
+    copyAbove(program.waitFor("Wall 1 m"));
+    EXPECT_TRUE(eventually([&] { return program.clipboard() == "Wall 1 m"; })) << program.clipboard();
     program.moveTo(middle);
     program.keys("Escape");
     program.waitUntilGone("Wall 1 m");
 
-    // Two points of the ball, at the same height.
+    // Two points of the ball: their distance and its parts, in numbers.
     program.keys("Shift+M");
     program.waitFor("Length: click two points");
     program.click({middle.x - 40, middle.y});
     program.waitFor("Length: click its end");
     program.click({middle.x + 40, middle.y});
-    program.waitFor("dy 0 m");
+    copyAbove(program.waitFor("dx"));
+    EXPECT_TRUE(eventually([&] { return program.clipboard().starts_with("Length "); }))
+        << program.clipboard();
+    double length = 0, dx = 0, dy = 0, dz = 0;
+    ASSERT_EQ(std::sscanf(program.clipboard().c_str(), "Length %lf m dx %lf m dy %lf m dz %lf", &length, &dx,
+                          &dy, &dz),
+              4)
+        << program.clipboard();
+    EXPECT_NEAR(length, std::hypot(dx, dy, dz), 1e-5);
+    EXPECT_GT(dx, 0.1);
+    EXPECT_LT(length, 1.0) << "a chord of a ball of 1 m";
     program.moveTo(middle);
     program.keys("Escape");
-    program.waitUntilGone("dy 0 m");
+    program.waitUntilGone("dx");
     program.keys("Escape");
     program.waitUntilGone("Length: click two points");
 
