@@ -77,7 +77,7 @@ void showCurve(const Shown& shown) {
     const bool mine = hand.does != RampHand::Does::nothing && hand.input == shown.path();
     const float scale = shown.editor.shell.scale(), em = ImGui::GetFontSize();
     const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const Area whole{lo, {lo.x + shown.width, lo.y + std::clamp(0.7f * shown.width, 6.0f * em, 11.0f * em)}};
+    const Area whole{lo, {lo.x + shown.width, lo.y + std::clamp(0.5f * shown.width, 6.0f * em, 10.0f * em)}};
     const Sheet sheet{whole, mine ? hand.x : withRoom(placesOf(shown.list)),
                       mine ? hand.y : heightsOf(shown.list), true};
     const bool active = followHand(shown, sheet, whole, kReachOfPoint * scale);

@@ -56,7 +56,7 @@ constexpr TypeStyle kTypeStyles[] = {
     {rgb(0xe69f00), SocketShape::hexagon},   // surface: orange
     {rgb(0xd8dce2), SocketShape::square},    // string
     {rgb(0xf0e442), SocketShape::triangle},  // points: yellow
-    {rgb(0xcc79a7), SocketShape::triangle},  // stops: reddish purple
+    {rgb(0xe69f00), SocketShape::square},    // stops: orange
     {rgb(0xf4f4f4), SocketShape::hexagon},   // image
     {rgb(0x3d8fd1), SocketShape::hexagon},   // mesh: blue, lighter
     {rgb(0xf4f4f4), SocketShape::circle},    // particles

@@ -186,8 +186,7 @@ class RampInspector : public testing::Test {
 
 TEST_F(RampInspector, StopsAreDraggedAddedAndRemoved) {
     program.click(program.title("ramp"));
-    const Area name = program.waitFor("Stops", Area{{800, 0}, {1280, 800}});
-    const ImVec2 from = name.lo;
+    const ImVec2 from = program.waitFor("Stops", Area{{800, 0}, {1280, 800}}).lo;
     const ImVec2 red = waitForHandle(from, {255, 0, 0}), green = waitForHandle(from, {0, 255, 0}),
                  blue = waitForHandle(from, {0, 0, 255});
     EXPECT_LT(std::abs(green.x - 0.5f * (red.x + blue.x)), 2.0f) << "in the middle of the bar";
@@ -252,7 +251,9 @@ TEST_F(RampInspector, StopsAreDraggedAddedAndRemoved) {
 TEST_F(RampInspector, PointsOfACurveAreDragged) {
     program.click(program.title("bump"));
     const Area side{{800, 0}, {1280, 800}};
-    const Area x = program.waitFor("x -0.1 … 1.1", side), even = program.waitFor("Even", side);
+    program.waitFor("Points", side);
+    program.wheel({1040, 640}, -20);  // to the end of what is in the panel
+    const Area even = program.waitFor("Even", side), x = program.waitFor("x -0.1 … 1.1", side);
     EXPECT_GT(even.lo.y, x.hi.y);
     // The box stands on the words, as wide as they are at least.
     const ImVec2 there{x.lo.x + 30.0f, x.lo.y - 30.0f};
