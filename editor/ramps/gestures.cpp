@@ -28,7 +28,10 @@ using Does = RampHand::Does;
 constexpr float kStillInRamp = 3.0f;                     // pixels that a click may move
 constexpr double kKeyStep = 0.01, kFineKeyStep = 0.001;  // of what is seen
 
-bool pressedInRamp(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
+/// A key that is held goes on, but not for a frame that took long.
+bool pressedInRamp(ImGuiKey key) {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), ImGui::GetIO().DeltaTime < 0.1f);
+}
 
 /// The entry that is nearest to the mouse, within reach.
 std::optional<std::size_t> entryAt(const Shown& shown, const Sheet& sheet, ImVec2 mouse, float near) {

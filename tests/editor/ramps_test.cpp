@@ -184,9 +184,10 @@ class RampInspector : public testing::Test {
     std::string original;
 };
 
-TEST_F(RampInspector, StopsAreDraggedAddedAndRemoved) {
+TEST_F(RampInspector, StopsAndPointsAreDraggedAddedAndRemoved) {
+    const Area side{{800, 0}, {1280, 800}};
     program.click(program.title("ramp"));
-    const ImVec2 from = program.waitFor("Stops", Area{{800, 0}, {1280, 800}}).lo;
+    const ImVec2 from = program.waitFor("Stops", side).lo;
     const ImVec2 red = waitForHandle(from, {255, 0, 0}), green = waitForHandle(from, {0, 255, 0}),
                  blue = waitForHandle(from, {0, 0, 255});
     EXPECT_LT(std::abs(green.x - 0.5f * (red.x + blue.x)), 2.0f) << "in the middle of the bar";
@@ -236,21 +237,23 @@ TEST_F(RampInspector, StopsAreDraggedAddedAndRemoved) {
     program.keys("Ctrl+Z");
     EXPECT_EQ(program.save(), original);
     program.drag({at(0.5f), {at(0.5f).x, green.y + 100}, at(0.5f)});
-    EXPECT_EQ(stops().count(), 3u);
+    EXPECT_EQ(program.save(), original);
 
-    // The tools.
+    // The tools; their tips go with the mouse.
     program.clickOn("Reverse");
     EXPECT_EQ(stops().entry(0)[3], 1.0);
+    program.moveTo({1040, 560});
     program.clickOn("Presets …");
     program.clickOn("Terrain");
     EXPECT_EQ(stops().count(), 7u);
+    program.moveTo({1040, 560});
     program.clickOn("Even");
     EXPECT_NEAR(stops().at(1), 0.1667, 1e-9);
-}
+    program.keys("Ctrl+Z", 3);
+    EXPECT_EQ(program.save(), original);
 
-TEST_F(RampInspector, PointsOfACurveAreDragged) {
+    // The same of a curve's points.
     program.click(program.title("bump"));
-    const Area side{{800, 0}, {1280, 800}};
     program.waitFor("Points", side);
     program.wheel({1040, 640}, -20);  // to the end of what is in the panel
     const Area even = program.waitFor("Even", side), x = program.waitFor("x -0.1 … 1.1", side);
