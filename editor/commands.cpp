@@ -13,6 +13,7 @@
 #include "editor/panels/side.h"
 #include "editor/panels/tour.h"
 #include "editor/timeline/actions.h"
+#include "editor/viewport/marks.h"
 
 namespace fw::editor {
 
@@ -345,6 +346,15 @@ constexpr Command kCommands[] = {
     {"picture.line", "Picture", "Plot along a line", "Shift+K", picture, pictured,
      [](Editor& e) { useMeasure(e, Measure::line); }},
     {"picture.clear", "Picture", "Clear what is measured", "Escape", picture, canClearProbe, clearProbe},
+    {"picture.snap", "Picture", "Snap", "Shift+Tab", picture, pictured,
+     [](Editor& e) { e.viewport.gizmo.snap.on = !e.viewport.gizmo.snap.on; }},
+    {"picture.axes", "Picture", "Next axes: of the numbers, the world, the node's own", "X", picture, pictured,
+     [](Editor& e) { e.viewport.gizmo.axes = AxesOf((int(e.viewport.gizmo.axes) + 1) % 3); }},
+    {"picture.pivot", "Picture", "Next pivot: its own, the middle, the origin, a point", "", picture, pictured,
+     [](Editor& e) { e.viewport.gizmo.pivot = PivotAt((int(e.viewport.gizmo.pivot) + 1) % 4); }},
+    {"picture.marks", "Picture", "Lamps and camera", "", picture, pictured,
+     [](Editor& e) { e.viewport.gizmo.marks = !e.viewport.gizmo.marks; }},
+    {"picture.align_camera", "Picture", "Align scene camera to the view", "", picture, pictured, alignCamera},
     {"view.frame", "View", "Frame selection", "F", canvas, always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", canvas, always, [](Editor& e) { frame(e, true); }},
     {"view.costs", "View", "Costs on the nodes", "", everywhere, always, [](Editor& e) { e.canvas.costs = !e.canvas.costs; }},

@@ -10,6 +10,7 @@
 #include "editor/document/scene_edits.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "editor/viewport/marks.h"
 #include "graph/base/file_kind.h"
 
 namespace fw::editor {
@@ -111,11 +112,7 @@ void showCamera(Editor& editor, const Scene& scene) {
     if (!part(editor, "camera", "Camera", std::nullopt)) return;
     Viewport& viewport = editor.viewport;
     Document& document = editor.document;
-    if (ImGui::Button("From the viewport")) {
-        const Camera camera = viewport.ownCamera ? viewport.orbit.camera() : viewport.shown.seen;
-        set(editor, "Camera", setSceneCamera(document.graph(), camera));
-        viewport.ownCamera = false;
-    }
+    if (ImGui::Button("From the viewport")) alignCamera(editor);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Make what the viewport shows the scene's camera");
     ImGui::SameLine();
     ImGui::BeginDisabled(!viewport.ownCamera);

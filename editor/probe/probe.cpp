@@ -42,13 +42,13 @@ std::optional<ProbeWish> wishOf(const Editor& editor) {
     const bool on = editor.panels.probe;
     if (!editor.graph || !view.texture || (!on && probe.tool == Measure::nothing)) return std::nullopt;
     const ImGuiIO& io = ImGui::GetIO();
-    ProbeWish wish{.seen = seenIn(editor), .scope = editor.canvas.scope, .reads = on};
+    ProbeWish wish{.seen = seenNow(editor), .scope = editor.canvas.scope, .reads = on};
     wish.line = probe.line(), wish.plotted = probe.plotted;
     wish.hits = view.hovered && !view.drag.busy() && !view.gizmo.drag && !io.KeyCtrl && !io.MouseDown[0] &&
                 (!probe.pinned || probe.tool != Measure::nothing);
     if (!wish.hits || probe.pinned) wish.point = probe.point;
     if (wish.hits)
-        wish.place = mouseIn(view);
+        wish.place = inPicture(view, ImGui::GetIO().MousePos);
     else if (!wish.point && !wish.line)
         return std::nullopt;
     else  // how it is looked at has no part in it
@@ -57,8 +57,8 @@ std::optional<ProbeWish> wishOf(const Editor& editor) {
 }
 
 /// What a click asks, when it is its turn.
-Aside::Answer answerClick(ProbeWork& work, const Seen& seen, std::pair<double, double> place, Measure tool) {
-    const std::optional<Point> hit = work.picker.hit(seen, place.first, place.second);
+Aside::Answer answerClick(ProbeWork& work, const Seen& seen, glm::dvec2 place, Measure tool) {
+    const std::optional<Point> hit = work.picker.hit(seen, place.x, place.y);
     if (!hit) return nullptr;
     std::optional<WallAt> wall;
     if (tool == Measure::wall) wall = wallAt(*work.picker.field(seen), *hit, reachOf(seen));
@@ -93,7 +93,7 @@ std::set<std::pair<uint32_t, uint32_t>> colorsAmong(const Boxes& boxes) {
 
 ProbeAnswer ProbeWork::answer(const ProbeWish& wish) {
     ProbeAnswer answer;
-    if (wish.hits) answer.hit = picker.hit(wish.seen, wish.place.first, wish.place.second);
+    if (wish.hits) answer.hit = picker.hit(wish.seen, wish.place.x, wish.place.y);
     if (!wish.reads && !wish.line) return answer;
     answer.problem = fields.take(wish.seen, wish.scope);
     if (!answer.problem.empty()) return answer;
@@ -143,7 +143,8 @@ void followProbe(Editor& editor) {
 bool takeProbeClick(Editor& editor) {
     Probe& probe = editor.probe;
     if (probe.tool == Measure::nothing && !editor.panels.probe) return false;
-    probe.clicks.push_back([&work = probe.work, seen = seenIn(editor), place = mouseIn(editor.viewport),
+    probe.clicks.push_back([&work = probe.work, seen = seenNow(editor),
+                            place = inPicture(editor.viewport, ImGui::GetIO().MousePos),
                             tool = probe.tool] { return answerClick(work, seen, place, tool); });
     return probe.tool != Measure::nothing;
 }

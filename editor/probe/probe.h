@@ -37,12 +37,12 @@ enum class Measure : unsigned char { nothing, length, wall, line };
 struct ProbeWish {
     Seen seen;
     std::string scope;
-    bool reads = false;                         ///< the scope's wires are to be read
-    std::optional<Point> point = {};            ///< where; none: at what is hit
-    bool hits = false;                          ///< what is seen at `place` is wanted
-    std::pair<double, double> place{0.0, 0.0};  ///< in the picture, from -1 to 1
-    std::optional<Segment> line = {};           ///< to be plotted
-    std::string plotted = {};                   ///< the node whose field is
+    bool reads = false;                ///< the scope's wires are to be read
+    std::optional<Point> point = {};   ///< where; none: at what is hit
+    bool hits = false;                 ///< what is seen at `place` is wanted
+    glm::dvec2 place{0.0, 0.0};        ///< in the picture, from -1 to 1
+    std::optional<Segment> line = {};  ///< to be plotted
+    std::string plotted = {};          ///< the node whose field is
     bool operator==(const ProbeWish&) const = default;
 };
 

@@ -7,8 +7,6 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "graph/document/named_parameters.h"
-
 namespace fw::editor {
 
 namespace {
@@ -19,7 +17,6 @@ constexpr double kNear = 7.0;         // pixels from a handle to the mouse
 constexpr double kEdgeOn = 0.2;       // cosine between a ring's axis and the view
 constexpr double kAlongView = 0.985;  // cosine between an axis and the view, beyond which it is not drawn
 constexpr int kRingPoints = 64;
-constexpr double kMetreStep = 0.1, kDegreeStep = 15.0, kFactorStep = 0.1;
 constexpr double kLeastFactor = 1e-3;
 
 glm::dvec2 vec(ImVec2 p) { return {double(p.x), double(p.y)}; }
@@ -48,7 +45,8 @@ std::optional<glm::dvec3> onPlane(const Handle& handle, const glm::dvec3& normal
 
 /// How many of the axis' metres it is from the origin to what is nearest to the pixel's ray.
 std::optional<double> alongAxis(const Handle& handle, int axis, const Lens& lens, ImVec2 pixel) {
-    const glm::dvec3 a = handle.axes[axis], d = glm::normalize(lens.ray(pixel)), w = handle.origin - lens.eye;
+    const glm::dvec3 a = handle.axes[axis], d = glm::normalize(lens.ray(pixel)),
+                     w = handle.base(axis) - lens.eye;
     const double aa = glm::dot(a, a), ad = glm::dot(a, d), denominator = aa - ad * ad;
     if (denominator < 1e-6 * aa) return std::nullopt;
     return (ad * glm::dot(d, w) - glm::dot(a, w)) / denominator;
@@ -74,17 +72,55 @@ std::optional<double> aboutAxis(const Handle& handle, int axis, const Lens& lens
     return std::atan2(glm::dot(*hit - handle.origin, glm::cross(n, u)), glm::dot(*hit - handle.origin, u));
 }
 
+/// The angle of the arc at which the pixel is seen, radians; where the arc is seen edge-on, along its
+/// tangent.
+std::optional<double> onArc(const Handle& handle, const Lens& lens, ImVec2 pixel) {
+    const glm::dvec3 &u = handle.axes[0], &v = handle.axes[1];
+    const glm::dvec3 n = glm::normalize(glm::cross(u, v));
+    if (std::abs(glm::dot(n, viewOf(handle, lens))) < kEdgeOn) {
+        const double angle = glm::radians(handle.numbers[0]);
+        const glm::dvec3 tip = handle.tip(0, 0.0), tangent = v * std::cos(angle) - u * std::sin(angle);
+        const auto from = lens.project(tip), to = lens.project(tip + tangent);
+        if (!from || !to) return std::nullopt;
+        const glm::dvec2 across = vec(*to) - vec(*from);
+        if (glm::dot(across, across) < 1.0) return std::nullopt;
+        return angle + glm::dot(vec(pixel) - vec(*from), across) / glm::dot(across, across);
+    }
+    const auto hit = onPlane(handle, n, lens, pixel);
+    if (!hit) return std::nullopt;
+    const glm::dvec3 from = *hit - handle.origin;
+    return std::atan2(glm::dot(from, v) / glm::dot(v, v), glm::dot(from, u) / glm::dot(u, u));
+}
+
+glm::dvec3 directionOf(const Handle& handle) {
+    const glm::dvec3 given = handle.axes * vectorOf(handle.numbers);
+    return glm::length(given) > 0.0 ? glm::normalize(given) : glm::dvec3(0, 1, 0);
+}
+
+/// Where the pixel is seen on the ball that a direction's tip goes about on, in its radii.
+glm::dvec3 onBall(const Handle& handle, const Lens& lens, ImVec2 pixel, double scale) {
+    const glm::dvec3 ray = glm::normalize(lens.ray(pixel)), from = lens.eye - handle.origin;
+    const double radius = lengthOf(handle, lens, scale), middle = -glm::dot(from, ray);
+    const glm::dvec3 nearest = from + middle * ray;
+    const double inside = radius * radius - glm::dot(nearest, nearest);
+    if (inside <= 0.0) return glm::normalize(nearest);
+    const bool behind = glm::dot(directionOf(handle), viewOf(handle, lens)) > 0.0;
+    return (nearest + ray * (behind ? std::sqrt(inside) : -std::sqrt(inside))) / radius;
+}
+
 /// What the pixel means for a drag: metres along axes, radians, or the share of a factor.
 std::optional<glm::dvec3> meaning(const HandleDrag& drag, const Lens& lens, ImVec2 pixel) {
     const Handle& handle = drag.handle;
     glm::dvec3 result(0.0);
+    if (handle.kind == Kind::aim) return onBall(handle, lens, pixel, drag.scale);
     if (drag.axis == kAcrossView) {
         const auto hit = onPlane(handle, lens.forward, lens, pixel);
         if (!hit) return std::nullopt;
         return glm::inverse(handle.axes) * (*hit - handle.origin);
     }
-    const auto value = handle.kind == Kind::turn ? aboutAxis(handle, drag.axis, lens, pixel, drag.scale)
-                                                 : alongAxis(handle, drag.axis, lens, pixel);
+    const auto value = handle.kind == Kind::turn    ? aboutAxis(handle, drag.axis, lens, pixel, drag.scale)
+                       : handle.kind == Kind::angle ? onArc(handle, lens, pixel)
+                                                    : alongAxis(handle, drag.axis, lens, pixel);
     if (!value) return std::nullopt;
     result[drag.axis] = *value;
     if (handle.kind == Kind::scale)
@@ -92,9 +128,10 @@ std::optional<glm::dvec3> meaning(const HandleDrag& drag, const Lens& lens, ImVe
     return result;
 }
 
-/// To a multiple of a step that is whole or a whole part of 1, as the double that its decimals name.
+/// To a multiple of a step, as the double that its decimals name if the step is a whole part of 1.
 double rounded(double value, double step) {
-    if (step >= 1.0) return std::round(value / step) * step;
+    if (step >= 1.0 || std::abs(std::round(1.0 / step) * step - 1.0) > 1e-9)
+        return std::round(value / step) * step;
     const double parts = std::round(1.0 / step);
     return std::round(value * parts) / parts;
 }
@@ -108,8 +145,9 @@ double distance(ImVec2 p, ImVec2 a, ImVec2 b) {
 
 /// Pixels from the mouse to what is drawn of an axis.
 double distanceOf(const Handle& handle, int axis, const Lens& lens, ImVec2 mouse, double scale) {
+    const bool atTip = handle.kind == Kind::extent || handle.kind == Kind::angle || handle.kind == Kind::aim;
     const auto origin = lens.project(handle.origin);
-    if (!origin) return INFINITY;
+    if (!origin && !atTip) return INFINITY;
     if (axis == kAcrossView)
         return handle.kind == Kind::move ? distance(mouse, *origin, *origin) : double(INFINITY);
     if (!isSeen(handle, axis, lens)) return INFINITY;
@@ -123,7 +161,7 @@ double distanceOf(const Handle& handle, int axis, const Lens& lens, ImVec2 mouse
     const auto tip = lens.project(handle.tip(axis, lengthOf(handle, lens, scale)));
     if (!tip) return INFINITY;
     // The shaft of an extent would lie over other handles.
-    return handle.kind == Kind::extent ? distance(mouse, *tip, *tip) : distance(mouse, *origin, *tip);
+    return atTip ? distance(mouse, *tip, *tip) : distance(mouse, *origin, *tip);
 }
 
 }  // namespace
@@ -154,87 +192,17 @@ double Lens::metresPerPixel(const glm::dvec3& point) const {
 }
 
 glm::dvec3 Handle::tip(int axis, double length) const {
-    if (kind == Kind::extent) return origin + axes[axis] * numbers[std::size_t(axis)];
+    if (kind == Kind::extent) return base(axis) + axes[axis] * numbers[std::size_t(axis)];
+    if (kind == Kind::aim) return origin + directionOf(*this) * length;
+    if (kind == Kind::angle) {
+        const double angle = glm::radians(numbers[0]);
+        return origin + axes[0] * std::cos(angle) + axes[1] * std::sin(angle);
+    }
     return origin + glm::normalize(axes[axis]) * length;
 }
 
-namespace {
-
-/// Where the grip of this input begins, and where it ends, in the node's space.
-glm::dvec3 gripBase(const Node& node, const NodeType& type, const InputSpec& input);
-glm::dvec3 gripEnd(const Node& node, const NodeType& type, const InputSpec& input) {
-    const glm::dvec3 numbers = vectorOf(inputNumbers(node, input.name));
-    if (!input.grip) return numbers;  // a place
-    const auto& [x, y, z] = input.grip.along;
-    return gripBase(node, type, input) + numbers.x * glm::dvec3(x, y, z);
-}
-glm::dvec3 gripBase(const Node& node, const NodeType& type, const InputSpec& input) {
-    const std::string& from = input.grip.from;
-    const bool opposite = from.starts_with('-');
-    const int index = inputIndex(type, std::string_view(from).substr(opposite ? 1 : 0));
-    if (index < 0) return glm::dvec3(0.0);
-    const glm::dvec3 end = gripEnd(node, type, type.inputs[std::size_t(index)]);
-    return opposite ? -end : end;
-}
-
-}  // namespace
-
-std::vector<Handle> handlesOf(const Node& node, const Placement& placement,
-                              const std::set<std::string>& animated) {
-    const NodeType* type = findNodeType(node.type);
-    if (!type || type->outputs.empty() || type->outputs.front().type != Type::surface) return {};
-    // What stands about a node's place is turned and scaled there.
-    glm::dvec3 centre(0.0);
-    const bool moves = std::ranges::count(type->inputs, Type::surface, &InputSpec::type) == 1;
-    for (const InputSpec& input : type->inputs)
-        if (moves && isPlace(input)) centre = vectorOf(inputNumbers(node, input.name));
-    std::vector<Handle> handles;
-    for (const InputSpec& input : type->inputs) {
-        Handle handle{.node = node.id, .input = input.name, .numbers = inputNumbers(node, input.name)};
-        if (isPlace(input))
-            handle.kind = Kind::move;
-        else if (isAngles(input))
-            handle.kind = Kind::turn;
-        else if (isFactor(input))
-            handle.kind = Kind::scale;
-        else if (isExtent(input))
-            handle.kind = Kind::extent;
-        else if (input.grip)
-            handle.kind = Kind::extent, handle.count = 1, handle.least = input.min;
-        else
-            continue;
-        const InputValue* given = node.input(input.name);
-        const Link* link = given ? std::get_if<Link>(&given->value) : nullptr;
-        if (link)
-            handle.numbers = input.value.numbers, handle.refusal = "It is wired: " + link->node + " sets it.";
-        if (node.muted) handle.refusal = "The node is muted.";
-        if (animated.contains(node.id + "." + input.name))
-            handle.refusal = "The timeline moves it: change its keys.";
-        if (input.type == Type::vec3 && handle.numbers.size() == 1)
-            handle.numbers.resize(3, handle.numbers[0]);
-        const glm::dvec3 numbers = vectorOf(handle.numbers);
-        handle.origin = placement.of(handle.kind == Kind::move     ? numbers
-                                     : handle.kind == Kind::extent ? glm::dvec3(0.0)
-                                                                   : centre);
-        handle.axes = placement.linear;
-        if (input.grip) {
-            const auto& [x, y, z] = input.grip.along;
-            handle.origin = placement.of(gripBase(node, *type, input));
-            handle.axes[0] = placement.linear * glm::dvec3(x, y, z);
-        }
-        if (handle.kind == Kind::turn) {
-            // Turns about x come first: what follows turns their axis too.
-            const glm::dmat3 axes(turned({0, numbers.y, numbers.z})[0], turned({0, 0, numbers.z})[1],
-                                  glm::dvec3(0, 0, 1));
-            for (int i = 0; i < 3; ++i) handle.axes[i] = glm::normalize(placement.linear * axes[i]);
-        }
-        handles.push_back(std::move(handle));
-    }
-    return handles;
-}
-
 bool isSeen(const Handle& handle, int axis, const Lens& lens) {
-    if (handle.kind == Kind::turn) return true;
+    if (handle.kind == Kind::turn || handle.kind == Kind::angle || handle.kind == Kind::aim) return true;
     return std::abs(glm::dot(glm::normalize(handle.axes[axis]), viewOf(handle, lens))) < kAlongView;
 }
 
@@ -276,11 +244,43 @@ HandleDrag takeHandle(const Handle& handle, int axis, const Lens& lens, ImVec2 m
     return drag;
 }
 
-std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, bool fine, bool snapped) {
+namespace {
+
+/// The direction as the node's numbers, of unit length; in steps of so many degrees, if any, from the
+/// horizon and about the vertical.
+std::vector<double> aimed(const Handle& handle, const glm::dvec3& seen, double step) {
+    glm::dvec3 d = glm::inverse(handle.axes) * seen;
+    if (glm::length(d) < 1e-9) return handle.numbers;
+    d = glm::normalize(d);
+    if (step > 0.0) {
+        const double rise = glm::radians(rounded(glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0))), step)),
+                     about = glm::radians(rounded(glm::degrees(std::atan2(d.x, d.z)), step));
+        d = {std::sin(about) * std::cos(rise), std::sin(rise), std::cos(about) * std::cos(rise)};
+    }
+    std::vector<double> numbers;
+    for (int i = 0; i < 3; ++i) numbers.push_back(rounded(d[i], 0.001) + 0.0);  // no -0
+    return numbers;
+}
+
+}  // namespace
+
+std::vector<ImVec2> arcOf(const Handle& handle, const Lens& lens) {
+    std::vector<ImVec2> points;
+    const double last = glm::radians(handle.numbers[0]);
+    for (int i = 0; i <= kRingPoints; ++i) {
+        const double angle = last * i / kRingPoints;
+        if (const auto point = lens.project(handle.origin + handle.axes[0] * std::cos(angle) +
+                                            handle.axes[1] * std::sin(angle)))
+            points.push_back(*point);
+    }
+    return points;
+}
+
+std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, bool fine, const Steps& steps) {
     const Handle& handle = drag.handle;
     if (const auto now = meaning(drag, lens, mouse)) {
         glm::dvec3 by = *now - drag.last;
-        if (handle.kind == Kind::turn)
+        if (handle.kind == Kind::turn || handle.kind == Kind::angle)
             for (int i = 0; i < 3; ++i) by[i] = std::remainder(by[i], 2.0 * glm::pi<double>());
         drag.travelled += by * (fine ? 0.1 : 1.0);
         drag.last = *now;
@@ -288,6 +288,11 @@ std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, boo
     const double pixel = lens.metresPerPixel(handle.origin) * (fine ? 0.1 : 1.0);
     // To what a person would write: as many digits as the hand can tell apart.
     const auto grain = [&](double worth) { return std::pow(10.0, std::floor(std::log10(worth))); };
+    if (handle.kind == Kind::aim)
+        return aimed(handle, directionOf(handle) + drag.travelled, steps.on ? steps.degrees : 0.0);
+    const bool snapped = steps.on && !drag.target;
+    if (drag.target && handle.kind == Kind::move)
+        drag.travelled = glm::inverse(handle.axes) * (*drag.target - handle.origin);
     std::vector<double> numbers = handle.numbers;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const bool one = numbers.size() == 1;
@@ -298,17 +303,23 @@ std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, boo
             case Kind::move:
             case Kind::extent:
                 number = rounded(number + by,
-                                 snapped ? kMetreStep : grain(pixel / glm::length(handle.axes[int(i)])));
-                if (handle.kind == Kind::extent) number = std::max(number, handle.least);
+                                 snapped ? steps.metres : grain(pixel / glm::length(handle.axes[int(i)])));
+                if (handle.kind == Kind::extent)
+                    number = std::max(std::min(number, handle.most[int(i)]), handle.least[int(i)]);
                 break;
+            case Kind::angle:
+                number = rounded(number + glm::degrees(by), snapped ? steps.degrees : fine ? 0.01 : 0.1);
+                number = std::max(std::min(number, handle.most.x), handle.least.x);
+                break;
+            case Kind::aim: break;
             case Kind::turn:
-                number = rounded(number + glm::degrees(by), snapped ? kDegreeStep : fine ? 0.01 : 0.1);
+                number = rounded(number + glm::degrees(by), snapped ? steps.degrees : fine ? 0.01 : 0.1);
                 break;
             case Kind::scale:
-                number = rounded(number * std::max(1.0 + by, kLeastFactor), snapped ? kFactorStep
+                number = rounded(number * std::max(1.0 + by, kLeastFactor), snapped ? steps.factor
                                                                             : fine  ? 0.001
                                                                                     : 0.01);
-                number = std::max(number, snapped ? kFactorStep : kLeastFactor);
+                number = std::max(number, snapped ? steps.factor : kLeastFactor);
                 break;
         }
         if (number == 0.0) number = 0.0;  // no -0

@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include <glm/vec2.hpp>
+#include <limits>
 #include <optional>
 
 #include "editor/canvas/view.h"
@@ -35,18 +36,32 @@ struct Lens {
 };
 
 struct Handle {
-    enum class Kind : unsigned char { move, turn, scale, extent } kind = Kind::move;
-    std::string node, input;
-    std::vector<double> numbers;  ///< one or three
+    /// `angle` is one number, on an arc; `aim` a direction, held at its tip.
+    enum class Kind : unsigned char { move, turn, scale, extent, angle, aim } kind = Kind::move;
+    std::string node, input;      ///< no node: it has a meaning of its own, or is of one that is added
+    std::vector<double> numbers;  ///< one, two or three
     int count = 3;                ///< of axes that it has: of a length with a grip the one that it lies along
-    double least = 0.0;           ///< of an extent
-    glm::dvec3 origin{0.0};       ///< in the picture
-    /// Of a metre along x, y and z of the node's space; of turns the axes, of unit length.
+    glm::dvec3 least{-std::numeric_limits<double>::infinity()};  ///< of extents and an angle
+    glm::dvec3 most{std::numeric_limits<double>::infinity()};
+    bool placing = false;    ///< an extent that says where something is, not how large
+    glm::dvec3 origin{0.0};  ///< in the picture
+    /// Of a metre along x, y and z of the node's space; of turns the axes, of unit length; of an angle from
+    /// its origin to where it is 0 and 90 degrees.
     glm::dmat3 axes{1.0};
+    glm::dmat3 bases{0.0};     ///< from the origin to where each axis of an extent begins
     std::string refusal = {};  ///< why it cannot be dragged; empty: it can
+    std::string scene = {};    ///< a value of the scene in place of a node's: its path
 
     /// Where the box of an extent or a factor stands, or the tip of an arrow; `length` in metres.
     glm::dvec3 tip(int axis, double length) const;
+    glm::dvec3 base(int axis) const { return origin + bases[axis]; }
+};
+
+/// What a drag goes in steps of.
+struct Steps {
+    Steps(bool on_ = false) : on(on_) {}  // NOLINT: whether there are any says most of it
+    bool on;
+    double metres = 0.1, degrees = 15.0, factor = 0.1;
 };
 
 /// What can be dragged of the node. `animated` are the inputs that the timeline moves, as "node.input".
@@ -76,10 +91,12 @@ struct HandleDrag {
     Hand hand = Hand::none;
     glm::dvec3 last{0.0};
     glm::dvec3 travelled{0.0};
+    std::optional<glm::dvec3> target = {};  ///< in the picture: what is moved goes there instead
 };
 HandleDrag takeHandle(const Handle& handle, int axis, const Lens& lens, ImVec2 mouse, double scale);
-/// The mouse went on to there: the input's numbers now. `fine` counts a tenth; `snapped` goes in steps of
-/// 0.1 m, 15 degrees, 0.1 times.
-std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, bool fine, bool snapped);
+/// The mouse went on to there: the input's numbers now. `fine` counts a tenth.
+std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, bool fine, const Steps& steps);
+/// The points of an angle's arc, from where it is 0 to what it is.
+std::vector<ImVec2> arcOf(const Handle& handle, const Lens& lens);
 
 }  // namespace fw::editor

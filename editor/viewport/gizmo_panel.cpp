@@ -1,8 +1,11 @@
 // The gizmo over the picture: what the mouse does with its handles, and how they look.
 #include <algorithm>
+#include <cmath>
 
 #include "editor/editor.h"
+#include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "editor/viewport/marks.h"
 #include "graph/document/input_value.h"
 
 namespace fw::editor {
@@ -18,11 +21,35 @@ constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
 void followDocument(Editor& editor, Gizmo& gizmo) {
     const Viewport& view = editor.viewport;
-    const Gizmo::Made made{editor.drawn, editor.canvas.scope, editor.canvas.active,
-                           view.pinned,  view.seconds,        gizmo.tool};
-    if (made == gizmo.made) return;
+    const auto& [scope, selection, active] =
+        std::tie(editor.canvas.scope, editor.canvas.selection, editor.canvas.active);
+    // Another node is chosen, or the marks are gone: no part of the scene is held any more.
+    if (active != gizmo.made.node || selection != gizmo.made.selection || !marksAreShown(editor))
+        gizmo.part.clear();
+    const Gizmo::Made made{editor.drawn, scope,      active,      view.pinned, view.seconds, gizmo.tool,
+                           selection,    gizmo.axes, gizmo.pivot, gizmo.point, gizmo.part};
+    // What moves several stays as it was taken.
+    if (made == gizmo.made || (gizmo.drag && gizmo.start)) return;
     gizmo.made = made;
+    gizmo.placings.clear();
+    if (!gizmo.part.empty()) {
+        std::set<std::string> animated;
+        if (const Timeline* timeline = timelineOf(editor))
+            for (const Track& track : timeline->tracks)
+                if (track.target == Track::Target::scene) animated.insert(track.name);
+        gizmo.grips = {};
+        gizmo.grips.tools = {Tool::move};
+        gizmo.grips.handles = handlesOf(sceneNow(editor), gizmo.part, view.shown.region, animated);
+        return;
+    }
     gizmo.grips = gripsOf(*editor.graph, made.scope, made.node, made.pinned, made.seconds, made.tool);
+    const bool alone = selection.size() < 2 && gizmo.pivot == PivotAt::own;
+    if (alone && (gizmo.axes == AxesOf::numbers || gizmo.tool == Tool::scale)) return;
+    gizmo.placings = placingsOf(*editor.graph, scope, selection, made.pinned, made.seconds, made.tool);
+    if (gizmo.placings.empty()) return;
+    gizmo.grips.handles = {
+        handleTogether(gizmo.placings, active, made.tool, gizmo.axes, gizmo.pivot, gizmo.point)};
+    gizmo.grips.tools = {Tool::move, Tool::turn, Tool::scale};
 }
 
 std::string nameOf(const Editor& editor, const std::string& id) {
@@ -32,7 +59,22 @@ std::string nameOf(const Editor& editor, const std::string& id) {
 
 /// "Move Head", of the node that is selected.
 std::string doing(const Editor& editor, const Handle& handle) {
-    const char* verb = handle.kind == Kind::move ? "Move " : handle.kind == Kind::turn ? "Rotate " : "Scale ";
+    if (!handle.scene.empty()) {
+        for (const Mark& mark : marksOf(sceneNow(editor), editor.viewport.shown.region))
+            if (handle.scene.starts_with(mark.part))
+                return (handle.kind == Handle::Kind::aim                                  ? "Aim "
+                        : handle.kind == Handle::Kind::move && handle.input == "position" ? "Move "
+                        : handle.kind == Handle::Kind::move                               ? "Aim "
+                                                                                          : "Resize ") +
+                       mark.name;
+        return "Set Scene";
+    }
+    const char* verb = handle.kind == Kind::move                               ? "Move "
+                       : handle.kind == Kind::turn || handle.kind == Kind::aim ? "Rotate "
+                       : handle.placing                                        ? "Move "
+                                                                               : "Scale ";
+    const std::size_t count = editor.viewport.gizmo.placings.size();
+    if (count > 1) return verb + std::to_string(count) + " Nodes";
     return verb + nameOf(editor, editor.canvas.active);
 }
 
@@ -40,7 +82,11 @@ void tell(const Editor& editor, const Gizmo& gizmo, const HandleHit& hit) {
     const Handle& handle = gizmo.grips.handles[hit.handle];
     std::string words = doing(editor, handle);
     if (hit.axis != kAcrossView && handle.count == 3) words += std::string(" · ") + kAxisNames[hit.axis];
-    if (handle.node.empty())
+    if (!handle.scene.empty())
+        words += handle.input.empty() ? "" : "\n" + readable(handle.input);
+    else if (!gizmo.placings.empty())
+        words += gizmo.pivot == PivotAt::own ? "\nEach about its own place" : "";
+    else if (handle.node.empty())
         words += "\nAdds a node: " + typeFor(gizmo.tool).label;
     else
         words += "\n" + readable(handle.input) +
@@ -48,6 +94,87 @@ void tell(const Editor& editor, const Gizmo& gizmo, const HandleHit& hit) {
     if (!handle.refusal.empty()) words += "\n" + handle.refusal;
     if (!gizmo.grips.why.empty()) words += "\nIt is drawn " + gizmo.grips.why + ".";
     ImGui::SetTooltip("%s", words.c_str());
+}
+
+bool snaps(const Gizmo& gizmo) { return gizmo.snap.on != ImGui::GetIO().KeyCtrl; }
+
+/// What a drag goes in steps of: while the magnet is on, or off and Ctrl is held.
+Steps stepsNow(const Gizmo& gizmo, const Lens& lens, const Handle& handle) {
+    Steps steps = snaps(gizmo);
+    constexpr double kGridPixels = 8.0;
+    steps.metres =
+        gizmo.snap.byZoom
+            ? std::pow(10.0, std::ceil(std::log10(kGridPixels * lens.metresPerPixel(handle.origin))))
+            : gizmo.snap.metres;
+    steps.degrees = gizmo.snap.degrees;
+    return steps;
+}
+
+/// The nodes that what is dragged moves.
+std::set<std::string> draggedNodes(const Gizmo& gizmo) {
+    std::set<std::string> nodes;
+    for (const Placing& placing : gizmo.placings) nodes.insert(placing.node);
+    if (!gizmo.drag->handle.node.empty()) nodes.insert(gizmo.drag->handle.node);
+    return nodes;
+}
+
+/// What is seen without what is dragged: nothing is fed by it.
+std::shared_ptr<const Graph> withoutNodes(const Graph& graph, const std::string& scope,
+                                          const std::set<std::string>& nodes) {
+    Graph rest = graph;
+    for (const Node& node : nodesOf(graph, scope))
+        for (const auto& [name, value] : node.inputs)
+            if (const Link* link = std::get_if<Link>(&value.value); link && nodes.contains(link->node))
+                rest = disconnect(rest, scope, {node.id, name});
+    return std::make_shared<const Graph>(std::move(rest));
+}
+
+/// The place that what is moved goes to: on the surface under the mouse, or the nearest of the features.
+void aimAtPlace(Editor& editor, Gizmo& gizmo, const Lens& lens) {
+    HandleDrag& drag = *gizmo.drag;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (drag.handle.kind != Kind::move || !snaps(gizmo) || gizmo.snap.to == Snap::To::grid) {
+        drag.target.reset();
+        return;
+    }
+    if (gizmo.snap.to == Snap::To::points) {
+        constexpr float kReach = 18.0f;  // pixels, times the scale
+        if (gizmo.features.empty())
+            gizmo.features = featuresOf(editor.document.graph(), editor.canvas.scope, draggedNodes(gizmo),
+                                        editor.viewport.pinned, editor.viewport.seconds);
+        float least = kReach * editor.shell.scale();
+        drag.target.reset();
+        for (const glm::dvec3& feature : gizmo.features)
+            if (const auto at = lens.project(feature)) {
+                const float away = std::hypot(at->x - mouse.x, at->y - mouse.y);
+                if (away < least) least = away, drag.target = feature;
+            }
+        return;
+    }
+    if (!gizmo.surroundings)
+        gizmo.surroundings = withoutNodes(editor.document.graph(), editor.canvas.scope, draggedNodes(gizmo));
+    else if (mouse.x == gizmo.askedAt.x && mouse.y == gizmo.askedAt.y)
+        return;
+    gizmo.askedAt = mouse;
+    Viewport& view = editor.viewport;
+    Seen seen = seenNow(editor, gizmo.surroundings);
+    seen.revision = 0;  // of the surroundings, which stay as they are
+    const glm::dvec2 at = inPicture(view, mouse);
+    view.aside.ask([&picker = view.picker, seen = std::move(seen), at, hand = drag.hand,
+                    number = ++gizmo.asked]() -> Aside::Answer {
+        std::optional<glm::dvec3> place;
+        try {
+            if (const auto hit = picker.hit(seen, at.x, at.y))
+                place = glm::dvec3((*hit)[0], (*hit)[1], (*hit)[2]);
+        } catch (const std::exception&) {  // then it moves as without
+        }
+        return [place, hand, number](Editor& to) {
+            Gizmo& taken = to.viewport.gizmo;
+            if (!taken.drag || taken.drag->hand != hand) return;
+            taken.answered = number;
+            if (place) taken.drag->target = place;
+        };
+    });
 }
 
 void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
@@ -58,14 +185,23 @@ void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
         gizmo.drag.reset();
         return;
     }
-    std::vector<double> numbers = dragTo(drag, lens, io.MousePos, io.KeyShift, io.KeyCtrl);
+    aimAtPlace(editor, gizmo, lens);
+    std::vector<double> numbers =
+        dragTo(drag, lens, io.MousePos, io.KeyShift, stepsNow(gizmo, lens, drag.handle));
     if (numbers != gizmo.numbers) {
         gizmo.numbers = numbers;
-        editor.document.update(drag.hand,
-                               setInput(editor.document.graph(), editor.canvas.scope,
-                                        {drag.handle.node, drag.handle.input}, numbersValue(numbers)));
+        if (!drag.handle.scene.empty())
+            editor.document.update(drag.hand,
+                                   withSceneNumbers(editor.document.graph(), drag.handle, numbers));
+        else if (gizmo.start)
+            editor.document.update(drag.hand, moved(*gizmo.start, editor.canvas.scope, gizmo.placings,
+                                                    motionOf(drag.handle, drag.axis, numbers, gizmo.pivot)));
+        else
+            editor.document.update(drag.hand,
+                                   setInput(editor.document.graph(), editor.canvas.scope,
+                                            {drag.handle.node, drag.handle.input}, numbersValue(numbers)));
     }
-    if (ImGui::IsMouseDown(0)) return;
+    if (ImGui::IsMouseDown(0) || gizmo.asked != gizmo.answered) return;
     if (gizmo.numbers == drag.handle.numbers)
         editor.document.cancel(drag.hand);
     else
@@ -75,7 +211,17 @@ void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
 
 void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
     drag.hand = editor.document.begin(doing(editor, drag.handle));
-    if (drag.handle.node.empty()) {
+    gizmo.start.reset();
+    gizmo.surroundings.reset();
+    gizmo.features.clear();
+    gizmo.asked = gizmo.answered = 0;
+    if (!drag.handle.scene.empty()) {
+        // Its numbers are the scene's: nothing is added.
+    } else if (!gizmo.placings.empty()) {
+        gizmo.start = withPlacings(editor.document.graph(), editor.canvas.scope, gizmo.placings);
+        if (!gizmo.start) return editor.document.cancel(drag.hand);  // the document is full
+        editor.document.update(drag.hand, *gizmo.start);
+    } else if (drag.handle.node.empty()) {
         const NodeBox *from = editor.boxes->find(editor.canvas.active),
                       *to = editor.boxes->find(gizmo.grips.ahead->node);
         // Above the wire: there it hides neither of the two.
@@ -124,11 +270,16 @@ struct Brush {
             return;
         }
         if (!isSeen(handle, axis, lens)) return;
-        const auto from = lens.project(handle.origin),
+        if (handle.kind == Kind::angle) {
+            const std::vector<ImVec2> arc = arcOf(handle, lens);
+            list->AddPolyline(arc.data(), int(arc.size()), kShadow, 0, thick + 2.0f * scale);
+            list->AddPolyline(arc.data(), int(arc.size()), color, 0, thick);
+        }
+        const auto from = lens.project(handle.base(axis)),
                    to = lens.project(
                        handle.tip(axis, kHandlePixels * double(scale) * lens.metresPerPixel(handle.origin)));
         if (!from || !to) return;
-        if (handle.kind == Kind::move) return arrow(*from, *to, color, thick);
+        if (handle.kind == Kind::move || handle.kind == Kind::aim) return arrow(*from, *to, color, thick);
         line(*from, *to, color, thick);
         box(*to, color);
     }
@@ -141,7 +292,8 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
     const Brush brush{list, lens, editor.shell.scale()};
     for (std::size_t i = 0; i < gizmo.grips.handles.size(); ++i) {
         const Handle& handle = gizmo.grips.handles[i];
-        const bool dragged = gizmo.drag && gizmo.drag->handle.input == handle.input;
+        const bool dragged = gizmo.drag && gizmo.drag->handle.input == handle.input &&
+                             gizmo.drag->handle.scene == handle.scene;
         const auto lit = [&](int axis) {
             return gizmo.drag ? dragged && gizmo.drag->axis == axis : gizmo.hovered == HandleHit{i, axis};
         };
@@ -161,12 +313,62 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
     list->PopClipRect();
 }
 
+/// What the magnet draws to, the axes, the pivot, and what else is seen.
+void showOptions(Editor& editor, Gizmo& gizmo) {
+    const float scale = editor.shell.scale();
+    Snap& snap = gizmo.snap;
+    const auto either = [](const char* label, auto& value, auto choice) {
+        if (ImGui::RadioButton(label, value == choice)) value = choice;
+    };
+    const auto number = [&](const char* label, double& value, double least, const char* format) {
+        ImGui::SetNextItemWidth(80 * scale);
+        double typed = value;
+        if (ImGui::InputDouble(label, &typed, 0.0, 0.0, format) && typed >= least) value = typed;
+    };
+    ImGui::TextDisabled("Snap to");
+    either("Grid", snap.to, Snap::To::grid);
+    ImGui::SameLine();
+    either("Surface", snap.to, Snap::To::surface);
+    ImGui::SameLine();
+    either("Centres and ends", snap.to, Snap::To::points);
+    ImGui::Checkbox("Grid as seen", &snap.byZoom);
+    if (!snap.byZoom) {
+        ImGui::SameLine();
+        number("m##grid", snap.metres, 1e-4, "%.4g");
+    }
+    for (const double degrees : {5.0, 15.0, 45.0}) {
+        either((std::to_string(int(degrees)) + "°").c_str(), snap.degrees, degrees);
+        ImGui::SameLine();
+    }
+    number("°##angle", snap.degrees, 0.01, "%.4g");
+    ImGui::Separator();
+    ImGui::TextDisabled("Axes");
+    either("Of its numbers", gizmo.axes, AxesOf::numbers);
+    ImGui::SameLine();
+    either("World", gizmo.axes, AxesOf::world);
+    ImGui::SameLine();
+    either("Its own", gizmo.axes, AxesOf::own);
+    ImGui::TextDisabled("Pivot");
+    either("Each its own", gizmo.pivot, PivotAt::own);
+    ImGui::SameLine();
+    either("Middle", gizmo.pivot, PivotAt::selection);
+    ImGui::SameLine();
+    either("Origin", gizmo.pivot, PivotAt::world);
+    either("Point", gizmo.pivot, PivotAt::point);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(200 * scale);
+    if (ImGui::InputScalarN("##point", ImGuiDataType_Double, &gizmo.point.x, 3, nullptr, nullptr, "%.4g"))
+        gizmo.pivot = PivotAt::point;
+    ImGui::Separator();
+    ImGui::Checkbox("Lamps and camera", &gizmo.marks);
+}
+
 /// Small buttons at the picture's left edge; whether the mouse is on one.
 void showTools(Editor& editor, Gizmo& gizmo) {
     constexpr std::pair<Tool, const char*> kTools[] = {
         {Tool::move, "Move"}, {Tool::turn, "Rotate"}, {Tool::scale, "Scale"}};
     const float scale = editor.shell.scale(), high = ImGui::GetTextLineHeightWithSpacing() + 2 * scale;
-    ImVec2 at(editor.viewport.place.lo.x + 8 * scale, editor.viewport.place.hi.y - 3 * high - 6 * scale);
+    ImVec2 at(editor.viewport.place.lo.x + 8 * scale, editor.viewport.place.hi.y - 5 * high - 6 * scale);
     for (const auto& [tool, name] : kTools) {
         ImGui::SetCursorScreenPos(at);
         const bool chosen = tool == gizmo.tool;
@@ -178,12 +380,33 @@ void showTools(Editor& editor, Gizmo& gizmo) {
         ImGui::EndDisabled();
         at.y += high;
     }
+    const ImVec2 size(60 * scale, high - 2 * scale);
+    ImGui::SetCursorScreenPos(at);
+    ImGui::PushStyleColor(ImGuiCol_Button,
+                          ImGui::GetStyleColorVec4(gizmo.snap.on ? ImGuiCol_ButtonActive : ImGuiCol_Button));
+    if (ImGui::Button("Snap", size)) gizmo.snap.on = !gizmo.snap.on;
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Drags go in steps, or to a place; Ctrl does the opposite");
+    ImGui::SetCursorScreenPos({at.x, at.y + high});
+    if (ImGui::Button("Options", size)) ImGui::OpenPopup("##gizmo");
+    if (ImGui::BeginPopup("##gizmo")) {
+        showOptions(editor, gizmo);
+        ImGui::EndPopup();
+    }
 }
 
 }  // namespace
 
 std::set<std::string> Gizmo::held(const std::string& scope) const {
-    if (!drag) return {};
+    if (!drag || !drag->handle.scene.empty()) return {};
+    if (start) {
+        std::set<std::string> inputs;
+        for (const Placing& placing : placings)
+            for (const std::string* input : {&placing.place, &placing.angles, &placing.factor})
+                if (!input->empty())
+                    inputs.insert((scope.empty() ? "" : scope + "/") + placing.node + "." + *input);
+        return inputs;
+    }
     return {(scope.empty() ? "" : scope + "/") + drag->handle.node + "." + drag->handle.input};
 }
 
@@ -202,7 +425,7 @@ bool followGizmo(Editor& editor) {
     if (!view.hovered || view.drag.busy()) return false;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     gizmo.hovered = handleAt(gizmo.grips.handles, lens, mouse, scale);
-    if (!gizmo.hovered) return false;
+    if (!gizmo.hovered) return followMarks(editor);
     tell(editor, gizmo, *gizmo.hovered);
     if (!ImGui::IsMouseClicked(0)) return false;
     const Handle& handle = gizmo.grips.handles[gizmo.hovered->handle];
@@ -213,9 +436,10 @@ bool followGizmo(Editor& editor) {
 
 void showGizmo(Editor& editor) {
     Viewport& view = editor.viewport;
-    if (!view.texture || view.gizmo.grips.tools.empty()) return;
+    if (!view.texture) return;
+    showMarks(editor);
     draw(editor, view.gizmo, Lens(view.shown.seen, view.place));
-    showTools(editor, view.gizmo);
+    if (!view.gizmo.grips.tools.empty() || marksAreShown(editor)) showTools(editor, view.gizmo);
 }
 
 }  // namespace fw::editor

@@ -10,11 +10,25 @@ namespace {
 
 using Kind = Handle::Kind;
 
-Tool toolOf(Kind kind) {
-    return kind == Kind::move ? Tool::move : kind == Kind::turn ? Tool::turn : Tool::scale;
+Tool toolOf(const Handle& handle) {
+    switch (handle.kind) {
+        case Kind::move: return Tool::move;
+        case Kind::turn:
+        case Kind::aim: return Tool::turn;
+        case Kind::extent: return handle.placing ? Tool::move : Tool::scale;
+        case Kind::scale:
+        case Kind::angle: break;
+    }
+    return Tool::scale;
 }
 
-/// The input that the wire from `node` leads to in `next`, if it carries a surface.
+Type madeBy(const Node& node) {
+    const NodeType* type = findNodeType(node.type);
+    return type && !type->outputs.empty() ? type->outputs.front().type : Type::surface;
+}
+
+}  // namespace
+
 std::optional<Plug> wireAhead(const std::vector<Node>& nodes, const std::string& node,
                               const std::string& next) {
     const NodeType *from = findNodeType(findNode(nodes, node)->type),
@@ -30,27 +44,27 @@ std::optional<Plug> wireAhead(const std::vector<Node>& nodes, const std::string&
     return std::nullopt;
 }
 
-/// Whether what comes before the node goes on as one, at a place that is known.
 bool passesAlone(const Node& node) {
     const NodeType* type = findNodeType(node.type);
     if (!type || type->role == NodeRole::reroute) return type != nullptr;
     return std::ranges::count(type->inputs, Type::surface, &InputSpec::type) == 1 && placementBy(node);
 }
 
-}  // namespace
+Moment::Moment(const Graph& graph, const std::string& scope, double seconds) : still(&graph) {
+    const Result<Timeline> timeline = readTimeline(graph);
+    if (!timeline || timeline->tracks.empty()) return;
+    if (scope.empty()) animated = animatedInputs(graph, *timeline);
+    moved = atTime(graph, *timeline, timelineTime(*timeline, seconds));
+}
 
 Grips gripsOf(const Graph& graph, const std::string& scope, const std::string& node,
               const std::string& pinned, double seconds, Tool tool) {
     Grips grips;
     const auto way = wayToShown(graph, scope, node, pinned);
     if (!way) return grips;
-    std::optional<Graph> moved;
-    std::set<std::string> animated;
-    if (const Result<Timeline> timeline = readTimeline(graph); timeline && !timeline->tracks.empty()) {
-        if (scope.empty()) animated = animatedInputs(graph, *timeline);
-        moved = atTime(graph, *timeline, timelineTime(*timeline, seconds));
-    }
-    const Graph& now = moved ? *moved : graph;
+    const Moment moment(graph, scope, seconds);
+    const Graph& now = moment.graph();
+    const std::set<std::string>& animated = moment.animated;
     const std::vector<Node>& nodes = nodesOf(now, scope);
     const Placement outside = placementOf(now, scope, pinned);
     const auto placed = [&](std::span<const std::string> part) {
@@ -64,9 +78,11 @@ Grips gripsOf(const Graph& graph, const std::string& scope, const std::string& n
         if (i > 0 && !passesAlone(each)) break;
         const Placement placement = placed(std::span(all).subspan(i + 1));
         for (Handle& handle : handlesOf(each, placement, animated)) {
-            grips.tools.insert(toolOf(handle.kind));
+            // What moves particles does not move a surface that they meet.
+            if (i > 0 && madeBy(each) != Type::surface) continue;
+            grips.tools.insert(toolOf(handle));
             // The first node that has some for the tool has them all.
-            if (toolOf(handle.kind) != tool || (!grips.handles.empty() && grips.handles[0].node != each.id))
+            if (toolOf(handle) != tool || (!grips.handles.empty() && grips.handles[0].node != each.id))
                 continue;
             grips.handles.push_back(std::move(handle));
             grips.why = placement.why;

@@ -11,7 +11,7 @@
 
 namespace fw::editor {
 
-/// What dragging does; `scale` is for lengths too.
+/// What dragging does; `scale` is for lengths, boxes and the angles of a shape too.
 enum class Tool : unsigned char { move, turn, scale };
 
 struct Grips {
@@ -25,6 +25,22 @@ struct Grips {
 /// `pinned` (empty: of the output).
 Grips gripsOf(const Graph& graph, const std::string& scope, const std::string& node,
               const std::string& pinned, double seconds, Tool tool);
+
+/// A graph as it is when some seconds of the timeline have passed. The graph must outlive it.
+struct Moment {
+    Moment(const Graph& graph, const std::string& scope, double seconds);
+    const Graph& graph() const { return moved ? *moved : *still; }
+
+    std::set<std::string> animated;  ///< inputs of the scope that the timeline moves, as "node.input"
+    const Graph* still;
+    std::optional<Graph> moved = {};
+};
+
+/// Whether what comes before the node goes on as one, at a place that is known.
+bool passesAlone(const Node& node);
+/// The input that the wire from `node` leads to in `next`, if it carries a surface.
+std::optional<Plug> wireAhead(const std::vector<Node>& nodes, const std::string& node,
+                              const std::string& next);
 
 /// The node type that does what the tool does and nothing else; scaling is the same along all axes.
 const NodeType& typeFor(Tool tool);

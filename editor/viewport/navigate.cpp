@@ -92,6 +92,7 @@ void Viewport::forget(Shell& shell) {
     playing = false;
     drag = {};
     gizmo.hovered.reset(), gizmo.drag.reset();
+    gizmo.part.clear();
     aside.forget();
     ++document;
 }

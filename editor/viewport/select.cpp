@@ -68,9 +68,9 @@ void frameSolid(Editor& editor) {
     });
 }
 
-Seen seenIn(const Editor& editor) {
+Seen seenNow(const Editor& editor, std::shared_ptr<const Graph> graph) {
     const Viewport& viewport = editor.viewport;
-    return {.graph = editor.graph,
+    return {.graph = graph ? std::move(graph) : editor.graph,
             .revision = editor.document.revision(),
             .pinned = viewport.pinned,
             .seconds = viewport.seconds,
@@ -80,17 +80,17 @@ Seen seenIn(const Editor& editor) {
             .particles = viewport.shown.particles};
 }
 
-std::pair<double, double> mouseIn(const Viewport& viewport) {
-    const ImVec2 mouse = ImGui::GetIO().MousePos, middle = viewport.place.centre();
-    return {double((mouse.x - middle.x) / (0.5f * viewport.place.width())),
-            double((middle.y - mouse.y) / (0.5f * viewport.place.height()))};
+glm::dvec2 inPicture(const Viewport& viewport, ImVec2 pixel) {
+    const ImVec2 middle = viewport.place.centre();
+    return {double((pixel.x - middle.x) / (0.5f * viewport.place.width())),
+            double((middle.y - pixel.y) / (0.5f * viewport.place.height()))};
 }
 
 void pickUnderMouse(Editor& editor, bool besides) {
     Viewport& viewport = editor.viewport;
-    const auto mouse = mouseIn(viewport);
-    const double x = mouse.first, y = mouse.second;
-    Seen seen = seenIn(editor);
+    const glm::dvec2 at = inPicture(viewport, ImGui::GetIO().MousePos);
+    const double x = at.x, y = at.y;
+    Seen seen = seenNow(editor);
     viewport.aside.ask([&picker = viewport.picker, seen = std::move(seen), x, y, besides]() -> Aside::Answer {
         return [path = picker.pick(seen, x, y), besides](Editor& to) { selectHit(to, path, besides); };
     });

@@ -5,7 +5,9 @@
 //     right drag                     pans; with W A S D Q E flies, the mouse turning the head (Shift: faster)
 //     wheel                          zooms to the cursor
 //     (as Blender has it, or Maya and Houdini: Navigation)
-//     left drag on a handle          moves, turns or scales (Shift: fine, Ctrl: in steps, Escape: back)
+//     left drag on a handle          moves, turns or scales (Shift: fine, Ctrl: in steps, or not if Snap is
+//     on;
+//                                    Escape: back)
 //     click                          selects the node that made what is hit (Ctrl or Shift: also)
 //
 // Keys are rows of editor/commands.cpp that count over the picture. Lifetime: one in an Editor.
@@ -22,6 +24,7 @@
 #include "editor/viewport/grips.h"
 #include "editor/viewport/orbit.h"
 #include "editor/viewport/pick.h"
+#include "editor/viewport/together.h"
 
 namespace fw::editor {
 
@@ -46,8 +49,28 @@ struct CameraDrag {
     bool busy() const { return does != Does::nothing; }
 };
 
+/// What goes in steps, or to a place, while the magnet is on.
+struct Snap {
+    enum class To : unsigned char { grid, surface, points } to = To::grid;
+    bool on = false;
+    bool byZoom = false;  ///< the grid's spacing: a power of ten that is some pixels; else `metres`
+    double metres = 0.1, degrees = 15.0;
+};
+
 struct Gizmo {
     Tool tool = Tool::move;
+    Snap snap;
+    AxesOf axes = AxesOf::numbers;
+    PivotAt pivot = PivotAt::own;
+    glm::dvec3 point{0.0};          ///< of PivotAt::point
+    bool marks = false;             ///< lamps and the camera are shown, whatever panel is in front
+    std::string part;               ///< of the scene that is held: "sun", "camera", "lights.0"; empty: nodes
+    std::vector<Placing> placings;  ///< that the one handle moves; empty: each handle moves its own input
+    std::optional<Graph> start;     ///< that those are moved in while they are dragged
+    std::vector<glm::dvec3> features;           ///< to which a drag may go
+    std::shared_ptr<const Graph> surroundings;  ///< what is seen without what is dragged
+    ImVec2 askedAt;
+    int asked = 0, answered = 0;  ///< questions for the surface under the mouse
     Grips grips;
     std::optional<HandleHit> hovered;
     std::optional<HandleDrag> drag;  ///< with a hand of the document
@@ -59,6 +82,11 @@ struct Gizmo {
         std::string scope, node, pinned;
         double seconds = 0.0;
         Tool tool = Tool::move;
+        std::set<std::string> selection = {};
+        AxesOf axes = AxesOf::numbers;
+        PivotAt pivot = PivotAt::own;
+        glm::dvec3 point{0.0};
+        std::string part = {};
         bool operator==(const Made&) const = default;
     } made;
 
@@ -116,11 +144,12 @@ void frameSolid(Editor& editor);
 /// The mouse on the selected node's handles: whether it has one. Before showGizmo(), which draws them.
 bool followGizmo(Editor& editor);
 void showGizmo(Editor& editor);
-/// What the picture shows, for a Picker; and where the mouse is in it, from -1 to 1, y upwards.
-Seen seenIn(const Editor& editor);
-std::pair<double, double> mouseIn(const Viewport& viewport);
 /// Looks for the node whose shape is under the mouse, and selects it when it is found: in place of what is
 /// selected, or besides.
 void pickUnderMouse(Editor& editor, bool besides);
+/// What is seen, of another graph than the document's if one is given, for the picker.
+Seen seenNow(const Editor& editor, std::shared_ptr<const Graph> graph = {});
+/// A pixel of the window as a place in the picture, from -1 to 1, y upwards.
+glm::dvec2 inPicture(const Viewport& viewport, ImVec2 pixel);
 
 }  // namespace fw::editor
