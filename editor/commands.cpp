@@ -347,11 +347,26 @@ constexpr Command kCommands[] = {
      [](Editor& e) { useMeasure(e, Measure::line); }},
     {"picture.clear", "Picture", "Clear what is measured", "Escape", picture, canClearProbe, clearProbe},
     {"picture.snap", "Picture", "Snap", "Shift+Tab", picture, pictured,
-     [](Editor& e) { e.viewport.gizmo.snap.on = !e.viewport.gizmo.snap.on; }},
-    {"picture.axes", "Picture", "Next axes: of the numbers, the world, the node's own", "X", picture, pictured,
-     [](Editor& e) { e.viewport.gizmo.axes = AxesOf((int(e.viewport.gizmo.axes) + 1) % 3); }},
-    {"picture.pivot", "Picture", "Next pivot: its own, the middle, the origin, a point", "", picture, pictured,
-     [](Editor& e) { e.viewport.gizmo.pivot = PivotAt((int(e.viewport.gizmo.pivot) + 1) % 4); }},
+     [](Editor& e) {
+         bool& on = e.viewport.gizmo.snap.on;
+         on = !on;
+         say(e, on ? "Snap: drags in the picture go in steps, or to a place" : "Snap is off");
+     }},
+    {"picture.axes", "Picture", "Other axes", "X", picture, pictured,
+     [](Editor& e) {
+         constexpr const char* kSaid[] = {"Axes: those of the numbers", "Axes: the world's", "Axes: the node's own"};
+         const int next = (int(e.viewport.gizmo.axes) + 1) % 3;
+         e.viewport.gizmo.axes = AxesOf(next);
+         say(e, kSaid[next]);
+     }},
+    {"picture.pivot", "Picture", "Other pivot", "", picture, pictured,
+     [](Editor& e) {
+         constexpr const char* kSaid[] = {"Pivot: each node's own place", "Pivot: the middle of what is selected",
+                                          "Pivot: the origin", "Pivot: a point, set in the picture's Options"};
+         const int next = (int(e.viewport.gizmo.pivot) + 1) % 4;
+         e.viewport.gizmo.pivot = PivotAt(next);
+         say(e, kSaid[next]);
+     }},
     {"picture.marks", "Picture", "Lamps and camera", "", picture, pictured,
      [](Editor& e) { e.viewport.gizmo.marks = !e.viewport.gizmo.marks; }},
     {"picture.align_camera", "Picture", "Align scene camera to the view", "", picture, pictured, alignCamera},

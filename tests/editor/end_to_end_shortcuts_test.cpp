@@ -759,6 +759,22 @@ const std::map<std::string, Case>& cases() {
         {"picture.move", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
         {"picture.rotate", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
         {"picture.scale", [](Program& p, const std::string& keys) { takeUp(p, "W", keys); }},
+        {"picture.snap",
+         [](Program& p, const std::string& keys) {
+             p.moveTo(picturePart(p).centre());
+             p.keys(keys);
+             p.waitFor("Snap: drags in the picture");
+             p.keys(keys);
+             p.waitFor("Snap is off");
+         }},
+        {"picture.axes",
+         [](Program& p, const std::string& keys) {
+             p.moveTo(picturePart(p).centre());
+             p.keys(keys, 2);
+             p.waitFor("Axes: the node's own");
+             p.keys(keys);
+             p.waitFor("Axes: those of the numbers");
+         }},
         {"picture.reset", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
         {"picture.front", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
         {"picture.back", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},

@@ -295,12 +295,12 @@ TEST(Gizmo, WhatIsWiredOrAnimatedIsRefusedWithAReason) {
     const std::vector<Handle> moved = handlesOf(plain, {}, {"a.offset"});
     ASSERT_EQ(moved.size(), 1u);
     EXPECT_NE(moved[0].refusal, "");
-    EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "gyroid"})"), {}, {}).empty());
+    EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "polygon"})"), {}, {}).empty());
     EXPECT_TRUE(handlesOf(nodeOf(R"({"id": "a", "type": "output"})"), {}, {}).empty());
 }
 
 const char* const kChain = R"(
-  {"id": "ball", "type": "tetrahedron"},
+  {"id": "ball", "type": "polygon"},
   {"id": "soft", "type": "offset", "inputs": {"surface": {"from": "ball"}}},
   {"id": "there", "type": "translate", "inputs": {"surface": {"from": "soft"}, "offset": [0, 1, 0]}},
   {"id": "block", "type": "box"},
@@ -316,14 +316,16 @@ TEST(Gizmo, GripsOfLengthsEndWhereTheLengthDoes) {
     for (const NodeType& type : nodeTypes()) {
         const bool shape = type.category == Category::shape || type.category == Category::shape2d;
         for (const InputSpec& input : type.inputs) {
-            if (!input.grip) continue;
+            if (input.grip.kind != Grip::Kind::length) continue;
             ++grips;
             EXPECT_EQ(input.unit, "m") << type.id << "." << input.name;
             EXPECT_EQ(input.type, Type::scalar) << type.id << "." << input.name;
             const int from =
                 inputIndex(type, input.grip.from.substr(input.grip.from.starts_with('-') ? 1 : 0));
             EXPECT_TRUE(input.grip.from.empty() || from >= 0) << type.id << "." << input.name;
-            if (!shape || type.id == "extrude") continue;
+            const bool changes = std::ranges::count(type.inputs, Type::surface, &InputSpec::type) > 0;
+            // A period ends a cell farther, wherever in the wall that is; a plane's offset has its normal.
+            if (!shape || changes || input.name == "period" || !input.grip.with.empty()) continue;
             double fields[2] = {};
             for (int i = 0; i < 2; ++i) {
                 Graph graph =

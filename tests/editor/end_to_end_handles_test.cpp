@@ -1,0 +1,102 @@
+// Shaping by hand in the real window: several nodes at once, steps, Escape, and the picture's buttons.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "editor/shell/theme.h"
+#include "graph/document/named_parameters.h"
+#include "tests/editor/program.h"
+
+namespace fw::editor::test::end_to_end_handles_test {
+
+constexpr const char* kDocument = R"({"fieldwright": 1, "nodes": [
+    {"id": "a", "type": "box", "at": [0, 0], "inputs": {"half_extents": [0.5, 0.5, 0.5]}},
+    {"id": "b", "type": "sphere", "at": [0, 240], "inputs": {"radius": 0.5}},
+    {"id": "left", "type": "translate", "at": [240, 0], "inputs": {"surface": {"from": "a"}, "offset": [-1.03, 0, 0]}},
+    {"id": "right", "type": "translate", "at": [240, 240], "inputs": {"surface": {"from": "b"}, "offset": [1, 0.25, 0]}},
+    {"id": "both", "type": "union", "at": [480, 0], "inputs": {"a": {"from": "left"}, "b": {"from": "right"}}},
+    {"id": "out", "type": "output", "at": [720, 0], "inputs": {"surface": {"from": "both"}, "resolution": 16}}],
+  "scene": {"camera": {"position": [0, 0, 14], "target": [0, 0, 0], "fov": 40}}})";
+
+Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
+
+/// The end of the red arrow to the right, in the window; none if there is no arrow.
+std::optional<ImVec2> arrowEnd(Program& program) {
+    const Area part = picturePart(program);
+    const Picture seen = program.screen(part);
+    const ImU32 red = axisColor(0);
+    std::optional<ImVec2> end;
+    for (int y = 0; y < seen.height; ++y)
+        for (int x = 0; x < seen.width; ++x) {
+            const uint8_t* pixel = &seen.pixels[std::size_t(y * seen.width + x) * 4];
+            if (pixel[0] != (red & 255) || pixel[1] != (red >> 8 & 255) || pixel[2] != (red >> 16 & 255))
+                continue;
+            const ImVec2 at(part.lo.x + float(x), part.lo.y + float(y));
+            if (!end || at.x > end->x) end = at;
+        }
+    return end;
+}
+
+ImVec2 waitForArrow(Program& program) {
+    std::optional<ImVec2> end;
+    EXPECT_TRUE(eventually([&] { return (end = arrowEnd(program)).has_value(); })) << "no arrow is seen";
+    return end.value_or(ImVec2());
+}
+
+std::vector<double> offsetOf(const Graph& graph, const std::string& node) {
+    return inputNumbers(*findNode(graph.nodes, node), "offset");
+}
+
+TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
+    Program program(kDocument);
+    if (!program.works()) GTEST_SKIP() << "no X server or no xdotool";
+    program.frameAll();
+    program.click(program.title("left"));
+    program.click(program.title("right"), 1, "shift");
+    program.moveTo(picturePart(program).centre());
+    program.keys("W");
+
+    const ImVec2 from = waitForArrow(program);
+    const ImVec2 tip(from.x - 4, from.y);
+    program.drag({tip, {tip.x + 20, tip.y}, {tip.x + 50, tip.y}});
+    const std::vector<double> left = offsetOf(program.saved(), "left"),
+                              right = offsetOf(program.graph(), "right");
+    const double by = left[0] + 1.03;
+    EXPECT_GT(by, 0.2);
+    EXPECT_NEAR(right[0] - 1.0, by, 1e-6) << "both go as far";
+    EXPECT_EQ(left[1], 0.0);
+    EXPECT_EQ(right[1], 0.25);
+
+    program.moveTo(program.nowhere());
+    program.keys("Ctrl+Z");
+    EXPECT_EQ(offsetOf(program.saved(), "left"), (std::vector<double>{-1.03, 0, 0})) << "it is one step";
+    EXPECT_EQ(offsetOf(program.graph(), "right"), (std::vector<double>{1, 0.25, 0}));
+
+    // Escape takes back what is under the hand.
+    const ImVec2 again = waitForArrow(program);
+    const ImVec2 held(again.x - 4, again.y);
+    program.drag({held, {held.x + 20, held.y}, {held.x + 50, held.y}}, 1, {}, false, false);
+    program.keys("Escape");
+    program.release();
+    program.moveTo(program.nowhere());
+    EXPECT_EQ(offsetOf(program.saved(), "left"), (std::vector<double>{-1.03, 0, 0}));
+
+    // The magnet: both go by a multiple of 0.1 m.
+    program.moveTo(picturePart(program).centre());
+    program.keys("Shift+Tab");
+    program.waitFor("Snap: drags in the picture");
+    const ImVec2 third = waitForArrow(program);
+    program.drag({{third.x - 4, third.y}, {third.x + 20, third.y}, {third.x + 43, third.y}});
+    const double step = offsetOf(program.saved(), "left")[0] + 1.03;
+    EXPECT_GT(step, 0.2);
+    EXPECT_NEAR(std::remainder(step, 0.1), 0.0, 1e-6) << step;
+
+    program.clickOn("Options");
+    program.waitFor("Centres and ends");
+    program.waitFor("Each its own");
+    program.clickOn("Lamps and camera");
+    program.keys("Escape");
+    program.waitUntilGone("Centres and ends");
+}
+
+}  // namespace fw::editor::test::end_to_end_handles_test
