@@ -318,6 +318,14 @@ constexpr Command kCommands[] = {
     {"picture.frame", "Picture", "Frame the solid", "F", picture, pictured, frameSolid},
     {"picture.reset", "Picture", "Back to the scene's camera", "Home 0 Pad0", picture, pictured,
      [](Editor& e) { e.viewport.ownCamera = false; }},
+    {"picture.to_scene", "Picture", "Make it the scene's camera", "Ctrl+Alt+0 Ctrl+Alt+Pad0", picture, pictured,
+     keepAsSceneCamera},
+    {"picture.projection", "Picture", "Orthographic", "5 Pad5", picture, pictured,
+     [](Editor& e) { changeProjection(e.viewport); }, true},
+    {"picture.grid", "Picture", "Grid", "Shift+G", picture, always, [](Editor& e) { e.viewport.grid = !e.viewport.grid; }},
+    {"picture.keep_view", "Picture", "Keep this view", "Ctrl+B", picture, pictured, keepView},
+    {"picture.next_view", "Picture", "Next kept view", "B", picture,
+     [](const Editor& e) { return !e.viewport.kept.views.empty(); }, goToNextView},
     {"picture.front", "Picture", "From the front", "1 Pad1", picture, pictured, look<Side::front>, true},
     {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", picture, pictured, look<Side::back>},
     {"picture.right", "Picture", "From the right", "3 Pad3", picture, pictured, look<Side::right>},
@@ -369,7 +377,6 @@ constexpr Command kCommands[] = {
      }},
     {"picture.marks", "Picture", "Lamps and camera", "", picture, pictured,
      [](Editor& e) { e.viewport.gizmo.marks = !e.viewport.gizmo.marks; }},
-    {"picture.align_camera", "Picture", "Align scene camera to the view", "", picture, pictured, alignCamera},
     {"view.frame", "View", "Frame selection", "F", canvas, always, [](Editor& e) { frame(e, false); }},
     {"view.frame_all", "View", "Frame all", "Home", canvas, always, [](Editor& e) { frame(e, true); }},
     {"view.costs", "View", "Costs on the nodes", "", everywhere, always, [](Editor& e) { e.canvas.costs = !e.canvas.costs; }},
@@ -377,7 +384,7 @@ constexpr Command kCommands[] = {
      [](Editor& e) { e.canvas.exactness = !e.canvas.exactness; }},
     {"view.probe", "View", "Probe", "Alt+P", everywhere, always, toggleProbe},
     {"view.minimap", "View", "Minimap", "", everywhere, always, [](Editor& e) { e.canvas.minimap = !e.canvas.minimap; }},
-    {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P", canvas, anyActive,
+    {"view.pin", "View", "Show the node's own field", "Ctrl+Shift+P Slash PadSlash", canvas, anyActive,
      [](Editor& e) { pin(e, e.canvas.active); }},
     {"view.zoom_in", "View", "Zoom in", "Equal PadPlus", canvas, always, [](Editor& e) { zoom(e, kZoomStep); }},
     {"view.zoom_out", "View", "Zoom out", "Minus PadMinus", canvas, always,
@@ -457,6 +464,8 @@ bool shows(const Command& command, const Editor& editor) {
     if (id == "picture.measure") return editor.probe.tool == Measure::length;
     if (id == "picture.wall") return editor.probe.tool == Measure::wall;
     if (id == "picture.line") return editor.probe.tool == Measure::line;
+    if (id == "picture.grid") return editor.viewport.grid;
+    if (id == "picture.projection") return editor.viewport.ownCamera && editor.viewport.orthographic;
     if (id == "view.timeline") return editor.panels.timeline;
     for (const SidePanel& panel : sidePanels())
         if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;
@@ -523,6 +532,7 @@ void showMenus(Editor& editor) {
                                 command.can(editor)))
                 command.run(editor);
             if (std::string_view(command.id) == "file.open") showRecent(editor);
+            if (std::string_view(command.id) == "picture.next_view") showKeptViews(editor);
         }
         ImGui::EndMenu();
     }

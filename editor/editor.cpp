@@ -141,7 +141,7 @@ bool exchange(Editor& editor) {
         .graph = editor.graph, .revision = editor.drawn, .document = view.document, .pinned = view.pinned};
     wish.held = heldInputs(editor);
     wish.seconds = view.seconds;
-    if (view.ownCamera) wish.camera = view.orbit.camera();
+    if (view.ownCamera) wish.camera = view.camera();
     wish.width = view.width(), wish.height = view.height();
     wish.view = view.view;
     wish.slice = view.slice;

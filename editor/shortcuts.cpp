@@ -39,6 +39,7 @@ constexpr KeyName kNamed[] = {{GLFW_KEY_SPACE, "Space"},
                               {GLFW_KEY_SLASH, "Slash"},
                               {GLFW_KEY_KP_ADD, "PadPlus"},
                               {GLFW_KEY_KP_SUBTRACT, "PadMinus"},
+                              {GLFW_KEY_KP_DIVIDE, "PadSlash"},
                               {GLFW_KEY_KP_DECIMAL, "PadPeriod"},
                               {GLFW_KEY_KP_ENTER, "PadEnter"}};
 constexpr int kFunctionKeys = 12;

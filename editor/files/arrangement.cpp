@@ -37,6 +37,7 @@ Json arrangementOf(const Editor& editor) {
     all["minimap"] = editor.canvas.minimap;
     all["costs"] = editor.canvas.costs;
     all["exactness"] = editor.canvas.exactness;
+    all["grid"] = editor.viewport.grid;
     all["side"] = panels.side;
     all["top"] = panels.top;
     all["low"] = panels.low;
@@ -52,6 +53,7 @@ void arrange(Editor& editor, const Json& all) {
     take(all, "minimap", editor.canvas.minimap);
     take(all, "costs", editor.canvas.costs);
     take(all, "exactness", editor.canvas.exactness);
+    take(all, "grid", editor.viewport.grid);
     take(all, "side", panels.side);
     take(all, "top", panels.top);
     take(all, "low", panels.low);

@@ -303,6 +303,10 @@ void startFiles(Editor& editor, const std::string& path) {
                                               [](const char* name) { return std::string(name); });
     if (navigation != std::end(kNavigationNames))
         editor.viewport.navigation = Navigation(navigation - std::begin(kNavigationNames));
+    const auto scrolling = std::ranges::find(kScrollingNames, editor.files.preferences.scrolling,
+                                             [](const char* name) { return std::string(name); });
+    if (scrolling != std::end(kScrollingNames))
+        editor.viewport.scrolling = Scrolling(scrolling - std::begin(kScrollingNames));
     arrange(editor, editor.files.preferences.panels);
     editor.files.left = leftCopies();
     editor.files.offers = !editor.files.left.empty();

@@ -73,6 +73,12 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
         all, "navigation", [](const Json& value) { return value.is_string(); },
         [&](const Json& value) { preferences.navigation = value.get<std::string>(); }, problem);
     take(
+        all, "scrolling", [](const Json& value) { return value.is_string(); },
+        [&](const Json& value) { preferences.scrolling = value.get<std::string>(); }, problem);
+    take(
+        all, "views", [](const Json& value) { return value.is_object(); },
+        [&](const Json& value) { preferences.views = value; }, problem);
+    take(
         all, "shortcuts", [](const Json& value) { return value.is_object(); },
         [&](const Json& value) {
             for (const auto& [id, keys] : value.items())
@@ -95,6 +101,8 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     if (!preferences.favourites.empty()) all["favourites"] = preferences.favourites;
     if (!preferences.library.empty()) all["library"] = preferences.library;
     if (!preferences.navigation.empty()) all["navigation"] = preferences.navigation;
+    if (!preferences.scrolling.empty()) all["scrolling"] = preferences.scrolling;
+    if (preferences.views->is_object() && !preferences.views->empty()) all["views"] = preferences.views;
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
     if (!preferences.panels->is_null()) all["panels"] = preferences.panels;

@@ -24,6 +24,8 @@ struct Preferences {
     std::vector<std::string> favourites = {};           ///< the same, of those that were marked
     std::string library = {};     ///< the folder of parts; empty: the usual one (parts.h)
     std::string navigation = {};  ///< one of kNavigationNames (viewport.h); empty: the first
+    std::string scrolling = {};   ///< one of kScrollingNames (viewport.h); empty: the first
+    KeptJson views;               ///< an object: kept views by a document's path (kept_views.h)
     KeptJson panels;              ///< an object: how window and panels stand (arrangement.h)
     KeptJson extra;               ///< unknown keys
     bool operator==(const Preferences&) const = default;

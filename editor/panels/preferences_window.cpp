@@ -163,6 +163,22 @@ void showNavigation(Editor& editor) {
     ImGui::EndCombo();
 }
 
+void showScrolling(Editor& editor) {
+    const std::size_t chosen = std::size_t(editor.viewport.scrolling);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Wheel, two fingers");
+    ImGui::SameLine(12.0f * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(18.0f * ImGui::GetFontSize());
+    if (!ImGui::BeginCombo("##scrolling", kScrollingWords[chosen])) return;
+    for (std::size_t i = 0; i < std::size(kScrollingWords); ++i)
+        if (ImGui::Selectable(kScrollingWords[i], i == chosen)) {
+            editor.viewport.scrolling = Scrolling(i);
+            editor.files.preferences.scrolling = kScrollingNames[i];
+            keep(editor);
+        }
+    ImGui::EndCombo();
+}
+
 }  // namespace
 
 void showPreferences(Editor& editor) {
@@ -187,6 +203,7 @@ void showPreferences(Editor& editor) {
         return stopWaiting(window);
     showScale(editor);
     showNavigation(editor);
+    showScrolling(editor);
     ImGui::Separator();
     if (opens) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);

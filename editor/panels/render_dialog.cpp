@@ -242,7 +242,7 @@ Result<RenderWish> wishOf(Editor& editor) {
         wish.frames = *frames;
     }
     const Viewport& view = editor.viewport;
-    if (dialog.asSeen) wish.camera = view.ownCamera ? view.orbit.camera() : view.shown.seen;
+    if (dialog.asSeen) wish.camera = view.camera();
     return wish;
 }
 

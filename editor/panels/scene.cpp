@@ -112,7 +112,7 @@ void showCamera(Editor& editor, const Scene& scene) {
     if (!part(editor, "camera", "Camera", std::nullopt)) return;
     Viewport& viewport = editor.viewport;
     Document& document = editor.document;
-    if (ImGui::Button("From the viewport")) alignCamera(editor);
+    if (ImGui::Button("From the viewport")) keepAsSceneCamera(editor);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Make what the viewport shows the scene's camera");
     ImGui::SameLine();
     ImGui::BeginDisabled(!viewport.ownCamera);

@@ -192,13 +192,4 @@ void showMarks(Editor& editor) {
     list->PopClipRect();
 }
 
-void alignCamera(Editor& editor) {
-    Viewport& view = editor.viewport;
-    const Graph& graph = editor.document.graph();
-    const Graph next = setSceneCamera(graph, view.ownCamera ? view.orbit.camera() : view.shown.seen);
-    if (!readScene(next.scene)) return;
-    editor.document.apply("Set Camera", next);
-    view.ownCamera = false;
-}
-
 }  // namespace fw::editor

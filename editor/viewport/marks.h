@@ -37,7 +37,5 @@ Scene sceneNow(const Editor& editor);
 /// Whether the mouse is on a mark; a click chooses it.
 bool followMarks(Editor& editor);
 void showMarks(Editor& editor);
-/// Makes what the viewport shows the scene's camera, one step of undo.
-void alignCamera(Editor& editor);
 
 }  // namespace fw::editor

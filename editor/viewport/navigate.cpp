@@ -3,7 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "editor/viewport/viewport.h"
+#include "editor/document/scene_edits.h"
+#include "editor/editor.h"
+#include "editor/viewport/projection.h"
 
 namespace fw::editor {
 
@@ -22,7 +24,8 @@ bool anyFlyKey() {
     return std::ranges::any_of(std::string_view("WASDQE"), [](char key) { return ImGui::IsKeyDown(key); });
 }
 
-constexpr double kZoomNotches = 12.0;  // of the wheel, that a drag over the picture's height is worth
+constexpr double kHeightsPerNotch = 0.05;  // of the picture, that what scrolls goes for a notch
+constexpr double kZoomNotches = 12.0;      // of the wheel, that a drag over the picture's height is worth
 
 /// What a button does when it goes down: ImGui's 0 is the left one, 1 the right one, 2 the middle one.
 Does doneBy(Navigation navigation, int button) {
@@ -42,6 +45,28 @@ Does doneBy(Navigation navigation, int button) {
 void begin(Viewport& viewport) {
     for (int button = 0; button < 3; ++button)
         if (ImGui::IsMouseClicked(button)) viewport.drag = {doneBy(viewport.navigation, button), button};
+}
+
+/// What the wheel does, or two fingers on a trackpad: parts of notches along both axes.
+void scroll(Viewport& viewport) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool zooms = viewport.scrolling == Scrolling::zooms || io.KeyCtrl;
+    if (zooms && io.MouseWheel == 0.0f) return;
+    viewport.takeCamera();
+    if (zooms) {
+        const ImVec2 middle = viewport.place.centre();
+        return zoom(viewport.orbit, double(io.MouseWheel),
+                    double((io.MousePos.x - middle.x) / (0.5f * viewport.place.width())),
+                    double((middle.y - io.MousePos.y) / (0.5f * viewport.place.height())),
+                    double(viewport.aspect()));
+    }
+    // What lies under the fingers goes along with them: down for a notch below 0.
+    const double dx = kHeightsPerNotch * double(io.MouseWheelH),
+                 dy = kHeightsPerNotch * double(io.MouseWheel);
+    if ((viewport.scrolling == Scrolling::pans) != io.KeyShift)
+        pan(viewport.orbit, dx, dy);
+    else
+        turn(viewport.orbit, dx, dy);
 }
 
 void drag(Viewport& viewport) {
@@ -78,8 +103,17 @@ int Viewport::height() const {
 }
 
 void Viewport::takeCamera() {
-    if (!ownCamera) orbit = Orbit::from(shown.seen);
+    if (!ownCamera) {
+        orbit = Orbit::from(shown.seen);
+        orthographic = isParallel(orbit);
+        if (orthographic) orbit = throughLensOf(orbit, Camera{}.fov);
+    }
     ownCamera = true;
+}
+
+Camera Viewport::camera() const {
+    if (!ownCamera) return shown.seen;
+    return orthographic ? throughLensOf(orbit, kParallelFov).camera() : orbit.camera();
 }
 
 void Viewport::forget(Shell& shell) {
@@ -105,20 +139,28 @@ bool navigate(Viewport& viewport) {
     const ImGuiIO& io = ImGui::GetIO();
     if (viewport.shown.picture.width == 0) return false;  // there is nothing to start from
     if (viewport.hovered && !viewport.drag.busy()) begin(viewport);
-    if (viewport.hovered && io.MouseWheel != 0.0f) {
-        viewport.takeCamera();
-        const ImVec2 middle = viewport.place.centre();
-        zoom(viewport.orbit, double(io.MouseWheel),
-             double((io.MousePos.x - middle.x) / (0.5f * viewport.place.width())),
-             double((middle.y - io.MousePos.y) / (0.5f * viewport.place.height())),
-             double(viewport.aspect()));
-    }
+    if (viewport.hovered && (io.MouseWheel != 0.0f || io.MouseWheelH != 0.0f)) scroll(viewport);
     if (!viewport.drag.busy()) return false;
     drag(viewport);
     if (ImGui::IsMouseDown(viewport.drag.button)) return false;
     const bool clicked = viewport.drag.does == Does::click;
     viewport.drag = {};
     return clicked;
+}
+
+void changeProjection(Viewport& viewport) {
+    viewport.takeCamera();
+    viewport.orthographic = !viewport.orthographic;
+}
+
+void keepAsSceneCamera(Editor& editor) {
+    Viewport& viewport = editor.viewport;
+    const Camera camera = viewport.camera();
+    Graph next = setSceneCamera(editor.document.graph(), camera);
+    if (!readScene(next.scene)) return say(editor, "the scene cannot be read: see the list of problems");
+    editor.document.apply("Set Camera", std::move(next));
+    viewport.ownCamera = false;
+    viewport.shown.seen = camera;  // the next picture's
 }
 
 void lookFrom(Viewport& viewport, Side side) {

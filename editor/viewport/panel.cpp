@@ -4,6 +4,7 @@
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/camera_path.h"
+#include "editor/viewport/ground.h"
 
 namespace fw::editor {
 
@@ -83,6 +84,7 @@ void shadeNext(Viewport& viewport) {
 
 void showViewport(Editor& editor) {
     Viewport& view = editor.viewport;
+    followKeptViews(editor);
     showChoices(editor);
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     view.hovered = false;
@@ -106,6 +108,7 @@ void showViewport(Editor& editor) {
         list->AddImage(view.texture, place.lo, place.hi);
     else
         list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
+    showGround(editor);
     showGizmo(editor);
     showCameraPath(editor);
     showProbeMarks(editor);

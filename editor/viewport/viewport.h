@@ -3,7 +3,7 @@
 //     mouse                          does
 //     left or middle drag            orbits; with Shift pans
 //     right drag                     pans; with W A S D Q E flies, the mouse turning the head (Shift: faster)
-//     wheel                          zooms to the cursor
+//     wheel                          zooms to the cursor (or, for trackpads, pans or orbits: Scrolling)
 //     (as Blender has it, or Maya and Houdini: Navigation)
 //     left drag on a handle          moves, turns or scales (Shift: fine, Ctrl: in steps, or not if Snap is
 //     on;
@@ -22,6 +22,7 @@
 #include "editor/shell/shell.h"
 #include "editor/viewport/aside.h"
 #include "editor/viewport/grips.h"
+#include "editor/viewport/kept_views.h"
 #include "editor/viewport/orbit.h"
 #include "editor/viewport/pick.h"
 #include "editor/viewport/together.h"
@@ -40,6 +41,17 @@ enum class Navigation : unsigned char {
 inline constexpr const char* kNavigationNames[] = {"usual", "blender", "maya"};
 inline constexpr const char* kNavigationWords[] = {"Usual: left orbits, right pans", "As in Blender",
                                                    "As in Maya and Houdini"};
+
+/// What the wheel does over the picture, or two fingers on a trackpad. With Ctrl it always zooms.
+enum class Scrolling : unsigned char {
+    zooms,   ///< to the cursor
+    orbits,  ///< with Shift pans
+    pans     ///< with Shift orbits
+};
+/// As preferences have them, in the order of Scrolling; and for a person.
+inline constexpr const char* kScrollingNames[] = {"zooms", "orbits", "pans"};
+inline constexpr const char* kScrollingWords[] = {"Zooms, as the wheel of a mouse", "Orbits, for trackpads",
+                                                  "Pans, for trackpads"};
 
 /// What the button that went down over the picture does until it goes up.
 struct CameraDrag {
@@ -98,6 +110,8 @@ struct Gizmo {
 struct DocumentLook {
     bool ownCamera = false;  ///< rather than the scene's, or the solid framed
     Orbit orbit;             ///< of the own camera
+    /// Through a very long lens (projection.h): `orbit` is as if it were not.
+    bool orthographic = false;
     uint32_t view = RENDER_PICTURE;
     std::string pinned;    ///< the node shown; empty: the output
     Slice slice;           ///< of the views on a plane
@@ -113,7 +127,10 @@ struct Viewport : DocumentLook {
     PreviewResult shown = {};  ///< the last result; its picture is in the texture
 
     Navigation navigation = Navigation::usual;  ///< of the preferences
-    Area place;                                 ///< of the picture, pixels of the window
+    Scrolling scrolling = Scrolling::zooms;     ///< of the preferences
+    KeptViews kept;
+    bool grid = false;  ///< ground.h
+    Area place;         ///< of the picture, pixels of the window
     bool hovered = false;
     CameraDrag drag;
     Gizmo gizmo;
@@ -126,6 +143,8 @@ struct Viewport : DocumentLook {
     float aspect() const { return place.width() / std::max(place.height(), 1.0f); }
     /// Moves on from what is seen.
     void takeCamera();
+    /// That of the own camera; else what was seen last.
+    Camera camera() const;
     /// Nothing is seen until there is a picture of another document.
     void forget(Shell& shell);
 };
@@ -135,6 +154,10 @@ bool navigate(Viewport& viewport);
 /// Whether the camera moves without further input.
 bool flies(const Viewport& viewport);
 
+/// Orthographic rather than in perspective, or the other way round.
+void changeProjection(Viewport& viewport);
+/// What is seen becomes what the scene's camera sees, and is seen through it: one step of undo.
+void keepAsSceneCamera(Editor& editor);
 /// Looks from a side at what it looks at.
 void lookFrom(Viewport& viewport, Side side);
 /// Shows the next of the views that the panel lists.
