@@ -9,6 +9,7 @@
 #include "editor/commands.h"
 #include "editor/document/frames.h"
 #include "graph/document/named_parameters.h"
+#include "graph/document/scene.h"
 #include "graph/document/timeline.h"
 #include "tests/editor/program.h"
 
@@ -132,6 +133,7 @@ void nudge(Program& program, const std::string& keys, int x, int y) {
 }
 
 Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
+Area pictureCorner(const Program& program) { return {{program.view.panel.hi.x + 20, 380}, {1280, 470}}; }
 
 /// The picture of the solid, once it has come to rest.
 Picture restingPicture(Program& program) {
@@ -159,7 +161,95 @@ void lookAnew(Program& program, const std::string& first, const std::string& key
     program.moveTo(program.nowhere());
 }
 
-void lookOn(Program& program, const std::string& keys) { lookAnew(program, "1", keys); }
+/// What to do, with these keys, in a window with the document and nothing selected, and what to see.
+using Case = std::function<void(Program&, const std::string& keys)>;
+
+/// The words in the picture's corner.
+void waitForLook(Program& program, const std::string& words) {
+    program.waitFor(words, pictureCorner(program));
+}
+
+/// The mouse over the picture, once there is one, and it is looked at as after these keys.
+void lookFirst(Program& program, const std::string& keys, const std::string& words) {
+    program.moveTo(picturePart(program).centre());
+    EXPECT_TRUE(eventually([&] {
+        program.keys(keys);
+        return program.sees(words, pictureCorner(program));
+    })) << words;
+}
+
+/// From one side, which the picture says, to another, which it says then.
+Case lookFrom(const std::string& first, const std::string& firstWords, const std::string& words) {
+    return [=](Program& program, const std::string& keys) {
+        lookFirst(program, first, firstWords);
+        program.keys(keys);
+        waitForLook(program, words);
+        program.keys("0");
+        waitForLook(program, "Whole solid");
+        program.moveTo(program.nowhere());
+    };
+}
+
+/// The camera that is seen by, as it is saved when it becomes the scene's.
+Camera cameraSeen(Program& program) {
+    program.keys("Ctrl+Alt+0");
+    const Result<Scene> scene = readScene(program.saved().scene);
+    if (!scene || !scene->camera) throw std::runtime_error("the scene has no camera");
+    return *scene->camera;
+}
+
+/// What becomes of the camera in front of the solid: where it is by its target then, and where its target is
+/// by what it was.
+struct Looked {
+    double right, up, back;           ///< of the eye, in distances
+    double panRight, panUp, panBack;  ///< of the target
+};
+
+Looked lookAfter(Program& program, const std::string& keys) {
+    lookFirst(program, "1", "Front · perspective");
+    const Camera before = cameraSeen(program);
+    program.keys(keys);
+    const Camera after = cameraSeen(program);
+    program.keys("Ctrl+Z", 2);
+    program.keys("0");
+    program.moveTo(program.nowhere());
+    const double distance = before.position[2] - before.target[2];
+    const auto& [x, y, z] = after.target;
+    return {(after.position[0] - x) / distance, (after.position[1] - y) / distance,
+            (after.position[2] - z) / distance, (x - before.target[0]) / distance,
+            (y - before.target[1]) / distance,  (z - before.target[2]) / distance};
+}
+
+/// Turned by a tenth of a height, about the target.
+Case turned(double right, double up) {
+    return [=](Program& program, const std::string& keys) {
+        const Looked looked = lookAfter(program, keys);
+        EXPECT_NEAR(looked.right, right * std::sin(0.3), 1e-3);
+        EXPECT_NEAR(looked.up, up * std::sin(0.3), 1e-3);
+        EXPECT_NEAR(looked.back, std::cos(0.3), 1e-3);
+        EXPECT_NEAR(std::hypot(looked.panRight, looked.panUp, looked.panBack), 0.0, 1e-6);
+    };
+}
+
+/// The solid goes this way in the picture, the camera the other.
+Case panned(int right, int up) {
+    return [=](Program& program, const std::string& keys) {
+        const Looked looked = lookAfter(program, keys);
+        const auto sign = [](double by) { return (by > 1e-3) - (by < -1e-3); };
+        EXPECT_EQ(sign(looked.panRight), -right);
+        EXPECT_EQ(sign(looked.panUp), -up);
+        EXPECT_NEAR(looked.panBack, 0.0, 1e-6);
+        EXPECT_NEAR(looked.back, 1.0, 1e-6);
+    };
+}
+
+Case zoomed(double distance) {
+    return [=](Program& program, const std::string& keys) {
+        const Looked looked = lookAfter(program, keys);
+        EXPECT_NEAR(looked.back, distance, 1e-3);
+        EXPECT_NEAR(std::hypot(looked.panRight, looked.panUp, looked.panBack), 0.0, 1e-6);
+    };
+}
 
 /// The same for the tools, whose handles are those of the node that is selected.
 void takeUp(Program& program, const std::string& first, const std::string& keys) {
@@ -218,9 +308,6 @@ void toPanel(Program& program, const std::string& keys) {
     program.keys("Alt+1");
     expectSelected(program, {"box"});
 }
-
-/// What to do, with these keys, in a window with the document and nothing selected, and what to see.
-using Case = std::function<void(Program&, const std::string& keys)>;
 
 const std::map<std::string, Case>& cases() {
     static const std::map<std::string, Case> all = {
@@ -775,23 +862,107 @@ const std::map<std::string, Case>& cases() {
              p.keys(keys);
              p.waitFor("Axes: those of the numbers");
          }},
-        {"picture.reset", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
-        {"picture.front", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
-        {"picture.back", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
-        {"picture.right", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
-        {"picture.left", [](Program& p, const std::string& keys) { lookAnew(p, "7", keys); }},
-        {"picture.top", [](Program& p, const std::string& keys) { lookAnew(p, "1", keys); }},
-        {"picture.bottom", [](Program& p, const std::string& keys) { lookAnew(p, "1", keys); }},
-        {"picture.turn_left", lookOn},
-        {"picture.turn_right", lookOn},
-        {"picture.turn_up", lookOn},
-        {"picture.turn_down", lookOn},
-        {"picture.pan_left", lookOn},
-        {"picture.pan_right", lookOn},
-        {"picture.pan_up", lookOn},
-        {"picture.pan_down", lookOn},
-        {"picture.nearer", lookOn},
-        {"picture.farther", lookOn},
+        {"picture.reset",
+         [](Program& p, const std::string& keys) {
+             lookFirst(p, "7", "Top · perspective");
+             p.keys(keys);
+             waitForLook(p, "Whole solid");
+         }},
+        {"picture.front", lookFrom("7", "Top · perspective", "Front · perspective")},
+        {"picture.back", lookFrom("7", "Top · perspective", "Back · perspective")},
+        {"picture.right", lookFrom("7", "Top · perspective", "Right · perspective")},
+        {"picture.left", lookFrom("7", "Top · perspective", "Left · perspective")},
+        {"picture.top", lookFrom("1", "Front · perspective", "Top · perspective")},
+        {"picture.bottom", lookFrom("1", "Front · perspective", "Bottom · perspective")},
+        {"picture.turn_left", turned(1, 0)},
+        {"picture.turn_right", turned(-1, 0)},
+        {"picture.turn_up", turned(0, -1)},
+        {"picture.turn_down", turned(0, 1)},
+        {"picture.pan_left", panned(-1, 0)},
+        {"picture.pan_right", panned(1, 0)},
+        {"picture.pan_up", panned(0, 1)},
+        {"picture.pan_down", panned(0, -1)},
+        {"picture.nearer", zoomed(0.88)},
+        {"picture.farther", zoomed(1.0 / 0.88)},
+        {"picture.to_scene",
+         [](Program& p, const std::string& keys) {
+             lookFirst(p, "3", "Right · perspective");
+             p.keys(keys);
+             waitForLook(p, "Scene camera");
+             const Result<Scene> scene = readScene(p.saved().scene);
+             ASSERT_TRUE(scene && scene->camera);
+             const auto &eye = scene->camera->position, &target = scene->camera->target;
+             EXPECT_GT(eye[0] - target[0], 1.0);
+             EXPECT_NEAR(eye[2], target[2], 1e-6);
+         }},
+        {"picture.projection",
+         [](Program& p, const std::string& keys) {
+             lookFirst(p, "1", "Front · perspective");
+             const Camera before = cameraSeen(p);
+             p.keys(keys);
+             waitForLook(p, "Front · orthographic");
+             const Camera after = cameraSeen(p);
+             EXPECT_EQ(after.fov, kLeastFov);
+             EXPECT_GT(after.position[2] - after.target[2], 10.0 * (before.position[2] - before.target[2]));
+             // The sides keep it, and so does who goes on from such a camera.
+             p.keys("3");
+             waitForLook(p, "Right · orthographic");
+             p.keys(keys);
+             waitForLook(p, "Right · perspective");
+             p.keys("Ctrl+Z", 2);
+             p.keys("0");
+         }},
+        {"picture.grid",
+         [](Program& p, const std::string& keys) {
+             lookFirst(p, "1", "Front · perspective");
+             p.keys("5");
+             waitForLook(p, "Front · orthographic");
+             // The target is at the height of the origin: the line of x goes through the middle, from side
+             // to side, beside the solid too.
+             const Area part = picturePart(p);
+             const auto reddest = [&] {
+                 const Picture seen = p.screen(Area{{part.hi.x - 60, part.lo.y}, {part.hi.x - 20, part.hi.y}});
+                 int most = 0;
+                 for (std::size_t i = 0; i + 3 < seen.pixels.size(); i += 4)
+                     most = std::max(most, seen.pixels[i] - std::max(seen.pixels[i + 1], seen.pixels[i + 2]));
+                 return most;
+             };
+             EXPECT_TRUE(eventually([&] { return reddest() < 30; }));
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return reddest() > 60; }));
+             p.keys(keys);
+             EXPECT_TRUE(eventually([&] { return reddest() < 30; }));
+             p.keys("0");
+         }},
+        {"picture.keep_view",
+         [](Program& p, const std::string& keys) {
+             lookFirst(p, "7", "Top · perspective");
+             p.keys(keys);
+             p.waitFor("kept as view 1");
+             EXPECT_NE(readText(p.path("config/fieldwright/editor.json")).find("\"views\""), std::string::npos);
+         }},
+        {"picture.next_view",
+         [](Program& p, const std::string& keys) {
+             lookFirst(p, "3", "Right · perspective");
+             p.keys("Ctrl+B");
+             p.waitFor("kept as view");
+             p.keys("5");
+             p.keys("7");
+             waitForLook(p, "Top · orthographic");
+             p.keys("Ctrl+B");
+             waitForLook(p, "Top · orthographic");
+             p.keys("1");
+             waitForLook(p, "Front · orthographic");
+             EXPECT_TRUE(eventually([&] {  // round all that are kept
+                 p.keys(keys);
+                 return p.sees("Right · perspective", pictureCorner(p));
+             }));
+             EXPECT_TRUE(eventually([&] {
+                 p.keys(keys);
+                 return p.sees("Top · orthographic", pictureCorner(p));
+             }));
+             p.keys("0");
+         }},
     };
     return all;
 }

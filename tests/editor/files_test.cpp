@@ -45,6 +45,8 @@ TEST(Preferences, ComeBackAsTheyWere) {
     EXPECT_EQ(wanted.recent.front(), "/29");
     wanted.scale = 1.5f;
     wanted.shortcuts["edit.undo"] = "Ctrl+Shift+Y";
+    wanted.scrolling = "pans";
+    wanted.views = Json{{"/29", Json::array()}};
     wanted.panels = Json{{"side", 0.25}};
     wanted.extra = Json{{"later", Json::array({1, 2})}};
     ASSERT_TRUE(savePreferences(wanted, path));

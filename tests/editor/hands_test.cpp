@@ -389,6 +389,32 @@ TEST(Hands, TheCameraFollowsThemAsOneIsUsedTo) {
     EXPECT_EQ(drag(2, "alt"), "pan");
     EXPECT_EQ(drag(3, "alt"), "zoom");
     EXPECT_EQ(drag(2, ""), "nothing");
+
+    const auto scroll = [&](int button, const std::string& held) {
+        view.ownCamera = false;
+        const ImVec2 at = view.place.centre();
+        const std::string down = held.empty() ? "" : "keydown " + held + " ",
+                          up = held.empty() ? "" : " keyup " + held;
+        editor.send("mousemove " + std::to_string(int(at.x)) + " " + std::to_string(int(at.y)) + " " + down +
+                    "click " + std::to_string(button) + up);
+        const Orbit before = Orbit::from(view.shown.seen), after = view.orbit;
+        if (!view.ownCamera) return std::string("nothing");
+        if (std::abs(after.distance - before.distance) > 1e-3 * before.distance) return std::string("zoom");
+        if (std::abs(after.azimuth - before.azimuth) > 1e-6) return std::string("orbit across");
+        if (std::abs(after.elevation - before.elevation) > 1e-6) return std::string("orbit up");
+        return std::string("pan");
+    };
+    constexpr int kUp = 4, kDown = 5, kAcross = 6;  // as X numbers what the wheel does
+    EXPECT_EQ(scroll(kUp, ""), "zoom");
+    EXPECT_EQ(scroll(kAcross, ""), "nothing");
+    view.scrolling = Scrolling::orbits;
+    EXPECT_EQ(scroll(kAcross, ""), "orbit across");
+    EXPECT_EQ(scroll(kDown, ""), "orbit up");
+    EXPECT_EQ(scroll(kDown, "shift"), "pan");
+    EXPECT_EQ(scroll(kDown, "ctrl"), "zoom");
+    view.scrolling = Scrolling::pans;
+    EXPECT_EQ(scroll(kAcross, ""), "pan");
+    EXPECT_EQ(scroll(kUp, "shift"), "orbit up");
 }
 
 }  // namespace fw::editor::hands_test

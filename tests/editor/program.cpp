@@ -43,11 +43,11 @@ std::string trimmed(std::string text) {
 /// "Ctrl+Shift+PageUp" as xdotool has it.
 std::string keysym(const std::string& shortcut) {
     static const std::pair<const char*, const char*> kNames[] = {
-        {"Enter", "Return"},        {"Backspace", "BackSpace"}, {"PageUp", "Prior"},
-        {"PageDown", "Next"},       {"Minus", "minus"},         {"Equal", "equal"},
-        {"Comma", "comma"},         {"Period", "period"},       {"Slash", "slash"},
-        {"Space", "space"},         {"PadEnter", "KP_Enter"},   {"PadPlus", "KP_Add"},
-        {"PadMinus", "KP_Subtract"}};
+        {"Enter", "Return"},         {"Backspace", "BackSpace"}, {"PageUp", "Prior"},
+        {"PageDown", "Next"},        {"Minus", "minus"},         {"Equal", "equal"},
+        {"Comma", "comma"},          {"Period", "period"},       {"Slash", "slash"},
+        {"Space", "space"},          {"PadEnter", "KP_Enter"},   {"PadPlus", "KP_Add"},
+        {"PadMinus", "KP_Subtract"}, {"PadSlash", "KP_Divide"}};
     static const char* const kPad[] = {"KP_Insert", "KP_End",   "KP_Down", "KP_Next", "KP_Left",
                                        "KP_Begin",  "KP_Right", "KP_Home", "KP_Up",   "KP_Prior"};
     std::string words, word;
