@@ -8,6 +8,7 @@
 #include "editor/canvas/keyboard.h"
 #include "editor/document/clipboard.h"
 #include "editor/document/layout.h"
+#include "editor/panels/library.h"
 #include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
@@ -300,6 +301,7 @@ constexpr Command kCommands[] = {
      [](Editor& e) { writeGroup(e, groupIdHere(e)); }},
     {"node.unlink", "Node", "Make group local", "", canvas, linkedHere,
      [](Editor& e) { unlinkGroup(e, groupIdHere(e)); }},
+    {"node.keep", "Node", "Keep in the library …", "", canvas, anySelected, keepInLibrary},
     {"node.frame", "Node", "Comment frame", "Ctrl+J", canvas, anySelected,
      [](Editor& e) { e.document.apply("Add Frame", frameNodes(graphOf(e), scopeOf(e), selected(e))); }},
     {"node.layout", "Node", "Lay out", "Ctrl+L", canvas, always, layOutNodes, true},

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "editor/document/clipboard.h"
+#include "editor/document/joining.h"
 #include "editor/document/wiring.h"
 #include "editor/editor.h"
 #include "editor/files/graph_folder.h"
@@ -78,7 +79,7 @@ Done keepPart(const Editor& editor, const std::string& name) {
     return saveGraph(*part, path);
 }
 
-void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked_) {
+void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked_, const std::string& to_) {
     Result<Graph> graph = readGraph(part.path, nullptr);
     if (!graph) return say(editor, format(graph.error()));
     const std::string from = fs::path(part.path).parent_path().string(),
@@ -100,6 +101,7 @@ void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked_)
     const Graph brought = withLinksFrom(to.empty() ? *graph : bringFiles(*graph, from, to, told), from, to);
     Result<Edited> pasted = pasteNodes(editor.document.graph(), editor.canvas.scope, writeGraph(brought), at);
     if (!pasted) return say(editor, "cannot add the part: " + format(pasted.error()));
+    pasted->graph = joinedTo(pasted->graph, editor.canvas.scope, pasted->nodes, to_);
     apply(editor, "Add " + part.label, std::move(*pasted));
     if (!told.empty()) say(editor, joined(told));
 }

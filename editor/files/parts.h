@@ -39,8 +39,9 @@ std::string partName(const std::string& words);
 Done keepPart(const Editor& editor, const std::string& name);
 
 /// The part's nodes in the document, as one step of undo, their middle at `at`. `linked`: a part that shows a
-/// group stays a copy of its file (linked_groups.h). What cannot be done is said in the status line.
-void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked);
+/// group stays a copy of its file (linked_groups.h). What it makes is wired to the node `to`, if there is one
+/// and it fits (joining.h). What cannot be done is said in the status line.
+void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked, const std::string& to = {});
 
 /// The node that a picture of the graph shows: what its output does, else the last that makes a surface;
 /// empty if there is none.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/canvas/keyboard.h"
+#include "editor/document/joining.h"
 #include "editor/document/library.h"
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
@@ -85,12 +87,35 @@ std::vector<Offer> offersOf(const Editor& editor) {
     return offers;
 }
 
-/// Adds the node, and connects it to the open wire.
-void add(Editor& editor, const Offer& offer) {
+/// What a node that is added with Shift is wired to: the active one, else the output; empty: nothing is
+/// there.
+std::string wiredTo(const Editor& editor) {
+    if (editor.add.wish.plug) return {};
+    const std::string& active = editor.canvas.active;
+    return active.empty() ? joinedByItself(editor.document.graph(), editor.canvas.scope) : active;
+}
+
+/// Adds the node wired to this one, in sight.
+void addTo(Editor& editor, const Offer& offer, const std::string& to) {
+    Edited edited = addJoined(editor.document.graph(), editor.canvas.scope, offer.type->id, to,
+                              offer.group ? offer.group->id : std::string());
+    apply(editor, "Add " + offer.type->label, std::move(edited));
+    const Boxes boxes(editor.document.graph(), editor.canvas.scope);
+    if (const NodeBox* box = boxes.find(editor.canvas.active)) bringIntoSight(editor.canvas.view, box->area);
+}
+
+/// Adds the node, and connects it to the open wire; or, if it is to be wired, to what is selected.
+void add(Editor& editor, const Offer& offer, bool wired) {
     const AddMenu& menu = editor.add;
+    const std::string to = wired ? wiredTo(editor) : std::string();
+    if (!offer.part && !to.empty()) {
+        if (!offer.group) toFront(editor.files.preferences.taken, offer.type->id, kMostTaken);
+        addTo(editor, offer, to);
+        return ImGui::CloseCurrentPopup();
+    }
     if (offer.part) {
         const LibraryPart part = *offer.part;
-        addPart(editor, part, position(menu.wish.at), false);
+        addPart(editor, part, position(menu.wish.at), false, to);
         return ImGui::CloseCurrentPopup();
     }
     const NodeType& type = *offer.type;
@@ -162,7 +187,8 @@ void showAddMenu(Editor& editor) {
     if (menu.opened) ImGui::SetKeyboardFocusHere();
     menu.opened = false;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputTextWithHint("##search", "Search", menu.search, sizeof menu.search)) menu.chosen = 0;
+    const char* hint = wiredTo(editor).empty() ? "Search" : "Search; with Shift+Enter it comes wired";
+    if (ImGui::InputTextWithHint("##search", hint, menu.search, sizeof menu.search)) menu.chosen = 0;
 
     const std::vector<Offer> offers = offersOf(editor);
     const int count = int(offers.size());
@@ -200,7 +226,7 @@ void showAddMenu(Editor& editor) {
     // At once, whatever has been typed.
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     if (turned) turnFavourite(editor, turned->id);
-    if (taken) add(editor, *taken);
+    if (taken) add(editor, *taken, ImGui::GetIO().KeyShift);
     ImGui::EndPopup();
 }
 

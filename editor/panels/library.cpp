@@ -10,6 +10,7 @@
 #include "editor/canvas/keyboard.h"
 #include "editor/document/library.h"
 #include "editor/editor.h"
+#include "editor/panels/side.h"
 #include "editor/shell/theme.h"
 #include "graph/document/json.h"
 
@@ -148,6 +149,7 @@ void showKeeping(Editor& editor) {
     const float em = ImGui::GetFontSize();
     ImGui::BeginDisabled(editor.canvas.selection.empty());
     ImGui::SetNextItemWidth(-9.8f * em);
+    if (std::exchange(panel.names, false)) ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputTextWithHint("##name", "a name for the selected nodes", &panel.name,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
@@ -229,6 +231,11 @@ void lookAtLibrary(Editor& editor) {
     if (std::chrono::duration<double>(now - panel.looked).count() < kLookSeconds) return;
     panel.looked = now;
     panel.reading = std::async(std::launch::async, read, folder);
+}
+
+void keepInLibrary(Editor& editor) {
+    showPanel(editor, "library");
+    editor.library.names = true;
 }
 
 void takeDraggedPart(Editor& editor) {

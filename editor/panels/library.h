@@ -23,6 +23,7 @@ namespace fw::editor {
 struct LibraryPanel {
     std::string search = {};
     std::string name = {};  ///< typed for the part that is to be kept
+    bool names = false;     ///< it is to be typed from the next frame on
     FileBrowser browser = {};
 
     std::string folder = {};  ///< that was read
@@ -48,6 +49,8 @@ struct LibraryPanel {
 
 /// Reads the folder again if that was not done for a while.
 void lookAtLibrary(Editor& editor);
+/// Shows the panel, where the name is typed under which the selected nodes are kept.
+void keepInLibrary(Editor& editor);
 /// Takes a part that was dragged from the panel and let go over the canvas. After the canvas was shown.
 void takeDraggedPart(Editor& editor);
 

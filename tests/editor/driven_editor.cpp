@@ -62,7 +62,8 @@ void DrivenEditor::moveAway() {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     moveTo({size.x - 2, size.y - 2});
 }
-void DrivenEditor::click(ImVec2 pixels) { send("mousemove " + pixelsOf(pixels) + " click 1"); }
+// xdotool would rest behind a click.
+void DrivenEditor::click(ImVec2 pixels) { send("mousemove " + pixelsOf(pixels) + " click --delay 0 1"); }
 
 void DrivenEditor::drag(ImVec2 from, ImVec2 to) {
     const ImVec2 half(0.5f * (from.x + to.x), 0.5f * (from.y + to.y));

@@ -18,20 +18,29 @@ struct Builder {
     Program& program;
     const Graph sample;
     std::map<std::string, std::string> ids = {};
+    std::vector<std::string> added = {};
 
     const Node& original(const std::string& id) const { return *findNode(sample.nodes, id); }
 
     /// At the sample's place, which is given by the upper left corner.
     void add(const std::string& id, const std::string& search) {
-        const Node& node = original(id);
-        ids[id] = program.add(search, program.view.toScreen(vec(*node.at)));
-        const Node* made = findNode(program.graph().nodes, ids[id]);
-        ASSERT_NE(made, nullptr);
-        EXPECT_EQ(made->type, node.type);
+        program.moveTo(program.view.toScreen(vec(*original(id).at)));
+        program.keys("Shift+A");
+        program.type(search + "\n");
+        added.push_back(id);
     }
+    /// What was added, in its order, which is that of the file.
+    void look() {
+        const std::vector<Node>& nodes = program.saved().nodes;
+        ASSERT_EQ(nodes.size(), added.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            ids[added[i]] = nodes[i].id;
+            EXPECT_EQ(nodes[i].type, original(added[i]).type);
+        }
+    }
+    /// A wire of a surface changes the place of nothing: all of them are looked at together.
     void wire(const std::string& from, const std::string& to, const std::string& input) {
         program.drag({program.output(ids.at(from)), program.input(ids.at(to), input)});
-        program.save();
     }
     /// Each number of the input, as the sample has it.
     void set(const std::string& id, const std::string& input) {
@@ -41,7 +50,6 @@ struct Builder {
         if (const auto* list = std::get_if<std::vector<double>>(&value.value)) numbers = *list;
         for (std::size_t i = 0; i < numbers.size(); ++i)
             program.set(ids.at(id), input, int(i), numberText(numbers[i]));
-        program.save();
     }
 };
 
@@ -73,19 +81,22 @@ TEST(EndToEnd, BuildsTheTowerFromNothing) {
                                      {"pierced", "subtract"},
                                      {"hollow", "subtract"},
                                      {"out", "output"}})
-        ASSERT_NO_FATAL_FAILURE(builder.add(id, search));
+        builder.add(id, search);
+    ASSERT_NO_FATAL_FAILURE(builder.look());
 
     // The code and the inputs of the expression, in the inspector.
     program.click(program.title(builder.ids["tubes"]));
-    const Area code = program.waitFor("Ctrl+Enter applies it");
+    // Reading all of the screen takes as long as ten clicks.
+    const Area side{{program.view.panel.hi.x, 0.4f * 800}, {1280, 800}};
+    const Area code = program.waitFor("Ctrl+Enter applies it", side);
     program.click({code.lo.x, code.hi.y + 30});
     program.keys("Ctrl+A");
     program.type(builder.original("tubes").code);
     for (const char* input : {"period", "half_width"}) {
-        program.clickOn("new input's name");
+        program.clickOn("new input's name", side);
         program.type(std::string(input) + "\n");
-        program.save();
     }
+    program.save();
     EXPECT_EQ(findNode(program.graph().nodes, builder.ids["tubes"])->code, builder.original("tubes").code);
 
     for (const auto& [id, input] : {std::pair{"tower", "half_extents"},

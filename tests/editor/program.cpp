@@ -16,6 +16,7 @@
 #include "editor/canvas/canvas.h"
 #include "editor/shell/theme.h"
 #include "graph/document/json.h"
+#include "tests/support/dropped_file.h"
 
 namespace fw::editor::test {
 
@@ -180,12 +181,15 @@ void Program::send(const std::string& words) {
 }
 
 void Program::keys(const std::string& shortcut, int times) {
+    effort.keys += times;
     std::string words = "key" + std::string(kDelay);
     for (int i = 0; i < times; ++i) words += " " + keysym(shortcut);
     send(words);
 }
 
 void Program::type(const std::string& text) {
+    // Characters of several bytes are one.
+    effort.keys += int(std::ranges::count_if(text, [](char each) { return (each & 0xC0) != 0x80; }));
     std::string words, line;
     for (char each : text + '\0') {
         if (each != '\n' && each != '\0') {
@@ -202,16 +206,27 @@ void Program::type(const std::string& text) {
 void Program::moveTo(ImVec2 to) { send(at(to)); }
 
 void Program::click(ImVec2 p, int button, const std::string& held) {
-    send(at(p) + (held.empty() ? "" : "keydown " + held + " ") + "click " + std::to_string(button) +
+    ++effort.clicks;
+    send(at(p) + (held.empty() ? "" : "keydown " + held + " ") + "click --delay 0 " + std::to_string(button) +
          (held.empty() ? "" : " keyup " + held));
 }
 
-void Program::doubleClick(ImVec2 p) { send(at(p) + "click --repeat 2 --delay 0 1"); }
+void Program::doubleClick(ImVec2 p) {
+    effort.clicks += 2;
+    send(at(p) + "click --repeat 2 --delay 0 1");
+}
+
+void Program::drop(const std::string& path, ImVec2 p) {
+    ++effort.drags;
+    EXPECT_TRUE(fw::test::dropFile(window, path, int(std::lround(p.x)), int(std::lround(p.y))))
+        << path << " cannot be dropped";
+}
 
 void Program::release(int button) { send("mouseup " + std::to_string(button)); }
 
 void Program::drag(const std::vector<ImVec2>& through, int button, const std::string& held, bool watched,
                    bool ends) {
+    ++effort.drags;
     const std::string number = std::to_string(button);
     std::string words =
         at(through.front()) + (held.empty() ? "" : "keydown " + held + " ") + "mousedown " + number;
@@ -291,7 +306,9 @@ void Program::waitForChange(const Picture& before, const Area& part) {
 
 std::string Program::save() {
     const auto before = identity(document);
+    const Effort done = effort;
     keys("Ctrl+S");
+    effort = done;
     EXPECT_TRUE(waitUntil([&] { return identity(document) != before; })) << "Ctrl+S does not write the file";
     read();
     return readText(document);
@@ -300,6 +317,16 @@ std::string Program::save() {
 const Graph& Program::saved() {
     save();
     return known;
+}
+
+void Program::open(const std::string& path) {
+    keys("Ctrl+O");
+    waitFor("Cancel");
+    type(path + "\n");
+    const std::size_t slash = path.find_last_of('/');
+    document = slash == std::string::npos ? folder.path(path) : path;
+    waitForTitle(document.substr(document.find_last_of('/') + 1) + " - Fieldwright");
+    read();
 }
 
 void Program::read() {
@@ -345,7 +372,9 @@ void Program::findPanel() {
 }
 
 void Program::frameAll() {
+    const Effort done = effort;
     keys("Home");
+    effort = done;
     ASSERT_TRUE(waitUntil([&] {
         // Twice the same: it may be seen while it is drawn.
         const Area before = view.panel;

@@ -23,6 +23,14 @@
 
 namespace fw::editor::test {
 
+/// What a person has done with hands: a double click is two clicks, a drag one whatever its way, a key one
+/// with all that is held with it. The wheel and mere ways of the mouse count nothing.
+struct Effort {
+    int clicks = 0, drags = 0, keys = 0;
+    int all() const { return clicks + drags + keys; }
+    bool operator==(const Effort&) const = default;
+};
+
 class Program {
   public:
     /// With a document of this text, or with the empty document if there is none. Check works() first.
@@ -54,8 +62,12 @@ class Program {
     void drag(const std::vector<ImVec2>& through, int button = 1, const std::string& held = {},
               bool watched = false, bool ends = true);
     void release(int button = 1);
+    /// A file from another program, dropped at this place.
+    void drop(const std::string& path, ImVec2 at);
     void wheel(ImVec2 at, int notches);  ///< up if positive
     void send(const std::string& xdotoolWords);
+    /// All of it so far, but for what save() and frameAll() press for the test's own eyes.
+    Effort effort;
 
     // What is seen.
     Picture screen() const { return display.screen(); }
@@ -77,6 +89,8 @@ class Program {
     // The document.
     std::string save();    ///< Ctrl+S, and the file's bytes
     const Graph& saved();  ///< the same, read
+    /// Opens this file in place of the document, which has no unsaved changes.
+    void open(const std::string& path);
     const Graph& graph() const { return known; }
     void clipboard(const std::string& text);
     std::string clipboard() const;
