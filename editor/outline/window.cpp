@@ -223,6 +223,7 @@ void followKeys(Editor& editor, const Points& points) {
         window.zoom = 0.0;
     } else if (pressed(ImGuiKey_Escape)) {
         window.open = false;
+        editor.panels.next = Part::canvas;
     }
     for (const auto& [key, x, y] : {std::tuple(ImGuiKey_LeftArrow, -1, 0),
                                     {ImGuiKey_RightArrow, 1, 0},

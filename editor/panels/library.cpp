@@ -142,6 +142,7 @@ void keepSelected(Editor& editor) {
     say(editor, "kept as " + name + " in the library");
     panel.name.clear();
     panel.looked = {};
+    editor.panels.next = Part::canvas;
 }
 
 void showKeeping(Editor& editor) {

@@ -71,8 +71,7 @@ Input::Input(GLFWwindow* window_) : window(window_) {
     glfwSetWindowFocusCallback(
         window, [](GLFWwindow* w, int focused) { of(w).add({.kind = Kind::focus, .code = focused}); });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-        of(w).anything = true;
-        of(w).dropped.insert(of(w).dropped.end(), paths, paths + count);
+        of(w).add({.kind = Kind::drop, .paths = {paths, paths + count}});
     });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).anything = true; });
     glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).anything = true; });
@@ -104,7 +103,7 @@ bool Input::keyboardRests() {
 
 void Input::feed() {
     // What this frame already reacts to: it does so once, with the state of mouse and modifiers at that time.
-    enum class Act { none, wheel, key, button } act = Act::none;
+    enum class Act { none, wheel, key, button, drop } act = Act::none;
     std::vector<int> released;
     bool moved = false;
     // What a button held has to know where it was let go, be that outside of the window.
@@ -121,7 +120,8 @@ void Input::feed() {
             case Event::Kind::key:
                 return act == Act::none && rests &&
                        (!event.down || !std::ranges::count(released, event.code));
-            case Event::Kind::focus: return act == Act::none;
+            case Event::Kind::focus:
+            case Event::Kind::drop: return act == Act::none;
         }
         return true;
     };
@@ -134,6 +134,10 @@ void Input::feed() {
             case Event::Kind::button:
                 buttons[std::size_t(event.code)] = event.down;
                 act = Act::button;
+                break;
+            case Event::Kind::drop:
+                dropped.insert(dropped.end(), event.paths.begin(), event.paths.end());
+                act = Act::drop;
                 break;
             case Event::Kind::wheel:
                 ImGui_ImplGlfw_ScrollCallback(window, event.x, event.y);

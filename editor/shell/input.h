@@ -33,16 +33,17 @@ class Input {
     /// Whether anything happened since the last call: input, another size, a part of the window uncovered.
     bool happened() { return std::exchange(anything, false); }
     bool mouseHeld() const;
-    /// Paths of files that were dropped on the window since the last call.
+    /// Paths of files that were dropped on the window since the last call, in their turn among all input.
     std::vector<std::string> takeDropped() { return std::exchange(dropped, {}); }
 
   private:
     struct Event {
-        enum class Kind : unsigned char { move, leave, button, wheel, key, character, focus } kind;
+        enum class Kind : unsigned char { move, leave, button, wheel, key, character, focus, drop } kind;
         int code = 0;         ///< button, key, character, 1 for a focus gained
         bool down = false;    ///< of button and key
         double x = 0, y = 0;  ///< of move and wheel
         int scancode = 0, modifiers = 0;
+        std::vector<std::string> paths = {};  ///< of drop
     };
     /// Where keys go.
     struct Keyboard {
