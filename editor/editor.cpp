@@ -19,10 +19,26 @@ namespace {
 constexpr double kNoticeSeconds = 6.0;
 constexpr float kMargin = 4.0f;  // around the parts of the window, pixels
 
+/// Labels, names and texts may be in any language.
+void wantGlyphsOf(const Graph& graph) {
+    wantGlyphs(graph.path);
+    for (const Frame& frame : framesOf(graph)) wantGlyphs(frame.text);
+    const auto all = [](const std::vector<Node>& nodes) {
+        for (const Node& node : nodes) {
+            for (const std::string* text : {&node.id, &node.label, &node.code}) wantGlyphs(*text);
+            for (const auto& [name, value] : node.inputs)
+                if (const auto* text = std::get_if<std::string>(&value.value)) wantGlyphs(*text);
+        }
+    };
+    all(graph.nodes);
+    for (const Group& group : graph.groups) wantGlyphs(group.id), all(group.nodes);
+}
+
 void drawAnew(Editor& editor) {
     if (editor.drawn == editor.document.revision() && editor.boxes) return;
     editor.boxes.reset();
     editor.graph = std::make_shared<const Graph>(editor.document.graph());
+    wantGlyphsOf(*editor.graph);
     editor.canvas.follow(*editor.graph);
     editor.boxes.emplace(*editor.graph, editor.canvas.scope);
     editor.drawn = editor.document.revision();
@@ -101,6 +117,7 @@ void showCanvasPart(Editor& editor) {
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);
     if (wishes.frame) editor.frameMenu = {*wishes.frame, true};
+    showStartPage(editor);
     showFieldMenu(editor, wishes.field);
     showAddMenu(editor);
     showFrameMenu(editor);

@@ -4,12 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <new>
 
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
-#include "editor/panels/tour.h"
 #include "editor/shell/loss.h"
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/drivers.h"
@@ -71,14 +69,12 @@ int run(const Options& options) {
     Shell shell(options.shell);
     if (!shell.fonts().missing.empty()) complain(shell.fonts().missing);
     Editor editor(shell, Graph(), {.pick = options.shell.device});
-    std::error_code none;
-    const bool first = !std::filesystem::exists(preferencesPath(), none);
     startFiles(editor, options.graph);
     const Preferences& preferences = editor.files.preferences;
     if (options.shell.scale == 0.0f) shell.setScale(preferences.scale);
     if (const auto size = windowSizeOf(preferences.panels); size && !options.sized)
         shell.resize(size->first, size->second);
-    if (first && options.graph.empty() && editor.files.left.empty()) startTour(editor);
+    editor.windows.start.open = options.graph.empty();
     onDisplayLost([&] { endAtOnce(editor, "the display is gone"); });
     try {
         while (!editor.quit && signal == 0) {

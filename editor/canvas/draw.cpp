@@ -6,6 +6,7 @@
 
 #include "editor/canvas/canvas.h"
 #include "editor/ramps/hand.h"
+#include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -37,8 +38,15 @@ struct Pen {
         const ImVec2 pixel(std::floor(at.x), std::floor(at.y - 0.5f * size));
         if (width <= 0.0f)
             return list->AddText(font, size, pixel, color, words.data(), words.data() + words.size());
-        const ImVec4 clip(pixel.x, pixel.y, pixel.x + width, pixel.y + 2.0f * size);
-        list->AddText(font, size, pixel, color, words.data(), words.data() + words.size(), 0.0f, &clip);
+        // What does not fit ends with a sign for that.
+        const char *begin = words.data(), *end = begin + words.size(), *fits = end;
+        const float whole = font->CalcTextSizeA(size, width, 0.0f, begin, end, &fits).x;
+        if (fits == end) return list->AddText(font, size, pixel, color, begin, end);
+        const float sign = this->width("…");
+        float until = std::min(whole, width);
+        if (sign < width) until = font->CalcTextSizeA(size, width - sign, 0.0f, begin, end, &fits).x;
+        list->AddText(font, size, pixel, color, begin, fits);
+        if (sign < width) list->AddText(font, size, {std::floor(pixel.x + until), pixel.y}, color, "…");
     }
     float width(std::string_view words) const {
         return font->CalcTextSizeA(size, FLT_MAX, 0.0f, words.data(), words.data() + words.size()).x;
@@ -279,8 +287,12 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
         fill(area.grown(-border));
     }
     if (pen.view.unit() >= 0.7f * kTextZoom) {
-        const float middle = area.lo.y + 0.5f * strip, room = area.width() - 34.0f * pen.view.unit();
-        pen.text({area.lo.x + 9.0f * pen.view.unit(), middle},
+        const float unit = pen.view.unit(), middle = area.lo.y + 0.5f * strip,
+                    before = box.type ? 27.0f : 9.0f, room = area.width() - (before + 25.0f) * unit;
+        if (box.type)
+            drawIcon(*pen.list, box.type->category, {area.lo.x + 15.0f * unit, middle}, 12.0f * unit,
+                     themeColor(ThemeColor::onTitle));
+        pen.text({area.lo.x + before * unit, middle},
                  themeColor(box.type ? ThemeColor::onTitle : ThemeColor::canvas), titleOf(box), room);
         if (marks.pinned == box.node->id)
             pen.list->AddCircleFilled({area.hi.x - 30.0f * pen.view.unit(), middle}, 4.0f * pen.view.unit(),
@@ -360,7 +372,7 @@ void drawCost(const Pen& pen, const NodeBox& box, double part) {
     const ImVec2 hi(area.hi.x, area.lo.y - 2.0f * pen.view.unit()),
         lo(hi.x - pen.width(text) - 2.0f * inset, hi.y - high);
     pen.list->AddRectFilled(lo, hi, color, 0.5f * kRounding * pen.view.unit());
-    pen.text({lo.x + inset, 0.5f * (lo.y + hi.y)}, IM_COL32_WHITE, text);
+    pen.text({lo.x + inset, 0.5f * (lo.y + hi.y)}, themeColor(ThemeColor::onTitle), text);
 }
 
 /// The node's own field above it, as wide as the node.

@@ -141,9 +141,9 @@ ImVec2 layOutSignature(ImDrawList* list, ImFont* font, const Entry& entry, int a
             if (on)
                 list->AddRectFilled({at.x + pen.x - 1, at.y + pen.y},
                                     {at.x + pen.x + width, at.y + pen.y + line},
-                                    IM_COL32(0x2a, 0x4a, 0x5f, 255), 2.0f);
+                                    themeColor(ThemeColor::header), 2.0f);
             list->AddText(font, size, {at.x + pen.x, at.y + pen.y + 0.5f * (line - size)},
-                          on ? themeColor(ThemeColor::active) : inkColor(Ink::plain), word.c_str());
+                          on ? themeColor(ThemeColor::argument) : inkColor(Ink::plain), word.c_str());
         }
         pen.x += width;
         most = {std::max(most.x, pen.x), pen.y + line};

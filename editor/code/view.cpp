@@ -20,23 +20,19 @@ namespace {
 constexpr double kBlink = 0.5, kBlinks = 10.0;  // seconds that the caret is lit, or dark; that it blinks for
 constexpr float kMargin = 4.0f;                 // pixels at scale 1
 
-constexpr ImU32 rgbOf(unsigned hex) {
-    return IM_COL32((hex >> 16) & 255u, (hex >> 8) & 255u, hex & 255u, 255);
-}
-
 // By Ink.
-constexpr ImU32 kInks[] = {
-    rgbOf(0xe6e8eb),  // plain
-    rgbOf(0xd3a4ee),  // word
-    rgbOf(0x62c8d6),  // type
-    rgbOf(0xf2b77c),  // constant
-    rgbOf(0xf0e06a),  // input
-    rgbOf(0x8cc8f2),  // function
-    rgbOf(0x7fd9a6),  // node
-    rgbOf(0xe5a3a3),  // string
-    rgbOf(0x949ca6),  // comment
-    rgbOf(0xff8a5c),  // unknown
-    rgbOf(0xff8a5c),  // wrong
+constexpr ThemeColor kInks[] = {
+    ThemeColor::text,          // plain
+    ThemeColor::codeWord,      // word
+    ThemeColor::codeType,      // type
+    ThemeColor::codeConstant,  // constant
+    ThemeColor::codeInput,     // input
+    ThemeColor::codeFunction,  // function
+    ThemeColor::codeNode,      // node
+    ThemeColor::codeString,    // string
+    ThemeColor::codeComment,   // comment
+    ThemeColor::error,         // unknown
+    ThemeColor::error,         // wrong
 };
 static_assert(std::size(kInks) == std::size_t(Ink::wrong) + 1);
 
@@ -179,7 +175,7 @@ void drawNumbers(ImDrawList* list, const Shown& shown, const Page& page, const V
         const bool here = view.inside && i == shown.text.cursor.line;
         list->AddText(shown.font, shown.font->FontSize,
                       {page.lo.x - 1.5f * page.cell.x - float(number.size()) * page.cell.x, page.y(i)},
-                      here ? themeColor(ThemeColor::text) : rgbOf(0x7d8590), number.c_str());
+                      themeColor(here ? ThemeColor::text : ThemeColor::codeNumber), number.c_str());
     }
 }
 
@@ -210,12 +206,14 @@ void drawPage(View& view, const Shown& shown, const Page& page) {
     list->PushClipRect({page.lo.x - 2.0f, page.lo.y}, page.hi, true);
     const int row = text.cursor.line;
     if (view.inside && !text.selects())
-        list->AddRectFilled({page.lo.x - 2.0f, page.y(row)}, {page.hi.x, page.y(row + 1)}, rgbOf(0x262a31));
+        list->AddRectFilled({page.lo.x - 2.0f, page.y(row)}, {page.hi.x, page.y(row + 1)},
+                            themeColor(ThemeColor::codeLine));
     if (view.search.open)
         for (const Range& range : findAll(text, view.search.words, page.first, page.last))
-            fillRange(list, text, page, range, rgbOf(0x5c4a1c));
+            fillRange(list, text, page, range, themeColor(ThemeColor::codeFound));
     if (text.selects())
-        fillRange(list, text, page, text.selection(), view.inside ? rgbOf(0x2b6894) : rgbOf(0x3a4450));
+        fillRange(list, text, page, text.selection(),
+                  themeColor(view.inside ? ThemeColor::textSelected : ThemeColor::codeNotSelected));
     if (view.inside) drawBrackets(list, view, shown, page);
     for (int i = page.first; i <= page.last; ++i) drawLine(list, shown, page, i);
     for (const Mark& mark : shown.marks)
@@ -224,7 +222,7 @@ void drawPage(View& view, const Shown& shown, const Page& page) {
     if (view.inside && lit(view)) {
         const float x = std::round(page.x(float(columnOf(text, text.cursor)))),
                     wide = std::max(1.0f, std::round(1.5f * shown.scale));
-        list->AddRectFilled({x, page.y(row)}, {x + wide, page.y(row + 1)}, themeColor(ThemeColor::onTitle));
+        list->AddRectFilled({x, page.y(row)}, {x + wide, page.y(row + 1)}, themeColor(ThemeColor::text));
     }
     list->PopClipRect();
 }
@@ -286,7 +284,7 @@ bool showSearch(View& view, Text& text, float scale) {
 
 }  // namespace
 
-ImU32 inkColor(Ink ink) { return kInks[std::size_t(ink)]; }
+ImU32 inkColor(Ink ink) { return themeColor(kInks[std::size_t(ink)]); }
 ImU32 paperColor() { return themeColor(ThemeColor::canvas); }
 
 double now() {

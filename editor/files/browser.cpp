@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "editor/shell/fonts.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/base/words.h"
 
@@ -50,7 +52,9 @@ void showPath(FileBrowser& browser) {
     for (const fs::path& part : path) {
         there = there.empty() || there == "/" ? there + part.string() : there + "/" + part.string();
         ImGui::PushID(id++);
-        if (id > 1) ImGui::SameLine(0, 2);
+        wantGlyphs(part.string());
+        const float width = ImGui::CalcTextSize(part.string().c_str()).x;
+        if (id > 1) besideIfFits(width + 2.0f * ImGui::GetStyle().FramePadding.x);
         if (ImGui::SmallButton(part.string().c_str())) {
             enter(browser, there);
             ImGui::PopID();
@@ -67,6 +71,7 @@ bool showEntries(FileBrowser& browser, float height) {
     ImGui::BeginChild("##entries", {0, height}, true);
     if (browser.folder != "/" && ImGui::Selectable("..")) go = "..";
     for (const FolderEntry& entry : browser.entries) {
+        wantGlyphs(entry.name);
         const std::string label = (entry.folder ? "▸ " : "   ") + entry.name;
         if (ImGui::Selectable(label.c_str(), entry.name == browser.name,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {

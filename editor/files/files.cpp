@@ -10,6 +10,7 @@
 #include "editor/files/arrangement.h"
 #include "editor/files/graph_folder.h"
 #include "editor/files/tabs.h"
+#include "editor/shell/desktop_theme.h"
 #include "graph/document/json.h"
 
 namespace fw::editor {
@@ -307,6 +308,7 @@ void startFiles(Editor& editor, const std::string& path) {
                                              [](const char* name) { return std::string(name); });
     if (scrolling != std::end(kScrollingNames))
         editor.viewport.scrolling = Scrolling(scrolling - std::begin(kScrollingNames));
+    setTheme(themeOf(themeChoice(editor.files.preferences.theme)));
     arrange(editor, editor.files.preferences.panels);
     editor.files.left = leftCopies();
     editor.files.offers = !editor.files.left.empty();
@@ -448,6 +450,7 @@ void showRecent(Editor& editor) {
     for (const std::string& path : recent) {
         std::error_code error;
         const bool gone = !fs::exists(path, error);
+        wantGlyphs(path);
         if (ImGui::MenuItem(path.c_str(), gone ? "gone" : nullptr, false, !gone)) openFile(editor, path);
     }
     ImGui::EndMenu();

@@ -78,19 +78,23 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
     take(
         all, "views", [](const Json& value) { return value.is_object(); },
         [&](const Json& value) { preferences.views = value; }, problem);
-    take(
-        all, "shortcuts", [](const Json& value) { return value.is_object(); },
+        all, "theme", [](const Json& value) {
+        return value.is_string(); },
         [&](const Json& value) {
-            for (const auto& [id, keys] : value.items())
-                if (keys.is_string()) preferences.shortcuts[id] = keys.get<std::string>();
-        },
-        problem);
-    take(
-        all, "panels", [](const Json& value) { return value.is_object(); },
-        [&](const Json& value) { preferences.panels = value; }, problem);
-    if (!all.empty()) preferences.extra = std::move(all);
-    if (!problem.empty()) problem = path + ": " + problem + ": its default is taken";
-    return preferences;
+        preferences.theme = value.get<std::string>(); }, problem);
+        take(
+            all, "shortcuts", [](const Json& value) { return value.is_object(); },
+            [&](const Json& value) {
+                for (const auto& [id, keys] : value.items())
+                    if (keys.is_string()) preferences.shortcuts[id] = keys.get<std::string>();
+            },
+            problem);
+        take(
+            all, "panels", [](const Json& value) { return value.is_object(); },
+            [&](const Json& value) { preferences.panels = value; }, problem);
+        if (!all.empty()) preferences.extra = std::move(all);
+        if (!problem.empty()) problem = path + ": " + problem + ": its default is taken";
+        return preferences;
 }
 
 Done savePreferences(const Preferences& preferences, const std::string& path) {
@@ -103,6 +107,7 @@ Done savePreferences(const Preferences& preferences, const std::string& path) {
     if (!preferences.navigation.empty()) all["navigation"] = preferences.navigation;
     if (!preferences.scrolling.empty()) all["scrolling"] = preferences.scrolling;
     if (preferences.views->is_object() && !preferences.views->empty()) all["views"] = preferences.views;
+    if (!preferences.theme.empty()) all["theme"] = preferences.theme;
     all["scale"] = preferences.scale;
     all["shortcuts"] = preferences.shortcuts;
     if (!preferences.panels->is_null()) all["panels"] = preferences.panels;

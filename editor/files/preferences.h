@@ -26,6 +26,7 @@ struct Preferences {
     std::string navigation = {};  ///< one of kNavigationNames (viewport.h); empty: the first
     std::string scrolling = {};   ///< one of kScrollingNames (viewport.h); empty: the first
     KeptJson views;               ///< an object: kept views by a document's path (kept_views.h)
+    std::string theme = {};       ///< one of kThemeNames (desktop_theme.h); empty: dark
     KeptJson panels;              ///< an object: how window and panels stand (arrangement.h)
     KeptJson extra;               ///< unknown keys
     bool operator==(const Preferences&) const = default;

@@ -8,6 +8,8 @@
 #include "editor/document/joining.h"
 #include "editor/document/library.h"
 #include "editor/editor.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -182,7 +184,8 @@ void showAddMenu(Editor& editor) {
         ImGui::SetNextWindowPos(editor.canvas.view.toScreen(menu.wish.at));
     }
     const float unit = editor.shell.scale();
-    ImGui::SetNextWindowSize({300 * unit, 380 * unit});
+    const ImVec2 whole = ImGui::GetMainViewport()->Size;
+    ImGui::SetNextWindowSize({std::min(300 * unit, 0.95f * whole.x), std::min(380 * unit, 0.95f * whole.y)});
     if (!ImGui::BeginPopup(kPopup)) return;
     if (menu.opened) ImGui::SetKeyboardFocusHere();
     menu.opened = false;
@@ -208,8 +211,15 @@ void showAddMenu(Editor& editor) {
         const Offer& offer = offers[std::size_t(i)];
         if (!offer.heading.empty()) ImGui::TextDisabled("%s", offer.heading.c_str());
         ImGui::PushID(i);
-        const bool clicked = ImGui::Selectable(("  " + offer.label).c_str(), i == menu.chosen,
-                                               ImGuiSelectableFlags_DontClosePopups);
+        const float em = ImGui::GetFontSize();
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const std::string label = fitted(offer.label, ImGui::GetContentRegionAvail().x - 3.2f * em);
+        const bool clicked =
+            ImGui::Selectable("##offer", i == menu.chosen, ImGuiSelectableFlags_DontClosePopups);
+        ImDrawList* list = ImGui::GetWindowDrawList();
+        list->AddText({corner.x + 1.8f * em, corner.y}, themeColor(ThemeColor::text), label.c_str());
+        drawBadge(*list, offer.type ? offer.type->category : Category::structure,
+                  {corner.x + 0.9f * em, corner.y + 0.5f * em}, em);
         const bool hovered = ImGui::IsItemHovered();
         if (i == menu.chosen && (down || up)) ImGui::SetScrollHereY();
         const bool ofType = offer.type && !offer.group;

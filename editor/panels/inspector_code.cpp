@@ -5,6 +5,7 @@
 #include "editor/document/expression_inputs.h"
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/letters.h"
 
 namespace fw::editor {
 
@@ -43,7 +44,7 @@ void showExpression(Editor& editor, const NodeBox& box) {
                 state.newInputType = i;
         ImGui::EndCombo();
     }
-    ImGui::SameLine();
+    besideIfFits("Add input");
     if ((ImGui::Button("Add input") || entered) && !state.newInput.empty()) addInput(editor, id);
     // Behind what would move with each letter otherwise.
     if (!editor.code.large) code::showMessages(editor);

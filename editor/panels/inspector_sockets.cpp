@@ -7,6 +7,7 @@
 #include "editor/document/group_sockets.h"
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/document/input_value.h"
 
@@ -111,12 +112,12 @@ void showLink(Editor& editor, const Group& group) {
     if (ImGui::Button("Update")) updateGroup(editor, group.id);
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Takes what the file holds, as one step");
-    ImGui::SameLine();
+    besideIfFits("Write the file");
     ImGui::BeginDisabled(!link || (link->problem.empty() && link->state == LinkState::same));
     if (ImGui::Button("Write the file")) writeGroup(editor, group.id);
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the file holds now is kept beside it");
-    ImGui::SameLine();
+    besideIfFits("Make it local");
     if (ImGui::Button("Make it local")) unlinkGroup(editor, group.id);
 }
 
@@ -154,7 +155,7 @@ void showGroupSockets(Editor& editor, const std::string& id) {
     if (chooseType("##new type", chosen)) state.newSocketType = int(chosen);
     ImGui::BeginDisabled(state.newSocket.empty());
     if (ImGui::Button("Add input")) add(editor, id, GroupSide::inputs);
-    ImGui::SameLine();
+    besideIfFits("Add output");
     if (ImGui::Button("Add output")) add(editor, id, GroupSide::outputs);
     ImGui::EndDisabled();
 }

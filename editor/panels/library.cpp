@@ -11,6 +11,7 @@
 #include "editor/document/library.h"
 #include "editor/editor.h"
 #include "editor/panels/side.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/document/json.h"
 
@@ -72,18 +73,6 @@ void makePictures(Editor& editor, const std::vector<const LibraryPart*>& seen) {
 /// The middle of what is seen of the canvas, below what was put there before.
 Position inSight(const Editor& editor) {
     return position(freePlace(*editor.boxes, editor.canvas.view.middle));
-}
-
-/// "Hex bolt", cut with "…" to fit.
-std::string fitted(const std::string& label, float width) {
-    if (ImGui::CalcTextSize(label.c_str()).x <= width) return label;
-    std::string cut = label;
-    while (!cut.empty() && ImGui::CalcTextSize((cut + "…").c_str()).x > width) {
-        do cut.pop_back();
-        while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xC0) == 0x80);
-        if (!cut.empty() && static_cast<unsigned char>(cut.back()) >= 0xC0) cut.pop_back();
-    }
-    return cut + "…";
 }
 
 struct Asked {
@@ -149,11 +138,12 @@ void showKeeping(Editor& editor) {
     LibraryPanel& panel = editor.library;
     const float em = ImGui::GetFontSize();
     ImGui::BeginDisabled(editor.canvas.selection.empty());
-    ImGui::SetNextItemWidth(-9.8f * em);
+    const bool narrow = ImGui::GetContentRegionAvail().x < 26.0f * em;
+    ImGui::SetNextItemWidth(narrow ? -FLT_MIN : -9.8f * em);
     if (std::exchange(panel.names, false)) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint("##name", "a name for the selected nodes", &panel.name,
+    const bool entered = ImGui::InputTextWithHint("##name", "name of the selection", &panel.name,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::SameLine();
+    if (!narrow) ImGui::SameLine();
     ImGui::BeginDisabled(panel.name.empty());
     if (ImGui::Button("Keep", {3.6f * em, 0}) || (entered && !panel.name.empty())) keepSelected(editor);
     ImGui::EndDisabled();

@@ -6,6 +6,8 @@
 #include <cctype>
 
 #include "editor/panels/properties.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/base/words.h"
 
@@ -90,17 +92,24 @@ void showNode(const Editor& editor, const Line& line, const std::set<std::string
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float middle = at.y + 0.5f * ImGui::GetFrameHeight(), x = at.x + 1.8f * em;
-    list->AddRectFilled({x, middle - 0.35f * em}, {x + 0.7f * em, middle + 0.35f * em},
-                        type ? categoryColor(type->category) : themeColor(ThemeColor::error), 2.0f);
-    const std::string title = titleOf(node, type);
-    const ImVec2 text(x + 1.2f * em, middle - 0.5f * em);
+    if (type)
+        drawBadge(*list, type->category, {x + 0.5f * em, middle}, em);
+    else
+        list->AddRectFilled({x, middle - 0.5f * em}, {x + em, middle + 0.5f * em},
+                            themeColor(ThemeColor::error), 0.2f * em);
+    const ImVec2 text(x + 1.5f * em, middle - 0.5f * em);
+    const float right = ImGui::GetItemRectMax().x;
+    const std::string whole = titleOf(node, type), title = fitted(whole, right - text.x);
     const ImU32 color = wrong.contains(path) ? themeColor(ThemeColor::error)
                         : node.muted         ? themeColor(ThemeColor::quiet)
                                              : themeColor(ThemeColor::text);
     list->AddText(text, color, title.c_str());
-    if (lowered(title) != node.id)
-        list->AddText({text.x + ImGui::CalcTextSize(title.c_str()).x + em, text.y},
-                      themeColor(ThemeColor::quiet), node.id.c_str());
+    if (lowered(whole) != node.id) {
+        const float after = text.x + ImGui::CalcTextSize(title.c_str()).x + em;
+        if (right - after > 2.0f * em)
+            list->AddText({after, text.y}, themeColor(ThemeColor::quiet),
+                          fitted(node.id, right - after).c_str());
+    }
 }
 
 }  // namespace

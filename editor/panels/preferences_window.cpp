@@ -1,7 +1,9 @@
-// Preferences: how large the interface is, and which keys do what.
+// Preferences: how large the interface is and how it looks, and which keys do what.
 #include <cmath>
 
 #include "editor/commands.h"
+#include "editor/shell/desktop_theme.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -18,12 +20,32 @@ void keep(Editor& editor) {
 
 std::string percent(float scale) { return std::to_string(int(std::lround(100.0f * scale))) + " %"; }
 
+/// The label of a choice that stands in a column beside the others.
+void label(const char* words) {
+    const float em = ImGui::GetFontSize();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(words);
+    ImGui::SameLine(12.0f * em);
+    ImGui::SetNextItemWidth(std::min(18.0f * em, ImGui::GetContentRegionAvail().x));
+}
+
+void showTheme(Editor& editor) {
+    std::string& name = editor.files.preferences.theme;
+    const ThemeChoice chosen = themeChoice(name);
+    label("Theme");
+    if (!ImGui::BeginCombo("##theme", kThemeWords[std::size_t(chosen)])) return;
+    for (std::size_t i = 0; i < std::size(kThemeWords); ++i)
+        if (ImGui::Selectable(kThemeWords[i], i == std::size_t(chosen))) {
+            name = kThemeNames[i];
+            setTheme(themeOf(ThemeChoice(i)));
+            keep(editor);
+        }
+    ImGui::EndCombo();
+}
+
 void showScale(Editor& editor) {
     float& scale = editor.files.preferences.scale;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Interface scale");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+    label("Interface scale");
     const std::string now = scale > 0.0f ? percent(scale) : "The display's";
     if (!ImGui::BeginCombo("##scale", now.c_str())) return;
     for (const float each : kScales)
@@ -96,7 +118,10 @@ void showKeys(Editor& editor, const Command& command) {
             window.key = i;
         }
         if (i == keys.size() && !waits && ImGui::IsItemHovered()) ImGui::SetTooltip("One more key");
-        ImGui::SameLine();
+        const std::string after = waits                 ? "No key"
+                                  : i + 1 < keys.size() ? textOf(keys[i + 1])
+                                                        : std::string("+");
+        if (waits || i < keys.size()) besideIfFits(after.c_str());
         bool removed = false;
         if (waits && i < keys.size()) {
             removed = ImGui::SmallButton("No key");
@@ -123,7 +148,7 @@ void showCommands(Editor& editor) {
                            {0, -ImGui::GetFrameHeightWithSpacing()}))
         return;
     const float em = ImGui::GetFontSize();
-    ImGui::TableSetupColumn("Command", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+    ImGui::TableSetupColumn("Command", ImGuiTableColumnFlags_WidthStretch, 1.3f);
     ImGui::TableSetupColumn("Keys", ImGuiTableColumnFlags_WidthStretch, 1.0f);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 4.0f * em);
     for (const std::size_t i : findChoices(window.search, choices)) {
@@ -132,8 +157,8 @@ void showCommands(Editor& editor) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", command.menu);
-        ImGui::SameLine(4.0f * em);
-        ImGui::TextUnformatted(command.label);
+        ImGui::SameLine(4.8f * em);
+        ImGui::TextWrapped("%s", command.label);
         ImGui::TableNextColumn();
         showKeys(editor, command);
         ImGui::TableNextColumn();
@@ -149,10 +174,7 @@ void showCommands(Editor& editor) {
 
 void showNavigation(Editor& editor) {
     std::size_t chosen = std::size_t(editor.viewport.navigation);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("The picture by mouse");
-    ImGui::SameLine(12.0f * ImGui::GetFontSize());
-    ImGui::SetNextItemWidth(18.0f * ImGui::GetFontSize());
+    label("The picture by mouse");
     if (!ImGui::BeginCombo("##navigation", kNavigationWords[chosen])) return;
     for (std::size_t i = 0; i < std::size(kNavigationWords); ++i)
         if (ImGui::Selectable(kNavigationWords[i], i == chosen)) {
@@ -201,6 +223,7 @@ void showPreferences(Editor& editor) {
                                     ImGuiWindowFlags_NoMove |
                                     (waited ? ImGuiWindowFlags_NoNavInputs : ImGuiWindowFlags_None)))
         return stopWaiting(window);
+    showTheme(editor);
     showScale(editor);
     showNavigation(editor);
     showScrolling(editor);

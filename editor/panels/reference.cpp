@@ -148,8 +148,12 @@ void showReference(Editor& editor) {
     if (std::exchange(reference.opened, false)) ImGui::SetNextWindowFocus();
     if (ImGui::Begin(kReferenceTitle, &reference.open,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
-        ImGui::BeginChild("##list", {0.24f * ImGui::GetContentRegionAvail().x, 0}, true,
-                          ImGuiWindowFlags_NavFlattened);
+        ImGui::BeginChild(
+            "##list",
+            {std::clamp(0.24f * ImGui::GetContentRegionAvail().x, 12.0f * ImGui::GetFontSize(),
+                        std::max(0.4f * ImGui::GetContentRegionAvail().x, 12.0f * ImGui::GetFontSize())),
+             0},
+            true, ImGuiWindowFlags_NavFlattened);
         showTypes(reference);
         ImGui::EndChild();
         ImGui::SameLine();

@@ -9,6 +9,7 @@
 
 #include "editor/document/scene_edits.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/marks.h"
 #include "graph/base/file_kind.h"
@@ -114,11 +115,11 @@ void showCamera(Editor& editor, const Scene& scene) {
     Document& document = editor.document;
     if (ImGui::Button("From the viewport")) keepAsSceneCamera(editor);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Make what the viewport shows the scene's camera");
-    ImGui::SameLine();
+    besideIfFits("Look through it");
     ImGui::BeginDisabled(!viewport.ownCamera);
     if (ImGui::Button("Look through it")) viewport.ownCamera = false;
     ImGui::EndDisabled();
-    ImGui::SameLine();
+    besideIfFits("Remove");
     ImGui::BeginDisabled(!scene.camera);
     if (ImGui::Button("Remove")) set(editor, "Camera", setSceneCamera(document.graph(), std::nullopt));
     ImGui::EndDisabled();

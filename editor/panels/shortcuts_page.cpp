@@ -55,9 +55,9 @@ constexpr std::pair<const char*, const char*> kMouseInTime[] = {
 
 void row(const std::string& keys, const std::string& what) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(keys.c_str());
+    ImGui::TextWrapped("%s", keys.c_str());
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(what.c_str());
+    ImGui::TextWrapped("%s", what.c_str());
 }
 
 void heading(const char* words) {
@@ -69,7 +69,12 @@ void heading(const char* words) {
 
 bool beginColumn(const char* id, float width) {
     ImGui::BeginChild(id, {width, -ImGui::GetFrameHeightWithSpacing()}, false, ImGuiWindowFlags_NavFlattened);
-    if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit)) return true;
+    if (ImGui::BeginTable("##keys", 2)) {
+        const float em = ImGui::GetFontSize(), room = ImGui::GetContentRegionAvail().x;
+        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, std::min(13.0f * em, 0.5f * room));
+        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+        return true;
+    }
     ImGui::EndChild();
     return false;
 }
@@ -87,6 +92,27 @@ void showMenu(const Editor& editor, std::string_view menu, const char* title) {
     }
 }
 
+void showPart(const Editor& editor, int part) {
+    if (part == 0) {
+        showMenu(editor, "File", "File");
+        showMenu(editor, "Edit", "Edit");
+        showMenu(editor, "Help", "Help");
+        showMenu(editor, "", "On the canvas");
+    } else if (part == 1) {
+        showMenu(editor, "Node", "Node");
+        heading("Mouse on the canvas");
+        for (const auto& [mouse, what] : kMouse) row(mouse, what);
+        showMenu(editor, "Timeline", "On the timeline");
+        heading("Mouse on the timeline");
+        for (const auto& [mouse, what] : kMouseInTime) row(mouse, what);
+    } else {
+        showMenu(editor, "View", "View");
+        showMenu(editor, "Picture", "Over the picture");
+        heading("In the code of an expression");
+        for (const auto& [keys, what] : kCode) row(keys, what);
+    }
+}
+
 }  // namespace
 
 void showShortcuts(Editor& editor) {
@@ -101,31 +127,20 @@ void showShortcuts(Editor& editor) {
             kShortcutsTitle, &stays,
             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
         return;
-    const float third = ImGui::GetContentRegionAvail().x / 3.0f;
-    if (beginColumn("##left", third)) {
-        showMenu(editor, "File", "File");
-        showMenu(editor, "Edit", "Edit");
-        showMenu(editor, "Help", "Help");
-        showMenu(editor, "", "On the canvas");
-        endColumn();
-    }
-    ImGui::SameLine();
-    if (beginColumn("##middle", third)) {
-        showMenu(editor, "Node", "Node");
-        heading("Mouse on the canvas");
-        for (const auto& [mouse, what] : kMouse) row(mouse, what);
-        showMenu(editor, "Timeline", "On the timeline");
-        heading("Mouse on the timeline");
-        for (const auto& [mouse, what] : kMouseInTime) row(mouse, what);
-        endColumn();
-    }
-    ImGui::SameLine();
-    if (beginColumn("##right", 0)) {
-        showMenu(editor, "View", "View");
-        showMenu(editor, "Picture", "Over the picture");
-        heading("In the code of an expression");
-        for (const auto& [keys, what] : kCode) row(keys, what);
-        endColumn();
+    // As many columns as can be read; the last one has what is left.
+    constexpr float kColumn = 25.0f;  // in units of the font's size
+    constexpr int kParts = 3;
+    const float room = ImGui::GetContentRegionAvail().x;
+    const int columns = std::clamp(int(room / (kColumn * ImGui::GetFontSize())), 1, kParts);
+    for (int column = 0; column < columns; ++column) {
+        ImGui::PushID(column);
+        if (column > 0) ImGui::SameLine();
+        const bool last = column + 1 == columns;
+        if (beginColumn("##column", last ? 0.0f : room / float(columns))) {
+            for (int i = column; i < (last ? kParts : column + 1); ++i) showPart(editor, i);
+            endColumn();
+        }
+        ImGui::PopID();
     }
     const bool change = ImGui::Button("Change keys …");
     ImGui::SameLine();

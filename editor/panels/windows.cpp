@@ -17,8 +17,10 @@ void showAbout(Editor& editor) {
     ImGui::TextUnformatted("Fieldwright " FIELDWRIGHT_VERSION);
     ImGui::TextDisabled("Graphs of nodes to fields, fields to meshes.");
     ImGui::Spacing();
+    ImGui::PushTextWrapPos(std::min(40.0f * ImGui::GetFontSize(), 0.8f * ImGui::GetMainViewport()->Size.x));
     ImGui::Text("Vulkan device: %s", editor.shell.device().name().c_str());
     ImGui::Text("Preferences: %s", preferencesPath().c_str());
+    ImGui::PopTextWrapPos();
     if (ImGui::Button("Close") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
         ImGui::CloseCurrentPopup();
     ImGui::EndPopup();

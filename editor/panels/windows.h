@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/document/connections.h"
+#include "editor/panels/start_page.h"
 #include "editor/shortcuts.h"
 
 namespace fw::editor {
@@ -54,6 +55,7 @@ struct Windows {
     const Command* chosen = nullptr;      ///< in the palette: runs in the next frame
     bool renames = false;                 ///< the inspector gives the keyboard to the node's label
     Reference reference;
+    StartPage start;
     bool tour = false;       ///< whether it is shown
     bool shortcuts = false;  ///< to be opened in this frame
     bool about = false;      ///< to be opened in this frame

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
+
+#include "editor/shell/letters.h"
 
 namespace fw::editor {
 
@@ -38,6 +41,7 @@ constexpr ImWchar kGlyphs[] = {
     0x26a0, 0x26a0,  // the warning sign
     0x2713, 0x2718,  // ticks and crosses
     0x279c, 0x279c,  // a heavy arrow
+    0xfffd, 0xfffd,  // what is no letter, or of no font here
     0,
 };
 
@@ -48,6 +52,48 @@ constexpr const char* kFolders[] = {
     "/usr/share/fonts/dejavu-sans-fonts",  // Fedora, and the next
     "/usr/share/fonts/dejavu-sans-mono-fonts",
 };
+
+// For letters that DejaVu lacks, those of China, Japan and Korea above all: the first that is installed.
+constexpr const char* kOtherFonts[] = {
+    "/usr/share/fonts-droid-fallback/truetype/DroidSansFallbackFull.ttf",  // Debian: fonts-droid-fallback
+    "/usr/share/fonts-droid-fallback/truetype/DroidSansFallback.ttf",
+    "/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf",
+    "/usr/share/fonts/google-droid-sans-fonts/DroidSansFallbackFull.ttf",  // Fedora
+    "/usr/share/fonts/droid/DroidSansFallbackFull.ttf",                    // Arch
+    "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
+};
+
+/// Besides kGlyphs: what texts have asked for, which only grows.
+struct Asked {
+    std::set<ImWchar> letters;
+    bool fresh = false;  ///< since fonts were baked
+};
+Asked& asked() {
+    static Asked all;
+    return all;
+}
+
+bool usual(char32_t letter) {
+    for (const ImWchar* range = kGlyphs; *range; range += 2)
+        if (letter >= range[0] && letter <= range[1]) return true;
+    return false;
+}
+
+/// As ImGui has ranges; it lives until the next call. ImGui reads it while the atlas is built.
+const ImWchar* askedRanges() {
+    static std::vector<ImWchar> ranges;
+    ranges.clear();
+    for (const ImWchar letter : asked().letters) ranges.insert(ranges.end(), {letter, letter});
+    ranges.push_back(0);
+    return ranges.data();
+}
+
+const char* otherFont() {
+    std::error_code none;
+    for (const char* path : kOtherFonts)
+        if (std::filesystem::is_regular_file(path, none)) return path;
+    return nullptr;
+}
 
 /// The file's path; empty where it is not installed.
 std::string installed(const std::string& name) {
@@ -73,6 +119,15 @@ float Fonts::crisp(float pixels) const {
     const float baked = of(pixels)->FontSize;
     return std::max(baked, pixels) < kNear * std::min(baked, pixels) ? baked : pixels;
 }
+void wantGlyphs(std::string_view text) {
+    while (!text.empty()) {
+        const char32_t letter = takeLetter(text);
+        if (letter < 0x80 || letter > IM_UNICODE_CODEPOINT_MAX || usual(letter)) continue;
+        if (asked().letters.insert(ImWchar(letter)).second) asked().fresh = true;
+    }
+}
+bool glyphsAreWanted() { return asked().fresh; }
+
 ImFont* Fonts::codeOf(float pixels) const { return nearest(code, pixels); }
 
 Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
@@ -80,13 +135,23 @@ Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
     atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
     atlas.TexDesiredWidth = 2048;
     Fonts fonts;
+    asked().fresh = false;
+    const bool more = !asked().letters.empty();
+    const ImWchar* const ranges = askedRanges();
+    const char* const other = more ? otherFont() : nullptr;
     const std::string text = installed("DejaVuSans.ttf"), code = installed("DejaVuSansMono.ttf");
     const auto bake = [&](const std::string& path, float pixels) {
         ImFontConfig config;
         config.SizePixels = pixels;
         ImFont* font =
             path.empty() ? nullptr : atlas.AddFontFromFileTTF(path.c_str(), pixels, &config, kGlyphs);
-        return font ? font : atlas.AddFontDefault(&config);
+        if (!font) font = atlas.AddFontDefault(&config);
+        // What was asked for, from the first font that has it.
+        ImFontConfig merged = config;
+        merged.MergeMode = true;
+        if (more && !path.empty()) atlas.AddFontFromFileTTF(path.c_str(), pixels, &merged, ranges);
+        if (other) atlas.AddFontFromFileTTF(other, pixels, &merged, ranges);
+        return font;
     };
     float before = 0;
     for (float size : kSizes) {
@@ -100,6 +165,7 @@ Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
             "the fonts DejaVu Sans and DejaVu Sans Mono are not installed (Debian: fonts-dejavu-core): "
             "text is coarser than it should be, and some signs are missing";
     atlas.Build();
+    atlas.ClearInputData();  // the files, each as often as there are sizes
     ImGui::GetIO().FontDefault = fonts.of(kFontSize * scale);
     return fonts;
 }

@@ -1,11 +1,17 @@
 // The interface's fonts: DejaVu Sans and, for code, DejaVu Sans Mono, each baked at several sizes.
 //
+// Letters that an interface does not write itself, but names of files and texts of documents have, are baked
+// only when they are wanted: from DejaVu, or, for those of China, Japan and Korea, from a font that may be
+// installed beside it. What no font has is drawn as a mark. ImGui's letters have 16 bits: emoji beyond are
+// marks too.
+//
 // Lifetime: the ImFonts are the atlas's, which is ImGui's context's.
 #pragma once
 
 #include <imgui.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fw::editor {
@@ -23,6 +29,12 @@ struct Fonts {
     /// The size that of(pixels) is to be drawn at: as it was baked, if that is nearly the same.
     float crisp(float pixels) const;
 };
+
+/// Has the letters of the text in the fonts from the next frame on, as far as fonts here have them. For texts
+/// that are not the program's own; on the thread of the interface.
+void wantGlyphs(std::string_view text);
+/// Whether some are that were not when fonts were baked last.
+bool glyphsAreWanted();
 
 /// Bakes them into the atlas, for an interface of this scale; text of size kFontSize becomes the default
 /// font. Where the files are not found, ImGui's own font stands in, and `missing` says so.

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <backends/imgui_impl_glfw.h>
 #include <GLFW/glfw3.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +11,7 @@
 
 #include "editor/shell/draw_lists.h"
 #include "editor/shell/input.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "runtime/window/swapchain.h"
 #include "runtime/window/window.h"
@@ -115,12 +117,13 @@ struct Shell::State {
                 if (!texture->filled) fillTexture(device, lists, *texture);
     }
 
-    /// Style and fonts for the scale asked for, or the display's, which changes as the window is moved to
-    /// another. Not within a frame.
+    /// Style and fonts for the theme and for the scale asked for, or the display's, which changes as the
+    /// window is moved to another. Not within a frame.
     void followScale() {
         const float before = std::exchange(scale, scaleOf(window.get(), askedScale));
-        if (scale == before) return;
-        applyTheme(scale);
+        if (scale != before || styled != theme()) applyTheme(scale);
+        styled = theme();
+        if (scale == before && !glyphsAreWanted()) return;
         ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
         atlas.Clear();
         fonts = bakeFonts(atlas, scale);
@@ -147,6 +150,7 @@ struct Shell::State {
     Input input;
     float askedScale;
     float scale = 0.0f;
+    Theme styled = Theme::dark;
     Fonts fonts;
     DrawLists lists;
     Texture glyphs;
@@ -190,9 +194,15 @@ bool Shell::answer(const std::function<void()>& show) {
     io.DisplaySize = {float(width), float(height)};  // in pixels, wherever the system counts otherwise
     io.DisplayFramebufferScale = {1, 1};
     state->input.feed();
+    for (const ImWchar letter : io.InputQueueCharacters) {
+        char typed[5] = {};
+        ImTextCharToUtf8(typed, letter);
+        wantGlyphs(typed);
+    }
     ImGui::NewFrame();
     show();
     ImGui::Render();
+    if (glyphsAreWanted()) state->unsettled = std::max(state->unsettled, 1);
     return true;
 }
 
@@ -251,7 +261,9 @@ std::pair<int, int> Shell::windowSize() const {
 }
 const Device& Shell::device() const { return state->device; }
 GLFWwindow* Shell::window() const { return state->window.get(); }
-void Shell::setTitle(const std::string& title) { glfwSetWindowTitle(state->window.get(), title.c_str()); }
+void Shell::setTitle(const std::string& title) {
+    glfwSetWindowTitle(state->window.get(), wellFormed(title).c_str());
+}
 
 Picture Shell::capture() {
     const ImDrawData* data = ImGui::GetDrawData();

@@ -7,9 +7,11 @@ namespace fw::editor {
 namespace {
 
 constexpr ImU32 rgb(unsigned hex) { return IM_COL32((hex >> 16) & 255u, (hex >> 8) & 255u, hex & 255u, 255); }
+constexpr ImU32 black(unsigned alpha) { return IM_COL32(0, 0, 0, alpha); }
+constexpr ImU32 white(unsigned alpha) { return IM_COL32(255, 255, 255, alpha); }
 
 // By ThemeColor.
-constexpr ImU32 kColors[] = {
+constexpr ImU32 kDark[] = {
     rgb(0x1b1d21),  // canvas
     rgb(0x282b30),  // grid
     rgb(0x2e3238),  // node
@@ -21,8 +23,79 @@ constexpr ImU32 kColors[] = {
     rgb(0xf0e442),  // active: yellow
     rgb(0xff8a5c),  // error: vermillion, lighter, for it is text too
     rgb(0xf5b335),  // warning: orange, lighter
+    rgb(0x24272c),  // panel
+    rgb(0x3a3f46),  // field
+    rgb(0x474d56),  // fieldHovered
+    rgb(0x2c5a78),  // fieldActive
+    rgb(0x2a4a5f),  // header
+    rgb(0x33566d),  // headerHovered
+    rgb(0x5d646e),  // grabHovered
+    rgb(0x707884),  // grabActive
+    rgb(0x8fd0f5),  // sliderActive
+    rgb(0x2b6894),  // textSelected
+    white(14),      // stripe
+    black(128),     // dim
+    black(70),      // beyond
+    black(170),     // plate
+    rgb(0xf0e442),  // argument
+    rgb(0xd3a4ee),  // codeWord
+    rgb(0x62c8d6),  // codeType
+    rgb(0xf2b77c),  // codeConstant
+    rgb(0xf0e06a),  // codeInput
+    rgb(0x8cc8f2),  // codeFunction
+    rgb(0x7fd9a6),  // codeNode
+    rgb(0xe5a3a3),  // codeString
+    rgb(0x949ca6),  // codeComment
+    rgb(0x7d8590),  // codeNumber
+    rgb(0x262a31),  // codeLine
+    rgb(0x5c4a1c),  // codeFound
+    rgb(0x3a4450),  // codeNotSelected
 };
-static_assert(std::size(kColors) == std::size_t(ThemeColor::warning) + 1);
+static_assert(std::size(kDark) == kThemeColors);
+
+constexpr ImU32 kLight[] = {
+    rgb(0xe6e8eb),                    // canvas
+    rgb(0xd9dce1),                    // grid
+    rgb(0xfbfbfc),                    // node
+    rgb(0xb0b6bf),                    // edge
+    rgb(0x1c2024),                    // text
+    rgb(0x525a64),                    // quiet
+    rgb(0xf4f5f7),                    // onTitle
+    rgb(0x0068b8),                    // selected: blue
+    rgb(0xc96f00),                    // active: orange
+    rgb(0xb01818),                    // error: red, deep
+    rgb(0x7a4d00),                    // warning: brown
+    rgb(0xf1f2f4),                    // panel
+    rgb(0xdfe2e6),                    // field
+    rgb(0xd0d5dc),                    // fieldHovered
+    rgb(0xb9d9ee),                    // fieldActive
+    rgb(0xc8e1f2),                    // header
+    rgb(0xb5d6ec),                    // headerHovered
+    rgb(0x979fa9),                    // grabHovered
+    rgb(0x7c858f),                    // grabActive
+    rgb(0x3d9bd1),                    // sliderActive
+    rgb(0xc3dff3),                    // textSelected
+    black(12),                        // stripe
+    black(90),                        // dim
+    black(28),                        // beyond
+    IM_COL32(0xfb, 0xfb, 0xfc, 225),  // plate
+    rgb(0x1c2024),                    // argument
+    rgb(0x7b2fa6),                    // codeWord
+    rgb(0x00606e),                    // codeType
+    rgb(0x8f4a00),                    // codeConstant
+    rgb(0x6b5c00),                    // codeInput
+    rgb(0x0a5a9c),                    // codeFunction
+    rgb(0x0f6636),                    // codeNode
+    rgb(0xa03030),                    // codeString
+    rgb(0x59616a),                    // codeComment
+    rgb(0x59616a),                    // codeNumber
+    rgb(0xdcdfe4),                    // codeLine
+    rgb(0xf7e3ad),                    // codeFound
+    rgb(0xd0d5dc),                    // codeNotSelected
+};
+static_assert(std::size(kLight) == kThemeColors);
+
+Theme current = Theme::dark;
 
 // By Category: deep, so that a canvas of many nodes is calm and the light title stands out; and differing in
 // lightness too, so that everyone tells them apart (theme_test.cpp measures it).
@@ -41,54 +114,57 @@ constexpr ImU32 kCategoryColors[] = {
 static_assert(std::size(kCategoryColors) == kCategories);
 
 struct TypeStyle {
-    ImU32 color;
+    ImU32 dark, light;
     SocketShape shape;
 };
 
-// By Type, of Okabe and Ito's palette and white. Types of one shape differ in how light they are, which
-// everyone sees.
+// By Type, of Okabe and Ito's palette and white, or black. Types of one shape differ in how light they are,
+// which everyone sees.
 constexpr TypeStyle kTypeStyles[] = {
-    {rgb(0xd55e00), SocketShape::triangle},  // boolean: vermillion
-    {rgb(0x009e73), SocketShape::square},    // integer: bluish green
-    {rgb(0x56b4e9), SocketShape::circle},    // scalar: sky blue
-    {rgb(0xf0e442), SocketShape::diamond},   // vec2: yellow
-    {rgb(0xcc79a7), SocketShape::diamond},   // vec3: reddish purple
-    {rgb(0xe69f00), SocketShape::hexagon},   // surface: orange
-    {rgb(0xd8dce2), SocketShape::square},    // string
-    {rgb(0xf0e442), SocketShape::triangle},  // points: yellow
-    {rgb(0xe69f00), SocketShape::square},    // stops: orange
-    {rgb(0xf4f4f4), SocketShape::hexagon},   // image
-    {rgb(0x3d8fd1), SocketShape::hexagon},   // mesh: blue, lighter
-    {rgb(0xf4f4f4), SocketShape::circle},    // particles
+    {rgb(0xd55e00), rgb(0xd55e00), SocketShape::triangle},  // boolean: vermillion
+    {rgb(0x009e73), rgb(0x00935f), SocketShape::square},    // integer: bluish green
+    {rgb(0x56b4e9), rgb(0x0b72b5), SocketShape::circle},    // scalar: sky blue
+    {rgb(0xf0e442), rgb(0x6b5600), SocketShape::diamond},   // vec2: yellow
+    {rgb(0xcc79a7), rgb(0xd0509f), SocketShape::diamond},   // vec3: reddish purple
+    {rgb(0xe69f00), rgb(0xb96f00), SocketShape::hexagon},   // surface: orange
+    {rgb(0xd8dce2), rgb(0x23282e), SocketShape::square},    // string
+    {rgb(0xf0e442), rgb(0x3a3000), SocketShape::triangle},  // points: yellow
+    {rgb(0xe69f00), rgb(0xb96f00), SocketShape::square},    // stops: orange
+    {rgb(0xf4f4f4), rgb(0x22262c), SocketShape::hexagon},   // image
+    {rgb(0x3d8fd1), rgb(0x1a5ca8), SocketShape::hexagon},   // mesh: blue
+    {rgb(0xf4f4f4), rgb(0x30363d), SocketShape::circle},    // particles
 };
 static_assert(std::size(kTypeStyles) == kTypes);
-constexpr TypeStyle kUnknown = {rgb(0x8c939c), SocketShape::circle};
+constexpr TypeStyle kUnknown = {rgb(0x8c939c), rgb(0x707780), SocketShape::circle};
 
 const TypeStyle& styleOf(std::optional<Type> type) {
     return type ? kTypeStyles[std::size_t(*type)] : kUnknown;
 }
 
-ImVec4 faded(ImU32 color, float alpha) {
-    ImVec4 value = ImGui::ColorConvertU32ToFloat4(color);
-    value.w = alpha;
-    return value;
+ImVec4 value(ThemeColor which, float alpha = 1.0f) {
+    ImVec4 color = ImGui::ColorConvertU32ToFloat4(themeColor(which));
+    color.w *= alpha;
+    return color;
 }
 
 }  // namespace
 
-ImU32 themeColor(ThemeColor which) { return kColors[std::size_t(which)]; }
+void setTheme(Theme theme) { current = theme; }
+Theme theme() { return current; }
+
+ImU32 themeColor(ThemeColor which) { return (current == Theme::light ? kLight : kDark)[std::size_t(which)]; }
 ImU32 categoryColor(Category category) { return kCategoryColors[std::size_t(category)]; }
-ImU32 typeColor(std::optional<Type> type) { return styleOf(type).color; }
+ImU32 typeColor(std::optional<Type> type) {
+    return current == Theme::light ? styleOf(type).light : styleOf(type).dark;
+}
 ImU32 axisColor(std::size_t axis) {
-    constexpr ImU32 kAxes[] = {rgb(0xe85d5d), rgb(0x7cc03c), rgb(0x4f8ff0)};
-    return axis < std::size(kAxes) ? kAxes[axis] : themeColor(ThemeColor::text);
+    constexpr ImU32 kAxes[2][3] = {{rgb(0xe85d5d), rgb(0x7cc03c), rgb(0x4f8ff0)},
+                                   {rgb(0xc62f2f), rgb(0x3a7f00), rgb(0x1f63d0)}};
+    return axis < 3 ? kAxes[std::size_t(current)][axis] : themeColor(ThemeColor::text);
 }
 SocketShape socketShape(std::optional<Type> type) { return styleOf(type).shape; }
 
 void applyTheme(float scale) {
-    const ImU32 canvas = themeColor(ThemeColor::canvas), node = themeColor(ThemeColor::node),
-                edge = themeColor(ThemeColor::edge), text = themeColor(ThemeColor::text),
-                accent = themeColor(ThemeColor::selected);
     ImGuiStyle style;
     style.WindowPadding = {8, 8};
     style.FramePadding = {6, 3};
@@ -104,48 +180,49 @@ void applyTheme(float scale) {
     style.DisabledAlpha = 0.6f;
     style.ScaleAllSizes(scale);
 
+    if (current == Theme::light)
+        ImGui::StyleColorsLight(&style);
+    else
+        ImGui::StyleColorsDark(&style);
     ImVec4* colors = style.Colors;
-    ImGui::StyleColorsDark(&style);
-    const ImVec4 field = faded(rgb(0x3a3f46), 1), fieldHovered = faded(rgb(0x474d56), 1),
-                 fieldActive = faded(rgb(0x2c5a78), 1), panel = faded(rgb(0x24272c), 1);
-    colors[ImGuiCol_Text] = faded(text, 1);
-    colors[ImGuiCol_TextDisabled] = faded(themeColor(ThemeColor::quiet), 1);
-    colors[ImGuiCol_WindowBg] = panel;
+    using Color = ThemeColor;
+    colors[ImGuiCol_Text] = value(Color::text);
+    colors[ImGuiCol_TextDisabled] = value(Color::quiet);
+    colors[ImGuiCol_WindowBg] = value(Color::panel);
     colors[ImGuiCol_ChildBg] = {0, 0, 0, 0};
-    colors[ImGuiCol_PopupBg] = faded(node, 1);
-    colors[ImGuiCol_Border] = faded(edge, 1);
-    colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = field;
-    colors[ImGuiCol_FrameBgHovered] = colors[ImGuiCol_ButtonHovered] = fieldHovered;
-    colors[ImGuiCol_FrameBgActive] = colors[ImGuiCol_ButtonActive] = fieldActive;
-    colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgCollapsed] = faded(canvas, 1);
-    colors[ImGuiCol_TitleBgActive] = field;
-    colors[ImGuiCol_MenuBarBg] = faded(canvas, 1);
+    colors[ImGuiCol_PopupBg] = value(Color::node);
+    colors[ImGuiCol_Border] = value(Color::edge);
+    colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = value(Color::field);
+    colors[ImGuiCol_FrameBgHovered] = colors[ImGuiCol_ButtonHovered] = value(Color::fieldHovered);
+    colors[ImGuiCol_FrameBgActive] = colors[ImGuiCol_ButtonActive] = value(Color::fieldActive);
+    colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgCollapsed] = value(Color::canvas);
+    colors[ImGuiCol_TitleBgActive] = value(Color::field);
+    colors[ImGuiCol_MenuBarBg] = value(Color::canvas);
     colors[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
-    colors[ImGuiCol_ScrollbarGrab] = faded(edge, 1);
-    colors[ImGuiCol_ScrollbarGrabHovered] = faded(rgb(0x5d646e), 1);
-    colors[ImGuiCol_ScrollbarGrabActive] = faded(rgb(0x707884), 1);
-    colors[ImGuiCol_CheckMark] = colors[ImGuiCol_SliderGrab] = faded(accent, 1);
-    colors[ImGuiCol_SliderGrabActive] = faded(rgb(0x8fd0f5), 1);
-    colors[ImGuiCol_Header] = faded(rgb(0x2a4a5f), 1);
-    colors[ImGuiCol_HeaderHovered] = faded(rgb(0x33566d), 1);
-    colors[ImGuiCol_HeaderActive] = fieldActive;
-    colors[ImGuiCol_Separator] = faded(edge, 1);
-    colors[ImGuiCol_SeparatorHovered] = colors[ImGuiCol_SeparatorActive] = faded(accent, 1);
-    colors[ImGuiCol_ResizeGrip] = faded(edge, 0.5f);
-    colors[ImGuiCol_ResizeGripHovered] = colors[ImGuiCol_ResizeGripActive] = faded(accent, 1);
-    colors[ImGuiCol_Tab] = colors[ImGuiCol_TabUnfocused] = faded(canvas, 1);
-    colors[ImGuiCol_TabHovered] = fieldHovered;
-    colors[ImGuiCol_TabActive] = colors[ImGuiCol_TabUnfocusedActive] = field;
-    colors[ImGuiCol_PlotLines] = colors[ImGuiCol_PlotHistogram] = faded(accent, 1);
-    colors[ImGuiCol_PlotLinesHovered] = colors[ImGuiCol_PlotHistogramHovered] =
-        faded(themeColor(ThemeColor::active), 1);
-    colors[ImGuiCol_TableHeaderBg] = field;
-    colors[ImGuiCol_TableBorderStrong] = colors[ImGuiCol_TableBorderLight] = faded(edge, 1);
-    colors[ImGuiCol_TableRowBgAlt] = {1, 1, 1, 0.03f};
-    colors[ImGuiCol_TextSelectedBg] = faded(rgb(0x2b6894), 1);
-    colors[ImGuiCol_DragDropTarget] = faded(themeColor(ThemeColor::active), 1);
-    colors[ImGuiCol_NavHighlight] = faded(accent, 1);
-    colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.5f};
+    colors[ImGuiCol_ScrollbarGrab] = value(Color::edge);
+    colors[ImGuiCol_ScrollbarGrabHovered] = value(Color::grabHovered);
+    colors[ImGuiCol_ScrollbarGrabActive] = value(Color::grabActive);
+    colors[ImGuiCol_CheckMark] = colors[ImGuiCol_SliderGrab] = value(Color::selected);
+    colors[ImGuiCol_SliderGrabActive] = value(Color::sliderActive);
+    colors[ImGuiCol_Header] = value(Color::header);
+    colors[ImGuiCol_HeaderHovered] = value(Color::headerHovered);
+    colors[ImGuiCol_HeaderActive] = value(Color::fieldActive);
+    colors[ImGuiCol_Separator] = value(Color::edge);
+    colors[ImGuiCol_SeparatorHovered] = colors[ImGuiCol_SeparatorActive] = value(Color::selected);
+    colors[ImGuiCol_ResizeGrip] = value(Color::edge, 0.5f);
+    colors[ImGuiCol_ResizeGripHovered] = colors[ImGuiCol_ResizeGripActive] = value(Color::selected);
+    colors[ImGuiCol_Tab] = colors[ImGuiCol_TabUnfocused] = value(Color::canvas);
+    colors[ImGuiCol_TabHovered] = value(Color::fieldHovered);
+    colors[ImGuiCol_TabActive] = colors[ImGuiCol_TabUnfocusedActive] = value(Color::field);
+    colors[ImGuiCol_PlotLines] = colors[ImGuiCol_PlotHistogram] = value(Color::selected);
+    colors[ImGuiCol_PlotLinesHovered] = colors[ImGuiCol_PlotHistogramHovered] = value(Color::active);
+    colors[ImGuiCol_TableHeaderBg] = value(Color::field);
+    colors[ImGuiCol_TableBorderStrong] = colors[ImGuiCol_TableBorderLight] = value(Color::edge);
+    colors[ImGuiCol_TableRowBgAlt] = value(Color::stripe, 0.6f);
+    colors[ImGuiCol_TextSelectedBg] = value(Color::textSelected);
+    colors[ImGuiCol_DragDropTarget] = value(Color::active);
+    colors[ImGuiCol_NavHighlight] = value(Color::selected);
+    colors[ImGuiCol_ModalWindowDimBg] = value(Color::dim);
     ImGui::GetStyle() = style;
 }
 

@@ -4,6 +4,7 @@
 
 #include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/theme.h"
 #include "editor/timeline/strip.h"
 
 namespace fw::editor {
@@ -178,8 +179,8 @@ void dragBox(Strip& strip) {
                          strip.rowAt(box.hi.y), view.time(box.lo.x), view.time(box.hi.x));
     strip.state.selection = hand.adds ? joined(hand.selection, found) : found;
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(box.lo, box.hi, IM_COL32(0x56, 0xb4, 0xe9, 40));
-    list->AddRect(box.lo, box.hi, IM_COL32(0x56, 0xb4, 0xe9, 255));
+    list->AddRectFilled(box.lo, box.hi, ImGui::GetColorU32(ImGuiCol_CheckMark, 0.16f));
+    list->AddRect(box.lo, box.hi, themeColor(ThemeColor::selected));
 }
 
 /// What the drag makes of the document that it began with, and where its keys are then.

@@ -28,7 +28,8 @@ void drawRow(const Strip& strip, const StripHit& hit, std::size_t row) {
     const float middle = std::floor(strip.rowTop(row) + 0.5f * strip.high), radius = kKeyRadius * strip.high;
     if (strip.state.row == moved)
         list->AddRectFilled({strip.body.lo.x, strip.rowTop(row)},
-                            {strip.body.hi.x, strip.rowTop(row) + strip.high}, IM_COL32(255, 255, 255, 14));
+                            {strip.body.hi.x, strip.rowTop(row) + strip.high},
+                            themeColor(ThemeColor::stripe));
     list->AddLine({strip.body.lo.x, middle}, {strip.body.hi.x, middle}, themeColor(ThemeColor::grid));
     const float first = view.x(track.keys.front().time), last = view.x(track.keys.back().time);
     if (last > first)

@@ -147,7 +147,7 @@ void drawTimes(const Strip& strip) {
     const float top = strip.ruler.lo.y, bottom = strip.body.hi.y;
     if (end < strip.body.hi.x)
         list->AddRectFilled({std::max(end, strip.body.lo.x), strip.bar.lo.y}, {strip.body.hi.x, bottom},
-                            IM_COL32(0, 0, 0, 70));
+                            themeColor(ThemeColor::beyond));
     list->AddLine({end, top}, {end, bottom}, themeColor(ThemeColor::edge), 2.0f);
     list->AddLine({now, top}, {now, bottom}, themeColor(ThemeColor::active), 2.0f);
     list->AddTriangleFilled({now - 0.4f * em, top}, {now + 0.4f * em, top}, {now, top + 0.6f * em},

@@ -124,7 +124,7 @@ void showCameraPath(Editor& editor) {
     const float wide = size.x + button + 3.0f * pad;
     if (wide + 2.0f * pad > view.place.width()) return;
     const ImVec2 at(view.place.hi.x - wide - pad, view.place.lo.y + pad);
-    list->AddRectFilled(at, {at.x + wide, at.y + high + 2.0f}, IM_COL32(0, 0, 0, 170), 4.0f * scale);
+    list->AddRectFilled(at, {at.x + wide, at.y + high + 2.0f}, themeColor(ThemeColor::plate), 4.0f * scale);
     list->AddText({at.x + pad, at.y + 0.5f * (high + 2.0f - size.y)}, themeColor(ThemeColor::text), words);
     ImGui::SetCursorScreenPos({at.x + size.x + 2.0f * pad, at.y + 1.0f});
     if (ImGui::Button("Follow it", {button, high})) view.ownCamera = false;

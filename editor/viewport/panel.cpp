@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "editor/editor.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/camera_path.h"
 #include "editor/viewport/ground.h"
@@ -44,7 +45,7 @@ void showChoices(Editor& editor) {
             if (ImGui::Selectable(name, id == view.view)) view.view = id;
         ImGui::EndCombo();
     }
-    ImGui::SameLine();
+    besideIfFits(110 * unit);
     ImGui::SetNextItemWidth(110 * unit);
     const auto cells = [](int count) {
         return count == 0 ? std::string("As exported") : std::to_string(count) + " cells";
@@ -55,7 +56,7 @@ void showChoices(Editor& editor) {
         ImGui::EndCombo();
     }
     if (view.ownCamera) {
-        ImGui::SameLine();
+        besideIfFits("Reset view");
         if (ImGui::Button("Reset view")) view.ownCamera = false;
     }
     if (!view.pinned.empty()) {
@@ -70,7 +71,7 @@ void caption(const Area& place, const char* words, ImU32 color, float scale) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 size = ImGui::CalcTextSize(words), at(place.lo.x + 8 * scale, place.lo.y + 8 * scale);
     list->AddRectFilled({at.x - 5 * scale, at.y - 3 * scale},
-                        {at.x + size.x + 5 * scale, at.y + size.y + 3 * scale}, IM_COL32(0, 0, 0, 170),
+                        {at.x + size.x + 5 * scale, at.y + size.y + 3 * scale}, themeColor(ThemeColor::plate),
                         4 * scale);
     list->AddText(at, color, words);
 }

@@ -1,5 +1,5 @@
 // The scheme can be read, and types told apart, by everyone.
-#include "editor/shell/theme.h"
+#include "editor/shell/desktop_theme.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,36 @@ double leastDifference(ImU32 a, ImU32 b) {
     return least;
 }
 
-TEST(Theme, TextStandsOut) {
+/// What holds of one scheme holds of the other.
+class Themes : public testing::TestWithParam<Theme> {
+  protected:
+    void SetUp() override { setTheme(GetParam()); }
+    void TearDown() override { setTheme(Theme::dark); }
+};
+INSTANTIATE_TEST_SUITE_P(Theme, Themes, testing::Values(Theme::dark, Theme::light), [](const auto& each) {
+    return std::string(each.param == Theme::light ? "Light" : "Dark");
+});
+
+TEST_P(Themes, CodeStandsOut) {
+    for (ThemeColor ink = ThemeColor::codeWord; ink < ThemeColor::codeNumber; ink = ThemeColor(int(ink) + 1))
+        for (const ThemeColor paper : {ThemeColor::canvas, ThemeColor::codeLine})
+            EXPECT_GE(contrast(themeColor(ink), themeColor(paper)), 4.5) << int(ink) << ' ' << int(paper);
+    EXPECT_GE(contrast(themeColor(ThemeColor::argument), themeColor(ThemeColor::header)), 4.5);
+    EXPECT_GE(contrast(themeColor(ThemeColor::text), themeColor(ThemeColor::textSelected)), 4.5);
+}
+
+TEST_P(Themes, LinesAreSeen) {
+    for (const ThemeColor paper : {ThemeColor::canvas, ThemeColor::node}) {
+        EXPECT_GE(contrast(themeColor(ThemeColor::selected), themeColor(paper)), 3.0);
+        EXPECT_GE(contrast(themeColor(ThemeColor::active), themeColor(paper)), 2.9);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            EXPECT_GE(contrast(axisColor(axis), themeColor(paper)), 3.0) << axis;
+        for (int type = 0; type < kTypes; ++type)
+            EXPECT_GE(contrast(typeColor(Type(type)), themeColor(paper)), 2.8) << type;
+    }
+}
+
+TEST_P(Themes, TextStandsOut) {
     ImGui::CreateContext();
     applyTheme(1.0f);
     const auto field = ImGui::ColorConvertFloat4ToU32(ImGui::GetStyle().Colors[ImGuiCol_FrameBg]),
@@ -85,7 +114,7 @@ TEST(Theme, TextStandsOut) {
     ImGui::DestroyContext();
 }
 
-TEST(Theme, TypesDifferInShapeOrInLightness) {
+TEST_P(Themes, TypesDifferInShapeOrInLightness) {
     for (int a = 0; a < kTypes; ++a) {
         EXPECT_GE(contrast(typeColor(Type(a)), themeColor(ThemeColor::node)), 3.0) << a;
         for (int b = 0; b < a; ++b)
@@ -95,7 +124,7 @@ TEST(Theme, TypesDifferInShapeOrInLightness) {
     }
 }
 
-TEST(Theme, TypesOfOneShapeDifferForTheColourBlind) {
+TEST_P(Themes, TypesOfOneShapeDifferForTheColourBlind) {
     double least = INFINITY;
     for (int a = 0; a < kTypes; ++a)
         for (int b = 0; b < a; ++b) {
@@ -107,7 +136,7 @@ TEST(Theme, TypesOfOneShapeDifferForTheColourBlind) {
     std::printf("types of one shape: at least %.1f apart\n", least);
 }
 
-TEST(Theme, CategoriesDifferForTheColourBlind) {
+TEST_P(Themes, CategoriesDifferForTheColourBlind) {
     double least = INFINITY;
     for (int a = 0; a < kCategories; ++a) {
         EXPECT_GE(leastDifference(categoryColor(Category(a)), themeColor(ThemeColor::node)), 10.0)
@@ -121,7 +150,7 @@ TEST(Theme, CategoriesDifferForTheColourBlind) {
     std::printf("categories: at least %.1f apart\n", least);
 }
 
-TEST(Theme, StatesDifferForTheColourBlind) {
+TEST_P(Themes, StatesDifferForTheColourBlind) {
     const ThemeColor states[] = {ThemeColor::selected, ThemeColor::active, ThemeColor::error,
                                  ThemeColor::edge};
     for (const ThemeColor a : states)
@@ -129,6 +158,21 @@ TEST(Theme, StatesDifferForTheColourBlind) {
             if (a == b) continue;
             EXPECT_GE(leastDifference(themeColor(a), themeColor(b)), 20.0) << int(a) << ' ' << int(b);
         }
+}
+
+TEST(Theme, OfTheDesktop) {
+    EXPECT_EQ(themeOfGtkName(""), std::nullopt);
+    EXPECT_EQ(themeOfGtkName("Adwaita:dark"), Theme::dark);
+    EXPECT_EQ(themeOfGtkName("Adwaita"), Theme::light);
+    EXPECT_EQ(themeOfGtkSettings("[Settings]\ngtk-theme-name=Breeze\n"), Theme::light);
+    EXPECT_EQ(themeOfGtkSettings("[Settings]\ngtk-theme-name = Yaru-dark\n"), Theme::dark);
+    EXPECT_EQ(themeOfGtkSettings("[Settings]\ngtk-application-prefer-dark-theme=1\n"), Theme::dark);
+    EXPECT_EQ(themeOfGtkSettings("gtk-theme-name=Breeze\n"), std::nullopt) << "no section";
+    EXPECT_EQ(themeOfKdeGlobals("[Colors:Window]\r\nBackgroundNormal=239,240,241\r\n"), Theme::light);
+    EXPECT_EQ(themeOfKdeGlobals("[Colors:Window]\nBackgroundNormal=32,35,38"), Theme::dark);
+    EXPECT_EQ(themeOfKdeGlobals("[Colors:Window]\nBackgroundNormal=blue"), std::nullopt);
+    EXPECT_EQ(themeOf(themeChoice("light")), Theme::light);
+    EXPECT_EQ(themeOf(themeChoice("of tomorrow")), Theme::dark);
 }
 
 /// Machado's matrices keep white and grey as they are.

@@ -1,0 +1,158 @@
+#include "editor/panels/start_page.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "editor/commands.h"
+#include "editor/panels/tour.h"
+#include "editor/shell/letters.h"
+#include "editor/shell/theme.h"
+
+namespace fw::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSamples[] = {"tower", "goblet", "gyroid_sphere"};
+constexpr std::size_t kMostFiles = 5;
+constexpr float kWidth = 36.0f,
+                kHigh = 25.0f;  // in units of the font's size; lower canvases have no pictures
+
+bool holds(const Editor& editor) {
+    const Graph& graph = editor.document.graph();
+    return graph.path.empty() && graph.nodes.empty() && graph.groups.empty() && !editor.document.unsaved();
+}
+
+/// The pictures are read aside, and become textures here.
+void follow(StartPage& page, Shell& shell) {
+    if (page.samples.empty()) {
+        const std::string folder = samplesFolder();
+        if (folder.empty()) return;
+        for (const Sample& sample : listSamples(folder))
+            for (const char* name : kSamples)
+                if (fs::path(sample.path).filename().string() == name + std::string(kGraphEnding))
+                    page.samples.push_back(sample);
+        page.textures.resize(page.samples.size());
+        page.reading = std::async(std::launch::async, [all = page.samples] {
+            std::vector<Picture> pictures;
+            for (const Sample& sample : all) pictures.push_back(pictureOf(sample));
+            Shell::wake();
+            return pictures;
+        });
+    }
+    if (!page.reading.valid() || page.reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return;
+    const std::vector<Picture> pictures = page.reading.get();
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        if (!pictures[i].pixels.empty()) page.textures[i] = shell.show(nullptr, pictures[i]);
+}
+
+void startHeading(const char* words) {
+    ImGui::Dummy({0, kSmallGap * ImGui::GetFontSize()});
+    ImGui::TextDisabled("%s", words);
+}
+
+/// A picture above its name; whether it was clicked.
+bool sampleTile(const Sample& sample, ImTextureID texture, float width) {
+    const float em = ImGui::GetFontSize(), inset = 0.2f * em, high = width * 9.0f / 16.0f;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool chosen = ImGui::Selectable("##sample", false, 0, {width, high + 1.4f * em});
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImVec2 lo(at.x + inset, at.y + inset), hi(at.x + width - inset, at.y + high - inset);
+    if (texture)
+        list->AddImageRounded(texture, lo, hi, {0, 0}, {1, 1}, IM_COL32_WHITE, kRound * em);
+    else
+        list->AddRectFilled(lo, hi, themeColor(ThemeColor::field), kRound * em);
+    list->AddText({lo.x, at.y + high}, themeColor(ThemeColor::text),
+                  fitted(sample.label, width - 2.0f * inset).c_str());
+    return chosen;
+}
+
+void showFirstSteps(Editor& editor) {
+    startHeading("First steps");
+    if (ImGui::Button("Take the tour")) startTour(editor);
+    besideIfFits("Tutorial");
+    if (ImGui::Button("Tutorial")) command("help.tutorial").run(editor);
+    besideIfFits("Shortcuts");
+    if (ImGui::Button("Shortcuts")) editor.windows.shortcuts = true;
+    const std::string keys = keysOf(command("node.add"), editor.files.preferences);
+    if (!keys.empty())
+        ImGui::TextWrapped("Or begin here: %s adds the first node where the mouse is.",
+                           keys.substr(0, keys.find(' ')).c_str());
+}
+
+void showSampleTiles(Editor& editor, bool pictures) {
+    StartPage& page = editor.windows.start;
+    startHeading("Open a sample");
+    std::string chosen;
+    if (pictures && !page.samples.empty()) {
+        const float gap = ImGui::GetStyle().ItemSpacing.x, count = float(page.samples.size()),
+                    width = (ImGui::GetContentRegionAvail().x - gap * (count - 1.0f)) / count;
+        for (std::size_t i = 0; i < page.samples.size(); ++i) {
+            if (i > 0) ImGui::SameLine();
+            ImGui::PushID(int(i));
+            if (sampleTile(page.samples[i], page.textures[i], width)) chosen = page.samples[i].path;
+            ImGui::PopID();
+        }
+    }
+    if (ImGui::Button("All samples …")) proceed(editor, Files::Next::samples);
+    if (!chosen.empty()) proceed(editor, Files::Next::open, chosen);
+}
+
+void showRecentFiles(Editor& editor) {
+    const std::vector<std::string> recent = editor.files.preferences.recent;
+    startHeading("Go on with");
+    std::string chosen;
+    const float em = ImGui::GetFontSize(), room = ImGui::GetContentRegionAvail().x;
+    for (std::size_t i = 0; i < std::min(recent.size(), kMostFiles); ++i) {
+        const fs::path path = recent[i];
+        wantGlyphs(recent[i]);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::PushID(int(i));
+        if (ImGui::Selectable("##recent")) chosen = recent[i];
+        ImGui::PopID();
+        const std::string name = fitted(path.filename().string(), 0.55f * room);
+        ImDrawList* list = ImGui::GetWindowDrawList();
+        list->AddText(at, themeColor(ThemeColor::text), name.c_str());
+        const float used = ImGui::CalcTextSize(name.c_str()).x + em;
+        list->AddText({at.x + used, at.y}, themeColor(ThemeColor::quiet),
+                      fittedEnd(path.parent_path().string(), room - used).c_str());
+    }
+    if (ImGui::Button("Open …")) proceed(editor, Files::Next::browse);
+    if (!chosen.empty()) proceed(editor, Files::Next::open, chosen);
+}
+
+}  // namespace
+
+void showStartPage(Editor& editor) {
+    StartPage& page = editor.windows.start;
+    page.open = page.open && holds(editor);
+    if (!page.open) return;
+    follow(page, editor.shell);
+    const Area& canvas = editor.canvas.view.panel;
+    const float em = ImGui::GetFontSize();
+    const ImVec2 most(std::min(kWidth * em, canvas.width() - 2.0f * em), canvas.height() - 2.0f * em);
+    if (most.x < 8.0f * em || most.y < 6.0f * em) return;
+    ImGui::SetNextWindowPos(canvas.centre(), ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({most.x, 0}, most);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {2.0f * kGap * em, 2.0f * kGap * em});
+    const bool shown =
+        ImGui::Begin("##start", nullptr,
+                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PopStyleVar();
+    if (shown) {
+        ImGui::PushFont(editor.shell.fonts().of(1.5f * em));
+        ImGui::TextUnformatted("Fieldwright");
+        ImGui::PopFont();
+        showFirstSteps(editor);
+        showSampleTiles(editor, canvas.height() > kHigh * em && most.x > 20.0f * em);
+        showRecentFiles(editor);
+    }
+    ImGui::End();
+}
+
+}  // namespace fw::editor
