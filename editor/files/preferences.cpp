@@ -78,23 +78,22 @@ Preferences readPreferences(const std::string& path, std::string& problem) {
     take(
         all, "views", [](const Json& value) { return value.is_object(); },
         [&](const Json& value) { preferences.views = value; }, problem);
-        all, "theme", [](const Json& value) {
-        return value.is_string(); },
+    take(
+        all, "theme", [](const Json& value) { return value.is_string(); },
+        [&](const Json& value) { preferences.theme = value.get<std::string>(); }, problem);
+    take(
+        all, "shortcuts", [](const Json& value) { return value.is_object(); },
         [&](const Json& value) {
-        preferences.theme = value.get<std::string>(); }, problem);
-        take(
-            all, "shortcuts", [](const Json& value) { return value.is_object(); },
-            [&](const Json& value) {
-                for (const auto& [id, keys] : value.items())
-                    if (keys.is_string()) preferences.shortcuts[id] = keys.get<std::string>();
-            },
-            problem);
-        take(
-            all, "panels", [](const Json& value) { return value.is_object(); },
-            [&](const Json& value) { preferences.panels = value; }, problem);
-        if (!all.empty()) preferences.extra = std::move(all);
-        if (!problem.empty()) problem = path + ": " + problem + ": its default is taken";
-        return preferences;
+            for (const auto& [id, keys] : value.items())
+                if (keys.is_string()) preferences.shortcuts[id] = keys.get<std::string>();
+        },
+        problem);
+    take(
+        all, "panels", [](const Json& value) { return value.is_object(); },
+        [&](const Json& value) { preferences.panels = value; }, problem);
+    if (!all.empty()) preferences.extra = std::move(all);
+    if (!problem.empty()) problem = path + ": " + problem + ": its default is taken";
+    return preferences;
 }
 
 Done savePreferences(const Preferences& preferences, const std::string& path) {

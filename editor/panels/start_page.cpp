@@ -97,8 +97,8 @@ void showSampleTiles(Editor& editor, bool pictures) {
             ImGui::PopID();
         }
     }
-    if (ImGui::Button("All samples …")) proceed(editor, Files::Next::samples);
-    if (!chosen.empty()) proceed(editor, Files::Next::open, chosen);
+    if (ImGui::Button("All samples …")) editor.files.samples.opening = true;
+    if (!chosen.empty()) openFile(editor, chosen);
 }
 
 void showRecentFiles(Editor& editor) {
@@ -120,8 +120,8 @@ void showRecentFiles(Editor& editor) {
         list->AddText({at.x + used, at.y}, themeColor(ThemeColor::quiet),
                       fittedEnd(path.parent_path().string(), room - used).c_str());
     }
-    if (ImGui::Button("Open …")) proceed(editor, Files::Next::browse);
-    if (!chosen.empty()) proceed(editor, Files::Next::open, chosen);
+    if (ImGui::Button("Open …")) askForFile(editor);
+    if (!chosen.empty()) openFile(editor, chosen);
 }
 
 }  // namespace
