@@ -174,6 +174,8 @@ bool exchange(Editor& editor) {
     if (!result || result->document != view.document) return noticed || thumbnail;
     if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
     view.shown = std::move(*result);
+    if (view.shown.revision >= view.handedIn) view.handed.reset();
+    if (view.handed) view.shown.seen = *view.handed;
     return true;
 }
 

@@ -121,6 +121,7 @@ void Viewport::forget(Shell& shell) {
     shown = {};
     pinned.clear();
     ownCamera = false;
+    handed.reset();
     slice = {};
     seconds = 0.0;
     playing = false;
@@ -161,6 +162,7 @@ void keepAsSceneCamera(Editor& editor) {
     editor.document.apply("Set Camera", std::move(next));
     viewport.ownCamera = false;
     viewport.shown.seen = camera;  // the next picture's
+    viewport.handed = camera, viewport.handedIn = editor.document.revision();
 }
 
 void lookFrom(Viewport& viewport, Side side) {

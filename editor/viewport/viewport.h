@@ -112,6 +112,9 @@ struct DocumentLook {
     Orbit orbit;             ///< of the own camera
     /// Through a very long lens (projection.h): `orbit` is as if it were not.
     bool orthographic = false;
+    /// Made the scene's in this revision: what is seen, until a picture of it has come.
+    std::optional<Camera> handed;
+    uint64_t handedIn = 0;
     uint32_t view = RENDER_PICTURE;
     std::string pinned;    ///< the node shown; empty: the output
     Slice slice;           ///< of the views on a plane
