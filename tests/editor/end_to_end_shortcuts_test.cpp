@@ -148,19 +148,6 @@ Picture restingPicture(Program& program) {
     return seen;
 }
 
-/// Presses `first`, then the keys, over the picture, which is another one after them.
-void lookAnew(Program& program, const std::string& first, const std::string& keys) {
-    program.moveTo(picturePart(program).centre());
-    program.keys(first);
-    program.save();
-    const Picture before = restingPicture(program);
-    program.keys(keys);
-    EXPECT_TRUE(eventually([&] { return program.screen(picturePart(program)).pixels != before.pixels; }))
-        << keys << " does not change the picture";
-    program.keys("0");
-    program.moveTo(program.nowhere());
-}
-
 /// What to do, with these keys, in a window with the document and nothing selected, and what to see.
 using Case = std::function<void(Program&, const std::string& keys)>;
 
@@ -251,10 +238,36 @@ Case zoomed(double distance) {
     };
 }
 
-/// The same for the tools, whose handles are those of the node that is selected.
-void takeUp(Program& program, const std::string& first, const std::string& keys) {
-    pick(program, {"box"});
-    lookAnew(program, first, keys);
+/// Which of the buttons over the picture is lit: unlike the two others, which are alike; "": none.
+std::string toolInUse(Program& program) {
+    constexpr const char* kTools[] = {"Move", "Rotate", "Scale"};
+    const float left = program.view.panel.hi.x;
+    const Picture seen = program.screen();
+    std::array<uint8_t, 3> colors[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Area word = program.waitFor(kTools[i], Area{{left, 300}, {left + 100, 470}});
+        const auto beside =
+            4 * (std::size_t(word.centre().y) * std::size_t(seen.width) + std::size_t(word.lo.x) - 5);
+        std::copy_n(&seen.pixels[beside], 3, colors[i].begin());
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto &one = colors[(i + 1) % 3], &other = colors[(i + 2) % 3];
+        if (one == other && colors[i] != one) return kTools[i];
+    }
+    return "";
+}
+
+/// Another tool is taken up, for the node that is selected.
+Case takeUp(const std::string& first, const std::string& firstTool, const std::string& tool) {
+    return [=](Program& program, const std::string& keys) {
+        pick(program, {"box"});
+        program.moveTo(picturePart(program).centre());
+        program.keys(first);
+        EXPECT_TRUE(eventually([&] { return toolInUse(program) == firstTool; }));
+        program.keys(keys);
+        EXPECT_TRUE(eventually([&] { return toolInUse(program) == tool; })) << tool;
+        program.moveTo(program.nowhere());
+    };
 }
 
 /// The tool that measures says what it waits for, until the same keys put it down.
@@ -794,14 +807,16 @@ const std::map<std::string, Case>& cases() {
          }},
         {"picture.frame",
          [](Program& p, const std::string& keys) {
-             p.moveTo(picturePart(p).centre());
-             const Picture first = restingPicture(p);
-             p.wheel(picturePart(p).centre(), -5);
-             EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != first.pixels; }));
-             const Picture small = restingPicture(p);
+             lookFirst(p, "1", "Front · perspective");
+             p.wheel(picturePart(p).centre(), -8);
+             const Camera far = cameraSeen(p);
              p.keys(keys);
-             EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != small.pixels; }));
-             p.keys("0");
+             waitForLook(p, "Front · perspective");
+             const Camera near = cameraSeen(p);
+             const auto away = [](const Camera& camera) { return camera.position[2] - camera.target[2]; };
+             EXPECT_LT(away(near), 0.7 * away(far));
+             EXPECT_GT(away(near), 1.0);
+             for (const double middle : near.target) EXPECT_NEAR(middle, 0.0, 0.5);
          }},
         {"view.probe",
          [](Program& p, const std::string& keys) {
@@ -838,14 +853,14 @@ const std::map<std::string, Case>& cases() {
         {"canvas.move_down", [](Program& p, const std::string& keys) { nudge(p, keys, 0, 1); }},
         {"picture.shading",
          [](Program& p, const std::string& keys) {
-             p.moveTo(picturePart(p).centre());
-             const Picture lit = restingPicture(p);
+             lookFirst(p, "1", "Front · perspective");
+             p.waitFor("Lit");
              p.keys(keys);
-             EXPECT_TRUE(eventually([&] { return p.screen(picturePart(p)).pixels != lit.pixels; }));
+             p.waitFor("Ambient occlusion");
          }},
-        {"picture.move", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
-        {"picture.rotate", [](Program& p, const std::string& keys) { takeUp(p, "R", keys); }},
-        {"picture.scale", [](Program& p, const std::string& keys) { takeUp(p, "W", keys); }},
+        {"picture.move", takeUp("R", "Scale", "Move")},
+        {"picture.rotate", takeUp("R", "Scale", "Rotate")},
+        {"picture.scale", takeUp("W", "Move", "Scale")},
         {"picture.snap",
          [](Program& p, const std::string& keys) {
              p.moveTo(picturePart(p).centre());
