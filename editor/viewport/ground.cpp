@@ -125,6 +125,7 @@ void showGround(Editor& editor) {
     const std::string words = wordsOf(view, editor.document.graph());
     const ImVec2 size = ImGui::CalcTextSize(words.c_str()), end(view.place.hi.x - pad, view.place.hi.y - pad),
                  from(end.x - size.x - 2 * pad, end.y - size.y - pad);
+    if (from.x < view.place.lo.x) return list->PopClipRect();  // there is no room
     list->AddRectFilled(from, end, kBehind, 4 * scale);
     list->AddText({from.x + pad, from.y + 0.5f * pad}, themeColor(ThemeColor::text), words.c_str());
     if (view.ownCamera && view.orthographic) drawBar(editor, lens, {end.x, from.y - pad});
