@@ -17,7 +17,9 @@ namespace fw::editor {
 namespace {
 
 constexpr double kNoticeSeconds = 6.0;
-constexpr float kMargin = 4.0f;  // around the parts of the window, pixels
+constexpr float kLeastSide = 20.0f;      // width of the panels in units of the font's size,
+constexpr float kMostLeastSide = 0.55f;  // and the part of the window that they have at most for it
+constexpr float kMargin = 4.0f;          // around the parts of the window, pixels
 
 /// Labels, names and texts may be in any language.
 void wantGlyphsOf(const Graph& graph) {
@@ -207,8 +209,11 @@ void showEditor(Editor& editor) {
     const float bar = 5.0f * editor.shell.scale(),
                 timeline = editor.panels.timeline ? editor.panels.low * room.y : 0.0f,
                 high = room.y - line - timeline;
+    // However narrow the window is, panels can be read.
+    const float side = std::clamp(kLeastSide * ImGui::GetFontSize() / room.x, editor.panels.side,
+                                  std::max(editor.panels.side, kMostLeastSide));
     ImGui::BeginChild(
-        "##canvas", {room.x * (1.0f - editor.panels.side), high}, false,
+        "##canvas", {room.x * (1.0f - side), high}, false,
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
     followMouse(editor);
     takeKeyboard(editor, Part::canvas);

@@ -41,7 +41,7 @@ std::optional<std::size_t> choose(Chooser& chooser, const char* popup, std::span
                                   float scale) {
     const bool opens = std::exchange(chooser.opened, false);
     const ImVec2 whole = ImGui::GetMainViewport()->Size;
-    const ImVec2 size(std::min(480.0f * scale, whole.x), std::min(420.0f * scale, whole.y));
+    const ImVec2 size(std::min(480.0f * scale, 0.95f * whole.x), std::min(420.0f * scale, 0.95f * whole.y));
     if (opens) {
         chooser.search[0] = 0;
         chooser.chosen = -1;

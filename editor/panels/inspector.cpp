@@ -5,6 +5,7 @@
 
 #include "editor/document/paths.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/library/reference.h"
 
@@ -54,7 +55,8 @@ void showNames(Editor& editor, const NodeBox& box) {
     if (ImGui::Checkbox("Muted", &muted))
         editor.document.apply(
             "Mute", toggleMuted(editor.document.graph(), scope, std::span<const std::string>(&id, 1)));
-    ImGui::SameLine();
+    besideIfFits(ImGui::CalcTextSize("Collapsed").x + ImGui::GetFrameHeight() +
+                 ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Checkbox("Collapsed", &collapsed))
         editor.document.apply("Collapse", toggleCollapsed(editor.document.graph(), scope,
                                                           std::span<const std::string>(&id, 1)));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/assets/image.h"
 
@@ -61,7 +62,7 @@ void propertyRow(const std::string& name, const std::string& tip, float room) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(name.c_str());
+    ImGui::TextUnformatted(fitted(name, ImGui::GetContentRegionAvail().x).c_str());
     if (!tip.empty() && ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());

@@ -150,8 +150,8 @@ void showReference(Editor& editor) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::BeginChild(
             "##list",
-            {std::clamp(0.24f * ImGui::GetContentRegionAvail().x, 12.0f * ImGui::GetFontSize(),
-                        std::max(0.4f * ImGui::GetContentRegionAvail().x, 12.0f * ImGui::GetFontSize())),
+            {std::clamp(0.24f * ImGui::GetContentRegionAvail().x, 14.0f * ImGui::GetFontSize(),
+                        std::max(0.4f * ImGui::GetContentRegionAvail().x, 14.0f * ImGui::GetFontSize())),
              0},
             true, ImGuiWindowFlags_NavFlattened);
         showTypes(reference);

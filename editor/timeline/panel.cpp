@@ -6,6 +6,7 @@
 #include "editor/document/parameters.h"
 #include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "editor/timeline/actions.h"
 #include "editor/timeline/strip.h"
@@ -58,7 +59,7 @@ void showTransport(Editor& editor, const Timeline& timeline, TimelineState& stat
     ImGui::SameLine();
     if (ImGui::Button("▶|")) showTime(editor, last);
     tip("To the end");
-    ImGui::SameLine();
+    besideIfFits(4.0f * ImGui::GetFontSize());
     const float em = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(4.0f * em);
     const double now = view.seconds * rate;
@@ -69,12 +70,12 @@ void showTransport(Editor& editor, const Timeline& timeline, TimelineState& stat
                     showTime(editor, (ImGui::GetIO().KeyAlt ? to[0] : std::round(to[0])) / rate);
                 });
     tip("The frame shown");
-    ImGui::SameLine();
+    besideIfFits(6.0f * em);
     ImGui::SetNextItemWidth(6.5f * em);
     const std::string words = timeText(view.playing ? std::floor(now) / rate : view.seconds, rate, false);
     if (ImGui::Button((words + "###unit").c_str(), {6.0f * em, 0})) state.frames = !state.frames;
     tip("The time shown. Click: the ruler in frames, or in seconds and frames");
-    ImGui::SameLine();
+    besideIfFits(9.0f * em);
     ImGui::TextUnformatted("of");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5.0f * em);
@@ -85,7 +86,7 @@ void showTransport(Editor& editor, const Timeline& timeline, TimelineState& stat
     tip("Length, seconds");
     ImGui::SameLine();
     ImGui::TextUnformatted("s");
-    ImGui::SameLine();
+    besideIfFits(7.0f * em);
     ImGui::SetNextItemWidth(4.0f * em);
     editNumbers(editor, "##fps", std::span(&rate, 1), {.min = 1.0, .max = kMostFramesPerSecond, .speed = 0.2},
                 "Set Frames per Second", [](const Graph& graph, std::span<const double> to) {
@@ -94,7 +95,7 @@ void showTransport(Editor& editor, const Timeline& timeline, TimelineState& stat
     tip("Frames per second");
     ImGui::SameLine();
     ImGui::TextUnformatted("fps");
-    ImGui::SameLine();
+    besideIfFits(7.0f * em);
     ImGui::SetNextItemWidth(7.0f * em);
     auto loop = std::size_t(timeline.loop);
     if (chooseName("##loop", loopNames(), loop))

@@ -67,8 +67,10 @@ void showChoices(Editor& editor) {
 }
 
 /// Words over the picture, top left.
-void caption(const Area& place, const char* words, ImU32 color, float scale) {
+void caption(const Area& place, const char* text, ImU32 color, float scale) {
     ImDrawList* list = ImGui::GetWindowDrawList();
+    const std::string fits = fitted(text, place.width() - 16 * scale);
+    const char* words = fits.c_str();
     const ImVec2 size = ImGui::CalcTextSize(words), at(place.lo.x + 8 * scale, place.lo.y + 8 * scale);
     list->AddRectFilled({at.x - 5 * scale, at.y - 3 * scale},
                         {at.x + size.x + 5 * scale, at.y + size.y + 3 * scale}, themeColor(ThemeColor::plate),

@@ -35,7 +35,7 @@ constexpr const char* kDocument = R"({
     {"id": "both", "type": "union", "at": [960, 0], "inputs": {"a": {"from": "stone"}, "b": {"from": "bird"}}},
     {"id": "out", "type": "output", "at": [1200, 0], "inputs": {"surface": {"from": "both"}, "resolution": 160}}
   ],
-  "parameters": [{"name": "roundness of the cut", "node": "pierced", "input": "radius", "min": 0, "max": 0.2},
+  "parameters": [{"name": "cut", "node": "pierced", "input": "radius", "min": 0, "max": 0.2},
     {"name": "height", "node": "house", "input": "half_height", "min": 1, "max": 5}],
   "scene": {"camera": {"position": [6, 4, 6], "target": [0, 1, 0], "fov": 40},
             "lights": [{"type": "spot", "position": [2, 3, 2], "target": [0, 0, 0], "angle": 60, "strength": 40}]},
