@@ -155,7 +155,11 @@ TEST(EndToEndProbe, ReadsMeasuresAndPlots) {
     })) << drawn;
     const ImVec2 from = program.output("both"), to = program.input("out", "surface");
     program.moveTo({0.5f * (from.x + to.x), 0.5f * (from.y + to.y)});
-    program.waitFor("Plain: exact. Dashes: a bound. Dots: may be steeper than a distance.");
+    // Each key makes a frame, of which one comes when the mouse has rested for long enough.
+    EXPECT_TRUE(eventually([&] {
+        program.save();
+        return program.sees("Plain: exact. Dashes: a bound. Dots: may be steeper than a distance.");
+    }));
 }
 
 }  // namespace fw::editor::test::end_to_end_probe_test
