@@ -59,9 +59,7 @@ void showStop(const Shown& shown, std::size_t at) {
         },
         shown.path());
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(std::max(shown.width - 1.6f * ImGui::GetFrameHeight() -
-                                         2.0f * widthOfButton("+") - 3.0f * ImGui::GetStyle().ItemSpacing.x,
-                                     2.5f * ImGui::GetFontSize()));
+    ImGui::SetNextItemWidth(shown.width - 1.6f * ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
     editNumbers(
         editor, "##position", shown.list.entry(at).first(1), {.speed = range.span() / 250.0}, "Move Stop",
         [&editor, list = shown.list, at, scope = shown.scope, plug = Plug{shown.node, shown.input}](
@@ -71,7 +69,6 @@ void showStop(const Shown& shown, std::size_t at) {
             return setInput(graph, scope, plug, listValue(next.list.type, next.list.numbers));
         },
         shown.path());
-    ImGui::SameLine();
 }
 
 void showPresets(const Shown& shown) {
@@ -89,19 +86,19 @@ void showPresets(const Shown& shown) {
 }
 
 void showTools(const Shown& shown) {
-    const auto button = [&](const char* words, const char* tip, bool first) {
-        if (!first) besideIfItFits(widthOfButton(words));
+    showAddAndRemove(shown);
+    const auto button = [&](const char* words, const char* tip) {
+        besideIfItFits(widthOfButton(words));
         const bool pressed = ImGui::Button(words);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
         return pressed;
     };
     const std::size_t selected = selectedOf(shown).value_or(0);
-    if (button("Reverse", "The other way around", true))
+    if (button("Reverse", "The other way around"))
         shown.apply("Reverse Ramp", reversed(shown.list), shown.list.count() - 1 - selected);
-    if (button("Even", "All stops as far from each other", false))
+    if (button("Even", "All stops as far from each other"))
         shown.apply("Distribute Stops", distributed(shown.list), selected);
-    if (button("Presets …", "Ramps to begin with, between the ends of this one", false))
-        ImGui::OpenPopup("presets");
+    if (button("Presets …", "Ramps to begin with, between the ends of this one")) ImGui::OpenPopup("presets");
     showPresets(shown);
 }
 
@@ -173,9 +170,7 @@ void showRamp(const Shown& shown) {
     else {
         ImGui::AlignTextToFramePadding();
         ImGui::TextDisabled("%zu stop%s", shown.list.count(), shown.list.count() == 1 ? "" : "s");
-        ImGui::SameLine();
     }
-    showAddAndRemove(shown);
     showTools(shown);
     ImGui::PopID();
 }
