@@ -139,12 +139,12 @@ void aimAtPlace(Editor& editor, Gizmo& gizmo, const Lens& lens) {
     }
     if (gizmo.snap.to == Snap::To::points) {
         constexpr float kReach = 18.0f;  // pixels, times the scale
-        if (gizmo.features.empty())
+        if (!gizmo.features)
             gizmo.features = featuresOf(editor.document.graph(), editor.canvas.scope, draggedNodes(gizmo),
                                         editor.viewport.pinned, editor.viewport.seconds);
         float least = kReach * editor.shell.scale();
         drag.target.reset();
-        for (const glm::dvec3& feature : gizmo.features)
+        for (const glm::dvec3& feature : *gizmo.features)
             if (const auto at = lens.project(feature)) {
                 const float away = std::hypot(at->x - mouse.x, at->y - mouse.y);
                 if (away < least) least = away, drag.target = feature;
@@ -173,6 +173,7 @@ void aimAtPlace(Editor& editor, Gizmo& gizmo, const Lens& lens) {
             if (!taken.drag || taken.drag->hand != hand) return;
             taken.answered = number;
             if (place) taken.drag->target = place;
+            Shell::wake();  // the mouse may have let go already
         };
     });
 }
@@ -213,7 +214,7 @@ void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
     drag.hand = editor.document.begin(doing(editor, drag.handle));
     gizmo.start.reset();
     gizmo.surroundings.reset();
-    gizmo.features.clear();
+    gizmo.features.reset();
     gizmo.asked = gizmo.answered = 0;
     if (!drag.handle.scene.empty()) {
         // Its numbers are the scene's: nothing is added.

@@ -88,6 +88,7 @@ glm::dvec2 inPicture(const Viewport& viewport, ImVec2 pixel) {
 
 void pickUnderMouse(Editor& editor, bool besides) {
     Viewport& viewport = editor.viewport;
+    viewport.gizmo.part.clear();
     const glm::dvec2 at = inPicture(viewport, ImGui::GetIO().MousePos);
     const double x = at.x, y = at.y;
     Seen seen = seenNow(editor);

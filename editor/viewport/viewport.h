@@ -79,8 +79,8 @@ struct Gizmo {
     std::string part;               ///< of the scene that is held: "sun", "camera", "lights.0"; empty: nodes
     std::vector<Placing> placings;  ///< that the one handle moves; empty: each handle moves its own input
     std::optional<Graph> start;     ///< that those are moved in while they are dragged
-    std::vector<glm::dvec3> features;           ///< to which a drag may go
-    std::shared_ptr<const Graph> surroundings;  ///< what is seen without what is dragged
+    std::optional<std::vector<glm::dvec3>> features;  ///< to which a drag may go
+    std::shared_ptr<const Graph> surroundings;        ///< what is seen without what is dragged
     ImVec2 askedAt;
     int asked = 0, answered = 0;  ///< questions for the surface under the mouse
     Grips grips;
