@@ -148,8 +148,12 @@ void MissingFilesDialog::look(const std::shared_ptr<const Graph>& graph, bool ch
 }
 
 void openMissingFiles(Editor& editor) {
-    if (missingFiles(editor.document.graph(), graphFolder(editor.document.graph())).empty())
-        return say(editor, "no file that the document names is missing");
+    const std::string folder = graphFolder(editor.document.graph());
+    const std::vector<NamedFile> missing = missingFiles(editor.document.graph(), folder);
+    if (missing.empty()) return say(editor, "no file that the document names is missing");
+    // What lies below the document needs no question.
+    if (const auto found = lookFor(missing, folder); !folder.empty() && !found.empty())
+        return relink(editor, missing, found);
     editor.files.missing.opening = true;
 }
 

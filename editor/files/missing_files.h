@@ -43,7 +43,7 @@ inline constexpr std::size_t kMostLookedAt = 100'000;  ///< entries of folders
 /// links are not followed; it ends at kMostLookedAt.
 std::map<std::string, std::string> lookFor(const std::vector<NamedFile>& files, const std::string& folder);
 
-/// Opens the window; says so if nothing is missing.
+/// Takes what lies below the document's folder, else opens the window; says so if nothing is missing.
 void openMissingFiles(Editor& editor);
 /// One frame of it.
 void showMissingFiles(Editor& editor);
