@@ -171,8 +171,8 @@ void count(const std::string& job, const char* document, const Way& now, const W
     };
     const std::optional<Effort> counted = done(now);
     if (failed()) return;
-    // Of these two the former way does not yet run through: it is reckoned.
-    const bool reckoned = job == "A sign" || job == "A cut mesh";
+    // Of these the former way is reckoned.
+    const bool reckoned = job == "A sign" || job == "A cut mesh" || job == "A turntable";
     const std::optional<Effort> before = isLong() && !reckoned ? done(former) : std::nullopt;
     if (!failed()) compare(job, *counted, before);
 }
