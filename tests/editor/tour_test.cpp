@@ -71,8 +71,7 @@ TEST(Tour, IsWalkedToItsEnd) {
     const auto graph = [&]() -> const Graph& { return editor->document.graph(); };
     const auto expectStep = [&](std::size_t done, const char* words) {
         EXPECT_EQ(tourStepsDone(graph()), done);
-        EXPECT_TRUE(reader.find(editor.capture(), words, kFontSize, editor->canvas.view.panel))
-            << words;
+        EXPECT_TRUE(reader.find(editor.capture(), words, kFontSize, editor->canvas.view.panel)) << words;
     };
     const auto place = [&](float x, float y) { return editor->canvas.view.toScreen(ImVec2(x, y)); };
     const auto add = [&](const char* search, float x, float y) {
