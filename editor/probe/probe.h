@@ -13,10 +13,10 @@
 
 #include <deque>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "editor/canvas/canvas.h"

@@ -194,7 +194,7 @@ TEST(Picker, SaysWhereTheSurfaceIs) {
     seen.camera = {.position = {0, 0, 8}, .target = {0, 0, 0}, .fov = 40};
     const auto hit = picker.hit(seen, 0.0, 0.0);
     ASSERT_TRUE(hit);
-    EXPECT_NEAR(glm::distance(*hit, glm::dvec3(0, 0, 1)), 0.0, 1e-4);
+    EXPECT_NEAR(std::hypot((*hit)[0], (*hit)[1], (*hit)[2] - 1.0), 0.0, 1e-4);
     EXPECT_FALSE(picker.hit(seen, 0.9, 0.9));
 }
 
