@@ -76,7 +76,7 @@ void showPage(Editor& editor, const NodeType& type) {
     if (type.open) quiet("The document decides what further inputs and outputs there are.");
     ImGui::Spacing();
     showOutputsOf(type);
-    if (!type.body.empty() && ImGui::CollapsingHeader("What it computes, in the field language")) {
+    if (!type.body.empty() && ImGui::CollapsingHeader("What it computes")) {
         ImGui::PushFont(editor.shell.fonts().codeOf(ImGui::GetFontSize()));
         ImGui::TextWrapped("%s", type.body.c_str());
         ImGui::PopFont();
