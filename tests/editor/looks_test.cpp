@@ -1,11 +1,15 @@
 // Nothing that the editor shows is cut off, whatever the size of the window and the scale of the interface.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <set>
 
 #include "editor/shell/letters.h"
+#include "editor/shell/theme.h"
 #include "tests/editor/looks.h"
+#include "tests/support/golden.h"
 
 namespace fw::editor::test::looks_test {
 
@@ -13,6 +17,16 @@ struct Size {
     int width, height;
     float scale;
 };
+
+Picture cut(const Picture& picture, const Area& part) {
+    const int x0 = int(part.lo.x), x1 = int(part.hi.x), y0 = int(part.lo.y), y1 = int(part.hi.y);
+    Picture result{x1 - x0, y1 - y0, {}};
+    for (int y = y0; y < y1; ++y) {
+        const auto row = picture.pixels.begin() + 4 * (std::ptrdiff_t(y) * picture.width);
+        result.pixels.insert(result.pixels.end(), row + 4 * x0, row + 4 * x1);
+    }
+    return result;
+}
 
 // Smaller windows than these have no room for words so large.
 constexpr Size kSizes[] = {{800, 600, 1},    {1280, 800, 1},    {3840, 2160, 1},
@@ -42,6 +56,43 @@ TEST(Looks, NothingIsCutOff) {
             }
         }
     }
+}
+
+/// Pictures of all of them, but for those that name folders and devices of the machine.
+TEST(Looks, AsTheyWere) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path("/");  // is in the names that dialogs propose
+    DrivenEditor driven(graphOfLooks(), 2560, 1600);
+    std::filesystem::current_path(before);
+    NEEDS_EDITOR(driven);
+    const std::set<std::string> ofTheMachine = {"open", "about"};
+    for (const int scale : {1, 2}) {
+        resize(driven, 1280 * scale, 800 * scale, float(scale));
+        driven.moveAway();
+        for (const Look& look : looks()) {
+            if (ofTheMachine.contains(look.name)) continue;
+            std::filesystem::current_path("/");
+            show(driven, look);
+            std::filesystem::current_path(before);
+            fw::test::expectGolden(cut(driven.capture(), placeOf(look)),
+                                   "editor/looks/" + std::string(look.name) + "_" + std::to_string(scale),
+                                   {.mean = 1.5, .mostStrong = 0.01});
+        }
+    }
+}
+
+TEST(Looks, InLight) {
+    DrivenEditor driven(graphOfLooks());
+    NEEDS_EDITOR(driven);
+    setTheme(Theme::light);
+    const std::vector<Look> all = looks();
+    for (const char* name : {"main", "inspector_code"}) {
+        const auto look = std::ranges::find(all, std::string(name), &Look::name);
+        show(driven, *look);
+        fw::test::expectGolden(cut(driven.capture(), placeOf(*look)),
+                               "editor/looks/" + std::string(name) + "_light");
+    }
+    setTheme(Theme::dark);
 }
 
 TEST(Looks, FilesMayHaveNamesOfEveryLanguage) {
