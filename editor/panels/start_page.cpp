@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr const char* kSamples[] = {"tower", "goblet", "gyroid_sphere"};
 constexpr std::size_t kMostFiles = 5;
 constexpr float kWidth = 36.0f,
-                kHigh = 25.0f;  // in units of the font's size; lower canvases have no pictures
+                kHigh = 25.0f;   // in units of the font's size; lower canvases have no pictures
+constexpr float kWhole = 36.0f;  // and in higher ones all of it is seen
 
 bool holds(const Editor& editor) {
     const Graph& graph = editor.document.graph();
@@ -138,11 +139,12 @@ void showStartPage(Editor& editor) {
     ImGui::SetNextWindowPos(canvas.centre(), ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({most.x, 0}, most);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {2.0f * kGap * em, 2.0f * kGap * em});
-    const bool shown =
-        ImGui::Begin("##start", nullptr,
-                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
-                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+    const bool shown = ImGui::Begin(
+        "##start", nullptr,
+        ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+            ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings |
+            ImGuiWindowFlags_AlwaysAutoResize |
+            (canvas.height() > kWhole * em ? ImGuiWindowFlags_NoScrollbar : ImGuiWindowFlags_None));
     ImGui::PopStyleVar();
     if (shown) {
         ImGui::PushFont(editor.shell.fonts().of(1.5f * em));
