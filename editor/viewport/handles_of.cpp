@@ -74,6 +74,7 @@ std::optional<Kind> kindOf(const InputSpec& input) {
 void grip(Handle& handle, const Node& node, const NodeType& type, const InputSpec& input,
           const Placement& placement) {
     const Grip& grip = input.grip;
+    if (!grip) return;  // it is where its unit and range say
     const glm::dvec3 base = gripBase(node, type, input);
     handle.origin = placement.of(base);
     switch (grip.kind) {
