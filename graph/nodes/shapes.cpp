@@ -15,7 +15,7 @@ namespace {
 
 /// To a corner of a tetrahedron or a dodecahedron, of unit length; and of an icosahedron.
 constexpr std::array<double, 3> kDiagonal = {0.57735026918962576, 0.57735026918962576, 0.57735026918962576},
-                                kIcosahedronCorner = {0.85065080835203993, 0, 0.52573111211913361};
+                                kIcosahedronCorner = {0.52573111211913361, 0, 0.85065080835203993};
 
 /// A tube around a closed centre line whose curvature radius is `major_radius`: thicker than that, it
 /// overlaps itself.

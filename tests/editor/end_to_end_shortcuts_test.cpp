@@ -864,6 +864,7 @@ const std::map<std::string, Case>& cases() {
         {"picture.snap",
          [](Program& p, const std::string& keys) {
              p.moveTo(picturePart(p).centre());
+             restingPicture(p);  // and the mouse is there
              p.keys(keys);
              p.waitFor("Snap: drags in the picture");
              p.keys(keys);
@@ -872,6 +873,7 @@ const std::map<std::string, Case>& cases() {
         {"picture.axes",
          [](Program& p, const std::string& keys) {
              p.moveTo(picturePart(p).centre());
+             restingPicture(p);
              p.keys(keys, 2);
              p.waitFor("Axes: the node's own");
              p.keys(keys);
