@@ -239,7 +239,8 @@ void Program::drag(const std::vector<ImVec2>& through, int button, const std::st
         waitForChange(before, Area{through[i], through[i]}.grown(6));
     }
     if (ends) words += " mouseup " + number;
-    send(words + (held.empty() ? "" : " keyup " + held));
+    if (!held.empty()) words += " keyup " + held;
+    if (!words.empty()) send(words);
 }
 
 void Program::wheel(ImVec2 p, int notches) {
