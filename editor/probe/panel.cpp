@@ -80,7 +80,7 @@ void showReadings(Editor& editor, float height) {
     for (const Reading& reading : probe.readings)
         if (!probe.selectedOnly || editor.canvas.selection.contains(reading.node)) listed.push_back(&reading);
     const float line = ImGui::GetTextLineHeightWithSpacing();
-    height = std::min(height, line * (float(listed.size()) + 2.0f));
+    height = std::min(height, line * (float(listed.size()) + 1.0f));
     if (!ImGui::BeginTable("readings", 5,
                            ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg |
                                ImGuiTableFlags_ScrollY | ImGuiTableFlags_Resizable,

@@ -283,7 +283,7 @@ Case takeUp(const std::string& first, const std::string& firstTool, const std::s
 
 /// The tool that measures says what it waits for, until the same keys put it down.
 void takeUpMeasure(Program& program, const std::string& keys, const std::string& hint) {
-    program.moveTo(picturePart(program).centre());
+    lookFirst(program, "1", "Front · perspective");
     program.keys(keys);
     program.waitFor(hint);
     program.keys(keys);
@@ -844,7 +844,7 @@ const std::map<std::string, Case>& cases() {
          }},
         {"picture.clear",
          [](Program& p, const std::string& keys) {
-             p.moveTo(picturePart(p).centre());
+             lookFirst(p, "1", "Front · perspective");
              p.keys("Shift+M");
              p.waitFor("Length: click two points");
              p.keys(keys);
@@ -874,7 +874,7 @@ const std::map<std::string, Case>& cases() {
         {"picture.scale", takeUp("W", "Move", "Scale")},
         {"picture.snap",
          [](Program& p, const std::string& keys) {
-             p.moveTo(picturePart(p).centre());
+             lookFirst(p, "1", "Front · perspective");
              restingPicture(p);  // and the mouse is there
              p.keys(keys);
              p.waitFor("Snap: drags in the picture");
@@ -883,7 +883,7 @@ const std::map<std::string, Case>& cases() {
          }},
         {"picture.axes",
          [](Program& p, const std::string& keys) {
-             p.moveTo(picturePart(p).centre());
+             lookFirst(p, "1", "Front · perspective");
              restingPicture(p);
              p.keys(keys, 2);
              p.waitFor("Axes: the node's own");
