@@ -129,7 +129,7 @@ constexpr TypeStyle kTypeStyles[] = {
     {rgb(0xe69f00), rgb(0xb96f00), SocketShape::hexagon},   // surface: orange
     {rgb(0xd8dce2), rgb(0x23282e), SocketShape::square},    // string
     {rgb(0xf0e442), rgb(0x3a3000), SocketShape::triangle},  // points: yellow
-    {rgb(0xe69f00), rgb(0xb96f00), SocketShape::square},    // stops: orange
+    {rgb(0xe69f00), rgb(0x7a3b00), SocketShape::square},    // stops: orange, darker
     {rgb(0xf4f4f4), rgb(0x22262c), SocketShape::hexagon},   // image
     {rgb(0x3d8fd1), rgb(0x1a5ca8), SocketShape::hexagon},   // mesh: blue
     {rgb(0xf4f4f4), rgb(0x30363d), SocketShape::circle},    // particles

@@ -599,7 +599,7 @@ TEST(EditorTasks, ALibraryPart) {
             person.keys("L");
             person.keys("F3");
             person.type("keep\n");
-            person.waitFor("a name for");
+            person.waitFor("of the selection");
             person.type("mug\n");
             person.waitFor("kept as mug");
             person.open("shelf.field.json");

@@ -59,10 +59,14 @@ TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
     program.frameAll();
     program.click(program.title("left"));
     program.click(program.title("right"), 1, "shift");
-    const ImVec2 from = waitForArrow(program);
-    program.moveTo({from.x - 4, from.y});
-    program.waitFor("Move 2 Nodes");
-    const ImVec2 tip(from.x - 4, from.y);
+    ImVec2 tip;
+    EXPECT_TRUE(eventually([&] {  // the arrow of both, once the mouse is known to be on it
+        const ImVec2 from = waitForArrow(program);
+        tip = {from.x - 4, from.y};
+        program.moveTo({tip.x, tip.y - 40});
+        program.moveTo(tip);
+        return program.sees("Move 2 Nodes");
+    }));
     program.drag({tip, {tip.x + 20, tip.y}, {tip.x + 50, tip.y}});
     const std::vector<double> left = offsetOf(program.saved(), "left"),
                               right = offsetOf(program.graph(), "right");

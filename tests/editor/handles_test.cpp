@@ -48,6 +48,7 @@ const std::map<std::string, std::string> kWithout = {
     {"particle_dynamics.turbulence_size", "it has no place"},
     {"particle_dynamics.radius", "of every particle"},
     {"sph_fluid.spacing", "of every particle"},
+    {"decimate.error", "it is everywhere on the mesh"},
     {"particles_to_field.drop", "of every particle"},
     {"particles_to_field.radius", "of every particle"},
     {"particles_to_field.margin", "around a box that is found"},

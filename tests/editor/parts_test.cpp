@@ -123,12 +123,12 @@ TEST(Parts, KeepsNodesShowsThemAndGivesThemBack) {
     program.keys("F3");
     program.type("library\n");
     program.waitFor("Nothing is kept yet");
-    program.clickOn("a name for");
+    program.clickOn("of the selection");
     program.type("My marble\n");
     program.waitFor("kept as my_marble");
     const std::string kept = program.path("data/fieldwright/library/my_marble.field.json");
     EXPECT_TRUE(fs::exists(kept));
-    program.waitFor("a name for");  // the field is empty again
+    program.waitFor("of the selection");  // the field is empty again
     const Area label = program.waitFor("My marble");
     // Its picture is of a grey ball before the dark: seen above its name, once it is made.
     const Area tile{{label.lo.x, label.lo.y - 80}, {label.lo.x + 80, label.lo.y - 8}};

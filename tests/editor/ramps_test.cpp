@@ -187,7 +187,8 @@ class RampInspector : public testing::Test {
 TEST_F(RampInspector, StopsAndPointsAreDraggedAddedAndRemoved) {
     const Area side{{800, 0}, {1280, 800}};
     program.click(program.title("ramp"));
-    const ImVec2 from = program.waitFor("Stops", side).lo;
+    // Below the bar, which has the same colours.
+    const ImVec2 words = program.waitFor("Stops", side).lo, from{words.x, words.y + 15.0f};
     const ImVec2 red = waitForHandle(from, {255, 0, 0}), green = waitForHandle(from, {0, 255, 0}),
                  blue = waitForHandle(from, {0, 0, 255});
     EXPECT_LT(std::abs(green.x - 0.5f * (red.x + blue.x)), 2.0f) << "in the middle of the bar";
