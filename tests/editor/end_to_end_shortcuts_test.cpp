@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -1019,7 +1020,11 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
     for (const Command& command : commands()) {
         if (areaOf(command) != GetParam()) continue;
         std::istringstream words(command.keys);
-        for (std::string keys; words >> keys;) {
+        // Of the picture's commands, which are many, the second keys (those of the number pad) with
+        // FIELDWRIGHT_LONG.
+        const bool all = GetParam() != "picture" || std::getenv("FIELDWRIGHT_LONG");
+        bool first = true;
+        for (std::string keys; words >> keys && (all || std::exchange(first, false));) {
             SCOPED_TRACE(std::string(command.id) + ": " + keys);
             const auto found = cases().find(command.id);
             if (found == cases().end()) {

@@ -189,9 +189,12 @@ TEST_F(RampInspector, StopsAndPointsAreDraggedAddedAndRemoved) {
     program.click(program.title("ramp"));
     // Below the bar, which has the same colours.
     const ImVec2 words = program.waitFor("Stops", side).lo, from{words.x, words.y + 15.0f};
-    const ImVec2 red = waitForHandle(from, {255, 0, 0}), green = waitForHandle(from, {0, 255, 0}),
-                 blue = waitForHandle(from, {0, 0, 255});
-    EXPECT_LT(std::abs(green.x - 0.5f * (red.x + blue.x)), 2.0f) << "in the middle of the bar";
+    ImVec2 red, green, blue;
+    EXPECT_TRUE(test::eventually([&] {  // the panel narrows once it knows that it has a bar to scroll
+        red = waitForHandle(from, {255, 0, 0}), green = waitForHandle(from, {0, 255, 0}),
+        blue = waitForHandle(from, {0, 0, 255});
+        return std::abs(green.x - 0.5f * (red.x + blue.x)) < 1.0f;
+    })) << "in the middle of the bar";
     const float wide = blue.x - red.x;
     ASSERT_GT(wide, 60.0f);
     const auto at = [&](float share) { return ImVec2{red.x + share * wide, green.y}; };
