@@ -61,9 +61,9 @@ TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
     program.click(program.title("right"), 1, "shift");
     ImVec2 tip;
     EXPECT_TRUE(eventually([&] {  // the arrow of both, once the mouse is known to be on it
+        program.moveTo(program.nowhere());  // one under the mouse has another colour
         const ImVec2 from = waitForArrow(program);
         tip = {from.x - 4, from.y};
-        program.moveTo({tip.x, tip.y - 40});
         program.moveTo(tip);
         return program.sees("Move 2 Nodes");
     }));
