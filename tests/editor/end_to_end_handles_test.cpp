@@ -60,12 +60,12 @@ TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
     program.click(program.title("left"));
     program.click(program.title("right"), 1, "shift");
     ImVec2 tip;
-    EXPECT_TRUE(eventually([&] {  // the arrow of both, once the mouse is known to be on it
+    EXPECT_TRUE(eventually([&] {            // the arrow of both, once the mouse is known to be on it
         program.moveTo(program.nowhere());  // one under the mouse has another colour
         const ImVec2 from = waitForArrow(program);
         tip = {from.x - 4, from.y};
         program.moveTo(tip);
-        return program.sees("Move 2 Nodes");
+        return program.sees("Move 2 Nodes", picturePart(program));
     }));
     program.drag({tip, {tip.x + 20, tip.y}, {tip.x + 50, tip.y}});
     const std::vector<double> left = offsetOf(program.saved(), "left"),
@@ -93,15 +93,15 @@ TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
     // The magnet: both go by a multiple of 0.1 m.
     const ImVec2 third = waitForArrow(program);
     program.moveTo({third.x - 4, third.y});
-    program.waitFor("Move 2 Nodes");
+    program.waitFor("Move 2 Nodes", picturePart(program));
     program.keys("Shift+Tab");
-    program.waitFor("Snap: drags in the picture");
+    program.waitFor("Snap: drags in the picture", Area{{0, 770}, {1280, 800}});
     program.drag({{third.x - 4, third.y}, {third.x + 20, third.y}, {third.x + 43, third.y}});
     const double step = offsetOf(program.saved(), "left")[0] + 1.03;
     EXPECT_GT(step, 0.2);
     EXPECT_NEAR(std::remainder(step, 0.1), 0.0, 1e-6) << step;
 
-    program.clickOn("Options");
+    program.clickOn("Options", Area{{820, 300}, {1280, 460}});
     program.waitFor("Centres and ends");
     program.waitFor("Each its own");
     program.clickOn("Lamps and camera");
@@ -111,9 +111,9 @@ TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
     // The lamp, by its colour: a click chooses it, and it is moved as a node is.
     const ImVec2 lamp = waitForColor(program, IM_COL32(0, 255, 0, 255));
     program.moveTo({lamp.x - 2, lamp.y});
-    program.waitFor("Lamp 1");
+    program.waitFor("Lamp 1", picturePart(program));
     program.click({lamp.x - 2, lamp.y});
-    program.waitFor("Move Lamp 1");
+    program.waitFor("Move Lamp 1", picturePart(program));
     program.drag({{lamp.x - 2, lamp.y}, {lamp.x + 20, lamp.y}, {lamp.x + 40, lamp.y}});
     const Triple there = lampOf(program.saved());
     EXPECT_GT(there[0], 0.5);
