@@ -59,14 +59,15 @@ TEST(EndToEnd, SeveralNodesAreMovedByHandInStepsAndBack) {
     program.frameAll();
     program.click(program.title("left"));
     program.click(program.title("right"), 1, "shift");
-    ImVec2 tip;
-    EXPECT_TRUE(eventually([&] {            // the arrow of both, once the mouse is known to be on it
-        program.moveTo(program.nowhere());  // one under the mouse has another colour
-        const ImVec2 from = waitForArrow(program);
-        tip = {from.x - 4, from.y};
-        program.moveTo(tip);
-        return program.sees("Move 2 Nodes", picturePart(program));
+    ImVec2 from, last;
+    EXPECT_TRUE(eventually([&] {  // until the arrow is the one of both, where it stays
+        last = std::exchange(from, waitForArrow(program));
+        program.save();
+        return from.x == last.x && from.y == last.y;
     }));
+    const ImVec2 tip(from.x - 4, from.y);
+    program.moveTo(tip);
+    program.waitFor("Move 2 Nodes", picturePart(program));
     program.drag({tip, {tip.x + 20, tip.y}, {tip.x + 50, tip.y}});
     const std::vector<double> left = offsetOf(program.saved(), "left"),
                               right = offsetOf(program.graph(), "right");
