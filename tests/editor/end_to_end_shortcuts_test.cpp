@@ -1,5 +1,6 @@
-// Every shortcut of the table of commands, pressed in the real window: each has a case here that sees what it
-// did, in the saved file, on the clipboard or on the screen.
+// The shortcuts of the table of commands, pressed in the real window: each has a case here that sees what it
+// did, in the saved file, on the clipboard or on the screen. Of each command the first, all with
+// FIELDWRIGHT_LONG.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -1020,9 +1021,7 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
     for (const Command& command : commands()) {
         if (areaOf(command) != GetParam()) continue;
         std::istringstream words(command.keys);
-        // Of the picture's commands, which are many, the second keys (those of the number pad) with
-        // FIELDWRIGHT_LONG.
-        const bool all = GetParam() != "picture" || std::getenv("FIELDWRIGHT_LONG");
+        const bool all = std::getenv("FIELDWRIGHT_LONG");
         bool first = true;
         for (std::string keys; words >> keys && (all || std::exchange(first, false));) {
             SCOPED_TRACE(std::string(command.id) + ": " + keys);
