@@ -340,12 +340,8 @@ void drawValues(const Pen& pen, const NodeBox& box, const CanvasValues& all) {
             room = socket.x - 18.0f * unit - pen.width(readable(row.name)) - at.x;
         }
         if (colored) {
-            const auto shown = [&](std::size_t i) {
-                return float(std::pow(std::clamp((*value->color)[i], 0.0, 1.0), 1.0 / 2.2));
-            };
             const ImVec2 lo(at.x, at.y - 0.5f * side), hi(at.x + side, at.y + 0.5f * side);
-            pen.list->AddRectFilled(lo, hi,
-                                    ImGui::ColorConvertFloat4ToU32({shown(0), shown(1), shown(2), 1}));
+            pen.list->AddRectFilled(lo, hi, shownColor(*value->color));
             pen.list->AddRect(lo, hi, themeColor(ThemeColor::edge));
             at.x += side + 5.0f * unit, room -= side + 5.0f * unit;
         }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/language/lower.h"
 
@@ -20,16 +21,6 @@ constexpr float kNumberRounding = 3.0f;
 constexpr float kLeastTyped = 90.0f;  // pixels: the text field of a narrow number is wider than the number
 
 bool pressedKey(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
-
-std::string shorten(const std::string& text, ImFont* font, float size, float width) {
-    if (font->CalcTextSizeA(size, FLT_MAX, 0.0f, text.c_str()).x <= width) return text;
-    std::string cut = text;
-    while (!cut.empty() && font->CalcTextSizeA(size, FLT_MAX, 0.0f, (cut + "…").c_str()).x > width) {
-        do cut.pop_back();
-        while (!cut.empty() && (cut.back() & 0xC0) == 0x80);
-    }
-    return cut + "…";
-}
 
 double kept(double number, const NumberRange& range) {
     return std::clamp(range.whole ? std::round(number) : number, range.min, range.max);
@@ -183,7 +174,7 @@ void drawField(const Area& place, bool active, bool hovered) {
 void drawFieldText(const NumberLook& look, const std::string& text, bool toTheRight) {
     const Area& place = look.place;
     const float margin = 0.35f * look.size;
-    const std::string fits = shorten(text, look.font, look.size, place.width() - 2 * margin);
+    const std::string fits = fitted(text, place.width() - 2 * margin, look.font, look.size);
     const ImVec2 extent = look.font->CalcTextSizeA(look.size, FLT_MAX, 0.0f, fits.c_str());
     const ImVec2 at(toTheRight ? place.hi.x - margin - extent.x : place.lo.x + margin,
                     place.centre().y - 0.5f * extent.y);

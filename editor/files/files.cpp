@@ -42,8 +42,9 @@ void remember(Editor& editor, const std::string& path) {
 
 /// The file's document, in place of what is open of it without unsaved changes.
 void takeOf(Editor& editor, Graph graph, const std::string& path) {
-    if (const auto open = tabOf(editor, path)) showTab(editor, *open);
-    if (isOf(editor, path) && !editor.document.unsaved())
+    const auto open = tabOf(editor, path);
+    if (open) showTab(editor, *open);
+    if (open && !editor.document.unsaved())
         replaceDocument(editor, Document(placeAll(graph)));
     else
         take(editor, std::move(graph));
@@ -104,6 +105,13 @@ std::string proposal(const Editor& editor) {
 }
 
 void askForName(Editor& editor) { open(editor.files.browser, FileBrowser::Kind::save, proposal(editor)); }
+
+/// Makes it the choice of this name, if there is one.
+template <class Choice, std::size_t count>
+void choose(Choice& choice, const char* const (&names)[count], std::string_view name) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (name == names[i]) choice = Choice(i);
+}
 
 /// The editor's first document where it was started for a file.
 void openFirst(Editor& editor, const std::string& path) {
@@ -300,14 +308,8 @@ void startFiles(Editor& editor, const std::string& path) {
     std::string problem;
     editor.files.preferences = readPreferences(preferencesPath(), problem);
     editor.keymap = keymapOf(editor.files.preferences);
-    const auto navigation = std::ranges::find(kNavigationNames, editor.files.preferences.navigation,
-                                              [](const char* name) { return std::string(name); });
-    if (navigation != std::end(kNavigationNames))
-        editor.viewport.navigation = Navigation(navigation - std::begin(kNavigationNames));
-    const auto scrolling = std::ranges::find(kScrollingNames, editor.files.preferences.scrolling,
-                                             [](const char* name) { return std::string(name); });
-    if (scrolling != std::end(kScrollingNames))
-        editor.viewport.scrolling = Scrolling(scrolling - std::begin(kScrollingNames));
+    choose(editor.viewport.navigation, kNavigationNames, editor.files.preferences.navigation);
+    choose(editor.viewport.scrolling, kScrollingNames, editor.files.preferences.scrolling);
     setTheme(themeOf(themeChoice(editor.files.preferences.theme)));
     arrange(editor, editor.files.preferences.panels);
     editor.files.left = leftCopies();

@@ -60,11 +60,6 @@ bool isUntouched(const Editor& editor) {
            (editor.document.graph().path.empty() || editor.files.origin == DocumentFile::Origin::sample);
 }
 
-bool isOf(const Editor& editor, const std::string& path) {
-    const std::string& own = editor.document.graph().path;
-    return !own.empty() && sameFile(own, path);
-}
-
 std::optional<std::size_t> tabOf(const Editor& editor, const std::string& path) {
     for (std::size_t i = 0; i < editor.tabs.all.size(); ++i) {
         const std::string& own = documentAt(editor, i).graph().path;

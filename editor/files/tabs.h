@@ -50,8 +50,6 @@ void closeTab(Editor& editor);
 
 /// Whether the document in front holds nothing that a hand has made, and is of no file of one's own.
 bool isUntouched(const Editor& editor);
-/// Whether the file is the one of the document in front.
-bool isOf(const Editor& editor, const std::string& path);
 /// Where this file is open.
 std::optional<std::size_t> tabOf(const Editor& editor, const std::string& path);
 /// A document behind the one in front that has unsaved changes.

@@ -29,18 +29,26 @@ void label(const char* words) {
     ImGui::SetNextItemWidth(std::min(18.0f * em, ImGui::GetContentRegionAvail().x));
 }
 
+/// One of a few, kept by its name; what was chosen, if another was.
+template <class Choice, std::size_t count>
+std::optional<Choice> choose(Editor& editor, const char* words, const char* id, Choice now,
+                             const char* const (&choices)[count], const char* const (&names)[count],
+                             std::string& kept) {
+    std::optional<Choice> chosen;
+    label(words);
+    if (!ImGui::BeginCombo(id, choices[std::size_t(now)])) return chosen;
+    for (std::size_t i = 0; i < count; ++i)
+        if (ImGui::Selectable(choices[i], Choice(i) == now))
+            chosen = Choice(i), kept = names[i], keep(editor);
+    ImGui::EndCombo();
+    return chosen;
+}
+
 void showTheme(Editor& editor) {
     std::string& name = editor.files.preferences.theme;
-    const ThemeChoice chosen = themeChoice(name);
-    label("Theme");
-    if (!ImGui::BeginCombo("##theme", kThemeWords[std::size_t(chosen)])) return;
-    for (std::size_t i = 0; i < std::size(kThemeWords); ++i)
-        if (ImGui::Selectable(kThemeWords[i], i == std::size_t(chosen))) {
-            name = kThemeNames[i];
-            setTheme(themeOf(ThemeChoice(i)));
-            keep(editor);
-        }
-    ImGui::EndCombo();
+    if (const auto chosen =
+            choose(editor, "Theme", "##theme", themeChoice(name), kThemeWords, kThemeNames, name))
+        setTheme(themeOf(*chosen));
 }
 
 void showScale(Editor& editor) {
@@ -172,33 +180,15 @@ void showCommands(Editor& editor) {
     ImGui::EndTable();
 }
 
-void showNavigation(Editor& editor) {
-    std::size_t chosen = std::size_t(editor.viewport.navigation);
-    label("The picture by mouse");
-    if (!ImGui::BeginCombo("##navigation", kNavigationWords[chosen])) return;
-    for (std::size_t i = 0; i < std::size(kNavigationWords); ++i)
-        if (ImGui::Selectable(kNavigationWords[i], i == chosen)) {
-            editor.viewport.navigation = Navigation(i);
-            editor.files.preferences.navigation = kNavigationNames[i];
-            keep(editor);
-        }
-    ImGui::EndCombo();
-}
-
-void showScrolling(Editor& editor) {
-    const std::size_t chosen = std::size_t(editor.viewport.scrolling);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Wheel, two fingers");
-    ImGui::SameLine(12.0f * ImGui::GetFontSize());
-    ImGui::SetNextItemWidth(18.0f * ImGui::GetFontSize());
-    if (!ImGui::BeginCombo("##scrolling", kScrollingWords[chosen])) return;
-    for (std::size_t i = 0; i < std::size(kScrollingWords); ++i)
-        if (ImGui::Selectable(kScrollingWords[i], i == chosen)) {
-            editor.viewport.scrolling = Scrolling(i);
-            editor.files.preferences.scrolling = kScrollingNames[i];
-            keep(editor);
-        }
-    ImGui::EndCombo();
+void showMouse(Editor& editor) {
+    Viewport& view = editor.viewport;
+    Preferences& kept = editor.files.preferences;
+    if (const auto chosen = choose(editor, "The picture by mouse", "##navigation", view.navigation,
+                                   kNavigationWords, kNavigationNames, kept.navigation))
+        view.navigation = *chosen;
+    if (const auto chosen = choose(editor, "Wheel, two fingers", "##scrolling", view.scrolling,
+                                   kScrollingWords, kScrollingNames, kept.scrolling))
+        view.scrolling = *chosen;
 }
 
 }  // namespace
@@ -225,8 +215,7 @@ void showPreferences(Editor& editor) {
         return stopWaiting(window);
     showTheme(editor);
     showScale(editor);
-    showNavigation(editor);
-    showScrolling(editor);
+    showMouse(editor);
     ImGui::Separator();
     if (opens) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);

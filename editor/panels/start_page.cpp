@@ -28,7 +28,7 @@ bool holds(const Editor& editor) {
 
 /// The pictures are read aside, and become textures here.
 void follow(StartPage& page, Shell& shell) {
-    if (page.samples.empty()) {
+    if (!std::exchange(page.looked, true)) {
         const std::string folder = samplesFolder();
         if (folder.empty()) return;
         for (const Sample& sample : listSamples(folder))

@@ -18,6 +18,7 @@ struct Editor;
 
 struct StartPage {
     bool open = false;
+    bool looked = false;                     ///< for the samples
     std::vector<Sample> samples = {};        ///< the few that are shown
     std::vector<ImTextureID> textures = {};  ///< of each; null as long as it has none
     std::future<std::vector<Picture>> reading = {};

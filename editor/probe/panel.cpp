@@ -113,12 +113,8 @@ void showReadings(Editor& editor, float height) {
             ImGui::TextUnformatted(readable(reading.output).c_str());
             ImGui::TableNextColumn();
             if (reading.color) {
-                const auto& [r, g, b] = *reading.color;
                 const float side = ImGui::GetTextLineHeight();
-                ImGui::ColorButton("##colour",
-                                   {float(std::pow(std::clamp(r, 0.0, 1.0), 1 / 2.2)),
-                                    float(std::pow(std::clamp(g, 0.0, 1.0), 1 / 2.2)),
-                                    float(std::pow(std::clamp(b, 0.0, 1.0), 1 / 2.2)), 1.0f},
+                ImGui::ColorButton("##colour", ImGui::ColorConvertU32ToFloat4(shownColor(*reading.color)),
                                    ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
                                    {side, side});
                 ImGui::SameLine();

@@ -5,8 +5,8 @@
 #include "editor/editor.h"
 #include "editor/panels/properties.h"
 #include "editor/ramps/gestures.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
-#include "graph/assets/image.h"
 #include "graph/document/input_value.h"
 
 namespace fw::editor::ramps {
@@ -15,13 +15,6 @@ namespace {
 
 constexpr float kReachOfStop = 6.0f;  // pixels from a stop to the mouse
 constexpr int kPiecesOfBar = 12;
-
-ImU32 shownAs(const std::array<double, 3>& linear) {
-    const auto channel = [](double value) {
-        return int(std::lround(255.0 * encodeSrgb(std::clamp(value, 0.0, 1.0))));
-    };
-    return IM_COL32(channel(linear[0]), channel(linear[1]), channel(linear[2]), 255);
-}
 
 /// A house with its tip at the place, in the stop's colour.
 void drawHandle(ImDrawList* list, ImVec2 tip, float half, ImU32 fill, bool selected) {
@@ -33,15 +26,6 @@ void drawHandle(ImDrawList* list, ImVec2 tip, float half, ImU32 fill, bool selec
     list->AddConvexPolyFilled(corners, 5, fill);
     list->AddPolyline(corners, 5, themeColor(selected ? ThemeColor::active : ThemeColor::text),
                       ImDrawFlags_Closed, (selected ? 0.45f : 0.2f) * half);
-}
-
-/// The next item stands beside the last if it fits there.
-void besideIfItFits(float wide) {
-    ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
-}
-float widthOfButton(const char* words) {
-    return ImGui::CalcTextSize(words).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
 /// The position and the colour of the selected stop.
@@ -88,7 +72,7 @@ void showPresets(const Shown& shown) {
 void showTools(const Shown& shown) {
     showAddAndRemove(shown);
     const auto button = [&](const char* words, const char* tip) {
-        besideIfItFits(widthOfButton(words));
+        besideIfFits(words);
         const bool pressed = ImGui::Button(words);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
         return pressed;
@@ -111,7 +95,7 @@ void drawRamp(ImDrawList* list, ImVec2 lo, ImVec2 hi, const List& stops, std::st
         return std::clamp(lo.x + float((at - range.lo) / range.span()) * (hi.x - lo.x), lo.x, hi.x);
     };
     const auto color = [&](std::size_t i) {
-        return shownAs({stops.entry(i)[1], stops.entry(i)[2], stops.entry(i)[3]});
+        return shownColor({stops.entry(i)[1], stops.entry(i)[2], stops.entry(i)[3]});
     };
     const std::size_t last = stops.count() - 1;
     list->AddRectFilled(lo, {x(stops.at(0)), hi.y}, color(0));
@@ -125,8 +109,8 @@ void drawRamp(ImDrawList* list, ImVec2 lo, ImVec2 hi, const List& stops, std::st
         for (int k = 0; k < pieces && wide > 0.0; ++k) {
             const double a = from + wide * k / pieces, b = from + wide * (k + 1) / pieces;
             // At the next stop itself another colour may begin.
-            const ImU32 left = shownAs(colorAt(stops, interpolation, a)),
-                        right = k + 1 < pieces ? shownAs(colorAt(stops, interpolation, b)) : color(i + 1);
+            const ImU32 left = shownColor(colorAt(stops, interpolation, a)),
+                        right = k + 1 < pieces ? shownColor(colorAt(stops, interpolation, b)) : color(i + 1);
             list->AddRectFilledMultiColor({x(a), lo.y}, {x(b), hi.y}, left, right, right, left);
         }
     }
@@ -153,7 +137,7 @@ void showRamp(const Shown& shown) {
     const auto selected = selectedOf(shown);
     const auto handle = [&](std::size_t i) {
         const auto entry = shown.list.entry(i);
-        drawHandle(list, sheet.toScreen(entry[0]), half, shownAs({entry[1], entry[2], entry[3]}),
+        drawHandle(list, sheet.toScreen(entry[0]), half, shownColor({entry[1], entry[2], entry[3]}),
                    selected == i);
     };
     for (std::size_t i = 0; i < shown.list.count(); ++i)

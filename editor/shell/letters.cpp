@@ -1,7 +1,6 @@
 #include "editor/shell/letters.h"
 
-#include <imgui.h>
-
+#include <cfloat>
 #include <vector>
 
 namespace fw::editor {
@@ -52,9 +51,14 @@ std::string wellFormed(std::string_view text) {
     return whole;
 }
 
-bool isWellFormed(std::string_view text) { return wellFormed(text) == text; }
-
 std::string fitted(const std::string& text, float width) {
+    return fitted(text, width, ImGui::GetFont(), ImGui::GetFontSize());
+}
+
+std::string fitted(const std::string& text, float width, const ImFont* font, float size) {
+    const auto widthOf = [&](const std::string& words) {
+        return font->CalcTextSizeA(size, FLT_MAX, 0.0f, words.c_str()).x;
+    };
     if (widthOf(text) <= width) return text;
     const std::vector<std::size_t> ends = beginnings(text);
     std::size_t low = 0, high = ends.size() - 1;

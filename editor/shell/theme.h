@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <optional>
 
 #include "graph/library/node_type.h"
@@ -60,6 +61,8 @@ enum class ThemeColor : unsigned char {
 };
 inline constexpr std::size_t kThemeColors = std::size_t(ThemeColor::codeNotSelected) + 1;
 ImU32 themeColor(ThemeColor which);
+/// A linear colour as it is seen, what is beyond 0 to 1 cut off.
+ImU32 shownColor(const std::array<double, 3>& linear);
 ImU32 categoryColor(Category category);
 /// Of a socket and its wires; grey where the type is unknown.
 ImU32 typeColor(std::optional<Type> type);
@@ -75,7 +78,6 @@ void applyTheme(float scale);
 // The grid that things stand on, in units of the font's size: times ImGui::GetFontSize() they are pixels.
 inline constexpr float kGap = 0.6f;       ///< between things, and from a window's rim to them
 inline constexpr float kSmallGap = 0.3f;  ///< between what belongs together
-inline constexpr float kButton = 7.5f;    ///< least width of a dialog's button
 inline constexpr float kRound = 0.3f;     ///< of the corners of pictures and plates
 
 }  // namespace fw::editor

@@ -335,6 +335,15 @@ void toPanel(Program& program, const std::string& keys) {
     expectSelected(program, {"box"});
 }
 
+/// From a new document back to the one that there was.
+void fromNewDocument(Program& program, const std::string& keys) {
+    const std::string title = program.title();
+    program.keys("Ctrl+N");
+    EXPECT_TRUE(eventually([&] { return program.title().starts_with("untitled"); }));
+    program.keys(keys);
+    EXPECT_TRUE(eventually([&] { return program.title() == title; }));
+}
+
 const std::map<std::string, Case>& cases() {
     static const std::map<std::string, Case> all = {
         {"file.new",
@@ -344,22 +353,11 @@ const std::map<std::string, Case>& cases() {
          }},
         {"file.next_document",
          [](Program& p, const std::string& keys) {
-             const std::string title = p.title();
-             p.keys("Ctrl+N");
-             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
-             p.keys(keys);
-             EXPECT_TRUE(eventually([&] { return p.title() == title; }));
+             fromNewDocument(p, keys);
              p.keys("Ctrl+W");
              EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
          }},
-        {"file.last_document",
-         [](Program& p, const std::string& keys) {
-             const std::string title = p.title();
-             p.keys("Ctrl+N");
-             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
-             p.keys(keys);
-             EXPECT_TRUE(eventually([&] { return p.title() == title; }));
-         }},
+        {"file.last_document", fromNewDocument},
         {"file.close",
          [](Program& p, const std::string& keys) {
              pick(p, {"box"});

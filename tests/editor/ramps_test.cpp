@@ -191,9 +191,11 @@ TEST_F(RampInspector, StopsAndPointsAreDraggedAddedAndRemoved) {
     const ImVec2 words = program.waitFor("Stops", side).lo, from{words.x, words.y + 15.0f};
     ImVec2 red, green, blue;
     EXPECT_TRUE(test::eventually([&] {  // the panel narrows once it knows that it has a bar to scroll
+        const float before = blue.x;
+        program.save();
         red = waitForHandle(from, {255, 0, 0}), green = waitForHandle(from, {0, 255, 0}),
         blue = waitForHandle(from, {0, 0, 255});
-        return std::abs(green.x - 0.5f * (red.x + blue.x)) < 1.0f;
+        return blue.x == before && std::abs(green.x - 0.5f * (red.x + blue.x)) < 1.0f;
     })) << "in the middle of the bar";
     const float wide = blue.x - red.x;
     ASSERT_GT(wide, 60.0f);
