@@ -134,6 +134,7 @@ std::vector<Look> looks() {
              e.files.preferences.recent = {
                  "/home/ada/houses/Watch tower.field.json",
                  "/home/ada/a folder with a long name/and one in it/Bridge.field.json"};
+             e.windows.start.looked = true;
              e.windows.start.samples = someSamples();
              e.windows.start.textures.assign(e.windows.start.samples.size(), nullptr);
              e.windows.start.open = true;
