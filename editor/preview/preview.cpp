@@ -106,7 +106,7 @@ class Maker {
     /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
     bool work();
     /// Whether more will have to be done when kernels are compiled.
-    bool waits() { return player && (!compiled || player->compiling()); }
+    bool waits() { return player && playsOf == wish.document && (!compiled || player->compiling()); }
 
   private:
     void load();
@@ -135,7 +135,8 @@ class Maker {
     bool await = false;      ///< what changed is only what is held: the picture stays until kernels are there
     bool compiled = true;    ///< all kernels were there for the last picture
     bool good = false;       ///< the graph can be drawn
-    Clock::time_point since;  ///< when the wish was taken
+    std::optional<uint64_t> playsOf;  ///< the document that the player has a graph of
+    Clock::time_point since;          ///< when the wish was taken
     double loading = 0;
 };
 
@@ -202,6 +203,7 @@ void Maker::load() {
         if (!hasErrors(checked)) checked.push_back(played.error());
         result.current = false;
     } else {
+        playsOf = wish.document;
         result.spoiledBy = player->program().spoiledBy;
         result.region = player->region();
         result.exactness = player->program().nodeExactness;
@@ -325,7 +327,7 @@ void Maker::tell() {
 }
 
 bool Maker::work() {
-    if (!player) return false;
+    if (!player || playsOf != wish.document) return false;
     const bool compiling = player->compiling();
     if (!compiling && !compiled) due = true, since = Clock::now(), refined = 0;  // from the draft to the full
     compiled = !compiling;

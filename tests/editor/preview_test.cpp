@@ -334,6 +334,17 @@ TEST(Preview, NothingOfAnotherDocumentIsShown) {
     EXPECT_EQ(other.document, 2u);
     EXPECT_TRUE(other.picture.pixels.empty());
     EXPECT_FALSE(other.findings.empty());
+    // Nor when it is looked at from elsewhere, or comes with a place of its own on the timeline.
+    previewed.ask({.graph = joined(0.7), .document = 1});
+    EXPECT_FALSE(previewed.settled().picture.pixels.empty());
+    for (const double seconds : {0.5, 0.75}) {
+        previewed.ask({.graph = broken, .document = 3, .seconds = seconds, .camera = Camera{}});
+        const PreviewResult elsewhere = previewed.settled();
+        EXPECT_EQ(elsewhere.document, 3u);
+        EXPECT_TRUE(elsewhere.picture.pixels.empty());
+    }
+    previewed.ask({.graph = joined(0.7), .document = 3});
+    EXPECT_FALSE(previewed.full().picture.pixels.empty());
 }
 
 /// What a preview tells of its work until the picture is there: shares, 1 where it tells none.
