@@ -3,6 +3,7 @@
 
 #include "editor/editor.h"
 #include "editor/files/tabs.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 
 namespace fw::editor {
@@ -54,8 +55,8 @@ void showQuestion(Editor& editor) {
     ImGui::SameLine();
     if (button(editor, "Discard")) {
         ImGui::CloseCurrentPopup();
-        // The last one stays until the editor ends: that may be asked about once more.
-        if (files.next == Next::quit && unsavedTab(editor)) closeTab(editor);
+        // It stays until the editor ends: who is asked about another document may stay after all.
+        files.givenUp = files.next == Next::quit;
         doNext(editor);
     }
     ImGui::SameLine();
@@ -127,6 +128,7 @@ void showOutside(Editor& editor) {
     }
     leave = leave || escaped();
     if (load) reload(editor, *files.outside);
+    if (leave && !load && !keep) files.undecided = files.outside;
     files.keepsNext = files.keepsNext || (keep && !load);
     if (load || leave) files.next = Next::none;
     if (load || keep || leave) {
@@ -198,16 +200,20 @@ void showOffer(Editor& editor) {
     Files& files = editor.files;
     if (!files.offers || files.left.empty() || !files.message.title.empty()) return;
     if (!ImGui::IsPopupOpen(kOffer)) ImGui::OpenPopup(kOffer);
-    if (!ImGui::BeginPopupModal(kOffer, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-    ImGui::TextUnformatted("The editor ended before these changes were saved:");
+    if (!beginQuestion(editor, kOffer)) return;
+    ImGui::TextWrapped("The editor ended before these changes were saved:");
     for (std::size_t i = 0; i < files.left.size(); ++i) {
         const LeftCopy copy = files.left[i];
         ImGui::PushID(int(i));
-        ImGui::Text("%s, %s", copy.original.empty() ? "untitled" : copy.original.c_str(), copy.when.c_str());
-        ImGui::SameLine();
         const bool opens = ImGui::Button("Restore") || (files.left.size() == 1 && confirmed());
         ImGui::SameLine();
         const bool remove = ImGui::Button("Delete");
+        ImGui::SameLine();
+        const std::string when = ", " + copy.when, name = copy.original.empty() ? "untitled" : copy.original;
+        wantGlyphs(name);
+        const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(when.c_str()).x;
+        ImGui::TextUnformatted((fittedEnd(name, room) + when).c_str());
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
         ImGui::PopID();
         if (opens) restore(editor, copy);
         if (remove) removeCopy(copy);

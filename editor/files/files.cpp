@@ -40,20 +40,17 @@ void remember(Editor& editor, const std::string& path) {
     keepPreferences(editor);
 }
 
-/// The file's document, in place of what is open of it without unsaved changes.
-void takeOf(Editor& editor, Graph graph, const std::string& path) {
+/// Brings the file's document to the front; whether it is open.
+bool showIfOpen(Editor& editor, const std::string& path) {
     const auto open = tabOf(editor, path);
     if (open) showTab(editor, *open);
-    if (open && !editor.document.unsaved())
-        replaceDocument(editor, Document(placeAll(graph)));
-    else
-        take(editor, std::move(graph));
+    return open.has_value();
 }
 
 /// Shows what was read of the file.
 void adopt(Editor& editor, PartialGraph read, const std::string& text, const std::string& path) {
     Files& files = editor.files;
-    takeOf(editor, std::move(read.graph), path);
+    take(editor, std::move(read.graph));
     files.origin = isSample(path) ? Origin::sample : read.whole ? Origin::own : Origin::partly;
     files.found = std::move(read.findings);
     files.watch.follow(path, text);
@@ -113,6 +110,19 @@ void choose(Choice& choice, const char* const (&names)[count], std::string_view 
         if (name == names[i]) choice = Choice(i);
 }
 
+/// What another program did to the document's file.
+void takeChange(Editor& editor, FileWatch::Change change) {
+    if (change.gone) {
+        editor.document.markUnsaved();
+        say(editor, fileName(editor.document.graph().path) +
+                        " is gone: another program removed or renamed it; saving makes it anew");
+    } else if (editor.document.unsaved()) {
+        editor.files.outside = std::move(change.text);
+    } else {
+        reload(editor, change.text);
+    }
+}
+
 /// The editor's first document where it was started for a file.
 void openFirst(Editor& editor, const std::string& path) {
     std::error_code error;
@@ -165,10 +175,12 @@ void take(Editor& editor, Graph graph) {
 }
 
 void openFile(Editor& editor, const std::string& path) {
-    if (const auto open = tabOf(editor, path)) {
-        showTab(editor, *open);
+    if (showIfOpen(editor, path)) {
         if (editor.document.unsaved())
             return say(editor, nameOf(editor) + " is open here, with unsaved changes");
+        if (std::optional<FileWatch::Change> change = editor.files.watch.lookNow())
+            takeChange(editor, std::move(*change));
+        return;
     }
     const Result<std::string> text = readGraphText(path);
     PartialGraph read;
@@ -196,9 +208,10 @@ void doNext(Editor& editor) {
         case Next::drop: addDropped(editor, std::exchange(files.dropped, {})); break;
         case Next::close: closeTab(editor); break;
         case Next::quit:
-            if (const auto unsaved = unsavedTab(editor)) {
+            if (const auto unsaved = tabToAsk(editor)) {
                 showTab(editor, *unsaved);
-                return proceed(editor, Next::quit);
+                files.next = Next::quit, files.asks = true;
+                return;
             }
             (makesFiles(editor) ? files.asksExport : editor.quit) = true;
     }
@@ -221,7 +234,7 @@ bool writeFile(Editor& editor, const std::string& path) {
     editor.document.markSaved();
     files.origin = Origin::own;
     files.found.clear();
-    files.outside.reset();
+    files.outside.reset(), files.undecided.reset();
     files.keepsNext = false;
     files.watch.follow(path, writeGraph(moved));
     files.recovery.discard();
@@ -232,8 +245,15 @@ bool writeFile(Editor& editor, const std::string& path) {
 
 bool saveTo(Editor& editor, const std::string& path) {
     Files& files = editor.files;
+    if (const auto open = tabOf(editor, path); open && *open != editor.tabs.front) {
+        files.next = Next::none;
+        return say(editor, "nothing was saved: " + fileName(path) +
+                               " is open as another document; close that, or take another name"),
+               false;
+    }
     const std::string& own = editor.document.graph().path;
     if (!own.empty() && sameFile(path, own) && files.origin != Origin::sample) {
+        if (!files.outside) files.outside = std::exchange(files.undecided, std::nullopt);
         if (!files.outside)
             if (std::optional<FileWatch::Change> change = files.watch.lookNow(); change && !change->gone)
                 files.outside = std::move(change->text);
@@ -244,9 +264,11 @@ bool saveTo(Editor& editor, const std::string& path) {
 
 void reload(Editor& editor, const std::string& text) {
     Files& files = editor.files;
+    files.undecided.reset();
     const std::string path = editor.document.graph().path;
     PartialGraph read = parseWhatCanBeRead(text, path);
-    if (!read.whole) files.origin = Origin::partly;
+    if (files.origin != Origin::sample || !read.whole)
+        files.origin = read.whole ? Origin::own : Origin::partly;
     if (!read.any) {
         editor.document.markUnsaved();
         return tell(
@@ -292,7 +314,10 @@ void restore(Editor& editor, const LeftCopy& copy) {
     // As a change of what the file holds, so that it is not lost again.
     PartialGraph before;
     if (text) before = parseWhatCanBeRead(*text, copy.original);
-    takeOf(editor, std::move(before.graph), copy.original);
+    if (showIfOpen(editor, copy.original) && !editor.document.unsaved())
+        replaceDocument(editor, Document(placeAll(before.graph)));
+    else
+        take(editor, std::move(before.graph));
     editor.document.setPath(copy.original);
     editor.document.apply("Recover", found);
     if (text) {
@@ -403,15 +428,7 @@ bool watchFile(Editor& editor, FileWatch::Clock::time_point now) {
     assets = files.groups.look(editor.graph, now) || assets;
     std::optional<FileWatch::Change> change = files.watch.look(now);
     if (!change) return assets;
-    const std::string name = fileName(editor.document.graph().path);
-    if (change->gone) {
-        editor.document.markUnsaved();
-        say(editor, name + " is gone: another program removed or renamed it; saving makes it anew");
-    } else if (editor.document.unsaved()) {
-        files.outside = std::move(change->text);
-    } else {
-        reload(editor, change->text);
-    }
+    takeChange(editor, std::move(*change));
     return true;
 }
 
@@ -461,6 +478,7 @@ void showRecent(Editor& editor) {
 void proceed(Editor& editor, Next next) {
     editor.document.settle();  // what is being typed is one of the changes
     editor.files.next = next;
+    forgetGivenUp(editor);
     if (editor.document.unsaved())
         editor.files.asks = true;
     else

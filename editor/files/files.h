@@ -51,10 +51,13 @@ struct DocumentFile {
     std::vector<Error> found;  ///< when the file was read
     FileWatch watch;
     std::optional<std::string>
-        outside;        ///< what another program wrote, while it is asked what to do about it
+        outside;  ///< what another program wrote, while it is asked what to do about it
+    /// The same, once the answer was none: saving asks about it again.
+    std::optional<std::string> undecided = {};
     std::string waits;  ///< where to save once that is answered; empty: nowhere
     /// The file holds what undo cannot give back: saving keeps it as a version, however old the last one is.
     bool keepsNext = false;
+    bool givenUp = false;  ///< its changes, if the editor ends now
     Recovery recovery;
 };
 

@@ -74,6 +74,20 @@ std::optional<std::size_t> unsavedTab(const Editor& editor) {
     return std::nullopt;
 }
 
+std::optional<std::size_t> tabToAsk(const Editor& editor) {
+    for (std::size_t i = 0; i < editor.tabs.all.size(); ++i)
+        if (i != editor.tabs.front && editor.tabs.all[i]->document.unsaved() &&
+            !editor.tabs.all[i]->file.givenUp)
+            return i;
+    return std::nullopt;
+}
+
+void forgetGivenUp(Editor& editor) {
+    editor.files.givenUp = false;
+    for (const auto& behind : editor.tabs.all)
+        if (behind) behind->file.givenUp = false;
+}
+
 void discardKept(Editor& editor) {
     editor.files.recovery.discard();
     for (const auto& behind : editor.tabs.all)

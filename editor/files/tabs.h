@@ -54,6 +54,10 @@ bool isUntouched(const Editor& editor);
 std::optional<std::size_t> tabOf(const Editor& editor, const std::string& path);
 /// A document behind the one in front that has unsaved changes.
 std::optional<std::size_t> unsavedTab(const Editor& editor);
+/// One of these that the editor has to ask about before it ends.
+std::optional<std::size_t> tabToAsk(const Editor& editor);
+/// All are to be asked about.
+void forgetGivenUp(Editor& editor);
 /// Takes away what is kept of all documents for the next start.
 void discardKept(Editor& editor);
 

@@ -38,7 +38,10 @@ std::optional<FileWatch::Change> FileWatch::lookNow() {
     const Stamp seen{status.st_mtim.tv_sec, status.st_mtim.tv_nsec, status.st_size, status.st_ino};
     if (std::exchange(stamp, seen) == seen) return std::nullopt;
     Result<std::string> text = readGraphText(path);
-    if (!text) return std::nullopt;
+    if (!text) {
+        stamp = {};  // it is read once it can be, which need not change it
+        return std::nullopt;
+    }
     const std::size_t content = std::hash<std::string_view>()(*text);
     if (std::exchange(hash, content) == content) return std::nullopt;
     return Change{.text = std::move(*text)};

@@ -92,14 +92,14 @@ std::vector<KeptView> keptViewsIn(const Json& json) {
 void followKeptViews(Editor& editor) {
     KeptViews& kept = editor.viewport.kept;
     const std::string path = fileOf(editor);
-    const bool other = kept.document != editor.viewport.document;
+    const bool other = !kept.known;
     if (!other && path == kept.path) return;
     // Saved under a name: what was kept goes along.
     if (!other && !kept.views.empty()) {
         kept.path = path;
         return keepThem(editor);
     }
-    kept = {.views = {}, .last = 0, .document = editor.viewport.document, .path = path};
+    kept = {.views = {}, .last = 0, .known = true, .path = path};
     const KeptJson& all = editor.files.preferences.views;
     if (path.empty() || !all->is_object()) return;
     if (const auto found = all->find(path); found != all->end()) kept.views = keptViewsIn(*found);

@@ -24,7 +24,7 @@ struct KeptView {
 struct KeptViews {
     std::vector<KeptView> views;
     std::size_t last = 0;   ///< that was gone to or kept, counted from 1; 0: none
-    uint64_t document = 0;  ///< whose they are, as Viewport::document
+    bool known = false;     ///< they are of the document that is there
     std::string path = {};  ///< where they are kept; empty: nowhere yet
 };
 

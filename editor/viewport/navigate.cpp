@@ -124,6 +124,7 @@ void Viewport::forget(Shell& shell) {
     handed.reset();
     slice = {};
     seconds = 0.0;
+    kept = {};
     playing = false;
     drag = {};
     gizmo.hovered.reset(), gizmo.drag.reset();

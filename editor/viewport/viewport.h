@@ -120,6 +120,7 @@ struct DocumentLook {
     Slice slice;           ///< of the views on a plane
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline
+    KeptViews kept;
 };
 
 /// What the viewport shows and how.
@@ -131,9 +132,8 @@ struct Viewport : DocumentLook {
 
     Navigation navigation = Navigation::usual;  ///< of the preferences
     Scrolling scrolling = Scrolling::zooms;     ///< of the preferences
-    KeptViews kept;
-    bool grid = false;  ///< ground.h
-    Area place;         ///< of the picture, pixels of the window
+    bool grid = false;                          ///< ground.h
+    Area place;                                 ///< of the picture, pixels of the window
     bool hovered = false;
     CameraDrag drag;
     Gizmo gizmo;

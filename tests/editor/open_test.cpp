@@ -60,6 +60,14 @@ class FilesInWindow : public testing::Test {
         for (int i = 0; i < 1000 && !until(); ++i) frames(1), fw::test::rest(0.01);
         return until();
     }
+    void press(int key) {
+        GLFWkeyfun keyed = glfwSetKeyCallback(shell->window(), nullptr);
+        glfwSetKeyCallback(shell->window(), keyed);
+        for (const int action : {GLFW_PRESS, GLFW_RELEASE}) {
+            keyed(shell->window(), key, 0, action, 0);
+            frames();
+        }
+    }
     const Graph& graph() const { return editor->document.graph(); }
     double radius() const { return std::get<double>(graph().node("ball")->input("radius")->value); }
 
@@ -274,6 +282,62 @@ TEST_F(FilesInWindow, ReloadsWhatAnotherProgramChanged) {
     EXPECT_TRUE(editor->document.unsaved());
     EXPECT_FALSE(save(*editor));
     EXPECT_EQ(readText(file), "half a fi");
+}
+
+TEST(Watch, WhatCannotBeReadForAWhileIsNoticedWhenItCan) {
+    const TempDir folder;
+    const std::string file = folder.path("a.field.json");
+    writeText(file, kGood);
+    FileWatch watch;
+    watch.follow(file, kGood);
+    EXPECT_FALSE(watch.lookNow());
+    writeText(file, kOther);
+    rlimit old{};
+    ASSERT_EQ(0, ::getrlimit(RLIMIT_NOFILE, &old));
+    const rlimit none{0, old.rlim_max};
+    ASSERT_EQ(0, ::setrlimit(RLIMIT_NOFILE, &none));
+    const bool noticed = watch.lookNow().has_value();
+    ASSERT_EQ(0, ::setrlimit(RLIMIT_NOFILE, &old));
+    EXPECT_FALSE(noticed);
+    const auto change = watch.lookNow();
+    ASSERT_TRUE(change);
+    EXPECT_EQ(change->text, kOther);
+}
+
+TEST_F(FilesInWindow, AFileThatWasMendedOutsideIsWholeAgain) {
+    const std::string file = written("a.field.json", kPartly);
+    startFiles(*editor, file);
+    frames();
+    ASSERT_EQ(editor->files.origin, Origin::partly);
+    press(GLFW_KEY_ESCAPE);  // that parts of it could not be read
+    writeText(file, kGood);
+    ASSERT_TRUE(framesUntil([&] { return radius() == 0.5; }));
+    EXPECT_EQ(editor->files.origin, Origin::own);
+    EXPECT_TRUE(save(*editor)) << "it holds nothing that is not here";
+}
+
+TEST_F(FilesInWindow, WhatAnotherProgramWroteIsNotSavedOverBeforeItIsDecided) {
+    const std::string file = written("a.field.json", kGood);
+    startFiles(*editor, file);
+    frames();
+    Graph mine = graph();
+    mine.node("ball")->label = "mine";
+    editor->document.apply("Rename", mine);
+    writeText(file, kOther);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_FALSE(save(*editor));
+        ASSERT_TRUE(editor->files.outside);
+        frames();
+        EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId));
+        press(GLFW_KEY_ESCAPE);
+        EXPECT_FALSE(editor->files.outside);
+        EXPECT_EQ(readText(file), kOther) << "it was asked about, and nothing was answered";
+    }
+    // Loaded as a step, it is no question any more.
+    reload(*editor, kOther);
+    EXPECT_TRUE(editor->document.undo());
+    EXPECT_TRUE(save(*editor));
+    EXPECT_EQ(graph().node("ball")->label, "mine");
 }
 
 TEST_F(FilesInWindow, AFileThatIsGoneCountsAsUnsaved) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "editor/document/edits.h"
 #include "editor/files/tabs.h"
@@ -145,6 +146,92 @@ TEST(Tabs, AClosedOneLeavesItsNeighbour) {
     discardKept(*editor);
     for (const auto& entry : std::filesystem::directory_iterator(recoveryFolder()))
         EXPECT_FALSE(entry.path().string().ends_with(".field.json")) << entry.path();
+}
+
+TEST(Tabs, ViewsOfAnUntitledDocumentStayWhileItIsBehind) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string block = editor.path("block.field.json");
+    writeText(block, kBlock);
+    newDocument(*editor);
+    editor->document.apply("Longer", larger(editor->document.graph(), "box", "half_extents"));
+    editor.settle();
+    editor->viewport.ownCamera = true, editor->viewport.orbit.distance = 17;
+    keepView(*editor);
+    openFile(*editor, block);
+    editor.settle();
+    EXPECT_TRUE(editor->viewport.kept.views.empty()) << "those of another document";
+    turnTabs(*editor, 1);
+    editor.settle();
+    EXPECT_EQ(nameOf(*editor), "untitled");
+    ASSERT_EQ(editor->viewport.kept.views.size(), 1u);
+    EXPECT_EQ(editor->viewport.kept.views[0].orbit.distance, 17);
+    // Named at last, it has them in the preferences.
+    const std::string mine = editor.path("mine.field.json");
+    ASSERT_TRUE(saveTo(*editor, mine));
+    editor.settle();
+    EXPECT_TRUE(editor->files.preferences.views->contains(mine));
+}
+
+TEST(Tabs, WhoStaysAfterAllHasLostNothing) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string ball = editor.path("ball.field.json"), block = editor.path("block.field.json");
+    writeText(ball, kBall), writeText(block, kBlock);
+    openFile(*editor, ball);
+    editor->document.apply("Larger", larger(editor->document.graph(), "ball", "radius"));
+    openFile(*editor, block);
+    editor->document.apply("Longer", larger(editor->document.graph(), "block", "half_extents"));
+    // Discard is the second button; then the other document's question is cancelled.
+    editor.keys("ctrl+q Tab Tab space");
+    ASSERT_EQ(nameOf(*editor), "ball.field.json");
+    EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+    editor.keys("Escape");
+    EXPECT_FALSE(editor->quit);
+    ASSERT_EQ(editor->tabs.all.size(), 2u);
+    turnTabs(*editor, 1);
+    EXPECT_EQ(nameOf(*editor), "block.field.json");
+    EXPECT_TRUE(editor->document.unsaved());
+    // Both are asked about when it ends at last.
+    editor.keys("ctrl+q Return");
+    EXPECT_NE(readText(block), kBlock);
+    EXPECT_FALSE(editor->quit);
+    editor.keys("Tab Tab space");
+    EXPECT_TRUE(editor->quit);
+    EXPECT_EQ(readText(ball), kBall);
+}
+
+TEST(Tabs, AFileIsOneDocument) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string ball = editor.path("ball.field.json"), block = editor.path("block.field.json"),
+                      link = editor.path("link.field.json");
+    writeText(ball, kBall), writeText(block, kBlock);
+    std::filesystem::create_symlink(ball, link);
+    openFile(*editor, ball);
+    editor->document.apply("Larger", larger(editor->document.graph(), "ball", "radius"));
+    ASSERT_TRUE(save(*editor));
+    openFile(*editor, block);
+    openFile(*editor, link);
+    EXPECT_EQ(editor->tabs.all.size(), 2u);
+    EXPECT_EQ(nameOf(*editor), "ball.field.json") << "by the name that it has";
+    EXPECT_TRUE(editor->document.canUndo()) << "it is shown, not read anew";
+    // What another program wrote is there at once, as a step.
+    writeText(ball, kBlock);
+    openFile(*editor, link);
+    EXPECT_TRUE(editor->document.graph().node("block"));
+    EXPECT_EQ(editor->document.undoName(), "Reload");
+    // None is saved over the other.
+    const std::string before = readText(ball);
+    showTab(*editor, *tabOf(*editor, block));
+    editor->document.apply("Longer", larger(editor->document.graph(), "block", "half_extents"));
+    for (const std::string& name : {ball, link}) {
+        EXPECT_FALSE(saveTo(*editor, name));
+        EXPECT_NE(editor->notice.find("is open as another document"), std::string::npos) << editor->notice;
+    }
+    EXPECT_EQ(readText(ball), before);
+    EXPECT_EQ(editor->document.graph().path, block);
+    EXPECT_TRUE(saveTo(*editor, block));
 }
 
 TEST(EndToEndTabs, AreSeenAndClicked) {
