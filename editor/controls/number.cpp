@@ -120,6 +120,8 @@ void drag(NumberHand& hand, Document& document, const NumberRange& range, const 
     if (hand.state == State::pressed && std::abs(ImGui::GetMouseDragDelta(0, 0.0f).x) > kStillInNumber)
         hand.state = State::dragging;
     if (pressedKey(ImGuiKey_Escape)) {
+        // What is not the document's is taken back here.
+        if (hand.state == State::dragging) set(hand.hand, hand.start);
         document.cancel(hand.hand);
         hand = {};
     } else if (!ImGui::IsMouseDown(0)) {

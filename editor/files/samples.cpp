@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "editor/controls/tile.h"
 #include "editor/files/browser.h"
-#include "editor/shell/theme.h"
 #include "graph/assets/image.h"
 
 namespace fw::editor {
@@ -44,22 +44,6 @@ Picture halved(const FieldImage& image) {
             half.pixels.push_back(255);
         }
     return half;
-}
-
-/// A picture above a name; whether it was clicked, or Enter pressed on it.
-bool tile(const Sample& sample, ImTextureID texture, float width) {
-    const float high = width * 9.0f / 16.0f, line = ImGui::GetTextLineHeightWithSpacing();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool chosen = ImGui::Selectable("##sample", false, ImGuiSelectableFlags_DontClosePopups,
-                                          {width, high + line + 4.0f});
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const ImVec2 lo(at.x + 3, at.y + 3), hi(at.x + width - 3, at.y + high - 3);
-    if (texture)
-        list->AddImageRounded(texture, lo, hi, {0, 0}, {1, 1}, IM_COL32_WHITE, 4.0f);
-    else
-        list->AddRectFilled(lo, hi, themeColor(ThemeColor::node), 4.0f);
-    list->AddText({lo.x + 2, at.y + high}, themeColor(ThemeColor::text), sample.label.c_str());
-    return chosen;
 }
 
 }  // namespace
@@ -141,7 +125,9 @@ std::optional<std::string> show(Samples& samples, Shell& shell) {
     for (std::size_t i = 0; i < samples.all.size(); ++i) {
         if (int(i) % columns > 0) ImGui::SameLine();
         ImGui::PushID(int(i));
-        if (tile(samples.all[i], samples.textures[i], width)) chosen = samples.all[i].path;
+        if (showTile(samples.textures[i], samples.all[i].label, width, width * 9.0f / 16.0f,
+                     ImGuiSelectableFlags_DontClosePopups))
+            chosen = samples.all[i].path;
         ImGui::PopID();
     }
     ImGui::EndChild();

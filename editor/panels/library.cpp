@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "editor/canvas/keyboard.h"
+#include "editor/controls/tile.h"
 #include "editor/document/library.h"
 #include "editor/editor.h"
 #include "editor/panels/side.h"
@@ -82,10 +83,10 @@ struct Asked {
     const LibraryPart* remove = nullptr;
 };
 
-void showTile(Editor& editor, const LibraryPart& part, float width, Asked& asked) {
-    const float line = ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::Selectable("##part", false, 0, {width, width + line + 4.0f})) asked.add = &part;
+void showPartTile(Editor& editor, const LibraryPart& part, float width, Asked& asked) {
+    const auto found = editor.library.tiles.find(part.path);
+    const ImTextureID texture = found == editor.library.tiles.end() ? nullptr : found->second.texture;
+    if (showTile(texture, part.label, width, width)) asked.add = &part;
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s\nA click adds it, a drag to the canvas puts it there.", part.label.c_str());
     if (ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceNoHoldToOpenOthers)) {
@@ -101,15 +102,6 @@ void showTile(Editor& editor, const LibraryPart& part, float width, Asked& asked
         if (ImGui::MenuItem("Remove from the library")) asked.remove = &part;
         ImGui::EndPopup();
     }
-    const auto found = editor.library.tiles.find(part.path);
-    const ImTextureID texture = found == editor.library.tiles.end() ? nullptr : found->second.texture;
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const ImVec2 lo(at.x + 3, at.y + 3), hi(at.x + width - 3, at.y + width - 3);
-    if (texture)
-        list->AddImageRounded(texture, lo, hi, {0, 0}, {1, 1}, IM_COL32_WHITE, 4.0f);
-    else
-        list->AddRectFilled(lo, hi, themeColor(ThemeColor::node), 4.0f);
-    list->AddText({lo.x, at.y + width}, themeColor(ThemeColor::text), fitted(part.label, width - 6).c_str());
 }
 
 /// The parts whose label or folder has every word that was typed, in their order.
@@ -166,7 +158,7 @@ void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& ask
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = std::max(1, int((room + gap) / (kTile * scale + gap)));
     const float width = (room - gap * float(columns - 1)) / float(columns);
-    const float high = width + ImGui::GetTextLineHeight() + 4.0f;
+    const float high = width + tileNameHeight();
     std::vector<const LibraryPart*> seen;
     for (std::size_t i = 0; i < found.size();) {
         const std::string& folder = panel.parts[found[i]].folder;
@@ -181,7 +173,7 @@ void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& ask
             }
             seen.push_back(&part);
             ImGui::PushID(part.path.c_str());
-            showTile(editor, part, width, asked);
+            showPartTile(editor, part, width, asked);
             ImGui::PopID();
         }
     }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "editor/commands.h"
+#include "editor/controls/tile.h"
 #include "editor/panels/tour.h"
 #include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
@@ -55,22 +56,6 @@ void startHeading(const char* words) {
     ImGui::TextDisabled("%s", words);
 }
 
-/// A picture above its name; whether it was clicked.
-bool sampleTile(const Sample& sample, ImTextureID texture, float width) {
-    const float em = ImGui::GetFontSize(), inset = 0.2f * em, high = width * 9.0f / 16.0f;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool chosen = ImGui::Selectable("##sample", false, 0, {width, high + 1.4f * em});
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const ImVec2 lo(at.x + inset, at.y + inset), hi(at.x + width - inset, at.y + high - inset);
-    if (texture)
-        list->AddImageRounded(texture, lo, hi, {0, 0}, {1, 1}, IM_COL32_WHITE, kRound * em);
-    else
-        list->AddRectFilled(lo, hi, themeColor(ThemeColor::field), kRound * em);
-    list->AddText({lo.x, at.y + high}, themeColor(ThemeColor::text),
-                  fitted(sample.label, width - 2.0f * inset).c_str());
-    return chosen;
-}
-
 void showFirstSteps(Editor& editor) {
     startHeading("First steps");
     if (ImGui::Button("Take the tour")) startTour(editor);
@@ -94,7 +79,8 @@ void showSampleTiles(Editor& editor, bool pictures) {
         for (std::size_t i = 0; i < page.samples.size(); ++i) {
             if (i > 0) ImGui::SameLine();
             ImGui::PushID(int(i));
-            if (sampleTile(page.samples[i], page.textures[i], width)) chosen = page.samples[i].path;
+            if (showTile(page.textures[i], page.samples[i].label, width, width * 9.0f / 16.0f))
+                chosen = page.samples[i].path;
             ImGui::PopID();
         }
     }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "editor/controls/plate.h"
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
 
@@ -9,19 +10,18 @@ namespace fw::editor {
 
 namespace {
 
-constexpr ImU32 kShade = IM_COL32(0, 0, 0, 150);
-
 struct Marker {
     ImDrawList* list;
     Lens lens;
     float scale;
+    ImU32 rim = themeColor(ThemeColor::markRim);
 
     std::optional<ImVec2> seen(const Point& p) const { return lens.project({p[0], p[1], p[2]}); }
 
     void dot(const Point& point, ImU32 color, float radius) const {
         const auto at = seen(point);
         if (!at) return;
-        list->AddCircleFilled(*at, (radius + 1.5f) * scale, kShade);
+        list->AddCircleFilled(*at, (radius + 1.5f) * scale, rim);
         list->AddCircleFilled(*at, radius * scale, color);
     }
     void cross(const Point& point, ImU32 color) const {
@@ -30,31 +30,27 @@ struct Marker {
         const float far = 9.0f * scale, near = 3.0f * scale;
         for (const auto& [x, y] : {ImVec2(1, 0), ImVec2(-1, 0), ImVec2(0, 1), ImVec2(0, -1)}) {
             const ImVec2 a(at->x + near * x, at->y + near * y), b(at->x + far * x, at->y + far * y);
-            list->AddLine(a, b, kShade, 4.0f * scale);
+            list->AddLine(a, b, rim, 4.0f * scale);
             list->AddLine(a, b, color, 2.0f * scale);
         }
     }
     void line(const Point& from, const Point& to, ImU32 color) const {
         const auto a = seen(from), b = seen(to);
         if (!a || !b) return;
-        list->AddLine(*a, *b, kShade, 4.0f * scale);
+        list->AddLine(*a, *b, rim, 4.0f * scale);
         list->AddLine(*a, *b, color, 2.0f * scale);
     }
     /// Words beside the middle of two points, within the picture.
     void label(const Point& from, const Point& to, const std::string& words) const {
         const auto a = seen(from), b = seen(to);
         if (!a || !b) return;
-        const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-        const float inset = 5.0f * scale;
+        const ImVec2 size = plateSize(words, scale);
         const Area& place = lens.place;
-        const ImVec2 at(std::clamp(0.5f * (a->x + b->x) + 12.0f * scale, place.lo.x + inset,
-                                   std::max(place.hi.x - size.x - inset, place.lo.x + inset)),
-                        std::clamp(0.5f * (a->y + b->y) - 0.5f * size.y, place.lo.y + inset,
-                                   std::max(place.hi.y - size.y - inset, place.lo.y + inset)));
-        list->AddRectFilled({at.x - inset, at.y - 3 * scale},
-                            {at.x + size.x + inset, at.y + size.y + 3 * scale}, IM_COL32(0, 0, 0, 190),
-                            4 * scale);
-        list->AddText(at, IM_COL32_WHITE, words.c_str());
+        const ImVec2 at(
+            std::clamp(0.5f * (a->x + b->x) + 7.0f * scale, place.lo.x,
+                       std::max(place.hi.x - size.x, place.lo.x)),
+            std::clamp(0.5f * (a->y + b->y - size.y), place.lo.y, std::max(place.hi.y - size.y, place.lo.y)));
+        showPlate(list, at, words, themeColor(ThemeColor::text), scale);
     }
 };
 
@@ -88,7 +84,8 @@ void showProbeMarks(Editor& editor) {
     list->PushClipRect(view.place.lo, view.place.hi, true);
     const float scale = editor.shell.scale();
     const Marker marker{list, Lens(view.shown.seen, view.place), scale};
-    const ImU32 active = themeColor(ThemeColor::active), line = IM_COL32(0x56, 0xb4, 0xe9, 255);
+    const ImU32 active = themeColor(ThemeColor::active), line = themeColor(ThemeColor::plotted),
+                mark = themeColor(ThemeColor::mark);
     const bool plots = on || probe.tool == Measure::line;
     if (plots && probe.ends.size() == 2) marker.line(probe.ends[0], probe.ends[1], line);
     if (plots)
@@ -105,16 +102,13 @@ void showProbeMarks(Editor& editor) {
         marker.dot(wall.from, active, 3.5f), marker.dot(wall.to, active, 3.5f);
         marker.label(wall.from, wall.to, lengthWords(wall.length()));
     }
-    if (on && probe.point) marker.cross(*probe.point, probe.pinned ? active : IM_COL32_WHITE);
+    if (on && probe.point) marker.cross(*probe.point, probe.pinned ? active : mark);
     if (probe.tool != Measure::nothing && probe.hovered && view.hovered)
-        marker.dot(*probe.hovered, IM_COL32_WHITE, 2.5f);
+        marker.dot(*probe.hovered, mark, 2.5f);
     if (const std::string hint = hintOf(probe); !hint.empty()) {
-        const ImVec2 size = ImGui::CalcTextSize(hint.c_str());
-        const ImVec2 at(view.place.hi.x - size.x - 10 * scale, view.place.lo.y + 8 * scale);
-        list->AddRectFilled({at.x - 5 * scale, at.y - 3 * scale},
-                            {at.x + size.x + 5 * scale, at.y + size.y + 3 * scale}, IM_COL32(0, 0, 0, 170),
-                            4 * scale);
-        list->AddText(at, themeColor(ThemeColor::text), hint.c_str());
+        const ImVec2 size = plateSize(hint, scale);
+        showPlate(list, {view.place.hi.x - size.x - 5 * scale, view.place.lo.y + 5 * scale}, hint,
+                  themeColor(ThemeColor::text), scale);
     }
     list->PopClipRect();
 }

@@ -17,10 +17,23 @@ namespace {
 
 constexpr const char* kAxisLetters[] = {"x", "y", "z"};
 
-/// Three numbers that can be typed; whether they were.
-bool showPoint(const char* id, Point& point) {
+constexpr double kFarthest = 1e9;  // metres from the origin that a place can be typed
+
+/// The three numbers of a place; `set` hears of another.
+void editPlace(Editor& editor, const char* id, const Point& point,
+               const std::function<void(Probe&, const Point&)>& set) {
     ImGui::SetNextItemWidth(-FLT_MIN);
-    return ImGui::InputScalarN(id, ImGuiDataType_Double, point.data(), 3, nullptr, nullptr, "%.5g");
+    dragNumbers(editor, id, point, {.min = -kFarthest, .max = kFarthest},
+                [&probe = editor.probe, set](std::span<const double> to) {
+                    set(probe, {to[0], to[1], to[2]});
+                });
+}
+
+/// One end of the line.
+void editEnd(Editor& editor, const char* id, std::size_t end) {
+    editPlace(editor, id, editor.probe.ends[end], [end](Probe& probe, const Point& to) {
+        if (end < probe.ends.size()) probe.ends[end] = to;
+    });
 }
 
 std::string nameAt(const Editor& editor, const std::string& id) {
@@ -61,9 +74,13 @@ std::string allWords(const Editor& editor) {
 
 void showPlace(Editor& editor) {
     Probe& probe = editor.probe;
-    Point typed = probe.point.value_or(Point{});
-    if (showPoint("##point", typed)) probe.point = typed, probe.pinned = true;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("x, y, z in metres: typed, they stay");
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    editPlace(editor, "##point", probe.point.value_or(Point{}),
+              [](Probe& of, const Point& to) { of.point = to, of.pinned = true; });
+    if (ImGui::IsMouseHoveringRect(
+            from, {from.x + ImGui::GetContentRegionAvail().x, from.y + ImGui::GetFrameHeight()}) &&
+        ImGui::IsWindowHovered())
+        ImGui::SetTooltip("x, y, z in metres: typed or dragged, they stay");
     if (ImGui::Checkbox("Pinned", &probe.pinned) && probe.pinned && !probe.point) probe.point = Point{};
     ImGui::SameLine();
     ImGui::Checkbox("Selected nodes only", &probe.selectedOnly);
@@ -188,8 +205,8 @@ void showLine(Editor& editor) {
     }
     ImGui::EndDisabled();
     if (probe.ends.size() < 2) return;
-    showPoint("##from", probe.ends[0]);
-    showPoint("##to", probe.ends[1]);
+    editEnd(editor, "##from", 0);
+    editEnd(editor, "##to", 1);
     if (!probe.plot)
         return ImGui::TextDisabled("%s", probe.plotted.empty() ? "Select a node: its output is plotted."
                                                                : "The selected node has no value to plot.");

@@ -13,8 +13,6 @@ namespace fw::editor {
 
 namespace {
 
-constexpr ImU32 kValueInk = IM_COL32(0x56, 0xb4, 0xe9, 255), kSlopeInk = IM_COL32(0xe6, 0x9f, 0x00, 255),
-                kWallFill = IM_COL32(0x56, 0xb4, 0xe9, 50);
 constexpr float kMostOff = 1.0f;  // of the gradient's length from 1, at the lower plot's edges
 
 std::string plotNumber(double number) {
@@ -85,9 +83,9 @@ void showPlot(const Plot& plot, float scale) {
     const float zero = values.y(0.0);
     for (const Stretch& wall : plot.walls)
         list->AddRectFilled({values.x(wall.from), values.area.lo.y}, {values.x(wall.to), values.area.hi.y},
-                            kWallFill);
+                            themeColor(ThemeColor::plottedWall));
     list->AddLine({at.x, zero}, {at.x + wide, zero}, quiet);
-    values.curve(plot.places, plot.values, 0.0, kValueInk, 1.5f * scale);
+    values.curve(plot.places, plot.values, 0.0, themeColor(ThemeColor::plotted), 1.5f * scale);
     for (double place : plot.crossings) list->AddCircleFilled({values.x(place), zero}, 3.5f * scale, text);
     // Thicknesses where they have room; all of them are in the list below.
     float free = at.x;
@@ -104,7 +102,7 @@ void showPlot(const Plot& plot, float scale) {
     list->PushClipRect(slopes.area.lo, slopes.area.hi, true);
     const float one = slopes.y(0.0);
     list->AddLine({at.x, one}, {at.x + wide, one}, quiet);
-    slopes.curve(plot.places, plot.slopes, 1.0, kSlopeInk, 1.5f * scale);
+    slopes.curve(plot.places, plot.slopes, 1.0, themeColor(ThemeColor::plottedSlope), 1.5f * scale);
     slopes.word({at.x + 4 * scale, slopes.area.lo.y + 1 * scale}, "gradient - 1", quiet);
     list->PopClipRect();
     values.word({at.x + 4 * scale, values.area.lo.y + 1 * scale}, plotNumber(most) + " m", quiet);

@@ -43,20 +43,25 @@ constexpr Shade kColors[] = {
     {white(14), black(12)},          // stripe
     {black(128), black(90)},         // dim
     {black(70), black(28)},          // beyond
-    {black(170), IM_COL32(0xfb, 0xfb, 0xfc, 225)},  // plate
-    {rgb(0xf0e442), rgb(0x1c2024)},                 // argument
-    {rgb(0xd3a4ee), rgb(0x7b2fa6)},                 // codeWord
-    {rgb(0x62c8d6), rgb(0x00606e)},                 // codeType
-    {rgb(0xf2b77c), rgb(0x8f4a00)},                 // codeConstant
-    {rgb(0xf0e06a), rgb(0x6b5c00)},                 // codeInput
-    {rgb(0x8cc8f2), rgb(0x0a5a9c)},                 // codeFunction
-    {rgb(0x7fd9a6), rgb(0x0f6636)},                 // codeNode
-    {rgb(0xe5a3a3), rgb(0xa03030)},                 // codeString
-    {rgb(0x949ca6), rgb(0x59616a)},                 // codeComment
-    {rgb(0x7d8590), rgb(0x59616a)},                 // codeNumber
-    {rgb(0x262a31), rgb(0xdcdfe4)},                 // codeLine
-    {rgb(0x5c4a1c), rgb(0xf7e3ad)},                 // codeFound
-    {rgb(0x3a4450), rgb(0xd0d5dc)},                 // codeNotSelected
+    {black(170), IM_COL32(0xfb, 0xfb, 0xfc, 225)},                     // plate
+    {rgb(0xffffff), rgb(0xffffff)},                                    // mark
+    {black(150), black(150)},                                          // markRim
+    {rgb(0x56b4e9), rgb(0x0b72b5)},                                    // plotted: sky blue
+    {rgb(0xe69f00), rgb(0xb96f00)},                                    // plottedSlope: orange
+    {IM_COL32(0x56, 0xb4, 0xe9, 50), IM_COL32(0x0b, 0x72, 0xb5, 40)},  // plottedWall
+    {rgb(0xf0e442), rgb(0x1c2024)},                                    // argument
+    {rgb(0xd3a4ee), rgb(0x7b2fa6)},                                    // codeWord
+    {rgb(0x62c8d6), rgb(0x00606e)},                                    // codeType
+    {rgb(0xf2b77c), rgb(0x8f4a00)},                                    // codeConstant
+    {rgb(0xf0e06a), rgb(0x6b5c00)},                                    // codeInput
+    {rgb(0x8cc8f2), rgb(0x0a5a9c)},                                    // codeFunction
+    {rgb(0x7fd9a6), rgb(0x0f6636)},                                    // codeNode
+    {rgb(0xe5a3a3), rgb(0xa03030)},                                    // codeString
+    {rgb(0x949ca6), rgb(0x59616a)},                                    // codeComment
+    {rgb(0x7d8590), rgb(0x59616a)},                                    // codeNumber
+    {rgb(0x262a31), rgb(0xdcdfe4)},                                    // codeLine
+    {rgb(0x5c4a1c), rgb(0xf7e3ad)},                                    // codeFound
+    {rgb(0x3a4450), rgb(0xd0d5dc)},                                    // codeNotSelected
 };
 static_assert(std::size(kColors) == kThemeColors);
 

@@ -41,11 +41,16 @@ enum class ThemeColor : unsigned char {
     grabActive,
     sliderActive,
     textSelected,
-    stripe,    ///< every other line of a table; a row that is chosen; over what is there
-    dim,       ///< over all but a question
-    beyond,    ///< over the times after the end
-    plate,     ///< behind words that lie over the picture
-    argument,  ///< text: the one that is being typed of a call
+    stripe,   ///< every other line of a table; a row that is chosen; over what is there
+    dim,      ///< over all but a question
+    beyond,   ///< over the times after the end
+    plate,    ///< behind words that lie over the picture
+    mark,     ///< lines and points that lie over the picture
+    markRim,  ///< about these
+    plotted,  ///< a field along a line, and that line
+    plottedSlope,
+    plottedWall,  ///< where the line is inside
+    argument,     ///< text: the one that is being typed of a call
     codeWord,
     codeType,
     codeConstant,

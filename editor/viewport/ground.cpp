@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "editor/controls/plate.h"
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/projection.h"
@@ -16,7 +17,6 @@ namespace {
 constexpr double kLeastCell = 24.0;  // pixels
 constexpr int kCellsAround = 30, kMostCellsAround = 200, kCellsAPiece = 5;
 constexpr double kMostBar = 120.0;  // pixels, times the scale
-constexpr ImU32 kBehind = IM_COL32(0, 0, 0, 170);
 
 ImU32 faded(ImU32 color, double alpha) {
     return (color & ~IM_COL32_A_MASK) | (ImU32(std::lround(255.0 * alpha)) << IM_COL32_A_SHIFT);
@@ -55,7 +55,8 @@ void drawBar(const Editor& editor, const Lens& lens, ImVec2 end) {
     const ImVec2 text = ImGui::CalcTextSize(words.c_str());
     const float room = std::max(wide, text.x);
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled({end.x - room - 2 * pad, end.y - text.y - tall - 2 * pad}, end, kBehind, 4 * scale);
+    list->AddRectFilled({end.x - room - 2 * pad, end.y - text.y - tall - 2 * pad}, end,
+                        themeColor(ThemeColor::plate), 4 * scale);
     const ImU32 ink = themeColor(ThemeColor::text);
     const ImVec2 right(end.x - pad, end.y - pad), left(right.x - wide, right.y);
     list->AddLine(left, right, ink, 1.5f * scale);
@@ -123,12 +124,11 @@ void showGround(Editor& editor) {
     list->PushClipRect(view.place.lo, view.place.hi, true);
     if (view.grid) drawGrid(editor, lens);
     const std::string words = wordsOf(view, editor.document.graph());
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str()), end(view.place.hi.x - pad, view.place.hi.y - pad),
-                 from(end.x - size.x - 2 * pad, end.y - size.y - pad);
+    const ImVec2 size = plateSize(words, scale),
+                 from(view.place.hi.x - pad - size.x, view.place.hi.y - pad - size.y);
     if (from.x < view.place.lo.x) return list->PopClipRect();  // there is no room
-    list->AddRectFilled(from, end, kBehind, 4 * scale);
-    list->AddText({from.x + pad, from.y + 0.5f * pad}, themeColor(ThemeColor::text), words.c_str());
-    if (view.ownCamera && view.orthographic) drawBar(editor, lens, {end.x, from.y - pad});
+    showPlate(list, from, words, themeColor(ThemeColor::text), scale);
+    if (view.ownCamera && view.orthographic) drawBar(editor, lens, {from.x + size.x, from.y - pad});
     list->PopClipRect();
 }
 

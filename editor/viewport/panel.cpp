@@ -1,6 +1,7 @@
 // The picture of what the graph makes, and the camera that it is seen by.
 #include <algorithm>
 
+#include "editor/controls/plate.h"
 #include "editor/editor.h"
 #include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
@@ -68,14 +69,9 @@ void showChoices(Editor& editor) {
 
 /// Words over the picture, top left.
 void caption(const Area& place, const char* text, ImU32 color, float scale) {
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const std::string fits = fitted(text, place.width() - 16 * scale);
-    const char* words = fits.c_str();
-    const ImVec2 size = ImGui::CalcTextSize(words), at(place.lo.x + 8 * scale, place.lo.y + 8 * scale);
-    list->AddRectFilled({at.x - 5 * scale, at.y - 3 * scale},
-                        {at.x + size.x + 5 * scale, at.y + size.y + 3 * scale}, themeColor(ThemeColor::plate),
-                        4 * scale);
-    list->AddText(at, color, words);
+    const float gap = 3.0f * scale, room = plateSize({}, scale).x;
+    showPlate(ImGui::GetWindowDrawList(), {place.lo.x + gap, place.lo.y + gap + 2.0f * scale},
+              fitted(text, place.width() - 2.0f * gap - room), color, scale);
 }
 
 }  // namespace
