@@ -272,22 +272,6 @@ std::string progressOf(const RenderItem& item) {
     return words;
 }
 
-/// What came of it, in a line.
-std::string outcomeOf(const RenderItem& item) {
-    const RenderState& state = item.state;
-    switch (state.phase) {
-        case RenderPhase::done:
-            if (!item.wish.frames) return "done";
-            return std::to_string(state.made) + " frames made" +
-                   (state.passed > 0 ? ", " + std::to_string(state.passed) + " were there" : "");
-        case RenderPhase::failed: return state.problems.front().message;
-        case RenderPhase::cancelled:
-            return item.wish.frames ? "cancelled after " + std::to_string(state.ready) + " frames"
-                                    : "cancelled";
-        default: return progressOf(item);
-    }
-}
-
 void showItem(RenderDialog& dialog, const RenderItem& item, float scale) {
     const RenderState& state = item.state;
     const bool runs = state.phase == RenderPhase::running || state.phase == RenderPhase::waiting;
@@ -306,7 +290,7 @@ void showItem(RenderDialog& dialog, const RenderItem& item, float scale) {
                   nullptr, 0.0f, &clip);
     const ImU32 color = state.phase == RenderPhase::failed ? themeColor(ThemeColor::error)
                                                            : ImGui::GetColorU32(ImGuiCol_TextDisabled);
-    list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x, at.y + line}, color, outcomeOf(item).c_str(),
+    list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x, at.y + line}, color, wordsOf(item).c_str(),
                   nullptr, 0.0f, &clip);
     if (state.phase == RenderPhase::running) {
         const float low = at.y + 2.0f * line - 3.0f * scale, right = at.x + width - buttons - 8.0f * scale;
@@ -407,12 +391,27 @@ void tell(Editor& editor, const std::vector<RenderItem>& items) {
         if (phase == RenderPhase::waiting || phase == RenderPhase::running) {
             dialog.awaited.insert(item.id);
         } else if (dialog.awaited.erase(item.id) > 0 && !dialog.open) {
-            say(editor, fs::path(item.wish.path).filename().string() + ": " + outcomeOf(item));
+            say(editor, fs::path(item.wish.path).filename().string() + ": " + wordsOf(item));
         }
     }
 }
 
 }  // namespace
+
+std::string wordsOf(const RenderItem& item) {
+    const RenderState& state = item.state;
+    switch (state.phase) {
+        case RenderPhase::done:
+            if (!item.wish.frames) return "done";
+            return std::to_string(state.made) + " frames made" +
+                   (state.passed > 0 ? ", " + std::to_string(state.passed) + " were there" : "");
+        case RenderPhase::failed: return state.problems.front().message;
+        case RenderPhase::cancelled:
+            return item.wish.frames ? "cancelled after " + std::to_string(state.ready) + " frames"
+                                    : "cancelled";
+        default: return progressOf(item);
+    }
+}
 
 bool renders(const Editor& editor) { return editor.rendering.queue && editor.rendering.queue->busy(); }
 

@@ -58,6 +58,8 @@ struct RenderDialog : StayingDialog {
 void openRender(Editor& editor);
 /// One frame of it, if it is open; says what came of what ended while it was not.
 void showRender(Editor& editor);
+/// How far the item is, or what came of it, in a line.
+std::string wordsOf(const RenderItem& item);
 /// Whether pictures are being made, or wait to be.
 bool renders(const Editor& editor);
 

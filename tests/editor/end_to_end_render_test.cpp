@@ -115,4 +115,20 @@ TEST_F(EndToEndRender, ATurntableIsCancelledAndGoneOnWith) {
     EXPECT_FALSE(fs::exists(folder + "/010799_of_10800.png"));
 }
 
+TEST_F(EndToEndRender, TheWholeReasonOfAFailureIsShown) {
+    // A name so long that the item's own line has no room for the reason behind it.
+    make("A turntable");
+    fw::test::writeText(beside("_turntable"), "a file where the folder should be");
+    press("Render");
+    const Area said = program.waitFor("Go on");
+    const Area below{{0, said.hi.y}, {1280, 800}};
+    // The last words of it, wherever the lines are broken.
+    EXPECT_TRUE(eventually([&] { return program.sees("sequence", below) && program.sees("folder", below); }));
+    keepShot("failed.png");
+    // Mended, it goes on.
+    fs::remove(beside("_turntable"));
+    program.clickOn("Go on");
+    EXPECT_TRUE(eventually([&] { return fs::is_directory(beside("_turntable")); }));
+}
+
 }  // namespace fw::editor::test::end_to_end_render_test

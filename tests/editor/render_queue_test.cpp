@@ -2,6 +2,7 @@
 // gone on with, and what is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
@@ -226,6 +227,38 @@ TEST_F(Pictures, AreMadeOneAfterTheOther) {
     EXPECT_EQ(queue->items().size(), 1u);
     EXPECT_FALSE(queue->busy());
     queue.reset();
+}
+
+TEST_F(Pictures, EndInAnotherOrderThanTheyWereAskedFor) {
+    std::mutex first;
+    std::unique_lock holds(first);
+    std::vector<uint64_t> ended;
+    hook = [&] {
+        std::lock_guard waits(first);
+        for (const RenderItem& item : queue->items())
+            if (item.state.phase == Phase::done && std::ranges::count(ended, item.id) == 0)
+                ended.push_back(item.id);
+    };
+    const auto add = [&](const char* name) { return queue->add(wish(folder.path(name))); };
+    const uint64_t a = add("a.png"), b = add("b.png"), c = add("c.png"), d = add("d.png");
+    // The second comes last, and the fourth never: it has ended before any other.
+    queue->cancel(b), queue->cancel(d);
+    queue->goOn(b);
+    std::vector<uint64_t> order;
+    for (const RenderItem& item : queue->items()) order.push_back(item.id);
+    EXPECT_EQ(order, (std::vector<uint64_t>{a, c, d, b})) << "as they are done";
+    EXPECT_EQ(stateOf(d).phase, Phase::cancelled);
+    queue->remove(a);
+    EXPECT_EQ(queue->items().size(), 4u) << "what runs stays";
+    holds.unlock();
+    finish(b);
+    queue->remove(d);
+    const std::vector<RenderItem> left = queue->items();
+    queue.reset();  // which may still tell of the end
+    EXPECT_EQ(ended, (std::vector<uint64_t>{a, c, b}));
+    EXPECT_EQ(left.size(), 3u);
+    for (const char* name : {"a.png", "b.png", "c.png"}) EXPECT_TRUE(fs::exists(folder.path(name))) << name;
+    EXPECT_FALSE(fs::exists(folder.path("d.png")));
 }
 
 TEST_F(Pictures, SayWhyTheyCannotBe) {
