@@ -136,6 +136,12 @@ void showEntries(const Input& input, float room) {
                              wordOf(input.box, "interpolation"),
                              wordOf(input.box, "ends"),
                              ImGui::GetContentRegionAvail().x - room};
+    if (const auto problem = orderProblem(list.type, list.numbers)) {
+        wrapped(themeColor(ThemeColor::error), *problem);
+        if (ImGui::Button("Mend"))
+            shown.apply(list.type == Type::stops ? "Mend Stops" : "Mend Points", ramps::mended(list), 0);
+        return;
+    }
     if (list.type == Type::stops)
         ramps::showRamp(shown);
     else

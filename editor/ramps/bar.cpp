@@ -90,7 +90,7 @@ void showTools(const Shown& shown) {
 
 void drawRamp(ImDrawList* list, ImVec2 lo, ImVec2 hi, const List& stops, std::string_view interpolation,
               const Range& range, int pieces) {
-    if (stops.count() == 0) return;
+    if (stops.count() == 0 || stops.count() > kMostStops) return;
     const auto x = [&](double at) {
         return std::clamp(lo.x + float((at - range.lo) / range.span()) * (hi.x - lo.x), lo.x, hi.x);
     };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "graph/evaluate/evaluate.h"
 #include "graph/language/lower.h"
@@ -9,6 +10,9 @@
 namespace fw::editor::ramps {
 
 namespace {
+
+/// Of what the numbers are themselves: in less no pixels could be told apart.
+constexpr double kLeastWidthSeen = 1e-6, kLeastHeightSeen = 1e-9;
 
 Edited put(List list, std::size_t entry, std::span<const double> numbers) {
     const std::vector<double> kept(numbers.begin(), numbers.end());
@@ -129,6 +133,23 @@ List distributed(const List& list) {
     return result;
 }
 
+List mended(const List& list) {
+    if (list.count() == 0) return {list.type, std::vector<double>(list.size(), 0.0)};
+    std::vector<std::size_t> order(list.count());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return list.at(i); });
+    const std::size_t count = std::min(order.size(), kMostStops);
+    List result{list.type, {}};
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t taken = count < 2 ? 0 : i * (order.size() - 1) / (count - 1);
+        const auto entry = list.entry(order[taken]);
+        result.numbers.push_back(entry[0]);
+        for (const double number : entry.subspan(1))
+            result.numbers.push_back(list.type == Type::stops ? std::max(number, 0.0) : number);
+    }
+    return result;
+}
+
 std::array<double, 3> colorAt(const List& stops, std::string_view interpolation, double at) {
     const auto color = [&](std::size_t i) {
         const auto entry = stops.entry(i);
@@ -171,8 +192,9 @@ Range placesOf(const List& list) {
     if (list.count() == 0) return {};
     const double lo = list.at(0), hi = list.at(list.count() - 1);
     if (lo >= 0.0 && hi <= 1.0) return {};
-    const double least = 1e-6 * std::max({1.0, std::abs(lo), std::abs(hi)});
-    return hi - lo < least ? Range{lo - 0.5, lo + 0.5} : Range{lo, hi};
+    const double least = kLeastWidthSeen * std::max({1.0, std::abs(lo), std::abs(hi)}),
+                 room = std::max(0.5, least);
+    return hi - lo < least ? Range{lo - room, lo + room} : Range{lo, hi};
 }
 
 Range heightsOf(const List& points) {
@@ -182,7 +204,8 @@ Range heightsOf(const List& points) {
         range.lo = std::min(range.lo, points.entry(i)[1]);
         range.hi = std::max(range.hi, points.entry(i)[1]);
     }
-    const double room = range.span() > 1e-9 * std::max(1.0, std::abs(range.lo)) ? 0.1 * range.span() : 0.5;
+    const double least = kLeastHeightSeen * std::max({1.0, std::abs(range.lo), std::abs(range.hi)}),
+                 room = range.span() < least ? std::max(0.5, least) : 0.1 * range.span();
     return {range.lo - room, range.hi + room};
 }
 

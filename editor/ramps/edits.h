@@ -51,6 +51,10 @@ List reversed(const List& list);
 /// All as far from each other, between the first and the last.
 List distributed(const List& list);
 
+/// A list that is one (orderProblem): in order, of so many as there may be, evenly taken of more, no colour
+/// below 0; of none one entry.
+List mended(const List& list);
+
 /// The colour of a ramp in a place, as the node color_ramp has it; grey if it has no stop.
 std::array<double, 3> colorAt(const List& stops, std::string_view interpolation, double at);
 /// What a curve gives at `count` places from `from` to `to`, by the node itself; a word that is empty is its

@@ -61,11 +61,12 @@ struct Shown {
     void apply(const char* name, const List& other, std::size_t selected) const;
 };
 
-/// A ramp with all that can be done to it, at ImGui's cursor.
+/// A ramp with all that can be done to it, at ImGui's cursor. Of this and the next the list has no
+/// orderProblem.
 void showRamp(const Shown& shown);
 /// A curve likewise.
 void showCurve(const Shown& shown);
-/// A ramp's colours, `pieces` between two stops.
+/// A ramp's colours, `pieces` between two stops; nothing of more than kMostStops.
 void drawRamp(ImDrawList* list, ImVec2 lo, ImVec2 hi, const List& stops, std::string_view interpolation,
               const Range& range, int pieces);
 

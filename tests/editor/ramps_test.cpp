@@ -70,6 +70,24 @@ TEST(RampEdits, ReversedAndDistributed) {
     EXPECT_EQ(ramps::reversed(kCurve).numbers, (std::vector<double>{-1, 1, 1, 0, 2, 2}));
 }
 
+TEST(RampEdits, AListThatIsNoneIsMended) {
+    const auto isOne = [](const List& list) { return !orderProblem(list.type, list.numbers); };
+    EXPECT_EQ(ramps::mended(kThree), kThree);
+    EXPECT_EQ(ramps::mended(kCurve), kCurve);
+    EXPECT_TRUE(isOne(ramps::mended({Type::stops, {}})));
+    EXPECT_TRUE(isOne(ramps::mended({Type::points, {}})));
+    EXPECT_EQ(ramps::mended({Type::points, {2, 7, -1, 8, 2, 9}}).numbers,
+              (std::vector<double>{-1, 8, 2, 7, 2, 9}));
+    EXPECT_EQ(ramps::mended({Type::stops, {0, 1, -2, 3}}).numbers, (std::vector<double>{0, 1, 0, 3}));
+    List many{Type::stops, {}};
+    for (int i = 1000; i >= 0; --i) many.numbers.insert(many.numbers.end(), {double(i), 1.0, 0.5, 0.25});
+    const List fewer = ramps::mended(many);
+    EXPECT_TRUE(isOne(fewer));
+    ASSERT_EQ(fewer.count(), kMostStops);
+    EXPECT_EQ(fewer.at(0), 0.0);
+    EXPECT_EQ(fewer.at(kMostStops - 1), 1000.0);
+}
+
 TEST(RampEdits, WhatIsSeenHasRoomForAll) {
     EXPECT_EQ(ramps::placesOf(kThree).lo, 0.0);
     EXPECT_EQ(ramps::placesOf({Type::stops, {0.25, 0, 0, 0, 0.5, 0, 0, 0}}).hi, 1.0);
@@ -77,6 +95,11 @@ TEST(RampEdits, WhatIsSeenHasRoomForAll) {
     EXPECT_GT(ramps::placesOf({Type::stops, {7, 0, 0, 0}}).span(), 0.5) << "one alone";
     EXPECT_LT(ramps::heightsOf(kCurve).lo, 0.0);
     EXPECT_GT(ramps::heightsOf({Type::points, {0, 5, 1, 5}}).span(), 0.5) << "a level one";
+    // However large the numbers are, a range has an inside.
+    for (const double far : {5e15, -1e17, 1e300}) {
+        EXPECT_GT(ramps::placesOf({Type::points, {far, 0}}).span(), 1e-7 * std::abs(far));
+        EXPECT_GT(ramps::heightsOf({Type::points, {0, far, 1, far}}).span(), 1e-10 * std::abs(far));
+    }
     EXPECT_EQ(ramps::rounded(0.2903, {0, 1}, 150), 0.29);
     EXPECT_EQ(ramps::rounded(1234.4, {0, 5000}, 150), 1230.0);
 }
@@ -284,6 +307,28 @@ TEST_F(RampInspector, StopsAndPointsAreDraggedAddedAndRemoved) {
     program.keys("Delete");
     program.keys("Ctrl+Z", 4);
     EXPECT_EQ(program.save(), original);
+}
+
+TEST(EndToEndRamps, AHundredThousandStopsAreSaidAndMended) {
+    std::string stops;
+    for (int i = 100'000; i > 0; --i) stops += (stops.empty() ? "[" : ",[") + std::to_string(i) + ",1,0,0]";
+    test::Program program(
+        R"({"fieldwright": 1, "nodes": [{"id": "ramp", "type": "color_ramp", "at": [0, 0], "inputs": {"stops": [)" +
+        stops +
+        R"(]}}, {"id": "bump", "type": "curve", "at": [0, 200], "inputs": {"points": [[5e15, 5e15]]}}]})");
+    ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
+    program.save();
+    program.frameAll();
+    program.click(program.title("bump"));
+    program.waitFor("Even");
+    program.click(program.title("ramp"));
+    program.waitFor("at most 32 are allowed");
+    program.clickOn("Mend");
+    program.waitFor("Presets");
+    const std::vector<double> kept =
+        std::get<std::vector<double>>(program.saved().node("ramp")->input("stops")->value);
+    EXPECT_EQ(kept.size(), 4 * kMostStops);
+    EXPECT_FALSE(orderProblem(Type::stops, kept));
 }
 
 }  // namespace fw::editor::ramps_test
