@@ -250,7 +250,7 @@ namespace {
 /// horizon and about the vertical.
 std::vector<double> aimed(const Handle& handle, const glm::dvec3& seen, double step) {
     glm::dvec3 d = glm::inverse(handle.axes) * seen;
-    if (glm::length(d) < 1e-9) return handle.numbers;
+    if (!(glm::length(d) >= 1e-9) || !std::isfinite(glm::length(d))) return handle.numbers;
     d = glm::normalize(d);
     if (step > 0.0) {
         const double rise = glm::radians(rounded(glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0))), step)),
@@ -324,7 +324,9 @@ std::vector<double> dragTo(HandleDrag& drag, const Lens& lens, ImVec2 mouse, boo
         }
         if (number == 0.0) number = 0.0;  // no -0
     }
-    return numbers;
+    // Behind a factor of 0 a metre of the picture is no number there.
+    const bool known = std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+    return known ? numbers : handle.numbers;
 }
 
 }  // namespace fw::editor

@@ -82,7 +82,10 @@ void stand(Placing& placing, const Node& node, const Placement& outside) {
 Graph withNumbers(const Graph& graph, const std::string& scope, const Plug& input, glm::dvec3 value,
                   double grain) {
     std::vector<double> numbers;
-    for (int i = 0; i < 3; ++i) numbers.push_back(grained(value[i], grain));
+    for (int i = 0; i < 3; ++i) {
+        if (!std::isfinite(value[i])) return graph;  // it stands behind a factor of 0
+        numbers.push_back(grained(value[i], grain));
+    }
     return setInput(graph, scope, input, numbersValue(numbers));
 }
 

@@ -313,6 +313,45 @@ TEST(Together, FeaturesArePlacesOfTheOthers) {
     EXPECT_FALSE(has({0, 2, -2})) << "the ball goes along";
 }
 
+TEST(Together, BehindAFactorOfZeroNothingBecomesNoNumber) {
+    // Which the checker refuses, and a file may hold.
+    const Graph graph = document(R"(
+        {"id": "ball", "type": "sphere", "inputs": {"p": [1, 0, 0]}},
+        {"id": "plane", "type": "plane", "inputs": {"normal": [0, 1, 0]}},
+        {"id": "both", "type": "union", "inputs": {"a": {"from": "ball"}, "b": {"from": "plane"}}},
+        {"id": "lift", "type": "translate", "inputs": {"surface": {"from": "both"}}},
+        {"id": "turn", "type": "rotate", "inputs": {"surface": {"from": "lift"}}},
+        {"id": "none", "type": "scale", "inputs": {"surface": {"from": "turn"}, "factor": 0}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "none"}}})");
+    const Lens lens(kCamera, kPlace);
+    const auto finite = [](const std::vector<double>& numbers) {
+        return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+    };
+    for (const Node& node : graph.nodes) {
+        const auto way = wayToShown(graph, "", node.id, "");
+        if (!way) continue;
+        for (const Handle& handle : handlesOf(node, placementAlong(graph, "", *way), {}))
+            for (int axis = -1; axis < handle.count; ++axis) {
+                HandleDrag drag = takeHandle(handle, axis, lens, {300, 300}, 1.0);
+                for (const double step : {0.0, 0.1}) {
+                    const Steps steps(step > 0.0);
+                    EXPECT_TRUE(finite(dragTo(drag, lens, {320, 280}, false, steps)))
+                        << node.id << "." << handle.input << " " << axis;
+                }
+            }
+    }
+    for (const Tool tool : {Tool::move, Tool::turn, Tool::scale}) {
+        std::vector<Placing> placings = placingsOf(graph, "", {"ball", "plane", "lift"}, "", 0.0, tool);
+        if (placings.empty()) continue;
+        const auto placed = withPlacings(graph, "", placings);
+        ASSERT_TRUE(placed);
+        const Motion motion{.shift = {1, 2, 3}, .turn = turned({10, 20, 30}), .factor = 2.0};
+        const std::string text = writeGraph(moved(*placed, "", placings, motion));
+        EXPECT_EQ(text.find("null"), std::string::npos) << text;
+        EXPECT_TRUE(parseGraph(text, "", nullptr));
+    }
+}
+
 TEST(Marks, PartsOfTheSceneAreHeldAndKeepItSound) {
     const Graph graph = document("", R"(, "scene": {"camera": {"position": [0, 0, 8], "target": [0, 0, 0]},
       "lights": [{"type": "spot", "position": [0, 3, 0], "target": [0, 0, 0], "angle": 60}]})");
