@@ -86,9 +86,10 @@ void drawFrames(const Pen& pen, const Boxes& boxes) {
     }
 }
 
-/// The wire with gaps: `on` pixels of every `period`.
+/// The wire with gaps: `on` pixels of every `period`. Steps that are very long have none.
 void drawBroken(const Pen& pen, const Curve& wire, ImU32 color, float width, float on, float period) {
     constexpr int kSteps = 64;
+    constexpr float kMostGaps = 2000.0f;  // in a step
     ImVec2 last = pen.view.toScreen(wire.points[0]);
     float along = 0.0f;
     for (int i = 1; i <= kSteps; ++i) {
@@ -101,12 +102,14 @@ void drawBroken(const Pen& pen, const Curve& wire, ImU32 color, float width, flo
         Area step{last, last};
         step.add(next);
         const bool seen = step.grown(width).overlaps(pen.view.panel);
-        for (float from = std::floor(along / period) * period; seen && from < along + length;
-             from += period) {
-            const float a = std::max(from, along), b = std::min(from + on, along + length);
-            if (a < b) pen.list->AddLine(at(a), at(b), color, width);
-        }
-        along += length;
+        if (seen && !(length < kMostGaps * period))
+            pen.list->AddLine(last, next, color, width);
+        else if (seen)
+            for (float from = 0.0f; from < along + length; from += period) {
+                const float a = std::max(from, along), b = std::min(from + on, along + length);
+                if (a < b) pen.list->AddLine(at(a), at(b), color, width);
+            }
+        along = std::fmod(along + length, period);
         last = next;
     }
 }

@@ -100,7 +100,11 @@ void addPart(Editor& editor, const LibraryPart& part, Position at, bool linked_,
     }
     const Graph brought = withLinksFrom(to.empty() ? *graph : bringFiles(*graph, from, to, told), from, to);
     Result<Edited> pasted = pasteNodes(editor.document.graph(), editor.canvas.scope, writeGraph(brought), at);
-    if (!pasted) return say(editor, "cannot add the part: " + format(pasted.error()));
+    if (!pasted) {
+        Error why = pasted.error();
+        why.file = part.path, why.line = why.column = 0;  // of what is pasted, which nobody sees
+        return say(editor, "cannot add the part: " + format(why));
+    }
     pasted->graph = joinedTo(pasted->graph, editor.canvas.scope, pasted->nodes, to_);
     apply(editor, "Add " + part.label, std::move(*pasted));
     if (!told.empty()) say(editor, joined(told));

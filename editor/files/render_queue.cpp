@@ -140,6 +140,8 @@ std::shared_ptr<const Picture> reduced(const std::shared_ptr<const Picture>& pic
 
 Result<Player> RenderQueue::Shared::open(const RenderWish& wish) {
     start("checking the graph", 0.0f);
+    // Once more, if the device was lost: frames that are there are counted anew.
+    change([](RenderState& now) { now.ready = now.passed = now.made = 0, now.seconds = 0.0; });
     if (const Done place = makePlace(wish); !place) return place.error();
     findings = errorsOf(*wish.graph);
     if (!findings.empty()) return findings.front();

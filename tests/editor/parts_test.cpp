@@ -112,6 +112,17 @@ TEST(Parts, APartComesWithTheFilesItReads) {
     addPart(*editor, mesh, {0, 0}, false);
     EXPECT_EQ(editor->document.graph().nodes.size(), 2u);
     EXPECT_NE(editor->notice.find("m.field.json"), std::string::npos) << editor->notice;
+    // One that shows itself too, and not where it would have been pasted.
+    writeText(part, R"({"fieldwright": 1, "nodes": [{"id": "g", "type": "group", "group": "g"}],
+      "groups": [{"id": "g", "outputs": [{"name": "surface", "type": "surface"}], "nodes": [
+        {"id": "own", "type": "group", "group": "g"},
+        {"id": "end", "type": "group_output", "inputs": {"surface": {"from": "own"}}}]}]})");
+    for (const bool linked : {false, true}) {
+        addPart(*editor, mesh, {0, 0}, linked);
+        EXPECT_EQ(editor->document.graph().nodes.size(), 2u);
+        EXPECT_NE(editor->notice.find("contains itself"), std::string::npos) << editor->notice;
+        EXPECT_NE(editor->notice.find("m.field.json"), std::string::npos) << editor->notice;
+    }
 }
 
 TEST(Parts, KeepsNodesShowsThemAndGivesThemBack) {

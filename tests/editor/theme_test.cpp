@@ -91,6 +91,19 @@ TEST_P(Themes, LinesAreSeen) {
     }
 }
 
+TEST_P(Themes, WordsOverThePictureStandOutOnTheirPlate) {
+    const ImU32 plate = themeColor(ThemeColor::plate);
+    const unsigned alpha = plate >> IM_COL32_A_SHIFT & 255u;
+    // Over what is as bright as the plate is dark, or the other way round, and over grey.
+    for (const unsigned below : {0u, 128u, 200u}) {
+        ImU32 paper = IM_COL32_A_MASK;
+        for (const int shift : {0, 8, 16})
+            paper |= ((plate >> shift & 255u) * alpha + below * (255u - alpha)) / 255u << shift;
+        for (const ThemeColor ink : {ThemeColor::text, ThemeColor::warning})
+            EXPECT_GE(contrast(themeColor(ink), paper), 4.5) << int(ink) << ' ' << below;
+    }
+}
+
 TEST_P(Themes, TextStandsOut) {
     ImGui::CreateContext();
     applyTheme(1.0f);
