@@ -17,7 +17,7 @@ constexpr const char* kOffer = "Recovered work";
 constexpr const char* kPartly = "Parts of the file were not read";
 constexpr const char* kOutside = "Changed outside";
 constexpr const char* kVersions = "Versions";
-constexpr const char* kExporting = "An export is under way";
+constexpr const char* kExporting = "Files are being made";
 constexpr std::size_t kMostShown = 12;  // problems in a message; the list in the panel has all
 
 /// Enter stands for the first button.
