@@ -204,6 +204,12 @@ void keepMenusClosed() {
         ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
 }
 
+template <std::size_t count>
+void split(Editor& editor) {
+    splitInto(editor, count);
+}
+bool isSplit(const Editor& editor) { return editor.viewport.split.count > 1; }
+
 bool manyTabs(const Editor& editor) { return editor.tabs.all.size() > 1; }
 
 using enum Heard;
@@ -328,6 +334,8 @@ constexpr Command kCommands[] = {
     {"picture.keep_view", "Picture", "Keep this view", "Ctrl+B", picture, pictured, keepView},
     {"picture.next_view", "Picture", "Next kept view", "B", picture,
      [](const Editor& e) { return !e.viewport.kept.views.empty(); }, goToNextView},
+    {"picture.next_picture", "Picture", "Hand to the next picture", "V", picture, isSplit,
+     [](Editor& e) { takeHand(e.viewport, (e.viewport.split.hand + 1) % e.viewport.split.count); }},
     {"picture.front", "Picture", "From the front", "1 Pad1", picture, pictured, look<Side::front>, true},
     {"picture.back", "Picture", "From the back", "Ctrl+1 Ctrl+Pad1", picture, pictured, look<Side::back>},
     {"picture.right", "Picture", "From the right", "3 Pad3", picture, pictured, look<Side::right>},
@@ -391,6 +399,12 @@ constexpr Command kCommands[] = {
     {"view.zoom_in", "View", "Zoom in", "Equal PadPlus", canvas, always, [](Editor& e) { zoom(e, kZoomStep); }},
     {"view.zoom_out", "View", "Zoom out", "Minus PadMinus", canvas, always,
      [](Editor& e) { zoom(e, 1.0f / kZoomStep); }},
+    {"view.split", "View", "Split the picture", "Ctrl+Alt+Q", everywhere, always,
+     [](Editor& e) { splitInto(e, isSplit(e) ? 1 : e.viewport.split.last); }, true},
+    {"view.one_picture", "View", "One picture", "", everywhere, always, split<1>},
+    {"view.two_pictures", "View", "Two pictures", "", everywhere, always, split<2>},
+    {"view.three_pictures", "View", "Three pictures", "", everywhere, always, split<3>},
+    {"view.four_pictures", "View", "Four pictures", "", everywhere, always, split<4>},
     {"view.play", "View", "Play or pause", "Alt+A Ctrl+Space", everywhere, always, togglePlay, true},
     {"view.timeline", "View", "Timeline", "Ctrl+T", everywhere, always,
      [](Editor& e) {
@@ -468,6 +482,12 @@ bool shows(const Command& command, const Editor& editor) {
     if (id == "picture.line") return editor.probe.tool == Measure::line;
     if (id == "picture.grid") return editor.viewport.grid;
     if (id == "picture.projection") return editor.viewport.ownCamera && editor.viewport.orthographic;
+    const std::size_t pictures = editor.viewport.split.count;
+    if (id == "view.split") return isSplit(editor);
+    if (id == "view.one_picture") return pictures == 1;
+    if (id == "view.two_pictures") return pictures == 2;
+    if (id == "view.three_pictures") return pictures == 3;
+    if (id == "view.four_pictures") return pictures == 4;
     if (id == "view.timeline") return editor.panels.timeline;
     for (const SidePanel& panel : sidePanels())
         if (id == std::string("view.") + panel.id) return editor.panels.*panel.open;

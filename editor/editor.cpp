@@ -160,8 +160,7 @@ bool exchange(Editor& editor) {
         .graph = editor.graph, .revision = editor.drawn, .document = view.document, .pinned = view.pinned};
     wish.held = heldInputs(editor);
     wish.seconds = view.seconds;
-    if (view.ownCamera) wish.camera = view.camera();
-    wish.width = view.width(), wish.height = view.height();
+    wishPictures(view, wish);
     wish.view = view.view;
     wish.slice = view.slice;
     wish.resolution = view.resolution;
@@ -174,10 +173,7 @@ bool exchange(Editor& editor) {
                                                     view.shown.particles, !editor.document.held());
     std::optional<PreviewResult> result = editor.preview.take();
     if (!result || result->document != view.document) return noticed || thumbnail;
-    if (!result->picture.pixels.empty()) view.texture = editor.shell.show(view.texture, result->picture);
-    view.shown = std::move(*result);
-    if (view.shown.revision >= view.handedIn) view.handed.reset();
-    if (view.handed) view.shown.seen = *view.handed;
+    takePictures(view, editor.shell, std::move(*result));
     return true;
 }
 

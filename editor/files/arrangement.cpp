@@ -38,6 +38,7 @@ Json arrangementOf(const Editor& editor) {
     all["costs"] = editor.canvas.costs;
     all["exactness"] = editor.canvas.exactness;
     all["grid"] = editor.viewport.grid;
+    all["pictures"] = editor.viewport.split.count;
     all["side"] = panels.side;
     all["top"] = panels.top;
     all["low"] = panels.low;
@@ -54,6 +55,8 @@ void arrange(Editor& editor, const Json& all) {
     take(all, "costs", editor.canvas.costs);
     take(all, "exactness", editor.canvas.exactness);
     take(all, "grid", editor.viewport.grid);
+    if (const auto found = all.find("pictures"); found != all.end() && found->is_number_integer())
+        splitInto(editor, std::size_t(std::clamp(found->get<int>(), 1, int(kMostPictures))));
     take(all, "side", panels.side);
     take(all, "top", panels.top);
     take(all, "low", panels.low);

@@ -17,6 +17,7 @@ namespace {
 /// What is in front as it goes behind; the editor's parts are left to be replaced.
 std::unique_ptr<DocumentBehind> takeFront(Editor& editor) {
     editor.document.settle();
+    takeHand(editor.viewport, 0);
     ImGui::ClearActiveID();  // it would go on with what is typed, over another document
     if (editor.document.unsaved())
         if (const Done kept = editor.files.recovery.keepNow(editor.document.graph()); !kept)

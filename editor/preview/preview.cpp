@@ -32,7 +32,13 @@ bool sameWish(const PreviewWish& a, const PreviewWish& b) {
     return a.graph == b.graph && a.revision == b.revision && a.document == b.document &&
            a.pinned == b.pinned && a.held == b.held && a.seconds == b.seconds && a.camera == b.camera &&
            a.width == b.width && a.height == b.height && a.view == b.view && a.slice == b.slice &&
-           a.resolution == b.resolution;
+           a.resolution == b.resolution && a.others == b.others && a.first == b.first;
+}
+
+std::vector<PreviewEye> eyesOf(const PreviewWish& wish) {
+    std::vector<PreviewEye> eyes = {{wish.camera, wish.width, wish.height}};
+    eyes.insert(eyes.end(), wish.others.begin(), wish.others.end());
+    return eyes;
 }
 
 /// By what the wish under way was overtaken.
@@ -44,8 +50,6 @@ struct Overtaken {
     void operator=(bool value) { byAny = byEarlier = byOther = value; }
 };
 
-bool isPowerOfTwo(int number) { return number > 0 && (number & (number - 1)) == 0; }
-
 }  // namespace
 
 /// What the interface's thread and the preview's both touch; each holds the lock for moves alone.
@@ -56,7 +60,7 @@ struct Preview::Shared {
     std::condition_variable asked;
     std::optional<PreviewWish> next, last;  ///< to be worked on; the newest that was asked for
     std::optional<PreviewResult> ready;
-    PreviewResult told;  ///< the last result but for its picture
+    PreviewResult told;  ///< the last result but for its pictures
     Overtaken overtaken;
     std::atomic<double> baked = 1.0;      ///< of a mesh that is being made a field; 1: none is
     std::atomic<double> simulated = 1.0;  ///< of the steps of particles up to the time; 1: all
@@ -67,9 +71,10 @@ struct Preview::Shared {
 
     void publish(PreviewResult result) {
         Picture picture = std::exchange(result.picture, {});
+        std::vector<PreviewSight> others = std::exchange(result.others, {});
         PreviewResult bare = result;
         bare.current = bare.draft = false;
-        result.picture = std::move(picture);
+        result.picture = std::move(picture), result.others = std::move(others);
         {
             std::lock_guard lock(mutex);
             renewed = false;
@@ -112,8 +117,9 @@ class Maker {
     void load();
     PlayerOptions playerOptions() const;
     Done play(const Graph& graph);
-    bool draw();
-    bool aim(RenderOptions& options);
+    void draw(std::size_t which, bool urgent);
+    Done aim(RenderOptions& options, const Sight& sight);
+    void outdateAll();
     void adapt(double took);
     void tell();
     void refuse(Error error);
@@ -127,14 +133,13 @@ class Maker {
     std::deque<std::string> live;  ///< held last first
     PreviewResult result;          ///< as it was told last
     std::vector<Error> checked;    ///< the graph's findings; a time may have one more
-    Picture picture;
-    Box solid = kUnbounded;  ///< where the last one was
-    int heldResolution = 0;  ///< cells while a hand moves; 0: as many as at rest
-    int refined = 0;         ///< pictures since the last change
-    bool due = false;        ///< something changed since the last picture
-    bool await = false;      ///< what changed is only what is held: the picture stays until kernels are there
-    bool compiled = true;    ///< all kernels were there for the last picture
-    bool good = false;       ///< the graph can be drawn
+    std::vector<Sight> sights;     ///< of the wish's eyes
+    std::size_t turned = 0;        ///< that of the last picture
+    Box solid = kUnbounded;        ///< where the last one was
+    int heldResolution = 0;        ///< cells while a hand moves; 0: as many as at rest
+    bool await = false;    ///< what changed is only what is held: the picture stays until kernels are there
+    bool compiled = true;  ///< all kernels were there for the last picture
+    bool good = false;     ///< the graph can be drawn
     std::optional<uint64_t> playsOf;  ///< the document that the player has a graph of
     Clock::time_point since;          ///< when the wish was taken
     double loading = 0;
@@ -215,45 +220,50 @@ void Maker::load() {
     loading = millisecondsSince(start);
 }
 
+void Maker::outdateAll() {
+    for (Sight& sight : sights) sight.outdate(since);
+}
+
 void Maker::take(PreviewWish newer) {
     since = Clock::now();
-    refined = 0;
     const bool first = !wish.graph;
     const bool sameGraph =
         !first && newer.graph == wish.graph && newer.revision == wish.revision && newer.pinned == wish.pinned;
     const bool sameHeld = newer.held == wish.held, sameMesh = newer.resolution == wish.resolution;
-    const bool samePicture = newer.seconds == wish.seconds && newer.camera == wish.camera &&
-                             newer.width == wish.width && newer.height == wish.height &&
-                             newer.view == wish.view && newer.slice == wish.slice;
-    if (!first && newer.document != wish.document) picture = {}, result = {};
+    const bool sameLook =
+        newer.seconds == wish.seconds && newer.view == wish.view && newer.slice == wish.slice;
+    if (!first && newer.document != wish.document) sights.clear(), result = {};
     if (newer.held.empty()) heldResolution = 0;
     const bool coarse = !wish.held.empty() && newer.held.empty();
     wish = std::move(newer);
     if (!wish.graph) return;
+    const bool samePictures = !aimSights(sights, eyesOf(wish), since) && sameLook;
     if (!sameGraph || !sameHeld || !sameMesh || first) load();
     if (player) player->seek(wish.seconds);
     // Taking hold of an input changes the code and not the picture.
-    await = sameGraph && sameMesh && samePicture && !sameHeld && !coarse && result.current;
-    due = good ? !await : !samePicture;  // what was valid last can be looked at from elsewhere
+    await = sameGraph && sameMesh && samePictures && !sameHeld && !coarse && result.current;
+    // What was valid last can be looked at from elsewhere.
+    const bool same = sameGraph && sameHeld && sameMesh && sameLook;
+    if (good ? !same && !await : !sameLook) outdateAll();
     if (!good) tell();
 }
 
-bool Maker::aim(RenderOptions& options) {
+/// The scene, and through what camera it is seen.
+Done Maker::aim(RenderOptions& options, const Sight& sight) {
     const Result<Scene> scene = player->scene();
-    if (!scene) return refuse(scene.error()), false;
-    if (wish.camera) {
-        options.scene.camera = wish.camera;
-    } else if (scene->camera) {
-        options.scene.camera = scene->camera;
-    } else if (!wish.held.empty() && !picture.pixels.empty()) {
-        options.scene.camera = result.seen;  // what the hand moves, not the eye
-    } else {
+    if (!scene) return scene.error();
+    options.scene = *scene;
+    if (sight.eye.camera) {
+        options.scene.camera = sight.eye.camera;
+    } else if (!scene->camera && !wish.held.empty() && sight.told) {
+        options.scene.camera = sight.seen;  // what the hand moves, not the eye
+    } else if (!scene->camera) {
         const auto points = player->outline();
-        if (!points) return refuse(points.error()), false;
+        if (!points) return points.error();
         if (!points->empty())
-            options.scene.camera = framingCamera(*points, float(wish.width) / float(wish.height));
+            options.scene.camera = framingCamera(*points, float(options.width) / float(options.height));
     }
-    return true;
+    return done();
 }
 
 void Maker::adapt(double took) {
@@ -266,45 +276,63 @@ void Maker::adapt(double took) {
         heldResolution = std::min(full, now * 4 / 3 + 1);
 }
 
-bool Maker::draw() {
-    RenderOptions options{.width = std::clamp(wish.width, kLeastPictureSide, kMostPictureSide),
-                          .height = std::clamp(wish.height, kLeastPictureSide, kMostPictureSide),
+/// `urgent` is what no newer wish of the same graph cancels.
+void Maker::draw(std::size_t which, bool urgent) {
+    Sight& sight = sights[which];
+    RenderOptions options{.width = std::clamp(sight.eye.width, kLeastPictureSide, kMostPictureSide),
+                          .height = std::clamp(sight.eye.height, kLeastPictureSide, kMostPictureSide),
                           .primary = Primary::measured,
                           .show = wish.view,
                           .slice = wish.slice};
     // What is asked for on and on, as while a hand moves, gets its pictures nevertheless.
-    if (!due)
+    if (!urgent)
         options.cancel = &overtaken.byAny;
     else if (!player->compiling())
         options.cancel = &overtaken.byOther;
+    if (std::exchange(turned, which) != which) sight.refined = 0;
+    const auto refuseAll = [&](Error error) {
+        refuse(std::move(error));
+        for (Sight& each : sights) each.due = false, each.rests = true;
+        tell();
+    };
     const auto start = Clock::now();
     const uint64_t submitted = player->device().record->submissions, awaited = player->device().record->waits;
     const Result<MesherResult> mesh = player->meshOnDevice(wish.view);
     const double meshing = millisecondsSince(start);
     if (!mesh) {
         simulating(1.0);
-        if (!overtaken.byOther && !overtaken.byEarlier) refuse(mesh.error()), tell();
-        return false;
+        if (!overtaken.byOther && !overtaken.byEarlier) refuseAll(mesh.error());
+        return;
     }
-    if (!aim(options)) return tell(), false;
-    const auto drawing = Clock::now();
-    const Result<bool> drawn = player->show(options, picture);
-    if (!drawn) return refuse(drawn.error()), tell(), false;
-    if (!*drawn && options.cancel && *options.cancel) return false;
-    result.findings = checked;
-    if (std::optional<Error> note = player->coarser()) result.findings.push_back(std::move(*note));
-    if (!*drawn) {  // it shows that already
+    if (const Done aimed = aim(options, sight); !aimed) return refuseAll(aimed.error());
+    const SightOf of{player->contentNumber(), options.scene, player->environment(), wish.view, wish.slice,
+                     options.width,           options.height};
+    const auto saysSo = [&] {
+        result.findings = checked;
+        if (std::optional<Error> note = player->coarser()) result.findings.push_back(std::move(*note));
         result.current = good;
         result.draft = player->compiling();
-        if (due) tell();
-        return false;
+    };
+    const bool fresh = sight.due;
+    if (isDrawnOf(sight, of)) return saysSo(), tell();
+    const auto drawing = Clock::now();
+    const Result<bool> drawn = player->show(options, sight.picture);
+    if (!drawn) return refuseAll(drawn.error());
+    if (!*drawn && options.cancel && *options.cancel) {
+        if (takeRest(sight)) tell();
+        return;
+    }
+    saysSo();
+    if (!*drawn) {  // it shows that already
+        sight.due = false, sight.rests = true;
+        if (takeRest(sight) || fresh) tell();
+        return;
     }
     const double drew = millisecondsSince(drawing);
-    if (options.scene.camera) result.seen = *options.scene.camera;
-    result.current = good;
-    result.draft = player->compiling();
-    if (!due && result.particles.empty()) result.particles = player->particleVolumes();
-    if (due) {
+    sight.of = of;
+    if (options.scene.camera) sight.seen = *options.scene.camera;
+    if (!fresh && result.particles.empty()) result.particles = player->particleVolumes();
+    if (fresh && which == wish.first) {
         result.particles.clear();
         result.statistics.stages = {{"compile", loading}, {"mesh", meshing}, {"picture", drew}};
         result.statistics.milliseconds = millisecondsSince(since);
@@ -318,31 +346,33 @@ bool Maker::draw() {
     result.statistics.resolution = player->resolution();
     result.statistics.pipelines = player->pipelinesBuilt();
     result.statistics.deviceBytes = player->device().record->allocated;
-    return true;
+    // Each picture refines the one before: not every one is worth waking the interface.
+    if (takeDrawn(sight)) tell();
 }
 
 void Maker::tell() {
-    result.picture = picture;
+    result.picture = sights[0].told ? *sights[0].told : Picture{};
+    result.seen = sights[0].seen;
+    result.others.clear();
+    for (std::size_t i = 1; i < sights.size(); ++i) result.others.push_back({sights[i].told, sights[i].seen});
     publish(result);
 }
 
 bool Maker::work() {
     if (!player || playsOf != wish.document) return false;
     const bool compiling = player->compiling();
-    if (!compiling && !compiled) due = true, since = Clock::now(), refined = 0;  // from the draft to the full
+    if (!compiling && !compiled) since = Clock::now(), outdateAll();  // from the draft to the full
     compiled = !compiling;
-    if (await && !compiling) await = false, due = true;
-    if (await || (!due && (compiling || !wish.held.empty()))) return false;
-    const bool fresh = due, drew = draw();
-    due = false;
-    if (!drew) {
-        if (refined > 0 && !isPowerOfTwo(refined)) tell();
-        return false;
-    }
-    ++refined;
-    // Each picture refines the one before: not every one is worth waking the interface.
-    if (fresh || isPowerOfTwo(refined)) tell();
-    return !compiling && wish.held.empty();
+    if (await && !compiling) await = false, outdateAll();
+    if (await) return false;
+    const bool refines = !compiling && wish.held.empty();
+    const auto next = nextSight(sights, wish.first, turned, refines);
+    if (!next) return false;
+    const bool fresh = sights[*next].due;
+    draw(*next, fresh && *next == wish.first);
+    if (fresh && *next == wish.first)
+        if (const auto stale = staleSight(sights, wish.first, Clock::now())) draw(*stale, true);
+    return nextSight(sights, wish.first, turned, refines).has_value();
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 // A thread of its own with a device of its own checks, compiles, meshes and draws. The interface hands over
 // the newest wish at any time and takes the newest result when there is one; wishes that were overtaken are
 // never drawn to their end. A graph with errors leaves the last good picture, marked as such. While a hand
-// holds an input, that input is a live parameter: its changes upload and never compile.
+// holds an input, that input is a live parameter: its changes upload and never compile. Several eyes may look
+// at the same mesh (sights.h).
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/preview/sights.h"
 #include "graph/compile/compile.h"
 #include "graph/compile/effort.h"
 #include "runtime/play/session.h"
@@ -33,6 +35,15 @@ struct PreviewWish {
     uint32_t view = RENDER_PICTURE;     ///< or another of shaders/render/render.h
     Slice slice = {};                   ///< of the views on a plane
     int resolution = 0;                 ///< cells along the longest side; 0: the graph's
+    std::vector<PreviewEye> others = {};  ///< further pictures of the same
+    std::size_t first =
+        0;  ///< the one that is drawn before the rest: 0: this one, else of the others, from 1
+};
+
+/// What one of the others sees.
+struct PreviewSight {
+    std::shared_ptr<const Picture> picture;  ///< the same one as long as it is not drawn anew; null: none yet
+    Camera seen;
 };
 
 struct PreviewStatistics {
@@ -53,7 +64,8 @@ struct PreviewResult {
     Picture picture = {};  ///< empty: none yet
     bool draft = false;    ///< of the mesh alone: better ones come when kernels are compiled
     Camera seen = {};      ///< what it was seen by
-    Box region = {};       ///< that the solid lies in, metres
+    std::vector<PreviewSight> others = {};       ///< as those of the wish
+    Box region = {};                             ///< that the solid lies in, metres
     std::vector<FieldVolumePtr> particles = {};  ///< their samples, once the picture rests; else none
     std::string spoiledBy = {};                  ///< the node since which the field is no exact distance
     std::map<std::string, NodeExactness, std::less<>> exactness = {};  ///< as Program::nodeExactness

@@ -105,7 +105,7 @@ void showProbeMarks(Editor& editor) {
     if (on && probe.point) marker.cross(*probe.point, probe.pinned ? active : mark);
     if (probe.tool != Measure::nothing && probe.hovered && view.hovered)
         marker.dot(*probe.hovered, mark, 2.5f);
-    if (const std::string hint = hintOf(probe); !hint.empty()) {
+    if (const std::string hint = hintOf(probe); !hint.empty() && view.split.hand == 0) {
         const ImVec2 size = plateSize(hint, scale);
         showPlate(list, {view.place.hi.x - size.x - 5 * scale, view.place.lo.y + 5 * scale}, hint,
                   themeColor(ThemeColor::text), scale);

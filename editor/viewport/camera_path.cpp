@@ -116,6 +116,7 @@ void showCameraPath(Editor& editor) {
     }
     list->PopClipRect();
 
+    if (view.split.hand != 0) return;
     // In the picture's upper right corner; what it is busy with is said in the other.
     const char* words = "The camera's track is not followed";
     const ImVec2 size = ImGui::CalcTextSize(words);

@@ -440,7 +440,8 @@ void showGizmo(Editor& editor) {
     if (!view.texture) return;
     showMarks(editor);
     draw(editor, view.gizmo, Lens(view.shown.seen, view.place));
-    if (!view.gizmo.grips.tools.empty() || marksAreShown(editor)) showTools(editor, view.gizmo);
+    const bool tools = !view.gizmo.grips.tools.empty() || marksAreShown(editor);
+    if (tools && view.split.hand == 0) showTools(editor, view.gizmo);
 }
 
 }  // namespace fw::editor

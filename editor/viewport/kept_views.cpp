@@ -38,6 +38,7 @@ void goTo(Editor& editor, std::size_t number) {
     Viewport& view = editor.viewport;
     const KeptView& to = view.kept.views[number - 1];
     view.ownCamera = true;
+    view.awaits.reset();
     view.orbit = to.orbit;
     view.orthographic = to.orthographic;
     view.kept.last = number;

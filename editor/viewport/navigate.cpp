@@ -109,19 +109,20 @@ void Viewport::takeCamera() {
         if (orthographic) orbit = throughLensOf(orbit, Camera{}.fov);
     }
     ownCamera = true;
+    awaits.reset();
 }
 
-Camera Viewport::camera() const {
-    if (!ownCamera) return shown.seen;
-    return orthographic ? throughLensOf(orbit, kParallelFov).camera() : orbit.camera();
-}
+Camera Viewport::camera() const { return ownCamera ? own() : shown.seen; }
 
 void Viewport::forget(Shell& shell) {
+    takeHand(*this, 0);
     if (texture) shell.forget(std::exchange(texture, nullptr));
+    for (Pane& pane : split.panes)
+        if (ImTextureID other = std::exchange(pane, {}).texture; other && &pane != &split.panes[0])
+            shell.forget(other);
     shown = {};
     pinned.clear();
-    ownCamera = false;
-    handed.reset();
+    resetEyes(*this);
     slice = {};
     seconds = 0.0;
     kept = {};

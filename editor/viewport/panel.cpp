@@ -1,5 +1,6 @@
 // The picture of what the graph makes, and the camera that it is seen by.
 #include <algorithm>
+#include <cmath>
 
 #include "editor/controls/plate.h"
 #include "editor/editor.h"
@@ -19,6 +20,7 @@ constexpr std::pair<uint32_t, const char*> kViews[] = {
     {RENDER_SLICE, "Slice"},     {RENDER_EXACTNESS, "Exactness"},
     {RENDER_CELLS, "Cells"},     {RENDER_WIREFRAME, "Wireframe"},
     {RENDER_POINTS, "Points"},   {RENDER_SPHERES, "Spheres"}};
+constexpr float kPictureGap = 2.0f;  // pixels between pictures, times the scale
 constexpr int kResolutions[] = {0, 32, 64, 128, 192, 256, 384, 512};
 
 /// Where the plane is that the field is shown on.
@@ -56,9 +58,15 @@ void showChoices(Editor& editor) {
             if (ImGui::Selectable(cells(count).c_str(), count == view.resolution)) view.resolution = count;
         ImGui::EndCombo();
     }
-    if (view.ownCamera) {
-        besideIfFits("Reset view");
-        if (ImGui::Button("Reset view")) view.ownCamera = false;
+    if (const bool split = view.split.count > 1; split || view.ownCamera) {
+        const char* label = split ? "Reset views" : "Reset view";
+        besideIfFits(label);
+        if (ImGui::Button(label)) {
+            if (split)
+                resetEyes(view);
+            else
+                view.ownCamera = false;
+        }
     }
     if (!view.pinned.empty()) {
         ImGui::SameLine();
@@ -74,43 +82,52 @@ void caption(const Area& place, const char* text, ImU32 color, float scale) {
               fitted(text, place.width() - 2.0f * gap - room), color, scale);
 }
 
-}  // namespace
-
-void shadeNext(Viewport& viewport) {
-    const auto at = std::ranges::find(kViews, viewport.view, &std::pair<uint32_t, const char*>::first);
-    viewport.view = kViews[std::size_t(at - std::begin(kViews) + 1) % std::size(kViews)].first;
+/// The room that the pictures have; the hand goes to the one under a mouse that does something.
+void layPictures(Editor& editor, const Area& room) {
+    Viewport& view = editor.viewport;
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool does = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f || io.MouseWheel != 0.0f ||
+                      io.MouseWheelH != 0.0f || ImGui::IsAnyMouseDown();
+    const bool free = !view.drag.busy() && !view.gizmo.drag && !editor.document.held();
+    const auto places = placesOf(room, view.split.count, std::floor(kPictureGap * editor.shell.scale()));
+    std::size_t hand = view.split.hand;
+    for (std::size_t i = 0; i < view.split.count; ++i) {
+        const Borrowed borrowed(view, i);
+        view.place = places[i];
+        view.hovered = false;
+        if (view.place.width() < 1.0f || view.place.height() < 1.0f) continue;
+        ImGui::SetCursorScreenPos(view.place.lo);
+        ImGui::PushID(int(i));
+        ImGui::InvisibleButton("##picture", {view.place.width(), view.place.height()},
+                               ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                                   ImGuiButtonFlags_MouseButtonRight);
+        ImGui::PopID();
+        view.hovered = ImGui::IsItemHovered();
+        ImGui::SetItemAllowOverlap();  // by the buttons of the gizmo
+        if (view.hovered && does && free) hand = i;
+    }
+    takeHand(view, hand);
 }
 
-void showViewport(Editor& editor) {
-    Viewport& view = editor.viewport;
-    followKeptViews(editor);
-    showChoices(editor);
-    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-    view.hovered = false;
-    if (room.x < 1.0f || room.y < 1.0f) return;
-    view.place = {at, {at.x + room.x, at.y + room.y}};
-    const Area& place = view.place;
-    ImGui::InvisibleButton("##picture", room,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
-                               ImGuiButtonFlags_MouseButtonRight);
-    view.hovered = ImGui::IsItemHovered();
-    ImGui::SetItemAllowOverlap();  // by the buttons of the gizmo
-    const ImGuiIO& io = ImGui::GetIO();
-    const bool measures = editor.probe.tool != Measure::nothing && !view.gizmo.drag;
-    if (measures) view.gizmo.hovered.reset();
-    if (view.texture && (measures || !followGizmo(editor)) && navigate(view) && !takeProbeClick(editor))
-        pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
-    followProbe(editor);
-    if (const Aside::Answer answer = view.aside.take()) answer(editor);
+/// What is seen in one of them.
+void showPicture(Editor& editor) {
+    const Viewport& view = editor.viewport;
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (view.texture)
-        list->AddImage(view.texture, place.lo, place.hi);
+        list->AddImage(view.texture, view.place.lo, view.place.hi);
     else
-        list->AddRectFilled(place.lo, place.hi, themeColor(ThemeColor::canvas));
+        list->AddRectFilled(view.place.lo, view.place.hi, themeColor(ThemeColor::canvas));
     showGround(editor);
     showGizmo(editor);
     showCameraPath(editor);
     showProbeMarks(editor);
+}
+
+/// What the first one is busy with, or why it is not what the graph says.
+void showState(Editor& editor) {
+    const Borrowed borrowed(editor.viewport, 0);
+    const Viewport& view = editor.viewport;
+    const Area& place = view.place;
     const float scale = editor.shell.scale();
     if (const std::optional<double> share = editor.preview.baking())
         caption(place,
@@ -126,6 +143,40 @@ void showViewport(Editor& editor) {
                 view.shown.findings.empty() ? "making the first picture …"
                                             : "the graph has problems: see the list",
                 themeColor(ThemeColor::text), scale);
+}
+
+}  // namespace
+
+void shadeNext(Viewport& viewport) {
+    const auto at = std::ranges::find(kViews, viewport.view, &std::pair<uint32_t, const char*>::first);
+    viewport.view = kViews[std::size_t(at - std::begin(kViews) + 1) % std::size(kViews)].first;
+}
+
+void showViewport(Editor& editor) {
+    Viewport& view = editor.viewport;
+    followKeptViews(editor);
+    showChoices(editor);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    if (room.x < 1.0f || room.y < 1.0f) {
+        view.hovered = false;
+        return;
+    }
+    layPictures(editor, {at, {at.x + room.x, at.y + room.y}});
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool measures = editor.probe.tool != Measure::nothing && !view.gizmo.drag;
+    if (measures) view.gizmo.hovered.reset();
+    if (view.texture && (measures || !followGizmo(editor)) && navigate(view) && !takeProbeClick(editor))
+        pickUnderMouse(editor, io.KeyCtrl || io.KeyShift);
+    followProbe(editor);
+    if (const Aside::Answer answer = view.aside.take()) answer(editor);
+    for (std::size_t i = 0; i < view.split.count; ++i) {
+        const Borrowed borrowed(view, i);
+        showPicture(editor);
+    }
+    showState(editor);
+    if (view.split.count > 1)
+        ImGui::GetWindowDrawList()->AddRect(view.place.lo, view.place.hi, themeColor(ThemeColor::active),
+                                            0.0f, 0, editor.shell.scale());
 }
 
 }  // namespace fw::editor

@@ -56,16 +56,18 @@ void frameSolid(Editor& editor) {
                          ? wayToShown(*editor.graph, "", node, viewport.pinned)
                          : std::nullopt;
     if (!way || way->empty()) return frameBox(viewport, viewport.shown.region, {});
-    viewport.aside.ask([graph = editor.graph, node, way = *way,
-                        seconds = viewport.seconds]() -> Aside::Answer {
-        return
-            [box = solidOf(*graph, node, seconds), placement = placementAlong(*graph, "", way)](Editor& to) {
+    const std::size_t picture = viewport.split.hand;
+    viewport.aside.ask(
+        [graph = editor.graph, node, way = *way, seconds = viewport.seconds, picture]() -> Aside::Answer {
+            return [box = solidOf(*graph, node, seconds), placement = placementAlong(*graph, "", way),
+                    picture](Editor& to) {
+                const Borrowed borrowed(to.viewport, picture);
                 if (box)
                     frameBox(to.viewport, *box, placement);
                 else
                     frameBox(to.viewport, to.viewport.shown.region, {});
             };
-    });
+        });
 }
 
 Seen seenNow(const Editor& editor, std::shared_ptr<const Graph> graph) {

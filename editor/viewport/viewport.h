@@ -25,6 +25,7 @@
 #include "editor/viewport/kept_views.h"
 #include "editor/viewport/orbit.h"
 #include "editor/viewport/pick.h"
+#include "editor/viewport/split.h"
 #include "editor/viewport/together.h"
 
 namespace fw::editor {
@@ -106,15 +107,10 @@ struct Gizmo {
     std::set<std::string> held(const std::string& scope) const;
 };
 
-/// What a document is shown of, and how it is looked at.
-struct DocumentLook {
-    bool ownCamera = false;  ///< rather than the scene's, or the solid framed
-    Orbit orbit;             ///< of the own camera
-    /// Through a very long lens (projection.h): `orbit` is as if it were not.
-    bool orthographic = false;
-    /// Made the scene's in this revision: what is seen, until a picture of it has come.
-    std::optional<Camera> handed;
-    uint64_t handedIn = 0;
+/// What a document is shown of, and how it is looked at: by the eye of the picture that has the hand, and by
+/// those of the others.
+struct DocumentLook : Eye {
+    Eyes eyes = firstEyes();  ///< but for the one that has the hand
     uint32_t view = RENDER_PICTURE;
     std::string pinned;    ///< the node shown; empty: the output
     Slice slice;           ///< of the views on a plane
@@ -123,12 +119,13 @@ struct DocumentLook {
     KeptViews kept;
 };
 
-/// What the viewport shows and how.
+/// What the viewport shows and how: of pictures that it is split in, the one that has the hand.
 struct Viewport : DocumentLook {
+    Split split;
     bool playing = false;
     uint64_t document = 0;  ///< another number for another document
     ImTextureID texture = nullptr;
-    PreviewResult shown = {};  ///< the last result; its picture is in the texture
+    PreviewResult shown = {};  ///< the last result, seen by the camera of this picture
 
     Navigation navigation = Navigation::usual;  ///< of the preferences
     Scrolling scrolling = Scrolling::zooms;     ///< of the preferences

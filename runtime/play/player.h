@@ -133,6 +133,8 @@ class Player {
     /// The same, left on the device for a window: picture(), none before the first.
     Result<bool> show(const RenderOptions& wishes) { return showTo(wishes, nullptr); }
     const Image* picture() const { return session.picture(); }
+    /// Another number if the mesh that was made last, or its field, differ from what they were at another.
+    uint64_t contentNumber() const { return session.contentNumber(); }
 
     /// What the scene's sky is a picture of, if it is.
     const EnvironmentMapPtr& environment() const { return now.environment; }

@@ -112,6 +112,8 @@ class Session {
     /// With `parts`, where the material varies, each part of the mesh has its own (partByMaterial).
     Mesh download(const MesherResult& result, bool parts = false) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
+    /// Another number if mesh or field differ from what they were at another.
+    uint64_t contentNumber() const { return content; }
     /// Gives the last mesh's memory back.
     void dropMesh();
 
