@@ -36,7 +36,8 @@ struct Asked {
                      .held = std::move(held),
                      .width = kPreviewWidth,
                      .height = kPreviewHeight,
-                     .resolution = kPreviewCells});
+                     .resolution = kPreviewCells,
+                     .others = others});
         longest = std::max(longest, millisecondsSince(start));
         return wait(start, full);
     }
@@ -45,7 +46,7 @@ struct Asked {
             const auto taking = Clock::now();
             std::optional<PreviewResult> result = preview.take();
             longest = std::max(longest, millisecondsSince(taking));
-            if (result) latest = std::move(*result);
+            if (result) take(std::move(*result));
             if (!latest.failure.empty()) throw SystemError(latest.failure);
             if (latest.revision == revision && !latest.current) throw SystemError(latest.findings[0].message);
             if (latest.revision == revision && !(full && latest.draft)) return millisecondsSince(start);
@@ -55,6 +56,14 @@ struct Asked {
         }
     }
 
+    void take(PreviewResult result) {
+        for (std::size_t i = 0; i < result.others.size(); ++i)
+            ofOthers += i >= latest.others.size() || latest.others[i].picture != result.others[i].picture;
+        latest = std::move(result);
+    }
+
+    std::vector<editor::PreviewEye> others;
+    int ofOthers = 0;  ///< pictures
     std::mutex mutex;
     std::condition_variable wake;
     bool woken = false;
@@ -109,15 +118,28 @@ void editorTable(Bench& bench) {
     const double first = asked.ask(graph, {}, true);
     place(1);
     asked.ask(graph, held, true);
-    Figure drags;
     int coarsest = kPreviewCells;
-    for (int i = 0; i < kDrags + 5; ++i) {
-        place(i + 2);
-        const double took = asked.ask(graph, held, true);
-        if (i >= 5)
-            drags.runs.push_back(took), coarsest = std::min(coarsest, asked.latest.statistics.resolution);
-    }
-    drags = sorted(std::move(drags));
+    const auto drag = [&] {
+        Figure drags;
+        for (int i = 0; i < kDrags + 5; ++i) {
+            place(i + 2);
+            const double took = asked.ask(graph, held, true);
+            if (i >= 5)
+                drags.runs.push_back(took), coarsest = std::min(coarsest, asked.latest.statistics.resolution);
+        }
+        return sorted(std::move(drags));
+    };
+    const Figure drags = drag();
+    // Two more, from the front and the right.
+    Camera front, right;
+    front.position = {0, 0, 12}, right.position = {12, 0, 0};
+    for (const Camera& camera : {front, right})
+        asked.others.push_back({camera, kPreviewWidth / 2, kPreviewHeight / 2});
+    asked.ask(graph, held, true);
+    asked.ofOthers = 0;
+    const Figure three = drag();
+    const int ofOthers = asked.ofOthers;
+    asked.others.clear();
 
     Figure changes, complete;
     std::random_device seed;
@@ -141,11 +163,13 @@ void editorTable(Bench& bench) {
             {std::move(what), number(figure.median()), number(late(figure)), number(figure.greatest())});
     };
     row("tower: a held slider moves, to its picture", drags);
+    row("the same with two more views of half the size", three);
     row(std::to_string(kNodes) + " nodes: one added and wired, to the first picture", changes);
     row("the same, to the picture with its kernels", complete);
     table.notes = {"A held slider: " + verdict(drags.median(), kMostDrag) +
                        "; 95 %: " + verdict(late(drags), kMostLateDrag) + ". The coarsest mesh had " +
                        std::to_string(coarsest) + " cells.",
+                   "The two more views had " + std::to_string(ofOthers) + " pictures meanwhile.",
                    "A changed structure: " + verdict(changes.median(), kMostChange) + ".",
                    "The thread that asks waited " + number(asked.longest) + " ms at most in a call, " +
                        verdict(asked.longest, kMostAsk) + "; from the start to the first full picture " +

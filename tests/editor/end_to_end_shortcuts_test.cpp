@@ -836,6 +836,29 @@ const std::map<std::string, Case>& cases() {
              p.keys(keys);
              p.waitUntilGone("Selected nodes only");
          }},
+        {"view.split",
+         [](Program& p, const std::string& keys) {
+             p.keys(keys);
+             p.waitFor("Front · orthographic");
+             p.waitFor("Right · orthographic");
+             p.waitFor("Top · orthographic");
+             p.keys(keys);
+             p.waitUntilGone("Front · orthographic");
+         }},
+        {"picture.next_picture",
+         [](Program& p, const std::string& keys) {
+             p.keys("Ctrl+Alt+Q");
+             p.waitFor("Front · orthographic");
+             p.keys("Alt+2");
+             p.keys(keys);
+             p.keys("Ctrl+1");  // in the second of them
+             p.waitFor("Back · orthographic");
+             p.keys("1");
+             p.waitUntilGone("Back · orthographic");
+             p.keys("Ctrl+Alt+Q");
+             p.waitUntilGone("Front · orthographic");
+             p.keys("Alt+1");
+         }},
         {"picture.measure", [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Length: click two points"); }},
         {"picture.wall", [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Wall: click the solid"); }},
         {"picture.line", [](Program& p, const std::string& keys) {
