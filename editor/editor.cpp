@@ -8,6 +8,7 @@
 #include "editor/panels/playback.h"
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
+#include "editor/preview/pinned.h"
 #include "editor/shell/theme.h"
 #include "editor/timeline/fields_in_time.h"
 #include "graph/document/named_parameters.h"
@@ -48,7 +49,11 @@ void drawAnew(Editor& editor) {
         const auto [scope, id] = placeOf(*editor.graph, path);
         return findNode(nodesOf(*editor.graph, scope), id) != nullptr;
     };
-    if (!editor.viewport.pinned.empty() && !exists(editor.viewport.pinned)) editor.viewport.pinned.clear();
+    if (!editor.viewport.pinned.empty()) {
+        std::vector<std::string> paths = pinnedNodes(editor.viewport.pinned);
+        if (std::erase_if(paths, [&](const std::string& path) { return !exists(path); }) > 0)
+            editor.viewport.pinned = pinnedTogether(paths);
+    }
     editor.thumbnails.keepOnly(editor.shell, exists);
 }
 
@@ -273,6 +278,17 @@ void pin(Editor& editor, const std::string& id) {
     editor.viewport.pinned = editor.viewport.pinned == path ? std::string() : std::move(path);
 }
 
+void pinSelected(Editor& editor) {
+    const std::vector<Node>& nodes = nodesOf(*editor.graph, editor.canvas.scope);
+    std::vector<std::string> paths;
+    for (const std::string& id : editor.canvas.selection)
+        if (const Node* node = findNode(nodes, id); node && makesSurface(*node))
+            paths.push_back(pathOf(editor, id));
+    if (paths.size() < 2) return pin(editor, editor.canvas.active);
+    std::string together = pinnedTogether(paths);
+    editor.viewport.pinned = editor.viewport.pinned == together ? std::string() : std::move(together);
+}
+
 namespace {
 
 /// By node of the scope shown, its part of what a sample of the field costs: of a group what is in it.
@@ -303,7 +319,7 @@ CanvasMarks marksOf(Editor& editor) {
         auto [scope, id] = placeOf(*editor.graph, path);
         return scope == editor.canvas.scope ? std::move(id) : std::string();
     };
-    marks.pinned = here(editor.viewport.pinned);
+    for (const std::string& path : pinnedNodes(editor.viewport.pinned)) marks.pinned.insert(here(path));
     marks.spoiledBy = here(shown.spoiledBy);
     for (const auto& [path, thumbnail] : editor.thumbnails.shown)
         if (std::string id = here(path); !id.empty()) marks.thumbnails.emplace(std::move(id), &thumbnail);

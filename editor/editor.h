@@ -117,6 +117,8 @@ const NodeExactness* exactnessOf(const Editor& editor, const std::string& id);
 void enter(Editor& editor, std::string scope);
 /// The viewport shows the node's own field, or the output again if it did already.
 void pin(Editor& editor, const std::string& id);
+/// The same of all that are selected, together; those that make no surface are left out. Of one, that one.
+void pinSelected(Editor& editor);
 /// Shows the node: enters its scope, selects and frames it. `path` as in Error::node: "group/node".
 void reveal(Editor& editor, std::string_view path);
 

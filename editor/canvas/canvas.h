@@ -55,7 +55,7 @@ struct CanvasMarks {
         findings;  ///< by node id within the scope, the worst of each
     std::function<const NodeExactness*(const std::string&)> exactness;  ///< of a node's id; nullptr: unknown
     std::string spoiledBy;                                              ///< the node that spoiled the field
-    std::string pinned;                                                 ///< the node that the preview shows
+    std::set<std::string> pinned;                                       ///< the nodes that the preview shows
     std::map<std::string, const Thumbnails::Shown*, std::less<>> thumbnails;  ///< by node id
     std::map<std::string, double, std::less<>> costs;  ///< by node id: its part of a sample of the field
     /// Of each "node.input" that the timeline moves.

@@ -297,7 +297,7 @@ void drawNode(const Pen& pen, const Canvas& canvas, const NodeBox& box, const Ca
                      themeColor(ThemeColor::onTitle));
         pen.text({area.lo.x + before * unit, middle},
                  themeColor(box.type ? ThemeColor::onTitle : ThemeColor::canvas), titleOf(box), room);
-        if (marks.pinned == box.node->id)
+        if (marks.pinned.contains(box.node->id))
             pen.list->AddCircleFilled({area.hi.x - 30.0f * pen.view.unit(), middle}, 4.0f * pen.view.unit(),
                                       themeColor(ThemeColor::active));
     }

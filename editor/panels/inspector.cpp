@@ -5,6 +5,7 @@
 
 #include "editor/document/paths.h"
 #include "editor/panels/properties.h"
+#include "editor/preview/pinned.h"
 #include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "graph/library/reference.h"
@@ -44,7 +45,9 @@ void showNames(Editor& editor, const NodeBox& box) {
         Result<Graph> renamed = renameNode(in.document.graph(), scope, id, text);
         if (!renamed) return say(in, "cannot rename: " + renamed.error().message);
         const std::string path = scope.empty() ? "" : scope + "/";
-        if (in.viewport.pinned == path + id) in.viewport.pinned = path + text;
+        std::vector<std::string> shown = pinnedNodes(in.viewport.pinned);
+        std::ranges::replace(shown, path + id, path + text);
+        in.viewport.pinned = pinnedTogether(shown);
         in.thumbnails.rename(path + id, path + text);
         in.document.apply("Rename Node", std::move(*renamed));
         if (in.canvas.scope != scope || in.canvas.active != id) return;

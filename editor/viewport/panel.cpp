@@ -69,8 +69,11 @@ void showChoices(Editor& editor) {
         }
     }
     if (!view.pinned.empty()) {
-        ImGui::SameLine();
-        if (ImGui::Button(("Showing " + view.pinned + " ×").c_str())) view.pinned.clear();
+        const float room = ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().FramePadding.x;
+        const std::string words =
+            fitted("Showing " + view.pinned, room - ImGui::CalcTextSize(" ×").x) + " ×##pinned";
+        besideIfFits(words.c_str());
+        if (ImGui::Button(words.c_str())) view.pinned.clear();
     }
     if (view.view == RENDER_SLICE || view.view == RENDER_EXACTNESS) showSlice(view, unit);
 }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "editor/document/paths.h"
+#include "editor/preview/pinned.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -89,9 +90,11 @@ std::optional<NodeIds> wayToShown(const Graph& graph, std::string_view scope, co
     // Backwards from what is shown: what each node feeds on the shortest way.
     std::unordered_map<std::string_view, std::string_view> next;
     std::vector<std::string_view> reached;
-    const bool shown = byId.contains(last);
+    const std::vector<std::string> pinned = pinnedNodes(last);
+    const auto isPinned = [&](std::string_view id) { return std::ranges::count(pinned, id) > 0; };
+    const bool shown = std::ranges::any_of(byId, [&](const auto& each) { return isPinned(each.first); });
     for (const auto& [id, each] : byId)
-        if (shown ? id == last
+        if (shown ? isPinned(id)
                   : roleOf(each->type) == (scope.empty() ? NodeRole::output : NodeRole::groupOutput))
             reached.push_back(id), next[id] = "";
     for (std::size_t i = 0; i < reached.size() && !next.contains(node); ++i)

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "editor/preview/pinned.h"
 #include "editor/viewport/viewport.h"
 
 namespace fw::editor {
@@ -57,7 +58,9 @@ std::string wordsOf(const Viewport& viewport, const Graph& graph) {
         words = wordsOf(viewport.orbit, viewport.orthographic);
     else
         words = graph.scene->is_object() && graph.scene->contains("camera") ? "Scene camera" : "Whole solid";
-    return viewport.pinned.empty() ? words : words + " · one node";
+    const std::size_t pinned = pinnedNodes(viewport.pinned).size();
+    return pinned == 0 ? words
+                       : words + (pinned == 1 ? " · one node" : " · " + std::to_string(pinned) + " nodes");
 }
 
 double roundUp125(double metres) {

@@ -112,7 +112,7 @@ struct Gizmo {
 struct DocumentLook : Eye {
     Eyes eyes = firstEyes();  ///< but for the one that has the hand
     uint32_t view = RENDER_PICTURE;
-    std::string pinned;    ///< the node shown; empty: the output
+    std::string pinned;    ///< the nodes shown, as in pinned.h; empty: the output
     Slice slice;           ///< of the views on a plane
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline

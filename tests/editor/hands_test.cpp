@@ -219,6 +219,33 @@ TEST(Hands, TheMinimapDoesNotFlyAway) {
     EXPECT_LE(editor->canvas.view.middle.y, shows.hi.y + 1.0f);
 }
 
+TEST(Hands, SeveralNodesAreShownTogether) {
+    DrivenEditor editor(test::graphOf(R"({"id": "a", "type": "box", "at": [0, 0]},
+        {"id": "b", "type": "sphere", "at": [0, 240]}, {"id": "n", "type": "time", "at": [0, 480]},
+        {"id": "out", "type": "output", "at": [240, 0], "inputs": {"surface": {"from": "a"}, "resolution": 16}})"));
+    NEEDS_EDITOR(editor);
+    const std::string before = writeGraph(editor->document.graph());
+    editor->canvas.select({"a", "b", "n", "out"});
+    editor.settle();
+    editor.keys("slash");
+    EXPECT_EQ(editor->viewport.pinned, "a + b") << "what makes no surface is left out";
+    EXPECT_EQ(marksOf(*editor).pinned, (std::set<std::string>{"a", "b"}));
+    editor.keys("slash");
+    EXPECT_EQ(editor->viewport.pinned, "");
+    editor.keys("slash");
+    EXPECT_EQ(writeGraph(editor->document.graph()), before);
+    // A new id goes along, and what is removed is not shown.
+    editor->canvas.select({"b"});
+    editor.settle();
+    editor.keys("F2 Tab ctrl+a");
+    editor.type("ball");
+    editor.keys("Return");
+    EXPECT_EQ(editor->viewport.pinned, "a + ball");
+    editor->document.apply("Remove", removeNodes(editor->document.graph(), "", NodeIds{"a"}, true));
+    editor.settle();
+    EXPECT_EQ(editor->viewport.pinned, "ball");
+}
+
 TEST(Hands, WhatIsShownFollowsItsNode) {
     DrivenEditor editor(test::parsed(kBall));
     NEEDS_EDITOR(editor);

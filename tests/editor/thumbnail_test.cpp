@@ -42,6 +42,28 @@ TEST(Pinned, ANodeOfTheDocument) {
     EXPECT_EQ(showingNode(graph(), "no_such_node"), graph());
 }
 
+TEST(Pinned, SeveralAreSeenTogether) {
+    const std::vector<std::string> paths = {"box", "plane"};
+    const std::string both = pinnedTogether(paths);
+    EXPECT_EQ(both, "box + plane");
+    EXPECT_EQ(pinnedNodes(both), paths);
+    EXPECT_EQ(pinnedNodes("inner/ball"), std::vector<std::string>{"inner/ball"});
+    EXPECT_TRUE(pinnedNodes("").empty());
+    const auto alone = [&](const char* path, const Point& p) {
+        return distanceAt(showingNode(graph(), path), p);
+    };
+    for (const Point& p : {Point{0, 5, 0}, Point{3, 0.2, 0}, Point{0.3, 0.4, 0.2}, Point{1, -2, 1}})
+        EXPECT_EQ(distanceAt(showingNode(graph(), both), p), std::min(alone("box", p), alone("plane", p)));
+    const Graph three = showingNode(graph(), "box + plane + nothing");
+    EXPECT_EQ(three.nodes.size(), graph().nodes.size() + 2);
+    EXPECT_EQ(showingNode(graph(), "box + gone"), showingNode(graph(), "box"));
+    // In a group as in its instance.
+    const Graph inner = showingNode(graph(), "inner/ball + inner/red");
+    EXPECT_NEAR(distanceAt(inner, {5, 0, 0}), 2.0, 1e-12);
+    EXPECT_TRUE(makesSurface(*graph().node("box")));
+    EXPECT_FALSE(makesSurface(*graph().node("out")));
+}
+
 TEST(Pinned, ANodeInAGroupIsSeenAsInItsInstance) {
     EXPECT_NEAR(distanceAt(showingNode(graph(), "inner/ball"), {5, 0, 0}), 2.0, 1e-12);
     Graph unused = graph();
