@@ -137,18 +137,14 @@ void aimAtPlace(Editor& editor, Gizmo& gizmo, const Lens& lens) {
         drag.target.reset();
         return;
     }
-    if (gizmo.snap.to == Snap::To::points) {
+    if (gizmo.snap.to == Snap::To::points || gizmo.snap.to == Snap::To::vertices) {
         constexpr float kReach = 18.0f;  // pixels, times the scale
-        if (!gizmo.features)
-            gizmo.features = featuresOf(editor.document.graph(), editor.canvas.scope, draggedNodes(gizmo),
-                                        editor.viewport.pinned, editor.viewport.seconds);
-        float least = kReach * editor.shell.scale();
-        drag.target.reset();
-        for (const glm::dvec3& feature : *gizmo.features)
-            if (const auto at = lens.project(feature)) {
-                const float away = std::hypot(at->x - mouse.x, at->y - mouse.y);
-                if (away < least) least = away, drag.target = feature;
-            }
+        if (!gizmo.features) {
+            const auto placesBy = gizmo.snap.to == Snap::To::points ? featuresOf : meshVertices;
+            gizmo.features.emplace(placesBy(editor.document.graph(), editor.canvas.scope, draggedNodes(gizmo),
+                                            editor.viewport.pinned, editor.viewport.seconds));
+        }
+        drag.target = gizmo.features->near(lens, mouse, kReach * editor.shell.scale());
         return;
     }
     if (!gizmo.surroundings)
@@ -332,6 +328,9 @@ void showOptions(Editor& editor, Gizmo& gizmo) {
     either("Surface", snap.to, Snap::To::surface);
     ImGui::SameLine();
     either("Centres and ends", snap.to, Snap::To::points);
+    ImGui::SameLine();
+    either("Vertices", snap.to, Snap::To::vertices);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Of triangle meshes from files");
     ImGui::Checkbox("Grid as seen", &snap.byZoom);
     if (!snap.byZoom) {
         ImGui::SameLine();

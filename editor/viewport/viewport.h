@@ -25,6 +25,7 @@
 #include "editor/viewport/kept_views.h"
 #include "editor/viewport/orbit.h"
 #include "editor/viewport/pick.h"
+#include "editor/viewport/snapping.h"
 #include "editor/viewport/split.h"
 #include "editor/viewport/together.h"
 
@@ -64,7 +65,7 @@ struct CameraDrag {
 
 /// What goes in steps, or to a place, while the magnet is on.
 struct Snap {
-    enum class To : unsigned char { grid, surface, points } to = To::grid;
+    enum class To : unsigned char { grid, surface, points, vertices } to = To::grid;
     bool on = false;
     bool byZoom = false;  ///< the grid's spacing: a power of ten that is some pixels; else `metres`
     double metres = 0.1, degrees = 15.0;
@@ -80,8 +81,8 @@ struct Gizmo {
     std::string part;               ///< of the scene that is held: "sun", "camera", "lights.0"; empty: nodes
     std::vector<Placing> placings;  ///< that the one handle moves; empty: each handle moves its own input
     std::optional<Graph> start;     ///< that those are moved in while they are dragged
-    std::optional<std::vector<glm::dvec3>> features;  ///< to which a drag may go
-    std::shared_ptr<const Graph> surroundings;        ///< what is seen without what is dragged
+    std::optional<SnapPlaces> features;         ///< to which a drag may go
+    std::shared_ptr<const Graph> surroundings;  ///< what is seen without what is dragged
     ImVec2 askedAt;
     int asked = 0, answered = 0;  ///< questions for the surface under the mouse
     Grips grips;
