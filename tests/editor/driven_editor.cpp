@@ -74,12 +74,15 @@ void DrivenEditor::drag(ImVec2 from, ImVec2 to) {
     send("mouseup 1");
 }
 
-void DrivenEditor::waitForPicture() {
+void DrivenEditor::waitForPicture() { waitForPicture(false); }
+void DrivenEditor::waitForBestPicture() { waitForPicture(true); }
+
+void DrivenEditor::waitForPicture(bool best) {
     constexpr double kLongest = 120.0;  // seconds
     for (double waited = 0; waited < kLongest; waited += 0.02) {
         const bool fresh = exchange(*it);
         if (shell->waitEvents(0.0) || fresh) shell->frame([&] { showEditor(*it); });
-        if (it->viewport.shown.revision == it->document.revision() && !it->preview.busy()) break;
+        if (it->viewport.shown.revision == it->document.revision() && !(best && it->preview.busy())) break;
         fw::test::rest(0.02);
     }
     settle();

@@ -40,8 +40,11 @@ class DrivenEditor {
     /// With the button held from the first to the second.
     void drag(ImVec2 from, ImVec2 to);
     void settle();
-    /// Waits until the picture is that of the document as it is.
+    /// Waits until what is shown is of the document as it is: what was found out, and a first picture, which
+    /// may be a draft.
     void waitForPicture();
+    /// The same, and until that picture gets no better.
+    void waitForBestPicture();
     Picture capture() { return shell->capture(); }
 
     // Places on the canvas, in pixels.
@@ -50,6 +53,8 @@ class DrivenEditor {
     ImVec2 field(const std::string& node, const std::string& name, int component) const;
 
   private:
+    void waitForPicture(bool best);
+
     fw::test::TempDir folder;
     fw::test::VirtualDisplay display;
     std::optional<Shell> shell;

@@ -69,7 +69,8 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
                 continue;
             }
             if (!program) {
-                program.emplace(GetParam() == "timeline" ? kMoving : kDocument);
+                program.emplace(GetParam() == "timeline" ? kMoving : kDocument,
+                                GetParam() == "picture" ? 0.4f : Program::kLittle);
                 ASSERT_TRUE(program->works())
                     << "Xvfb, xdotool or xclip is not installed: run ./.install test";
                 original = program->save();

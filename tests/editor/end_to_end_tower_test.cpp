@@ -61,7 +61,7 @@ std::string meshOf(Program& program, const std::string& graph, const std::string
 }
 
 TEST(EndToEnd, BuildsTheTowerFromNothing) {
-    Program program;
+    Program program(R"({"fieldwright": 1, "nodes": []})", Program::kLittle);
     ASSERT_TRUE(program.works()) << "Xvfb or xdotool is not installed: run ./.install test";
     Result<Graph> sample = readGraph(kSample, nullptr);
     ASSERT_TRUE(sample);

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "editor/canvas/canvas.h"
@@ -77,17 +79,6 @@ std::array<long long, 3> identity(const std::string& path) {
     return {(long long)status.st_ino, (long long)status.st_mtim.tv_sec, (long long)status.st_mtim.tv_nsec};
 }
 
-Picture cut(const Picture& picture, const Area& part) {
-    const int x0 = std::max(int(part.lo.x), 0), x1 = std::min(int(part.hi.x), picture.width);
-    const int y0 = std::max(int(part.lo.y), 0), y1 = std::min(int(part.hi.y), picture.height);
-    Picture result{x1 - x0, y1 - y0, {}};
-    for (int y = y0; y < y1; ++y) {
-        const auto row = picture.pixels.begin() + 4 * (std::ptrdiff_t(y) * picture.width);
-        result.pixels.insert(result.pixels.end(), row + 4 * x0, row + 4 * x1);
-    }
-    return result;
-}
-
 }  // namespace
 
 bool eventually(const std::function<bool()>& condition) {
@@ -101,10 +92,16 @@ bool eventually(const std::function<bool()>& condition) {
     return true;
 }
 
-Program::Program(const std::string& text) : document(folder.path("document.field.json")) {
+Program::Program(const std::string& text, float picture)
+    : document(folder.path("document.field.json")), share(picture) {
     usable = display.works() && runProgram("xdotool version").status == 0;
     if (!usable) return;
     writeText(document, text);
+    if (share != kUsual) {
+        std::filesystem::create_directories(folder.path("config/fieldwright"));
+        writeText(folder.path("config/fieldwright/editor.json"),
+                  "{\"panels\": {\"top\": " + std::to_string(share) + "}}");
+    }
     read();
     start({document});
     usable = process > 0;
@@ -248,30 +245,49 @@ void Program::wheel(ImVec2 p, int notches) {
          (notches > 0 ? " 4" : " 5"));
 }
 
-Picture Program::screen(const Area& part) const { return cut(screen(), part); }
+void Program::look(Picture& into, const std::optional<Area>& part) const {
+    const Area all = part.value_or(Area{{0, 0}, {float(display.width()), float(display.height())}});
+    display.look(into, int(all.lo.x), int(all.lo.y), int(all.hi.x), int(all.hi.y));
+}
+
+Picture Program::screen(const Area& part) const {
+    Picture picture;
+    look(picture, part);
+    return picture;
+}
 
 bool Program::sees(const std::string& words, const std::optional<Area>& within) {
-    return reader.find(screen(), words, kFontSize, within).has_value();
+    Picture now;
+    look(now, within);
+    return reader.find(now, words).has_value();
+}
+
+Area Program::waitForWords(const std::string& words, const std::optional<Area>& within, Reader::Face face) {
+    std::optional<Area> found;
+    Picture now, last;
+    const bool came = waitUntil([&] {
+        look(now, within);
+        if (now.pixels == last.pixels) return false;  // read already
+        found = reader.find(now, words, kFontSize, std::nullopt, face);
+        std::swap(now, last);
+        return found.has_value();
+    });
+    EXPECT_TRUE(came) << "\"" << words << "\" is not on the screen"
+                      << (face == Reader::Face::code ? " as code" : "");
+    if (!found) return {};
+    const ImVec2 corner =
+        within ? ImVec2(std::max(std::floor(within->lo.x), 0.0f), std::max(std::floor(within->lo.y), 0.0f))
+               : ImVec2();
+    return {{found->lo.x + corner.x, found->lo.y + corner.y},
+            {found->hi.x + corner.x, found->hi.y + corner.y}};
 }
 
 Area Program::waitFor(const std::string& words, const std::optional<Area>& within) {
-    std::optional<Area> found;
-    EXPECT_TRUE(waitUntil([&] {
-        found = reader.find(screen(), words, kFontSize, within);
-        return found.has_value();
-    })) << "\""
-        << words << "\" is not on the screen";
-    return found.value_or(Area{});
+    return waitForWords(words, within, Reader::Face::text);
 }
 
 Area Program::waitForCode(const std::string& word, const std::optional<Area>& within) {
-    std::optional<Area> found;
-    EXPECT_TRUE(waitUntil([&] {
-        found = reader.find(screen(), word, kFontSize, within, Reader::Face::code);
-        return found.has_value();
-    })) << "\""
-        << word << "\" is not on the screen as code";
-    return found.value_or(Area{});
+    return waitForWords(word, within, Reader::Face::code);
 }
 
 void Program::waitUntilGone(const std::string& words) {
@@ -300,9 +316,17 @@ void Program::expectGolden(const std::string& name, const Area& part) {
 }
 
 void Program::waitForChange(const Picture& before, const Area& part) {
-    const Picture old = cut(before, part);
-    EXPECT_TRUE(waitUntil([&] { return screen(part).pixels != old.pixels; }))
-        << "nothing changes on the screen";
+    const auto same = [&](const Picture& now) {
+        const std::size_t row = 4 * std::size_t(now.width);
+        const auto x = std::size_t(std::clamp(int(part.lo.x), 0, before.width)),
+                   y = std::size_t(std::clamp(int(part.lo.y), 0, before.height));
+        for (std::size_t i = 0; i < std::size_t(now.height); ++i)
+            if (!std::equal(&now.pixels[i * row], &now.pixels[i * row] + row,
+                            &before.pixels[4 * ((y + i) * std::size_t(before.width) + x)]))
+                return false;
+        return true;
+    };
+    EXPECT_TRUE(waitUntil([&] { return !same(screen(part)); })) << "nothing changes on the screen";
 }
 
 std::string Program::save() {
@@ -320,10 +344,10 @@ const Graph& Program::saved() {
     return known;
 }
 
-void Program::open(const std::string& path) {
+void Program::open(const std::string& path, const std::string& typed) {
     keys("Ctrl+O");
     waitFor("Cancel");
-    type(path + "\n");
+    type((typed.empty() ? path : typed) + "\n");
     const std::size_t slash = path.find_last_of('/');
     document = slash == std::string::npos ? folder.path(path) : path;
     waitForTitle(document.substr(document.find_last_of('/') + 1) + " - Fieldwright");
@@ -352,23 +376,21 @@ void Program::findPanel() {
     const ImU32 grid = themeColor(ThemeColor::grid);
     const std::array<uint8_t, 3> ink = {uint8_t(grid), uint8_t(grid >> 8), uint8_t(grid >> 16)};
     const Picture seen = screen();
-    const auto inked = [&](int x, int y) {
-        const std::size_t i = 4 * (std::size_t(y) * std::size_t(seen.width) + std::size_t(x));
-        return std::equal(ink.begin(), ink.end(), &seen.pixels[i]);
-    };
-    // First and last pixel of the lines, over all that run across `outer`.
-    const auto extent = [](int outer, int inner, const std::function<bool(int, int)>& is) {
-        float first = 1e9f, last = 0;
-        for (int i = 0; i < outer; ++i)
-            for (int k = 0, run = 0; k < inner; ++k) {
-                run = is(i, k) ? run + 1 : 0;
-                if (run < kLine) continue;
-                first = std::min(first, float(k - run + 1)), last = std::max(last, float(k + 1));
+    float left = 1e9f, top = 1e9f, right = 0, bottom = 0;
+    std::vector<int> down(std::size_t(seen.width), 0);  // how long the line is that ends here, in each column
+    const uint8_t* pixel = seen.pixels.data();
+    for (int y = 0; y < seen.height; ++y)
+        for (int x = 0, across = 0; x < seen.width; ++x, pixel += 4) {
+            int& run = down[std::size_t(x)];
+            if (!std::equal(ink.begin(), ink.end(), pixel)) {
+                across = run = 0;
+                continue;
             }
-        return std::pair(first, last);
-    };
-    const auto [left, right] = extent(seen.height, seen.width, [&](int y, int x) { return inked(x, y); });
-    const auto [top, bottom] = extent(seen.width, seen.height, [&](int x, int y) { return inked(x, y); });
+            if (++across >= kLine)
+                left = std::min(left, float(x - across + 1)), right = std::max(right, float(x + 1));
+            if (++run >= kLine)
+                top = std::min(top, float(y - run + 1)), bottom = std::max(bottom, float(y + 1));
+        }
     view.panel = {{left, top}, {right, bottom}};
 }
 

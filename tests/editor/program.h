@@ -33,8 +33,10 @@ struct Effort {
 
 class Program {
   public:
-    /// With a document of this text, or with the empty document if there is none. Check works() first.
-    explicit Program(const std::string& text = R"({"fieldwright": 1, "nodes": []})");
+    /// With a document of this text, or with the empty document if there is none; the picture has this share
+    /// of the window's height, of which a software device is the quicker the less it is. Check works() first.
+    explicit Program(const std::string& text = R"({"fieldwright": 1, "nodes": []})", float picture = kUsual);
+    static constexpr float kUsual = 0.55f, kLittle = 0.2f;
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
     /// Ends the editor. If the test has failed, a picture of the screen lies beside the test program.
@@ -72,6 +74,8 @@ class Program {
     // What is seen.
     Picture screen() const { return display.screen(); }
     Picture screen(const Area& part) const;
+    /// Where the picture ends, in pixels from the top.
+    float pictureEnd() const { return 800.0f * share; }
     bool sees(const std::string& words, const std::optional<Area>& within = std::nullopt);
     /// Waits for the words; a failure if they do not come.
     Area waitFor(const std::string& words, const std::optional<Area>& within = std::nullopt);
@@ -89,8 +93,8 @@ class Program {
     // The document.
     std::string save();    ///< Ctrl+S, and the file's bytes
     const Graph& saved();  ///< the same, read
-    /// Opens this file in place of the document, which has no unsaved changes.
-    void open(const std::string& path);
+    /// Opens this file in place of the document, which has no unsaved changes; by what is typed, if that is not its path.
+    void open(const std::string& path, const std::string& typed = {});
     const Graph& graph() const { return known; }
     void clipboard(const std::string& text);
     std::string clipboard() const;
@@ -119,10 +123,14 @@ class Program {
     void keepScreen();  ///< once a test: as it was when it first failed
     void read();
     void findPanel();
+    Area waitForWords(const std::string& words, const std::optional<Area>& within, Reader::Face face);
+    /// This part of the screen, or all of it, as it is now.
+    void look(Picture& into, const std::optional<Area>& part) const;
 
     fw::test::VirtualDisplay display{1280, 800};
     fw::test::TempDir folder;
     std::string document;
+    float share;  ///< of the window's height that the picture has
     bool usable = false, kept = false;
     pid_t process = -1;
     std::string window;  ///< its X id

@@ -13,9 +13,11 @@ constexpr int kAround = 2;            // pixels of nothing about a text
 constexpr double kAlike = 0.93;       // correlation of a text with itself, however it was blended
 constexpr float kLeastContrast = 40;  // of 255, between ink and paper
 
-float light(const Picture& picture, int x, int y) {
-    const uint8_t* p = &picture.pixels[4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x))];
-    return 0.3f * p[0] + 0.59f * p[1] + 0.11f * p[2];
+/// Of each pixel.
+void lightOf(const Picture& picture, std::vector<float>& light) {
+    light.resize(picture.pixels.size() / 4);
+    const uint8_t* p = picture.pixels.data();
+    for (float& each : light) each = 0.3f * p[0] + 0.59f * p[1] + 0.11f * p[2], p += 4;
 }
 
 /// The texture between its pixels, as a sampler reads it.
@@ -84,46 +86,52 @@ std::optional<Area> Reader::find(const Picture& picture, const std::string& word
     for (float c : mask.cover) sum += double(c), squares += double(c) * double(c);
     const double spread = squares - sum * sum / double(count);
 
-    // Most places are told apart by a few pixels: the darkest and, beside each, one without ink.
+    // Most places are told apart by a few pixels: the darkest and, beside each, one without ink. None below
+    // the line, where small buttons cut off what hangs down.
     struct Probe {
-        int x, ink, y, paper;
+        std::ptrdiff_t ink, paper;  // from the place's first pixel
     };
-    std::vector<Probe> probes;
-    for (int y = 0; y < mask.height; ++y)
+    const std::ptrdiff_t row = picture.width;
+    std::vector<Probe> all;
+    for (int y = 0; y < mask.height - kAround; ++y)
         for (int x = 1; x + 1 < mask.width; ++x) {
-            const float* row = &mask.cover[std::size_t(y) * std::size_t(mask.width)];
-            if (row[x] < 0.75f) continue;
+            const float* cover = &mask.cover[std::size_t(y) * std::size_t(mask.width)];
+            if (cover[x] < 0.75f) continue;
             for (int side : {x - 1, x + 1, x - 2, x + 2})
-                if (side >= 0 && side < mask.width && row[side] < 0.05f) {
-                    probes.push_back({x, x, y, side});
+                if (side >= 0 && side < mask.width && cover[side] < 0.05f) {
+                    all.push_back({y * row + x, y * row + side});
                     break;
                 }
         }
-    const std::size_t step = std::max<std::size_t>(probes.size() / 12, 1);
+    const std::size_t step = std::max<std::size_t>(all.size() / 12, 1);
+    std::vector<Probe> probes;
+    for (std::size_t i = 0; i < all.size(); i += step) probes.push_back(all[i]);
 
+    lightOf(picture, light);
     const int left = within ? std::max(int(within->lo.x), 0) : 0,
               top = within ? std::max(int(within->lo.y), 0) : 0;
     const int right = (within ? std::min(int(within->hi.x), picture.width) : picture.width) - mask.width,
               bottom = (within ? std::min(int(within->hi.y), picture.height) : picture.height) - mask.height;
+    const auto alike = [&](const float* place) {
+        int brighter = 0;
+        for (const Probe& probe : probes) {
+            const float off = place[probe.ink] - place[probe.paper];
+            const int sign = off > 0.5f * kLeastContrast ? 1 : off < -0.5f * kLeastContrast ? -1 : 0;
+            if (sign == 0 || (brighter != 0 && brighter != sign)) return false;
+            brighter = sign;
+        }
+        return true;
+    };
     for (int y = top; y <= bottom; ++y)
         for (int x = left; x <= right; ++x) {
-            int brighter = 0;
-            bool alike = true;
-            for (std::size_t i = 0; alike && i < probes.size(); i += step) {
-                const Probe& probe = probes[i];
-                const float off =
-                    light(picture, x + probe.ink, y + probe.y) - light(picture, x + probe.paper, y + probe.y);
-                const int sign = off > 0.5f * kLeastContrast ? 1 : off < -0.5f * kLeastContrast ? -1 : 0;
-                alike = sign != 0 && (brighter == 0 || brighter == sign);
-                brighter = sign;
-            }
-            if (!alike) continue;
+            const float* place = &light[std::size_t(y) * std::size_t(row) + std::size_t(x)];
+            if (!alike(place)) continue;
             double seen = 0, seenSquares = 0, product = 0;
             for (int j = 0; j < mask.height; ++j)
                 for (int i = 0; i < mask.width; ++i) {
                     const double c =
                         double(mask.cover[std::size_t(j) * std::size_t(mask.width) + std::size_t(i)]);
-                    const double l = double(light(picture, x + i, y + j));
+                    const double l = double(place[j * row + i]);
                     seen += l, seenSquares += l * l, product += c * l;
                 }
             const double seenSpread = seenSquares - seen * seen / double(count);

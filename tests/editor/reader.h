@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "editor/canvas/view.h"
 #include "editor/shell/fonts.h"
@@ -37,6 +38,7 @@ class Reader {
     std::unique_ptr<ImFontAtlas> atlas;
     Fonts fonts;
     std::map<std::tuple<std::string, float, Face>, Mask> masks;
+    std::vector<float> light;  ///< of the picture that is read
 };
 
 }  // namespace fw::editor::test

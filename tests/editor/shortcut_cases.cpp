@@ -36,19 +36,22 @@ void expectSelected(Program& program, const Ids& selected) {
     EXPECT_EQ(nodesAfter(program), left);
 }
 
-Area picturePart(const Program& program) { return {{program.view.panel.hi.x + 20, 120}, {1260, 400}}; }
-Area pictureCorner(const Program& program) { return {{program.view.panel.hi.x + 20, 380}, {1280, 470}}; }
+Area picturePart(const Program& program) {
+    return {{program.view.panel.hi.x + 20, 120}, {1260, program.pictureEnd() - 40}};
+}
+Area pictureCorner(const Program& program) {
+    return {{program.view.panel.hi.x + 20, program.pictureEnd() - 60}, {1280, program.pictureEnd() + 30}};
+}
 
-Picture restingPicture(Program& program) {
-    Picture seen = program.screen(picturePart(program));
+void waitForLook(Program& program, const std::string& words) {
+    program.waitFor(words, pictureCorner(program));
+}
+
+void lookUntil(Program& program, const std::string& keys, const std::string& words) {
     EXPECT_TRUE(eventually([&] {
-        fw::test::rest(0.3);
-        Picture now = program.screen(picturePart(program));
-        const bool rests = now.pixels == seen.pixels && !program.sees("working", Area{{0, 770}, {1280, 800}});
-        seen = std::move(now);
-        return rests;
-    }));
-    return seen;
+        program.keys(keys);
+        return program.sees(words, pictureCorner(program));
+    })) << words;
 }
 
 }  // namespace fw::editor::test::shortcut_cases

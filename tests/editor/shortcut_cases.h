@@ -37,8 +37,10 @@ void expectSelected(Program& program, const Ids& selected);
 
 Area picturePart(const Program& program);
 Area pictureCorner(const Program& program);
-/// The picture of the solid, once it has come to rest.
-Picture restingPicture(Program& program);
+/// The words in the picture's corner.
+void waitForLook(Program& program, const std::string& words);
+/// Presses the keys until the picture is looked at so, as soon as there is one.
+void lookUntil(Program& program, const std::string& keys, const std::string& words);
 /// A view without light, which a processor draws soon: what is looked at is not how it is lit.
 void showNormals(Program& program);
 

@@ -10,18 +10,10 @@ namespace fw::editor::test::shortcut_cases {
 
 using fw::test::readText;
 
-/// The words in the picture's corner.
-void waitForLook(Program& program, const std::string& words) {
-    program.waitFor(words, pictureCorner(program));
-}
-
 /// The mouse over the picture, once there is one, and it is looked at as after these keys.
 void lookFirst(Program& program, const std::string& keys, const std::string& words) {
     program.moveTo(picturePart(program).centre());
-    EXPECT_TRUE(eventually([&] {
-        program.keys(keys);
-        return program.sees(words, pictureCorner(program));
-    })) << words;
+    lookUntil(program, keys, words);
 }
 
 void showNormals(Program& program) {
@@ -112,7 +104,8 @@ std::string toolInUse(Program& program) {
     const Picture seen = program.screen();
     std::array<uint8_t, 3> colors[3];
     for (std::size_t i = 0; i < 3; ++i) {
-        const Area word = program.waitFor(kTools[i], Area{{left, 300}, {left + 100, 470}});
+        const Area word = program.waitFor(
+            kTools[i], Area{{left, program.pictureEnd() - 140}, {left + 100, program.pictureEnd() + 30}});
         const auto beside =
             4 * (std::size_t(word.centre().y) * std::size_t(seen.width) + std::size_t(word.lo.x) - 5);
         std::copy_n(&seen.pixels[beside], 3, colors[i].begin());
@@ -216,7 +209,6 @@ const Cases& pictureCases() {
         {"picture.snap",
          [](Program& p, const std::string& keys) {
              lookFirst(p, "1", "Front · perspective");
-             restingPicture(p);  // and the mouse is there
              p.keys(keys);
              p.waitFor("Snap: drags in the picture");
              p.keys(keys);
@@ -225,7 +217,6 @@ const Cases& pictureCases() {
         {"picture.axes",
          [](Program& p, const std::string& keys) {
              lookFirst(p, "1", "Front · perspective");
-             restingPicture(p);
              p.keys(keys, 2);
              p.waitFor("Axes: the node's own");
              p.keys(keys);
@@ -324,14 +315,8 @@ const Cases& pictureCases() {
              waitForLook(p, "Top · orthographic");
              p.keys("1");
              waitForLook(p, "Front · orthographic");
-             EXPECT_TRUE(eventually([&] {  // round all that are kept
-                 p.keys(keys);
-                 return p.sees("Right · perspective", pictureCorner(p));
-             }));
-             EXPECT_TRUE(eventually([&] {
-                 p.keys(keys);
-                 return p.sees("Top · orthographic", pictureCorner(p));
-             }));
+             lookUntil(p, keys, "Right · perspective");  // round all that are kept
+             lookUntil(p, keys, "Top · orthographic");
              p.keys("0");
          }},
     };

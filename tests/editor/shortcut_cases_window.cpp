@@ -36,11 +36,10 @@ void turnPanel(Program& program, const std::string& keys) {
 
 /// The keyboard steers the picture, wherever the mouse is.
 void toPicture(Program& program, const std::string& keys) {
-    const Picture before = restingPicture(program);
     program.keys(keys);
-    program.keys("7");
-    EXPECT_TRUE(eventually([&] { return program.screen(picturePart(program)).pixels != before.pixels; }));
+    lookUntil(program, "7", "Top · perspective");
     program.keys("0");
+    waitForLook(program, "Whole solid");
     program.keys("Alt+1");
 }
 

@@ -48,7 +48,7 @@ struct Lesson {
         const char* folder = std::getenv("FIELDWRIGHT_TUTORIAL");
         if (!folder) return;
         editor.moveAway();
-        editor.waitForPicture();
+        editor.waitForBestPicture();
         ASSERT_TRUE(savePicture(editor.capture(), std::string(folder) + "/tutorial_" + name + ".png"));
     }
 };

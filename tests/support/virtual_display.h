@@ -25,13 +25,21 @@ class VirtualDisplay {
 
     /// All of the screen now.
     Picture screen() const;
+    /// Columns x0 to x1 and rows y0 to y1 of it, the last not included, into this picture; as far as there
+    /// are any.
+    void look(Picture& into, int x0, int y0, int x1, int y1) const;
+    int width() const { return wide; }
+    int height() const { return high; }
     /// The colour of a pixel of the screen now.
     glm::ivec3 pixel(int x, int y) const;
 
   private:
     TempDir folder;
+    int wide, high;
     pid_t process = -1;
     int number = -1;
+    const unsigned char* memory = nullptr;  ///< the server's own, of the file that the screen is
+    std::size_t bytes = 0, first = 0, stride = 0;
 };
 
 /// Fails the test where there is no X server: windows are looked at on every machine.
