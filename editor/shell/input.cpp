@@ -117,9 +117,10 @@ void Input::feed() {
             case Event::Kind::button: return act == Act::none && !moved;
             case Event::Kind::wheel: return act == Act::none || act == Act::wheel;
             case Event::Kind::character: return (act == Act::none && rests) || act == Act::key;
+            // What was let go waits for nothing: ImGui would repeat what it takes for held.
             case Event::Kind::key:
-                return act == Act::none && rests &&
-                       (!event.down || !std::ranges::count(released, event.code));
+                return act == Act::none &&
+                       (!event.down || (rests && !std::ranges::count(released, event.code)));
             case Event::Kind::focus:
             case Event::Kind::drop: return act == Act::none;
         }
