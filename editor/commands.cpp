@@ -198,6 +198,16 @@ void rename(Editor& editor) {
     editor.windows.renames = true;
 }
 
+/// A digit begins the first number of the active node, in place of Enter and the digit.
+void beginNumber(Editor& editor) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl || io.KeyAlt || io.KeySuper || io.InputQueueCharacters.empty()) return;
+    const ImWchar first = io.InputQueueCharacters[0];
+    if (first != '.' && (first < '0' || first > '9')) return;
+    if (typeFirstValue(editor.canvas, editor.document, *editor.boxes))
+        editor.canvas.number.typed.begun = char(first);
+}
+
 /// Alt by itself goes to the menus, but not when it was held for something else.
 void keepMenusClosed() {
     if (ImGui::GetIO().KeyAlt && (pressedNow() || ImGui::IsAnyMouseDown()))
@@ -307,7 +317,7 @@ constexpr Command kCommands[] = {
      [](Editor& e) { writeGroup(e, groupIdHere(e)); }},
     {"node.unlink", "Node", "Make group local", "", canvas, linkedHere,
      [](Editor& e) { unlinkGroup(e, groupIdHere(e)); }},
-    {"node.keep", "Node", "Keep in the library …", "", canvas, anySelected, keepInLibrary},
+    {"node.keep", "Node", "Keep in the library …", "Ctrl+K", canvas, anySelected, keepInLibrary},
     {"node.frame", "Node", "Comment frame", "Ctrl+J", canvas, anySelected,
      [](Editor& e) { e.document.apply("Add Frame", frameNodes(graphOf(e), scopeOf(e), selected(e))); }},
     {"node.layout", "Node", "Lay out", "Ctrl+L", canvas, always, layOutNodes, true},
@@ -538,6 +548,7 @@ void runShortcuts(Editor& editor) {
     for (const auto& [shortcut, command] : editor.keymap)
         if (pressed(shortcut) && heard(*command, shortcut) && command->can(editor))
             return command->run(editor);
+    if (!panel && !picture && !editor.outline.focused && anyActive(editor)) beginNumber(editor);
     leavePanels(editor);
 }
 

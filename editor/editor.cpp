@@ -120,6 +120,7 @@ void showCanvasPart(Editor& editor) {
     const CanvasWishes wishes =
         showCanvas(editor.canvas, editor.document, *editor.boxes, marksOf(editor), editor.shell);
     takeDraggedPart(editor);
+    if (std::exchange(editor.canvas.addsNext, false)) editor.windows.chosen = &command("node.add");
     if (wishes.add) editor.add.wish = *wishes.add, editor.add.opened = true;
     if (!wishes.enter.empty()) enter(editor, wishes.enter);
     if (!wishes.activate.empty()) pin(editor, wishes.activate);

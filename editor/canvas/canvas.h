@@ -107,6 +107,7 @@ struct Canvas {
     bool exactness = false;    ///< shown on the wires: those that are no distance are broken
     bool spacePans = false;    ///< Space went down and was used to pan: its release asks for nothing
     bool frameNext = true;     ///< show all nodes with the next frame
+    bool addsNext = false;     ///< a number was entered on a node, and the menu of nodes is asked for
     double restedSince = 0.0;  ///< seconds of ImGui's clock, when the mouse last moved
     std::vector<bool> lit;     ///< wires on the way through the one under the mouse; empty: none is
 

@@ -152,10 +152,10 @@ std::string valueText(const Row& row) {
     return row.spec->value.text;
 }
 
-void showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
+bool showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
                const Row& row, int component, const NumberLook& look, const MovedField* moved) {
-    if (row.type == Type::string) return showChoice(document, scope, box, row, look);
-    if (row.type == Type::boolean) return showSwitch(document, scope, box, row, look);
+    if (row.type == Type::string) return showChoice(document, scope, box, row, look), false;
+    if (row.type == Type::boolean) return showSwitch(document, scope, box, row, look), false;
     const Plug plug{box.node->id, row.name};
     const std::string id = inputPath(scope, plug);
     const auto at = std::size_t(component);
@@ -174,21 +174,32 @@ void showField(NumberHand& hand, Document& document, std::string_view scope, con
         numbers.at(std::size_t(component)) = wanted;
         document.update(by, key->set(document.graph(), numbers));
     };
+    const auto toAll = [&document, group = std::string(scope), plug, fields = row.fields,
+                        key = moved ? std::optional(*moved) : std::nullopt](Hand by, double wanted) {
+        if (key)
+            return document.update(
+                by, key->set(document.graph(), std::vector<double>(key->numbers.size(), wanted)));
+        Graph all = document.graph();
+        for (int i = 0; i < fields; ++i) all = setNumber(all, group, plug, i, wanted);
+        document.update(by, std::move(all));
+    };
     NumberLook shown = look;
     shown.animated = moved != nullptr;
-    const NumberDone done =
-        showNumber(hand, document, id, component, number, range, nameOfChange(box, row, moved), shown, to);
+    const NumberDone done = showNumber(hand, document, id, component, number, range,
+                                       nameOfChange(box, row, moved), shown, to, toAll);
     if (hand.is(id, component)) hand.moves = id;
+    if (done.next) return true;
     if (moved && !typed) {
         drawKeys(look.place, *moved);
         if (look.enabled && hand.state == NumberHand::State::none &&
             ImGui::IsMouseHoveringRect(look.place.lo, look.place.hi))
             ImGui::SetTooltip("The timeline moves it: a change is a key at the time shown");
     }
-    if (done.reset && moved) return;
-    if (done.reset) return set(document, scope, box, row, std::nullopt);
-    if (const auto& next = done.tab < 0 ? before : after; done.tab != 0 && next)
+    if (done.reset && !moved)
+        set(document, scope, box, row, std::nullopt);
+    else if (const auto& next = done.tab < 0 ? before : after; done.tab != 0 && next)
         hand.type(document, next->name, next->id, next->component, next->number);
+    return false;
 }
 
 void typeField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,

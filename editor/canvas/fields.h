@@ -34,8 +34,8 @@ std::string valueText(const Row& row);
 std::vector<double> entriesOf(const Row& row);
 
 /// One field of a row of the node. Changes go to the document: of what the timeline moves, as keys at the
-/// time shown.
-void showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
+/// time shown. Whether a number was entered with Shift: the next node is wanted.
+bool showField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
                const Row& row, int component, const NumberLook& look, const MovedField* moved = nullptr);
 /// Begins to type a number of the node.
 void typeField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,

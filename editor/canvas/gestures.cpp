@@ -506,8 +506,9 @@ CanvasWishes showCanvas(Canvas& canvas, Document& document, const Boxes& boxes, 
                         continue;
                     const NumberLook look{canvas.view.toScreen(field), shell.fonts().of(size), size,
                                           hovered && idle};
-                    showField(canvas.number, document, canvas.scope, *shown[n], row, i, look,
-                              moved == marks.animated.end() ? nullptr : &moved->second);
+                    if (showField(canvas.number, document, canvas.scope, *shown[n], row, i, look,
+                                  moved == marks.animated.end() ? nullptr : &moved->second))
+                        canvas.addsNext = true;
                 }
             }
         ImGui::PopClipRect();

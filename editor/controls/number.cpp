@@ -31,12 +31,20 @@ struct Typed {
     std::optional<double> number = {};  ///< that was entered
     bool ended = false;                 ///< the field is to go
     int tab = 0;
+    bool all = false, next = false;  ///< it was entered with Ctrl, with Shift
 };
 
 /// One frame of it, in place of the number, at ImGui's cursor.
 Typed typeNumber(TypedNumber& edit, float width) {
     ImGui::SetNextItemWidth(width);
     if (!edit.opened) ImGui::SetKeyboardFocusHere();
+    if (!edit.begun.empty() && ImGui::GetActiveID() == ImGui::GetID("##typed")) {
+        ImVector<ImWchar>& queue =
+            ImGui::GetIO().InputQueueCharacters;  // over the text, all of which is selected
+        for (auto letter = edit.begun.rbegin(); letter != edit.begun.rend(); ++letter)
+            queue.insert(queue.begin(), ImWchar(*letter));
+        edit.begun.clear();
+    }
     // It takes Tab for itself, which would go to whatever comes next; and no blanks, of which Tab is one.
     const bool entered =
         ImGui::InputText("##typed", edit.text, sizeof edit.text,
@@ -55,7 +63,14 @@ Typed typeNumber(TypedNumber& edit, float width) {
         return {.ended = left && !entered};
     }
     if (tab) ImGui::ClearActiveID();
-    return {.number = *number, .ended = true, .tab = !tab ? 0 : ImGui::GetIO().KeyShift ? -1 : 1};
+    const ImGuiIO& io = ImGui::GetIO();
+    return {.number = *number,
+            .ended = true,
+            .tab = !tab          ? 0
+                   : io.KeyShift ? -1
+                                 : 1,
+            .all = entered && io.KeyCtrl,
+            .next = entered && io.KeyShift};
 }
 
 }  // namespace
@@ -89,7 +104,8 @@ namespace {
 
 /// The text field over a number; has the keyboard until Enter, Tab, Escape or a click elsewhere.
 NumberDone typeOver(NumberHand& hand, Document& document, const NumberRange& range, const NumberLook& look,
-                    const std::function<void(Hand, double)>& set) {
+                    const std::function<void(Hand, double)>& set,
+                    const std::function<void(Hand, double)>& setAll) {
     const Area& place = look.place;
     ImGui::SetCursorScreenPos(place.lo);
     ImGui::PushFont(look.font);
@@ -106,9 +122,9 @@ NumberDone typeOver(NumberHand& hand, Document& document, const NumberRange& ran
         return {};
     }
     hand = {};
-    if (typed.number) set(held, kept(*typed.number, range));
+    if (typed.number) (typed.all && setAll ? setAll : set)(held, kept(*typed.number, range));
     document.end(held);
-    return {.tab = typed.tab};
+    return {.tab = typed.tab, .next = typed.next};
 }
 
 void drag(NumberHand& hand, Document& document, const NumberRange& range, const std::string& name,
@@ -141,9 +157,10 @@ void drag(NumberHand& hand, Document& document, const NumberRange& range, const 
 
 NumberDone showNumber(NumberHand& hand, Document& document, std::string_view id, int part, double number,
                       const NumberRange& range, const std::string& name, const NumberLook& look,
-                      const std::function<void(Hand, double)>& set) {
+                      const std::function<void(Hand, double)>& set,
+                      const std::function<void(Hand, double)>& setAll) {
     const bool mine = hand.is(id, part);
-    if (mine && hand.state == State::typing) return typeOver(hand, document, range, look, set);
+    if (mine && hand.state == State::typing) return typeOver(hand, document, range, look, set, setAll);
     const bool hovered =
         look.enabled && hand.state == State::none && ImGui::IsMouseHoveringRect(look.place.lo, look.place.hi);
     drawField(look.place, mine, hovered);

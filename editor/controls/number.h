@@ -1,9 +1,10 @@
 // A number edited where it stands: on a node of the canvas and in every panel alike.
 //
 // It is dragged (Shift: a tenth as fast; Alt: ten times as fast), or clicked and typed, as a number or an
-// expression of the field language ("2*pi/3"); Ctrl+click gives back the default, where there is one. Escape
-// takes back what the hand did. Whatever is done to it between press and release, or while it is typed, is
-// one hand of the document.
+// expression of the field language ("2*pi/3"): Enter takes it, Ctrl+Enter for all numbers of a vector, Tab
+// goes on to the next one, Shift+Enter asks for the next node where it stands on one. Ctrl+click gives back
+// the default, where there is one. Escape takes back what the hand did. Whatever is done to it between press
+// and release, or while it is typed, is one hand of the document.
 //
 // Lifetime: a NumberHand lives with what shows the numbers, from frame to frame.
 #pragma once
@@ -26,6 +27,7 @@ struct TypedNumber {
     char text[256] = {};
     bool opened = false;  ///< it has had its first frame
     std::string complaint;
+    std::string begun;  ///< typed before it was there: takes the place of the text
 
     TypedNumber() = default;
     explicit TypedNumber(double number);
@@ -75,14 +77,17 @@ struct NumberLook {
 struct NumberDone {
     bool reset = false;  ///< Ctrl+click
     int tab = 0;         ///< it was typed, and the number after it, or before it, is next: 1 or -1
+    bool next = false;   ///< it was entered with Shift: another node is wanted
 };
 
 /// One frame of the number. `name` is what its step of undo is called; `set` makes it another number: while
 /// `hand.hand` holds, by Document::update() if it is the document's. It is kept by the document as what is
-/// pending, so it refers to nothing that the frame ends.
+/// pending, so it refers to nothing that the frame ends. `setAll` does it to all numbers of the vector that
+/// it is of.
 NumberDone showNumber(NumberHand& hand, Document& document, std::string_view id, int part, double number,
                       const NumberRange& range, const std::string& name, const NumberLook& look,
-                      const std::function<void(Hand, double)>& set);
+                      const std::function<void(Hand, double)>& set,
+                      const std::function<void(Hand, double)>& setAll = {});
 
 /// A field's background, and words in it, cut where they do not fit.
 void drawField(const Area& place, bool active, bool hovered);

@@ -39,6 +39,48 @@ std::optional<Join> joinOf(const Graph& graph, std::string_view scope, std::stri
     return {};
 }
 
+/// The node type that makes of this the other, as a solid of particles, and needs nothing else; nullptr: none
+/// does.
+const NodeType* bridgeOf(std::optional<Type> from, std::optional<Type> to) {
+    if (!from || !to || from == to || componentCount(*from) > 0 || componentCount(*to) > 0) return nullptr;
+    const auto isWired = [](const InputSpec& input) {
+        return input.type == Type::surface || input.type == Type::mesh || input.type == Type::particles;
+    };
+    for (const NodeType& type : nodeTypes())
+        if (type.role == NodeRole::plain && type.outputs.size() == 1 && type.outputs[0].type == *to &&
+            std::ranges::count_if(type.inputs, isWired) == 1 &&
+            std::ranges::find_if(type.inputs, isWired)->type == *from)
+            return &type;
+    return nullptr;
+}
+
+/// What leads from a node to an input that takes nothing of it as it is.
+struct Bridge {
+    Plug output;
+    const NodeType* type;
+    Plug input;
+};
+std::optional<Bridge> bridgeTo(const Wiring& wiring, std::string_view from, const Plug& input) {
+    const std::optional<Socket> wanted = wiring.input(input);
+    if (!wanted) return {};
+    for (const Plug& output : outputsOf(wiring, from)) {
+        const NodeType* type = bridgeOf(wiring.output(output)->type, wanted->type);
+        if (!type) continue;
+        const auto direct = wiring.fittingInput(output, input.node);
+        if (!direct || !alike(wiring, output, *direct)) return Bridge{output, type, input};
+    }
+    return {};
+}
+
+/// With the node that the bridge needs, which feeds nothing yet: its id is left in `id`.
+Graph bridged(const Graph& graph, std::string_view scope, const Bridge& bridge, std::string& id) {
+    Edited added = addNode(graph, scope, bridge.type->id, {});
+    if (added.nodes.empty()) return graph;
+    id = added.nodes[0];
+    const auto entry = fittingInput(added.graph, scope, bridge.output, id);
+    return entry ? connect(added.graph, scope, bridge.output, *entry) : added.graph;
+}
+
 /// All inputs that this output feeds.
 std::vector<Plug> fedBy(const Graph& graph, std::string_view scope, const Plug& output) {
     std::vector<Plug> fed;
@@ -104,17 +146,25 @@ Graph joinBehind(const Graph& graph, std::string_view scope, const Join& join, c
     const std::vector<Plug> fed = fedBy(graph, scope, join.output);
     Graph made = connect(graph, scope, join.output, join.input);
     NodeIds next;
-    for (const Plug& input : fed)
-        if (const auto exit = fittingOutput(made, scope, id, input)) {
-            if (!alike(Wiring(made, scope), *exit, input)) continue;
+    std::string last = id;  // which leads on: the node, or what makes of it what is wanted
+    for (const Plug& input : fed) {
+        const auto exit = fittingOutput(made, scope, id, input);
+        if (exit && alike(Wiring(made, scope), *exit, input)) {
             made = connect(made, scope, *exit, input);
             next.push_back(input.node);
+        } else if (const auto bridge = bridgeTo(Wiring(made, scope), id, input)) {
+            if (last == id) made = bridged(made, scope, *bridge, last);
+            made = connect(made, scope, {last, bridge->type->outputs[0].name}, input);
+            next.push_back(input.node);
         }
+    }
     const Stand from = standOf(made, scope, join.output.node);
     const Position at{from.right() + kJoinedBeside, from.at[1]};
     if (next.empty()) return stood(made, scope, id, roomBelow(made, scope, id, at));
     made = stood(made, scope, id, at);
-    return moveOn(made, scope, next, id, standOf(made, scope, id).right() + kJoinedBeside);
+    if (last != id)
+        made = stood(made, scope, last, {standOf(made, scope, id).right() + kJoinedBeside, at[1]});
+    return moveOn(made, scope, next, id, standOf(made, scope, last).right() + kJoinedBeside);
 }
 
 /// Before the input, in its wire or in place of that.
@@ -136,6 +186,33 @@ Graph joinBefore(const Graph& graph, std::string_view scope, const Join& join, c
                  roomBelow(made, scope, id, {target.at[0] - kJoinedBeside - own.size[0], target.at[1]}));
 }
 
+/// Before the node, in the wire of the first input that the new one can reach by a bridge, or in place of
+/// that; as it was if there is none.
+std::optional<Graph> joinByBridge(const Graph& graph, std::string_view scope, const std::string& id,
+                                  std::string_view to) {
+    const Wiring wiring(graph, scope);
+    const auto index = wiring.find(to);
+    if (!index || !hasKnownSockets(wiring.scope(), *index)) return {};
+    for (const std::string& name : inputNames(wiring.scope(), *index)) {
+        const auto bridge = bridgeTo(wiring, id, {std::string(to), name});
+        if (!bridge) continue;
+        const Link* source = wiring.source(bridge->input);
+        if (const auto join = source ? joinOf(graph, scope, source->node, id) : std::nullopt)
+            return joinBehind(graph, scope, *join, id);
+        std::string between;
+        Graph made = bridged(graph, scope, *bridge, between);
+        made = connect(made, scope, {between, bridge->type->outputs[0].name}, bridge->input);
+        double right = standOf(made, scope, to).at[0];
+        const double top = standOf(made, scope, to).at[1];
+        for (const std::string& each : {between, id}) {
+            right -= kJoinedBeside + standOf(made, scope, each).size[0];
+            made = stood(made, scope, each, roomBelow(made, scope, each, {right, top}));
+        }
+        return made;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string joinedByItself(const Graph& graph, std::string_view scope) {
@@ -153,6 +230,8 @@ Edited addJoined(const Graph& graph, std::string_view scope, std::string_view ty
         added.graph = joinBehind(added.graph, scope, *join, id);
     else if (const auto feed = joinOf(added.graph, scope, id, to))
         added.graph = joinBefore(added.graph, scope, *feed, id);
+    else if (auto made = joinByBridge(added.graph, scope, id, to))
+        added.graph = std::move(*made);
     else {
         const Stand from = standOf(added.graph, scope, to);
         added.graph = stood(added.graph, scope, id,

@@ -13,7 +13,8 @@ std::string joinedByItself(const Graph& graph, std::string_view scope);
 /// What takes what `to` gives goes behind it, into every wire that leads on from there. What does not, but
 /// gives what `to` takes, goes before it: into the wire of the input that fits best, if it fits there, else
 /// in its place. Wires alike in type alone count: a surface is not taken for a number. What lies to the right
-/// moves on until there is room. Without anything that fits the node is added unwired, as addNode() does.
+/// moves on until there is room. Where only another node stands between, as one that makes a solid of
+/// particles, that comes along. Without anything that fits the node is added unwired, as addNode() does.
 Edited addJoined(const Graph& graph, std::string_view scope, std::string_view type, std::string_view to,
                  std::string_view group = {});
 

@@ -70,10 +70,11 @@ bool showEntries(FileBrowser& browser, float height) {
     std::string go;
     ImGui::BeginChild("##entries", {0, height}, true);
     if (browser.folder != "/" && ImGui::Selectable("..")) go = "..";
+    const FolderEntry* begun = browser.kind == FileBrowser::Kind::open ? onlyBegunSo(browser) : nullptr;
     for (const FolderEntry& entry : browser.entries) {
         wantGlyphs(entry.name);
         const std::string label = (entry.folder ? "▸ " : "   ") + entry.name;
-        if (ImGui::Selectable(label.c_str(), entry.name == browser.name,
+        if (ImGui::Selectable(label.c_str(), entry.name == browser.name || &entry == begun,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
             const bool byKey = !ImGui::IsMouseReleased(0) && !ImGui::IsMouseClicked(0);
             if (entry.folder && (byKey || ImGui::IsMouseDoubleClicked(0))) go = entry.name;
@@ -110,6 +111,17 @@ std::vector<FolderEntry> listFolder(const std::string& folder, std::span<const s
         return std::pair(lowered(a.name), a.name) < std::pair(lowered(b.name), b.name);
     });
     return entries;
+}
+
+const FolderEntry* onlyBegunSo(const FileBrowser& browser) {
+    const std::string typed = lowered(browser.name);
+    const FolderEntry* found = nullptr;
+    for (const FolderEntry& entry : browser.entries)
+        if (!typed.empty() && lowered(entry.name).starts_with(typed)) {
+            if (found) return nullptr;
+            found = &entry;
+        }
+    return found;
 }
 
 void open(FileBrowser& browser, FileBrowser::Kind kind, const std::string& path) {
@@ -154,6 +166,9 @@ std::optional<std::string> choose(FileBrowser& browser) {
         for (const std::string& ending : browser.endings)
             if (!exists(path) && exists(path + ending)) path += ending;
         if (exists(path)) return path;
+        const FolderEntry* begun = onlyBegunSo(browser);
+        if (begun && begun->folder) return enter(browser, begun->name), std::nullopt;
+        if (begun) return plain(fs::path(browser.folder) / begun->name);
         browser.problem = "there is no such file here";
         return std::nullopt;
     }

@@ -41,9 +41,14 @@ void open(FileBrowser& browser, FileBrowser::Kind kind, const std::string& path)
 /// Goes into the folder: a name in the present one, "..", or an absolute path.
 void enter(FileBrowser& browser, const std::string& folder);
 
+/// The only entry whose name begins with what was typed, whatever the case; nullptr if there are none or
+/// several.
+const FolderEntry* onlyBegunSo(const FileBrowser& browser);
+
 /// What pressing the button means: enters a folder, asks about a file that exists, says what is wrong, or
-/// returns the absolute path chosen. A name to save under gets the ending if it has none; a folder is the one
-/// shown where none is named, and need not be there.
+/// returns the absolute path chosen. To open one, the beginning of a name is enough if no other begins so. A
+/// name to save under gets the ending if it has none; a folder is the one shown where none is named, and need
+/// not be there.
 std::optional<std::string> choose(FileBrowser& browser);
 
 /// One frame of it, if it is open. The path, once, when it was chosen; the window is closed then.

@@ -62,14 +62,40 @@ std::string partName(const std::string& words) {
     return name.empty() ? "part" : name;
 }
 
-Done keepPart(const Editor& editor, const std::string& name) {
+std::string proposedName(const Graph& graph, std::string_view scope, std::string_view active,
+                         std::span<const LibraryPart> parts) {
+    const Node* node = findNode(nodesOf(graph, scope), active);
+    std::string words;
+    if (node) {
+        const bool chosen = node->id.substr(0, node->id.find_last_not_of("_0123456789") + 1) != node->type;
+        words = !node->label.empty()   ? node->label
+                : !node->group.empty() ? readable(node->group)
+                : chosen               ? readable(node->id)
+                                       : std::string();
+    }
+    if (words.empty() && !graph.path.empty()) {
+        std::string name = fs::path(graph.path).filename().string();
+        if (lowered(name).ends_with(kGraphEnding)) name.resize(name.size() - kGraphEnding.size());
+        words = readable(name);
+    }
+    if (words.empty()) words = "Part";
+    const auto taken = [&](const std::string& name) {
+        return std::ranges::any_of(parts, [&](const LibraryPart& part) {
+            return part.folder.empty() && partName(part.label) == partName(name);
+        });
+    };
+    std::string free = words;
+    for (int i = 2; taken(free); ++i) free = words + " " + std::to_string(i);
+    return free;
+}
+
+Done keepPart(const Editor& editor, const NodeIds& nodes, const std::string& name) {
     const std::string folder = libraryFolder(editor.files.preferences);
     if (folder.empty()) return Error{.message = "there is no folder for a library: set HOME"};
     std::error_code error;
     fs::create_directories(folder, error);
     const Graph& graph = editor.document.graph();
-    const NodeIds selected(editor.canvas.selection.begin(), editor.canvas.selection.end());
-    Result<Graph> part = parseGraph(copyNodes(graph, editor.canvas.scope, selected), "", nullptr);
+    Result<Graph> part = parseGraph(copyNodes(graph, editor.canvas.scope, nodes), "", nullptr);
     if (!part) return part.error();
     std::vector<std::string> told;
     const std::string own = graphFolder(graph);

@@ -6,6 +6,7 @@
 // (assets.h).
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,15 @@ std::vector<LibraryPart> listParts(const std::string& folder, std::string& probl
 /// A name for a part's file: "Hex bolt!" as "hex_bolt"; "part" of what has no letters.
 std::string partName(const std::string& words);
 
-/// The selected nodes as a part of this name, in place of one that is there. Errors: it cannot be written.
-Done keepPart(const Editor& editor, const std::string& name);
+/// What a part of these nodes may be called, in words: as the node `active` is labelled, or the group that it
+/// shows, or as its id was chosen, else as the document's file; with a number behind it if a part has that
+/// name.
+std::string proposedName(const Graph& graph, std::string_view scope, std::string_view active,
+                         std::span<const LibraryPart> parts);
+
+/// These nodes of the scope that is shown as a part of this name, in place of one that is there. Errors: it
+/// cannot be written.
+Done keepPart(const Editor& editor, const NodeIds& nodes, const std::string& name);
 
 /// The part's nodes in the document, as one step of undo, their middle at `at`. `linked`: a part that shows a
 /// group stays a copy of its file (linked_groups.h). What it makes is wired to the node `to`, if there is one

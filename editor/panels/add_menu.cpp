@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "editor/canvas/keyboard.h"
+#include "editor/commands.h"
 #include "editor/document/joining.h"
 #include "editor/document/library.h"
 #include "editor/editor.h"
@@ -138,6 +139,9 @@ void add(Editor& editor, const Offer& offer, bool wired) {
     ImGui::CloseCurrentPopup();
 }
 
+/// What is typed to search for has no tabs: that key takes what is chosen.
+int noTabs(ImGuiInputTextCallbackData* data) { return data->EventChar == '\t' ? 1 : 0; }
+
 /// A star at the line's end: filled for a favourite, which a click on it makes or ends. Whether the mouse is
 /// on it.
 bool showStar(Editor& editor, const NodeType& type, bool seen) {
@@ -190,8 +194,11 @@ void showAddMenu(Editor& editor) {
     if (menu.opened) ImGui::SetKeyboardFocusHere();
     menu.opened = false;
     ImGui::SetNextItemWidth(-1);
-    const char* hint = wiredTo(editor).empty() ? "Search" : "Search; with Shift+Enter it comes wired";
-    if (ImGui::InputTextWithHint("##search", hint, menu.search, sizeof menu.search)) menu.chosen = 0;
+    const char* hint = wiredTo(editor).empty() ? "Search" : "Shift+Enter: wired; Tab: and the next one";
+    if (ImGui::InputTextWithHint("##search", hint, menu.search, sizeof menu.search,
+                                 ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackCharFilter,
+                                 noTabs))
+        menu.chosen = 0;
 
     const std::vector<Offer> offers = offersOf(editor);
     const int count = int(offers.size());
@@ -201,6 +208,9 @@ void showAddMenu(Editor& editor) {
     menu.chosen = count > 0 ? (menu.chosen % count + count) % count : 0;
     const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter));
+
+    // Wired, and the menu comes again for what is next.
+    const bool goesOn = menu.search[0] != 0 && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false);
 
     ImGui::BeginChild("##found");
     if (count == 0)
@@ -229,14 +239,15 @@ void showAddMenu(Editor& editor) {
         ImGui::PopID();
         if (clicked && onStar)
             turned = offer.type;
-        else if (clicked || (entered && i == menu.chosen))
+        else if (clicked || ((entered || goesOn) && i == menu.chosen))
             taken = &offer;
     }
     ImGui::EndChild();
     // At once, whatever has been typed.
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     if (turned) turnFavourite(editor, turned->id);
-    if (taken) add(editor, *taken, ImGui::GetIO().KeyShift);
+    if (taken) add(editor, *taken, goesOn || ImGui::GetIO().KeyShift);
+    if (taken && goesOn) editor.windows.chosen = &command("node.add");
     ImGui::EndPopup();
 }
 

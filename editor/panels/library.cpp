@@ -116,10 +116,22 @@ std::vector<std::size_t> foundParts(const LibraryPanel& panel) {
     return found;
 }
 
+/// Further nodes that the selected ones are fed by.
+std::size_t feedingCount(const Editor& editor, std::set<std::string>& all) {
+    const NodeIds selected(editor.canvas.selection.begin(), editor.canvas.selection.end());
+    all = upstream(nodesOf(editor.document.graph(), editor.canvas.scope), selected);
+    all.insert(selected.begin(), selected.end());
+    return all.size() - selected.size();
+}
+
 void keepSelected(Editor& editor) {
     LibraryPanel& panel = editor.library;
     const std::string name = partName(panel.name);
-    if (const Done kept = keepPart(editor, name); !kept) return say(editor, format(kept.error()));
+    std::set<std::string> all;
+    (void)feedingCount(editor, all);
+    const std::set<std::string>& chosen = panel.feeds ? all : editor.canvas.selection;
+    if (const Done kept = keepPart(editor, NodeIds(chosen.begin(), chosen.end()), name); !kept)
+        return say(editor, format(kept.error()));
     say(editor, "kept as " + name + " in the library");
     panel.name.clear();
     panel.looked = {};
@@ -133,8 +145,9 @@ void showKeeping(Editor& editor) {
     const bool narrow = ImGui::GetContentRegionAvail().x < 26.0f * em;
     ImGui::SetNextItemWidth(narrow ? -FLT_MIN : -9.8f * em);
     if (std::exchange(panel.names, false)) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint("##name", "name of the selection", &panel.name,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputTextWithHint("##name", "name of the selection", &panel.name,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (!narrow) ImGui::SameLine();
     ImGui::BeginDisabled(panel.name.empty());
     if (ImGui::Button("Keep", {3.6f * em, 0}) || (entered && !panel.name.empty())) keepSelected(editor);
@@ -150,6 +163,12 @@ void showKeeping(Editor& editor) {
         open(panel.browser, FileBrowser::Kind::folder, there ? panel.folder : "");
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Parts lie in %s", panel.folder.c_str());
+    std::set<std::string> all;
+    const std::size_t feeding = feedingCount(editor, all);
+    if (feeding == 0) return;
+    const std::string words =
+        "with " + std::to_string(feeding) + (feeding == 1 ? " node that feeds it" : " nodes that feed it");
+    ImGui::Checkbox((words + "###feeds").c_str(), &panel.feeds);
 }
 
 void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& asked) {
@@ -218,7 +237,10 @@ void lookAtLibrary(Editor& editor) {
 
 void keepInLibrary(Editor& editor) {
     showPanel(editor, "library");
+    lookAtLibrary(editor);
     editor.library.names = true;
+    editor.library.name = proposedName(editor.document.graph(), editor.canvas.scope, editor.canvas.active,
+                                       editor.library.parts);
 }
 
 void takeDraggedPart(Editor& editor) {

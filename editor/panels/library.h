@@ -24,6 +24,7 @@ struct LibraryPanel {
     std::string search = {};
     std::string name = {};  ///< typed for the part that is to be kept
     bool names = false;     ///< it is to be typed from the next frame on
+    bool feeds = true;      ///< what feeds the selected nodes is kept with them
     FileBrowser browser = {};
 
     std::string folder = {};  ///< that was read
@@ -49,7 +50,7 @@ struct LibraryPanel {
 
 /// Reads the folder again if that was not done for a while.
 void lookAtLibrary(Editor& editor);
-/// Shows the panel, where the name is typed under which the selected nodes are kept.
+/// Shows the panel, where the name is typed under which the selected nodes are kept; one is proposed.
 void keepInLibrary(Editor& editor);
 /// Takes a part that was dragged from the panel and let go over the canvas. After the canvas was shown.
 void takeDraggedPart(Editor& editor);

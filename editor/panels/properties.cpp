@@ -129,12 +129,14 @@ void showNumbers(Editor& editor, const char* id, std::span<const double> numbers
         if (at.byKey && hand.state == NumberHand::State::none)
             hand.type(editor.document, name, key, i, number);
         const NumberLook look{at.area, ImGui::GetFont(), ImGui::GetFontSize(), at.hovered, animated};
-        const NumberDone done = showNumber(hand, editor.document, key, i, number, range, name, look,
-                                           [set, all, i](Hand by, double to) {
-                                               std::vector<double> now = all;
-                                               now[std::size_t(i)] = to;
-                                               set(by, now);
-                                           });
+        const NumberDone done = showNumber(
+            hand, editor.document, key, i, number, range, name, look,
+            [set, all, i](Hand by, double to) {
+                std::vector<double> now = all;
+                now[std::size_t(i)] = to;
+                set(by, now);
+            },
+            [set, count](Hand by, double to) { set(by, std::vector<double>(std::size_t(count), to)); });
         if (hand.is(key, i)) hand.moves = input;
         if (const int next = i + done.tab; done.tab != 0 && next >= 0 && next < count)
             hand.type(editor.document, name, key, next, all[std::size_t(next)]);

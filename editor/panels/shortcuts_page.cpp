@@ -23,6 +23,16 @@ constexpr std::pair<const char*, const char*> kMouse[] = {
     {"Ctrl + click on a number", "gives back its default"},
 };
 
+// As controls/number.h and panels/add_menu.cpp have it.
+constexpr std::pair<const char*, const char*> kTyping[] = {
+    {"A digit", "begins the selected node's first number"},
+    {"Tab, Shift+Tab", "go to the next number, the one before"},
+    {"Ctrl+Enter", "takes it for all numbers of a vector"},
+    {"Shift+Enter", "takes it, and asks for the next node"},
+    {"Shift+Enter in the menu", "adds the node wired to the selected one"},
+    {"Tab in the menu", "the same, and the menu comes again"},
+};
+
 // As code/view_keys.cpp and code/code_editor.h have it.
 constexpr std::pair<const char*, const char*> kCode[] = {
     {"Ctrl+Enter", "applies the code"},
@@ -102,6 +112,8 @@ void showPart(const Editor& editor, int part) {
         showMenu(editor, "Node", "Node");
         heading("Mouse on the canvas");
         for (const auto& [mouse, what] : kMouse) row(mouse, what);
+        heading("Numbers and nodes as they are typed");
+        for (const auto& [keys, what] : kTyping) row(keys, what);
         showMenu(editor, "Timeline", "On the timeline");
         heading("Mouse on the timeline");
         for (const auto& [mouse, what] : kMouseInTime) row(mouse, what);

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
@@ -37,12 +38,6 @@ struct Person : Program {
     /// A place of the canvas, counted in nodes.
     ImVec2 spot(float column, float row) const { return view.toScreen({230 * column, 180 * row}); }
 
-    /// From the menu, wired to what is selected.
-    void addWired(const std::string& search) {
-        keys("Shift+A");
-        type(search);
-        keys("Shift+Enter");
-    }
     /// From the menu, to this place.
     void addAt(const std::string& search, ImVec2 place) {
         moveTo(place);
@@ -50,8 +45,28 @@ struct Person : Program {
         type(search + "\n");
         save();
     }
-    /// The values of the selected node, from its first on.
-    void values(const std::string& typed) {
+    /// The menu is open: what is found comes wired to what is selected; all but the last with Tab, which
+    /// opens it anew.
+    void chooseWired(const std::vector<std::string>& searches) {
+        for (const std::string& search : searches) {
+            type(search);
+            keys(&search == &searches.back() ? "Shift+Enter" : "Tab");
+        }
+    }
+    void addWired(const std::vector<std::string>& searches) {
+        keys("Shift+A");
+        chooseWired(searches);
+    }
+    /// The first values of the selected node, which its first digit begins.
+    void values(const std::string& typed) { type(typed + "\n"); }
+    /// The same, and the menu for what is next.
+    void valuesThen(const std::string& typed, const std::vector<std::string>& searches) {
+        type(typed);
+        keys("Shift+Enter");
+        chooseWired(searches);
+    }
+    /// The values as they were begun formerly.
+    void formerValues(const std::string& typed) {
         keys("Enter");
         type(typed + "\n");
     }

@@ -26,21 +26,15 @@ TEST(EditorTasks, AMug) {
         "A mug", kNew,
         [](Person& person) {
             person.remove("box");
-            person.addWired("cyl");
-            person.values("0.4\t0.5");
-            person.addWired("sub");
-            person.addWired("cyl");
-            person.values("0.35\t0.5");
-            person.addWired("trans");
+            person.addWired({"cyl"});
+            person.valuesThen("0.4\t0.5", {"sub", "cyl"});
+            person.valuesThen("0.35\t0.5", {"trans"});
             person.values("0\t0.05");
             person.look();
             person.click(person.title("cylinder"));
-            person.addWired("uni");
-            person.addWired("tor");
-            person.values("0.25\t0.05");
-            person.addWired("rot");
-            person.values("90");
-            person.addWired("trans");
+            person.addWired({"uni", "tor"});
+            person.valuesThen("0.25\t0.05", {"rot"});
+            person.valuesThen("90", {"trans"});
             person.values("0.45");
             person.keys("Ctrl+S");
         },
@@ -48,26 +42,26 @@ TEST(EditorTasks, AMug) {
             person.makeRoom();
             person.remove("box");
             person.addAt("cyl", person.spot(-1.6f, -2.2f));
-            person.values("0.4\t0.5");
+            person.formerValues("0.4\t0.5");
             person.save();
             person.lead("cylinder", "uni", person.spot(-0.6f, -2.2f));
             person.lead("union", "sub", person.spot(0.4f, -2.2f));
             person.wire("subtract", "output", "surface");
             person.addAt("tor", person.spot(-1.6f, -1.0f));
-            person.values("0.25\t0.05");
+            person.formerValues("0.25\t0.05");
             person.save();
             person.lead("torus", "rot", person.spot(-0.6f, -1.0f));
-            person.values("90");
+            person.formerValues("90");
             person.save();
             person.lead("rotate", "trans", person.spot(0.3f, -1.1f));
-            person.values("0.45");
+            person.formerValues("0.45");
             person.save();
             person.wire("translate", "union", "b");
             person.addAt("cyl", person.spot(-1.6f, 0.2f));
-            person.values("0.35\t0.5");
+            person.formerValues("0.35\t0.5");
             person.save();
             person.lead("cylinder_2", "trans", person.spot(-0.6f, 0.4f));
-            person.values("0\t0.05");
+            person.formerValues("0\t0.05");
             person.save();
             person.wire("translate_2", "subtract", "b");
             person.keys("Ctrl+S");
@@ -80,7 +74,7 @@ TEST(EditorTasks, ASign) {
         "A sign", kNew,
         [](Person& person) {
             person.remove("box");
-            person.addWired("polygon");
+            person.addWired({"polygon"});
             person.clickOn("Draw …");
             const Area tools = person.waitFor("Mirror"), last = person.waitFor("5 points, 0 selected");
             // All of the outline is seen, in 80 % of the sheet's height: its tip, and seven tenths below.
@@ -90,7 +84,7 @@ TEST(EditorTasks, ASign) {
             person.drag({tip, {tip.x, tip.y + 0.4f * metre}, {tip.x, tip.y + 0.7f * metre}});
             person.keys("Escape");
             person.waitUntilGone("Mirror");
-            person.addWired("ext");
+            person.addWired({"ext"});
             person.values("0.05");
             person.keys("Ctrl+S");
         },
@@ -103,7 +97,7 @@ TEST(EditorTasks, ASign) {
             person.type("-0.1\n");
             person.save();
             person.lead("polygon", "ext", person.spot(0, -0.5f));
-            person.values("0.05");
+            person.formerValues("0.05");
             person.save();
             person.wire("extrude", "output", "surface");
             person.keys("Ctrl+S");
@@ -125,41 +119,38 @@ TEST(EditorTasks, AGear) {
         "A gear", kNew,
         [](Person& person) {
             person.click(person.title("box"));
-            person.values("0.1\t0.1\t0.1");
-            person.addWired("trans");
-            person.values("0.5");
-            person.addWired("polar");
-            person.values("12");
-            person.addWired("uni");
-            person.addWired("cyl");
+            person.type("0.1");
+            person.keys("Ctrl+Enter");
+            person.addWired({"trans"});
+            person.valuesThen("0.5", {"polar"});
+            person.valuesThen("12", {"uni", "cyl"});
             person.values("0.5\t0.1");
             person.look();
             person.click(person.title("union"));
-            person.addWired("sub");
-            person.addWired("inf");
+            person.addWired({"sub", "inf"});
             person.values("0.1");
             person.keys("Ctrl+S");
         },
         [](Person& person) {
             person.makeRoom();
             person.click(person.title("box"));
-            person.values("0.1\t0.1\t0.1");
+            person.formerValues("0.1\t0.1\t0.1");
             person.save();
             person.lead("box", "trans", person.spot(-1.4f, 1));
-            person.values("0.5");
+            person.formerValues("0.5");
             person.save();
             person.lead("translate", "polar", person.spot(-0.4f, 1.2f));
-            person.values("12");
+            person.formerValues("12");
             person.save();
             person.lead("polar_repeat", "uni", person.spot(0.5f, 1.4f));
             person.lead("union", "sub", person.spot(1.5f, 1.4f));
             person.wire("subtract", "output", "surface");
             person.addAt("cyl", person.spot(-1.4f, -1.6f));
-            person.values("0.5\t0.1");
+            person.formerValues("0.5\t0.1");
             person.save();
             person.wire("cylinder", "union", "b");
             person.addAt("inf", person.spot(0, -1.6f));
-            person.values("0.1");
+            person.formerValues("0.1");
             person.save();
             person.wire("infinite_cylinder", "subtract", "b");
             person.keys("Ctrl+S");
@@ -185,26 +176,23 @@ TEST(EditorTasks, ACity) {
         "A city", kNew,
         [](Person& person) {
             person.click(person.title("box"));
-            person.values("0.3\t1\t0.3");
-            person.addWired("scat");
-            person.values("1\t0\t1");
-            person.addWired("inter");
-            person.addWired("box");
+            person.valuesThen("0.3\t1\t0.3", {"scat"});
+            person.valuesThen("1\t0\t1", {"inter", "box"});
             person.values("4\t2\t4");
             person.keys("Ctrl+S");
         },
         [](Person& person) {
             person.makeRoom();
             person.click(person.title("box"));
-            person.values("0.3\t1\t0.3");
+            person.formerValues("0.3\t1\t0.3");
             person.save();
             person.lead("box", "scat", person.spot(-1, 1));
-            person.values("1\t0\t1");
+            person.formerValues("1\t0\t1");
             person.save();
             person.lead("scatter", "inter", person.spot(0.4f, 1.4f));
             person.wire("intersect", "output", "surface");
             person.addAt("box", person.spot(-1, -1.6f));
-            person.values("4\t2\t4");
+            person.formerValues("4\t2\t4");
             person.save();
             person.wire("box_2", "intersect", "b");
             person.keys("Ctrl+S");

@@ -202,6 +202,19 @@ TEST(FileBrowser, OpensAndSaves) {
     EXPECT_EQ(browser.folder, place + "/inner");
     enter(browser, "..");
     EXPECT_EQ(browser.folder, place);
+    // The beginning of a name is enough, of a file or a folder, where no other begins so.
+    writeText(folder.path("Tower.field.json"), "");
+    writeText(folder.path("tree.field.json"), "");
+    enter(browser, place);
+    browser.name = "to";
+    EXPECT_EQ(choose(browser), folder.path("Tower.field.json"));
+    browser.name = "t";
+    EXPECT_EQ(choose(browser), std::nullopt);
+    EXPECT_EQ(onlyBegunSo(browser), nullptr);
+    browser.name = "in";
+    EXPECT_EQ(choose(browser), std::nullopt);
+    EXPECT_EQ(browser.folder, place + "/inner");
+    enter(browser, "..");
 
     open(browser, FileBrowser::Kind::save, place);
     EXPECT_EQ(choose(browser), std::nullopt);  // no name yet

@@ -89,6 +89,32 @@ TEST(Joining, WhatDoesNotFitIsAddedAlone) {
     EXPECT_EQ(addJoined(graph, "", "output", "box").graph, graph);
 }
 
+TEST(Joining, WhatStandsBetweenComesAlong) {
+    // A fluid gives particles, and the output shows a surface.
+    const Graph graph = graphOf(kBox + kOut);
+    for (const char* to : {"box", "out"}) {
+        const Edited made = addJoined(graph, "", "sph_fluid", to);
+        EXPECT_EQ(made.nodes, NodeIds{"sph_fluid"});
+        EXPECT_EQ(made.graph.nodes.size(), 4u);
+        EXPECT_EQ(sourceOf(made.graph, "sph_fluid", "source"), "box");
+        EXPECT_EQ(sourceOf(made.graph, "particles_to_field", "particles"), "sph_fluid");
+        EXPECT_EQ(sourceOf(made.graph, "out", "surface"), "particles_to_field");
+        EXPECT_EQ(test::errorsOf(made.graph), "");
+        expectApart(made.graph);
+    }
+    // What begins by itself takes the place of what was shown.
+    const Edited spray = addJoined(graph, "", "emitter", "out");
+    EXPECT_EQ(sourceOf(spray.graph, "particles_to_field", "particles"), "emitter");
+    EXPECT_EQ(sourceOf(spray.graph, "out", "surface"), "particles_to_field");
+    EXPECT_EQ(spray.graph.nodes.size(), 4u);
+    expectApart(spray.graph);
+    // Behind a fluid there is nothing to stand between, and an output takes a mesh as it is.
+    const Graph fluid = addJoined(graph, "", "sph_fluid", "box").graph;
+    EXPECT_EQ(addJoined(fluid, "", "foam", "sph_fluid").graph.nodes.size(), 5u);
+    EXPECT_EQ(addJoined(graph, "", "mesh_file", "out").graph.nodes.size(), 3u);
+    EXPECT_EQ(addJoined(graph, "", "polygonize", "box").graph.nodes.size(), 3u);
+}
+
 TEST(Joining, ShiftEnterInTheMenuIsOneStep) {
     test::DrivenEditor editor(graphOf(kBox + kOut), 900, 600);
     NEEDS_EDITOR(editor);

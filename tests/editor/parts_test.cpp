@@ -48,6 +48,25 @@ TEST(Parts, NamesOfPartsAreNamesOfFiles) {
     EXPECT_EQ(partName("Schraube groß"), "schraube_groß");
 }
 
+TEST(Parts, ANameIsProposed) {
+    Graph graph = test::graphOf(R"({"id": "cup", "type": "subtract"}, {"id": "box_2", "type": "box"},
+        {"id": "a", "type": "sphere", "label": "Marble"}, {"id": "g", "type": "group", "group": "left_wheel"})",
+                                R"(, "groups": [{"id": "left_wheel", "nodes": []}])");
+    EXPECT_EQ(proposedName(graph, "", "cup", {}), "Cup");
+    EXPECT_EQ(proposedName(graph, "", "a", {}), "Marble");
+    EXPECT_EQ(proposedName(graph, "", "g", {}), "Left wheel");
+    EXPECT_EQ(proposedName(graph, "", "box_2", {}), "Part");
+    graph.path = "/home/me/Tea_pot.field.json";
+    EXPECT_EQ(proposedName(graph, "", "box_2", {}), "Tea pot");
+    EXPECT_EQ(proposedName(graph, "", "gone", {}), "Tea pot");
+    // None that is taken.
+    const LibraryPart kept[] = {{"/l/cup.field.json", "", "Cup"},
+                                {"/l/cup_2.field.json", "", "Cup 2"},
+                                {"/l/x/marble.field.json", "x", "Marble"}};
+    EXPECT_EQ(proposedName(graph, "", "cup", kept), "Cup 3");
+    EXPECT_EQ(proposedName(graph, "", "a", kept), "Marble");
+}
+
 TEST(Parts, APictureIsOfWhatTheOutputShows) {
     using test::graphOf;
     EXPECT_EQ(shownNode(graphOf(R"({"id": "a", "type": "box"}, {"id": "b", "type": "sphere", "at": [200, 0]},

@@ -184,6 +184,19 @@ const Cases& graphCases() {
              p.keys(keys);
              p.waitUntilGone("Document");
          }},
+        {"node.keep",
+         [](Program& p, const std::string& keys) {
+             // With what feeds it, under the name that is proposed.
+             pick(p, {"cut"});
+             p.keys(keys);
+             p.waitFor("with 2 nodes that feed it");
+             p.type("\n");
+             p.waitFor("kept as cut in the library");
+             const std::string kept = fw::test::readText(p.path("data/fieldwright/library/cut.field.json"));
+             for (const char* type : {"\"box\"", "\"sphere\"", "\"subtract\""})
+                 EXPECT_NE(kept.find(type), std::string::npos) << kept;
+             EXPECT_EQ(kept.find("\"output\""), std::string::npos) << kept;
+         }},
         {"node.frame",
          [](Program& p, const std::string& keys) {
              pick(p, {"box", "ball"});
