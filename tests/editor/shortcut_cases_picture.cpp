@@ -201,7 +201,11 @@ const Cases& pictureCases() {
              lookFirst(p, "1", "Front · perspective");
              p.waitFor("Normals");
              p.keys(keys);
-             p.waitFor("Colours");
+             p.clickOn("Colours");
+             p.clickOn("Normals");  // as all others look at it
+             p.waitUntilGone("Wireframe");
+             p.waitFor("Normals");
+             lookFirst(p, "0", "Whole solid");
          }},
         {"picture.move", takeUp("R", "Scale", "Move")},
         {"picture.rotate", takeUp("R", "Scale", "Rotate")},

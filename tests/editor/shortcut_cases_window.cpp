@@ -52,28 +52,38 @@ void toPanel(Program& program, const std::string& keys) {
     expectSelected(program, {"box"});
 }
 
-/// From a new document back to the one that there was.
+void waitForNew(Program& program) {
+    EXPECT_TRUE(eventually([&] { return program.title().starts_with("untitled"); }));
+}
+
+/// Closes the document in front, behind which this one is.
+void closeBefore(Program& program, const std::string& title) {
+    program.keys("Ctrl+W");
+    program.waitForTitle(title);
+}
+
+/// From a new document back to the one that there was; the new one is closed then.
 void fromNewDocument(Program& program, const std::string& keys) {
     const std::string title = program.title();
     program.keys("Ctrl+N");
-    EXPECT_TRUE(eventually([&] { return program.title().starts_with("untitled"); }));
+    waitForNew(program);
     program.keys(keys);
-    EXPECT_TRUE(eventually([&] { return program.title() == title; }));
+    program.waitForTitle(title);
+    program.keys("Alt+PageDown");
+    waitForNew(program);
+    closeBefore(program, title);
 }
 
 const Cases& windowCases() {
     static const Cases all = {
         {"file.new",
          [](Program& p, const std::string& keys) {
+             const std::string title = p.title();
              p.keys(keys);
-             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+             waitForNew(p);
+             closeBefore(p, title);
          }},
-        {"file.next_document",
-         [](Program& p, const std::string& keys) {
-             fromNewDocument(p, keys);
-             p.keys("Ctrl+W");
-             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
-         }},
+        {"file.next_document", fromNewDocument},
         {"file.last_document", fromNewDocument},
         {"file.close",
          [](Program& p, const std::string& keys) {
@@ -86,15 +96,18 @@ const Cases& windowCases() {
              p.keys("Ctrl+Z");
              p.save();
              p.keys(keys);
-             EXPECT_TRUE(eventually([&] { return p.title().starts_with("untitled"); }));
+             waitForNew(p);
+             p.open(p.file());
          }},
         {"file.open",
          [](Program& p, const std::string& keys) {
+             const std::string title = p.title();
              writeText(p.path("other.field.json"), R"({"fieldwright": 1, "nodes": []})");
              p.keys(keys);
              p.keys("Ctrl+A");
              p.type("other.field.json\n");
              p.waitForTitle("other.field.json - Fieldwright");
+             closeBefore(p, title);
          }},
         {"file.save",
          [](Program& p, const std::string& keys) {
@@ -106,22 +119,30 @@ const Cases& windowCases() {
          }},
         {"file.save_as",
          [](Program& p, const std::string& keys) {
-             const std::string before = p.save();
+             const std::string title = p.title(), before = p.save();
              p.keys(keys);
              p.keys("Ctrl+A");
              p.type("copy\n");
              p.waitForTitle("copy.field.json - Fieldwright");
              EXPECT_EQ(readText(p.path("copy.field.json")), before);
+             p.open(p.file());
+             p.keys("Alt+PageUp");
+             p.waitForTitle("copy.field.json - Fieldwright");
+             closeBefore(p, title);
          }},
         {"file.export",
          [](Program& p, const std::string& keys) {
              p.keys(keys);
              p.waitFor("Close");
+             p.keys("Escape");
+             p.waitUntilGone("Close");
          }},
         {"file.render",
          [](Program& p, const std::string& keys) {
              p.keys(keys);
              p.waitFor("Samples");
+             p.keys("Escape");
+             p.waitUntilGone("Samples");
          }},
         {"view.frame",
          [](Program& p, const std::string& keys) {
@@ -215,6 +236,8 @@ const Cases& windowCases() {
              pick(p, {"ball"});
              p.keys(keys);
              p.waitFor("A ball centred at the origin");
+             p.keys("Escape");
+             p.waitUntilGone("A ball centred at the origin");
          }},
         {"help.find",
          [](Program& p, const std::string& keys) {
