@@ -38,7 +38,7 @@ Reading at(const Seen& seen, const Point& point, const std::string& node, const 
 }
 
 Tape tapeOf(const Graph& graph) {
-    const Result<Program> program = compile(graph, {});
+    const Result<fw::Program> program = compile(graph, {});
     EXPECT_TRUE(program);
     return makeTape(program->ir, program->distance(), {});
 }
@@ -82,7 +82,7 @@ TEST(Probe, ReadsEveryWireAtAPoint) {
     const Reading near = at(seen, {1.3, 0.1, 0.0}, "both");
     EXPECT_EQ(near.part, "b");
     EXPECT_NEAR(near.numbers[0], 0.2, 1e-12);
-    const Result<Program> program = compile(*seen.graph);
+    const Result<fw::Program> program = compile(*seen.graph);
     ASSERT_TRUE(program);
     for (const Point& p : {Point{0.3, 0.4, 1.2}, {1.3, 0.1, 0}, {-1, 0.7, 0.2}, {2, 0, 0}})
         EXPECT_NEAR(at(seen, p, "out").numbers.at(0), evaluate(program->ir, program->distance(), {}, p),
@@ -160,7 +160,7 @@ TEST(Probe, ReadsAtTheTimeShown) {
 }
 
 TEST(Probe, GradientsOfAllAreThoseOfEach) {
-    const Result<Program> program = compile(graphOf(kTwo));
+    const Result<fw::Program> program = compile(graphOf(kTwo));
     ASSERT_TRUE(program);
     const std::vector<IrId> roots(program->surface.begin(), program->surface.end());
     for (const Point& p : {Point{0.3, 0.4, 1.2}, {1.3, 0.1, 0.2}, {2.7, 0.7, 0.9}}) {
