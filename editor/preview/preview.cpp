@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -25,6 +27,10 @@ constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
 constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
 constexpr int kLeastHeldResolution = 48;
+/// Without kernels the first picture of a graph is of a mesh that tapes take so long for, seconds (of what
+/// secondsByTapes() fears, which is several times what it takes), and the next of the whole, once nothing was
+/// asked for so long, milliseconds.
+constexpr double kMostFirst = 0.4, kRest = 120.0;
 /// Fewer steps of particles than this are soon made: nobody is told of them.
 constexpr int kToldSteps = 20;
 
@@ -111,7 +117,9 @@ class Maker {
     /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
     bool work();
     /// Whether more will have to be done when kernels are compiled.
-    bool waits() { return player && playsOf == wish.document && (!compiled || player->compiling()); }
+    bool waits() {
+        return player && playsOf == wish.document && (coarse || !compiled || player->compiling());
+    }
 
   private:
     void load();
@@ -121,6 +129,7 @@ class Maker {
     Done aim(RenderOptions& options, const Sight& sight);
     void outdateAll();
     void adapt(double took);
+    void coarsen();
     void tell();
     void refuse(Error error);
 
@@ -140,8 +149,9 @@ class Maker {
     bool await = false;    ///< what changed is only what is held: the picture stays until kernels are there
     bool compiled = true;  ///< all kernels were there for the last picture
     bool good = false;     ///< the graph can be drawn
+    bool coarse = false;   ///< the mesh has few cells, that there be a picture soon
     std::optional<uint64_t> playsOf;  ///< the document that the player has a graph of
-    Clock::time_point since;          ///< when the wish was taken
+    Clock::time_point since, taken;   ///< what the picture came for; when the wish was taken
     double loading = 0;
 };
 
@@ -199,11 +209,14 @@ void Maker::load() {
         live.resize(std::max(kMostLive, wish.held.size()));
     result.revision = wish.revision;
     result.document = wish.document;
-    checked = check(*wish.graph);
+    std::future<std::vector<Error>> checking =
+        std::async(std::launch::async, [graph = wish.graph] { return check(*graph); });
     // What the output does not need may be broken.
     const Graph shown = showingNode(*wish.graph, wish.pinned);
     const Done played = play(shown);
     good = bool(played);
+    if (good && wish.held.empty()) coarsen();
+    checked = checking.get();
     if (!played) {
         if (!hasErrors(checked)) checked.push_back(played.error());
         result.current = false;
@@ -224,8 +237,17 @@ void Maker::outdateAll() {
     for (Sight& sight : sights) sight.outdate(since);
 }
 
+/// A large field that has no kernels yet is shown with few cells first.
+void Maker::coarsen() {
+    player->coarsen(0);
+    const double fear =
+        player->meshesOnHost() ? secondsByTapes(player->program(), player->resolution()) : 0.0;
+    coarse = fear > 2.0 * kMostFirst;
+    if (coarse) player->coarsen(int(player->resolution() * std::sqrt(kMostFirst / fear)));
+}
+
 void Maker::take(PreviewWish newer) {
-    since = Clock::now();
+    since = taken = Clock::now();
     const bool first = !wish.graph;
     const bool sameGraph =
         !first && newer.graph == wish.graph && newer.revision == wish.revision && newer.pinned == wish.pinned;
@@ -234,14 +256,14 @@ void Maker::take(PreviewWish newer) {
         newer.seconds == wish.seconds && newer.view == wish.view && newer.slice == wish.slice;
     if (!first && newer.document != wish.document) sights.clear(), result = {};
     if (newer.held.empty()) heldResolution = 0;
-    const bool coarse = !wish.held.empty() && newer.held.empty();
+    const bool letGo = !wish.held.empty() && newer.held.empty();
     wish = std::move(newer);
     if (!wish.graph) return;
     const bool samePictures = !aimSights(sights, eyesOf(wish), since) && sameLook;
     if (!sameGraph || !sameHeld || !sameMesh || first) load();
     if (player) player->seek(wish.seconds);
     // Taking hold of an input changes the code and not the picture.
-    await = sameGraph && sameMesh && samePictures && !sameHeld && !coarse && result.current;
+    await = sameGraph && sameMesh && samePictures && !sameHeld && !letGo && result.current;
     // What was valid last can be looked at from elsewhere.
     const bool same = sameGraph && sameHeld && sameMesh && sameLook;
     if (good ? !same && !await : !sameLook) outdateAll();
@@ -364,6 +386,12 @@ bool Maker::work() {
     if (!compiling && !compiled) since = Clock::now(), outdateAll();  // from the draft to the full
     compiled = !compiling;
     if (await && !compiling) await = false, outdateAll();
+    const bool due = std::any_of(sights.begin(), sights.end(), [](const Sight& sight) { return sight.due; });
+    if (coarse && (!player->meshesOnHost() || (!due && millisecondsSince(taken) > kRest))) {
+        player->coarsen(0);
+        coarse = false, await = false;
+        since = Clock::now(), outdateAll();
+    }
     if (await) return false;
     const bool refines = !compiling && wish.held.empty();
     const auto next = nextSight(sights, wish.first, turned, refines);

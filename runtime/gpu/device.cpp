@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <future>
 #include <set>
 
 #include "graph/base/words.h"
 #include "runtime/gpu/precision.h"
+#include "runtime/system/behind.h"
 #include "runtime/system/cache_file.h"
 
 namespace fw {
@@ -345,7 +347,8 @@ Device& Device::operator=(Device&& other) noexcept {
 }
 
 Device::~Device() {
-    if (instance && record) record->sibling.reset();  // before the instance that it was made with
+    if (instance && record)  // before the instance that they were made with
+        record->sibling.reset(), record->siblingBehind.reset();
     if (handle) {
         vkDeviceWaitIdle(handle);
         if (pipelineCache) {
@@ -437,20 +440,24 @@ SystemError lostAgain(const DeviceLost& lost) {
         "other programs that use it, pick another device, or update its driver");
 }
 
-const Device& siblingOf(const Device& device) {
+const Device& siblingOf(const Device& device, bool behind) {
     std::lock_guard lock(device.record->mutex);
-    if (!device.record->sibling) {
-        auto sibling = std::make_unique<Device>();
-        static_cast<DeviceState&>(*sibling) = device;
-        sibling->instance = VK_NULL_HANDLE;  // the device's own
-        sibling->messenger = VK_NULL_HANDLE;
-        sibling->handle = VK_NULL_HANDLE;
-        sibling->record = std::make_shared<DeviceRecord>();
-        createLogicalDevice(*sibling, {});
-        createPools(*sibling);
-        device.record->sibling = std::move(sibling);
-    }
-    return *device.record->sibling;
+    std::unique_ptr<Device>& sibling = behind ? device.record->siblingBehind : device.record->sibling;
+    if (sibling) return *sibling;
+    auto made = std::make_unique<Device>();
+    static_cast<DeviceState&>(*made) = device;
+    made->instance = VK_NULL_HANDLE;  // the device's own
+    made->messenger = VK_NULL_HANDLE;
+    made->handle = VK_NULL_HANDLE;
+    made->record = std::make_shared<DeviceRecord>();
+    const auto open = [&] { createLogicalDevice(*made, {}); };
+    if (behind)  // its threads come from one that lets others go before it
+        std::async(std::launch::async, [&] { workBehind(), open(); }).get();
+    else
+        open();
+    createPools(*made);
+    sibling = std::move(made);
+    return *sibling;
 }
 
 void waitIdle(const Device& device) { check(vkDeviceWaitIdle(device.handle), "waiting for the device"); }

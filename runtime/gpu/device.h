@@ -67,14 +67,14 @@ struct SentCommands {
 
 /// What the validation layer said, the bytes of device memory that are and were in use, the number of
 /// pipelines that were built, of recordings that were submitted and of those that were waited for, the
-/// descriptor pools that no recording uses, what runs, and the sibling.
+/// descriptor pools that no recording uses, what runs, and the siblings.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
     std::vector<VkDescriptorPool> freePools;
     std::vector<SentCommands> sent;
     std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0, submissions = 0, waits = 0;
-    std::unique_ptr<Device> sibling;
+    std::unique_ptr<Device> sibling, siblingBehind;
 };
 
 /// What its functions err by beyond what intervals allow for anyway: precision.h.
@@ -179,8 +179,9 @@ class OpeningDevice {
 
 /// Another logical device on the same physical one, opened at the first call. A software device translates
 /// kernels on the one thread of its queue; the sibling's queue has a thread of its own, and what it
-/// translated is in the driver's disk cache.
-const Device& siblingOf(const Device& device);
+/// translated is in the driver's disk cache. `behind`: one whose thread lets others go before it
+/// (runtime/system/behind.h).
+const Device& siblingOf(const Device& device, bool behind = false);
 
 /// Waits for the device to be idle.
 void waitIdle(const Device& device);

@@ -199,7 +199,7 @@ class FirstRuns {
     /// One at a time may use the sibling; who must not wait does without.
     void useSibling() {
         triedSibling = true;
-        const Device& other = siblingOf(device);
+        const Device& other = siblingOf(device, behind);
         siblingUse = std::unique_lock(other.record->mutex, std::defer_lock);
         if (behind)
             siblingUse.lock();

@@ -289,7 +289,16 @@ int Player::askedResolution() const {
     return options.resolution > 0 ? options.resolution : now.program.resolution;
 }
 
-int Player::resolution() const { return std::max(askedResolution() >> halvings, 1); }
+int Player::resolution() const {
+    const int cells = std::max(askedResolution() >> halvings, 1);
+    return mostCells > 0 ? std::min(cells, mostCells) : cells;
+}
+
+void Player::coarsen(int cells) {
+    const int before = resolution();
+    mostCells = cells;
+    if (resolution() != before) meshed.reset();
+}
 
 std::optional<Error> Player::coarser() const {
     if (halvings == 0) return std::nullopt;

@@ -113,6 +113,10 @@ class Player {
     Box region() const { return now.region.value_or(Box{}); }
     bool regionFound() const { return now.regionFound; }
     int resolution() const;
+    /// The next meshes have at most so many cells along it, in the same region; 0: as many as were asked for.
+    void coarsen(int cells);
+    /// Whether the next mesh will be made on the host.
+    bool meshesOnHost() { return session.meshesOnHost(); }
     /// What to say of a mesh that has fewer cells than it should, since the device has no room for those:
     /// half of them, or a quarter.
     std::optional<Error> coarser() const;
@@ -215,6 +219,7 @@ class Player {
     std::map<std::string, std::vector<double>, std::less<>> chosen;  ///< by name, what set() was given
     double seconds = 0.0;
     bool lastCapped = false;
+    int mostCells = 0;                    ///< as coarsen() was told
     int halvings = 0;                     ///< of the resolution, for want of room
     std::string full = {};                ///< why
     std::optional<MesherResult> meshed;   ///< of the values that the session has

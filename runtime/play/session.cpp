@@ -14,6 +14,7 @@
 #include "runtime/mesher/host.h"
 #include "runtime/stages/decimate.h"
 #include "runtime/stages/project_host.h"
+#include "runtime/system/behind.h"
 #include "runtime/system/clock.h"
 
 namespace fw {
@@ -238,13 +239,16 @@ bool Session::compiling() {
     if (hasMesherKernels() || !kernelsBehind || beyondDriver()) return false;
     if (!next.valid()) {  // one structure at a time; what was replaced meanwhile is passed over
         nextHash = current.structureHash;
-        next = std::async(std::launch::async, [device = gpu.get(), field = emitField(current),
-                                               colors = current.hasMaterial(), previous = pipelines] {
-            return createMesherPipelines(*device, field, colors, previous, nullptr, Compile::behind);
+        next = std::async(std::launch::async, [device = gpu.get(), program = current, previous = pipelines] {
+            workBehind();
+            return createMesherPipelines(*device, emitField(program), program.hasMaterial(), previous,
+                                         nullptr, Compile::behind);
         });
     }
     return true;
 }
+
+bool Session::meshesOnHost() { return compiling() || (kernelsBehind && !hasMesherKernels()); }
 
 bool Session::drafting() {
     if (!kernelsBehind || beyondDriver()) return false;
@@ -271,8 +275,9 @@ bool Session::drafting() {
         FieldKernelOptions options = kernelOptions;
         options.cancel = overtaken.get();
         nextKernels = std::async(std::launch::async,
-                                 [device = gpu.get(), field = emitField(current), options, flag = overtaken] {
-                                     return createFieldKernels(*device, field, options);
+                                 [device = gpu.get(), program = current, options, flag = overtaken] {
+                                     workBehind();
+                                     return createFieldKernels(*device, emitField(program), options);
                                  });
     }
     return true;

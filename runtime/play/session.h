@@ -77,6 +77,9 @@ class Session {
     void replaceProgram(Program program, const FieldKernelOptions& kernels = {});
     /// Whether the next polygonise() would do without the program's kernels until they are there.
     bool compiling();
+    /// Whether the next polygonise() of a program that came by replaceProgram() does without kernels, for now
+    /// or for good.
+    bool meshesOnHost();
     /// Whether the next picture would be a draft until the program's kernels are there.
     bool drafting();
     /// Whether the last mesh came from tapes.

@@ -10,17 +10,16 @@
 layout(constant_id = 100) const float kSineError = 0.0;
 layout(constant_id = 101) const float kCurveError = 0.0;
 
-vec2 iOut(vec2 a) { return a + abs(a) * vec2(-1.2e-7, 1.2e-7); }
+// What fields call by the thousand are no functions: a driver that puts each call's body in its place one by one takes a
+// time that grows with their number squared. What is written twice is computed once.
+#define iOut(a) ((a) + abs(a) * vec2(-1.2e-7, 1.2e-7))
+#define iAbs(a) vec2(max(0.0, max((a).x, -(a).y)), max(-(a).x, (a).y))
+#define iSquare(a) (min(iAbs(a), 1e15) * min(iAbs(a), 1e15))
 // As the ends of an interval err, so do the values between them.
 vec2 iSlack(vec2 a) { return a + (abs(a) + 1.0) * (1e-5 + 2.0 * kCurveError) * vec2(-1.0, 1.0); }
 vec2 iCut(vec2 a) { return clamp(a, -1e30, 1e30); }
 // The result widened by the rounding that its operations may have gathered, relative to the coordinates `reach` too.
 vec2 iMargin(vec2 a, float reach) { return a + (abs(a) + reach) * vec2(-2e-6, 2e-6); }
-vec2 iAbs(vec2 a) { return vec2(max(0.0, max(a.x, -a.y)), max(-a.x, a.y)); }
-vec2 iSquare(vec2 a) {
-    vec2 m = min(iAbs(a), 1e15);
-    return m * m;
-}
 vec2 iMultiply(vec2 a, vec2 b) {
     vec4 p = a.xxyy * b.xyxy;
     return iCut(vec2(min(min(p.x, p.y), min(p.z, p.w)), max(max(p.x, p.y), max(p.z, p.w))));
