@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
+
+#include "editor/shell/draw_runs.h"
 
 namespace fw::editor {
 
@@ -43,6 +46,12 @@ VkRect2D scissorOf(const ImDrawCmd& command, const ImDrawData& data, VkExtent2D 
     return {{x0, y0}, {uint32_t(std::max(0, x1 - x0)), uint32_t(std::max(0, y1 - y0))}};
 }
 
+bool isOpaque(const Picture& picture) {
+    for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
+        if (picture.pixels[i] != 255) return false;
+    return true;
+}
+
 void beginDrawing(Commands& commands, VkImageView target, VkExtent2D extent, ImU32 background) {
     const ImVec4 color = ImGui::ColorConvertU32ToFloat4(background);
     auto attachment = zeroed<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
@@ -65,17 +74,21 @@ void beginDrawing(Commands& commands, VkImageView target, VkExtent2D extent, ImU
 
 DrawLists createDrawLists(const Device& device, VkFormat format) {
     DrawLists lists;
-    lists.pipeline = createGraphicsPipeline(
-        device,
-        {.shaders = {{.name = "editor/ui.vert"}, {.name = "editor/ui.frag"}},
-         .colorFormats = {format},
-         .vertexStride = sizeof(ImDrawVert),
-         .vertexAttributes = {{0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(ImDrawVert, pos)},
-                              {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(ImDrawVert, uv)},
-                              {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(ImDrawVert, col)}},
-         .cull = VK_CULL_MODE_NONE,
-         .blend = {VK_TRUE, VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_OP_ADD,
-                   VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_OP_ADD, 0xf}});
+    GraphicsOptions options{
+        .shaders = {{.name = "editor/ui.vert"}, {.name = "editor/ui.frag"}},
+        .colorFormats = {format},
+        .vertexStride = sizeof(ImDrawVert),
+        .vertexAttributes = {{0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(ImDrawVert, pos)},
+                             {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(ImDrawVert, uv)},
+                             {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(ImDrawVert, col)}},
+        .cull = VK_CULL_MODE_NONE,
+        .blend = {VK_TRUE, VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_OP_ADD,
+                  VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_OP_ADD, 0xf}};
+    lists.blended = createGraphicsPipeline(device, options);
+    options.blend.blendEnable = VK_FALSE;
+    lists.picture = createGraphicsPipeline(device, options);
+    options.shaders[1].name = "editor/plain.frag";
+    lists.plain = createGraphicsPipeline(device, options);
     lists.sampler = createSampler(device, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     return lists;
 }
@@ -101,6 +114,7 @@ void fillTexture(const Device& device, DrawLists& lists, Texture& texture) {
                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     submit(commands);
     texture.filled = true;
+    texture.opaque = isOpaque(picture);
 }
 
 void draw(Commands& commands, DrawLists& lists, const ImDrawData& data, VkImageView target, VkExtent2D extent,
@@ -116,23 +130,34 @@ void draw(Commands& commands, DrawLists& lists, const ImDrawData& data, VkImageV
                              sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
     }
     uint32_t firstVertex = 0, firstIndex = 0;
+    const ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
+    const ImTextureID glyphs = ImGui::GetIO().Fonts->TexID;
+    const Pipeline* pipeline = nullptr;  // that is bound, with this texture
     ImTextureID bound = nullptr;
+    const auto use = [&](const Pipeline& next, ImTextureID id) {
+        if (std::exchange(pipeline, &next) == &next && bound == id) return;
+        bound = id;
+        const Descriptor texture(0, static_cast<const Texture*>(id)->image.view,
+                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, lists.sampler.handle);
+        fw::bind(commands, next, &push, sizeof push, std::span(&texture, 1));
+    };
+    std::vector<DrawRun> runs;
     for (int i = 0; i < data.CmdListsCount; ++i) {
         const ImDrawList& list = *data.CmdLists[i];
         for (const ImDrawCmd& command : list.CmdBuffer) {
             assert(!command.UserCallback && "the interface draws no callbacks");
             const VkRect2D scissor = scissorOf(command, data, extent);
             if (command.ElemCount == 0 || scissor.extent.width == 0 || scissor.extent.height == 0) continue;
-            if (bound != command.GetTexID()) {
-                bound = command.GetTexID();
-                const std::array<Descriptor, 1> texture = {
-                    Descriptor(0, static_cast<const Texture*>(bound)->image.view,
-                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, lists.sampler.handle)};
-                fw::bind(commands, lists.pipeline, &push, sizeof push, texture);
-            }
             vkCmdSetScissor(commands.handle, 0, 1, &scissor);
-            vkCmdDrawIndexed(commands.handle, command.ElemCount, 1, firstIndex + command.IdxOffset,
-                             int32_t(firstVertex + command.VtxOffset), 0);
+            const ImTextureID id = command.GetTexID();
+            runs.assign(1, {0, command.ElemCount, false});
+            if (id == glyphs || static_cast<const Texture*>(id)->opaque)
+                cutIntoRuns(list, command, id == glyphs ? &white : nullptr, runs);
+            for (const DrawRun& run : runs) {
+                use(!run.opaque ? lists.blended : id == glyphs ? lists.plain : lists.picture, id);
+                vkCmdDrawIndexed(commands.handle, run.count, 1, firstIndex + command.IdxOffset + run.first,
+                                 int32_t(firstVertex + command.VtxOffset), 0);
+            }
         }
         firstVertex += uint32_t(list.VtxBuffer.Size);
         firstIndex += uint32_t(list.IdxBuffer.Size);

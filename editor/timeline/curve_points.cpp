@@ -50,31 +50,10 @@ void curvePoints(const Track& track, std::size_t c, const TimeView& times, const
     last = std::min(last + 1, track.keys.size());
     if (times.from < track.keys.front().time)
         points.push_back({times.left, values.y(track.keys.front().value[c])});
-    const bool dense = float(last - first) * std::max(grain, 1.0f) > times.right - times.left;
-    if (dense) {
-        for (std::size_t i = first; i < last;) {
-            const float column = std::floor(times.x(track.keys[i].time) / grain);
-            float lo = values.y(track.keys[i].value[c]), hi = lo;
-            const float enters = lo;
-            float leaves = lo;
-            for (; i < last && std::floor(times.x(track.keys[i].time) / grain) == column; ++i) {
-                leaves = values.y(track.keys[i].value[c]);
-                lo = std::min(lo, leaves), hi = std::max(hi, leaves);
-            }
-            const float x = (column + 0.5f) * grain;
-            points.push_back({x, enters});
-            if (hi - lo > 0.5f) {
-                points.push_back({x, lo});
-                points.push_back({x, hi});
-                points.push_back({x, leaves});
-            }
-        }
-    } else {
-        for (std::size_t i = first; i + 1 < last; ++i) addSegment(track, i, c, times, values, grain, points);
-        if (last > first) {
-            const Key& end = track.keys[last - 1];
-            points.push_back({times.x(end.time), values.y(end.value[c])});
-        }
+    for (std::size_t i = first; i + 1 < last; ++i) addSegment(track, i, c, times, values, grain, points);
+    if (last > first) {
+        const Key& end = track.keys[last - 1];
+        points.push_back({times.x(end.time), values.y(end.value[c])});
     }
     if (times.to > track.keys.back().time)
         points.push_back({times.right, values.y(track.keys.back().value[c])});

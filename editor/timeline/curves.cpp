@@ -6,7 +6,9 @@
 
 #include "editor/canvas/fields.h"
 #include "editor/shell/theme.h"
+#include "editor/timeline/columns.h"
 #include "editor/timeline/curves.h"
+#include "editor/timeline/signs.h"
 #include "editor/timeline/strip.h"
 
 namespace fw::editor {
@@ -14,13 +16,28 @@ namespace fw::editor {
 namespace {
 
 constexpr float kTangent = 42.0f, kPoint = 3.5f, kNearPoint = 7.0f;  // pixels of the interface
-constexpr float kApart = 5.0f;          // pixels of the interface between keys that are drawn as points
-constexpr std::size_t kFineCurves = 8;  // so many are drawn as fine as they can be seen
+constexpr float kApart = 5.0f;            // pixels of the interface between keys that are drawn as points
+constexpr std::size_t kFineCurves = 8;    // so many are drawn as fine as they can be seen
+constexpr std::size_t kFewKeys = 600;     // so many keys of curves are drawn one by one
+constexpr std::size_t kFewSelected = 50;  // so many of more have their tangents shown
+constexpr float kCrowd = 12.0f;           // pixels of the interface: a square with one point of many
+
+constexpr float kDim = 0.4f;  // opacity
 
 ImU32 dimmed(ImU32 color, bool dim) {
     ImVec4 value = ImGui::ColorConvertU32ToFloat4(color);
-    if (dim) value.w *= 0.4f;
+    if (dim) value.w *= kDim;
     return ImGui::ColorConvertFloat4ToU32(value);
+}
+
+/// As dimmed() looks on a panel, but opaque.
+ImU32 dimmedOnPanel(ImU32 color, bool dim) {
+    const ImVec4 on = ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::panel)),
+                 value = ImGui::ColorConvertU32ToFloat4(color);
+    const auto mix = [](float a, float b) { return a + kDim * (b - a); };
+    return !dim ? color
+                : ImGui::ColorConvertFloat4ToU32(
+                      {mix(on.x, value.x), mix(on.y, value.y), mix(on.z, value.z), 1.0f});
 }
 
 ImU32 curveColor(const Track& track, std::size_t component) {
@@ -125,26 +142,117 @@ void drawPoints(const Strip& strip, const StripHit& hit, std::size_t row, const 
     }
 }
 
+/// The square of a key, with a rim if it is selected or under the mouse.
+void drawSquare(ImDrawList* list, ImVec2 at, float half, ImU32 color, bool rim) {
+    if (rim)
+        list->AddRectFilled({at.x - half - 1.0f, at.y - half - 1.0f},
+                            {at.x + half + 1.0f, at.y + half + 1.0f}, themeColor(ThemeColor::active));
+    list->AddRectFilled({at.x - half, at.y - half}, {at.x + half, at.y + half}, color);
+}
+
+bool isDim(const Strip& strip, const Track& track) {
+    return strip.state.row && *strip.state.row != movedBy(track);
+}
+
+/// Curves with few keys, each by itself.
+void drawFew(const Strip& strip, const StripHit& hit, std::size_t curves) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const bool fine = curves <= kFineCurves;
+    std::vector<ImVec2> points;
+    eachShown(strip, [&](std::size_t row, const Track& track) {
+        const bool dim = isDim(strip, track);
+        for (std::size_t c = 0; c < track.keys[0].value.size(); ++c) {
+            const ImU32 color = dimmed(curveColor(track, c), dim);
+            curvePoints(track, c, strip.state.view, strip.state.values, fine ? 1.0f : 8.0f, points);
+            // Of whole pixels a piece is two triangles, otherwise six.
+            list->AddPolyline(points.data(), int(points.size()), color, 0, fine && !dim ? 1.5f : 1.0f);
+            drawPoints(strip, hit, row, track, c, color);
+        }
+    });
+}
+
+/// A point of a curve.
+struct CrowdPoint {
+    std::size_t row = 0, key = 0, component = 0;
+    ImU32 color = 0;
+};
+
+/// The points of many keys, one in each small square, all that are selected before the others.
+void drawCrowdedPoints(const Strip& strip, const StripHit& hit) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float half = kPoint * strip.scale();
+    std::vector<PointMark> marks;
+    std::vector<CrowdPoint> points;
+    std::size_t selectedKeys = 0;
+    eachShown(strip, [&](std::size_t row, const Track& track) {
+        const auto [first, last] = keysSeen(track, strip.state.view);
+        const std::vector<double>* selected = strip.state.selection.of(movedBy(track));
+        // Of keys closer than their signs the curve tells enough.
+        const bool signs = float(last - first) * kApart * strip.scale() < strip.body.width();
+        const bool dim = isDim(strip, track);
+        for (std::size_t i = first; i < last; ++i) {
+            const Key& key = track.keys[i];
+            const bool chosen = selected && isAmong(*selected, key.time);
+            if (!chosen && !signs) continue;
+            selectedKeys += chosen;
+            for (std::size_t c = 0; c < key.value.size(); ++c) {
+                marks.push_back({{strip.state.view.x(key.time), strip.state.values.y(key.value[c])}, chosen});
+                points.push_back({row, i, c, dimmedOnPanel(curveColor(track, c), dim)});
+            }
+        }
+    });
+    for (const std::size_t i : thinned(marks, strip.body.lo, strip.body.hi, kCrowd * strip.scale())) {
+        const auto [at, chosen] = marks[i];
+        const CrowdPoint& point = points[i];
+        const Track& track = strip.timeline.tracks[point.row];
+        if (chosen && selectedKeys <= kFewSelected)
+            drawTangents(strip, hit, point.row, track, point.key, point.component, point.color);
+        drawSquare(list, at, half, chosen ? themeColor(ThemeColor::selected) : point.color, chosen);
+    }
+    if (hit.what != StripHit::What::key) return;
+    const Track& track = strip.timeline.tracks[hit.track];
+    const Key& key = track.keys[hit.key];
+    const std::vector<double>* selected = strip.state.selection.of(movedBy(track));
+    drawSquare(list, {strip.state.view.x(key.time), strip.state.values.y(key.value[hit.component])}, half,
+               selected && isAmong(*selected, key.time) ? themeColor(ThemeColor::selected)
+                                                        : curveColor(track, hit.component),
+               true);
+}
+
+/// Curves with many keys: what is seen of all of them together.
+void drawCrowd(const Strip& strip, const StripHit& hit, std::size_t curves) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float side = std::max(std::round(strip.scale()), 1.0f) * (curves <= kFineCurves ? 1.0f : 2.0f);
+    Columns columns = emptyColumns(strip.body.lo, strip.body.hi, side);
+    std::vector<ImU32> colors{0};
+    eachShown(strip, [&](std::size_t, const Track& track) {
+        const std::size_t count = track.keys[0].value.size();
+        if (colors.size() + count > 65535u) return;
+        paintCurves(columns, track, strip.state.view, strip.state.values, uint16_t(colors.size()));
+        for (std::size_t c = 0; c < count; ++c)
+            colors.push_back(dimmedOnPanel(curveColor(track, c), isDim(strip, track)));
+    });
+    for (const ColumnPiece& piece : piecesOf(columns))
+        list->AddRectFilled(piece.lo, piece.hi, colors[piece.curve]);
+    drawCrowdedPoints(strip, hit);
+}
+
 }  // namespace
 
 void drawCurves(const Strip& strip, const StripHit& hit) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->PushClipRect(strip.body.lo, strip.body.hi, true);
     drawGrid(strip);
-    std::size_t count = 0;
-    eachShown(strip, [&](std::size_t, const Track& track) { count += track.keys[0].value.size(); });
-    // Many curves are drawn more coarsely: together they hide what a single one would tell.
-    const float grain = std::clamp(float(count) / float(kFineCurves), 1.0f, 8.0f);
-    std::vector<ImVec2> points;
-    eachShown(strip, [&](std::size_t row, const Track& track) {
-        const bool dim = strip.state.row && *strip.state.row != movedBy(track);
-        for (std::size_t c = 0; c < track.keys[0].value.size(); ++c) {
-            const ImU32 color = dimmed(curveColor(track, c), dim);
-            curvePoints(track, c, strip.state.view, strip.state.values, grain, points);
-            list->AddPolyline(points.data(), int(points.size()), color, 0, dim ? 1.0f : 1.5f);
-            drawPoints(strip, hit, row, track, c, color);
-        }
+    std::size_t curves = 0, keys = 0;
+    eachShown(strip, [&](std::size_t, const Track& track) {
+        const auto [first, last] = keysSeen(track, strip.state.view);
+        const std::size_t count = track.keys[0].value.size();
+        curves += count, keys += (last - first) * count;
     });
+    if (keys <= kFewKeys)
+        drawFew(strip, hit, curves);
+    else
+        drawCrowd(strip, hit, curves);
     drawValues(strip);
     list->PopClipRect();
 }

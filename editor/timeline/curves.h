@@ -1,4 +1,5 @@
-// The curves of a track as lines on the screen: only what is seen, and no more points than pixels need.
+// The curves of a track as lines on the screen: only what is seen. Where there are many keys columns.h has
+// what costs less.
 #pragma once
 
 #include <imgui.h>
@@ -10,8 +11,8 @@
 
 namespace fw::editor {
 
-/// The curve of one component, from the view's left side to its right; beyond its keys it rests. Where keys
-/// are nearer than `grain` pixels to each other, each such column has its highest and its lowest key.
+/// The curve of one component, from the view's left side to its right; beyond its keys it rests. It bends at
+/// most every `grain` pixels between two keys.
 void curvePoints(const Track& track, std::size_t component, const TimeView& times, const ValueView& values,
                  float grain, std::vector<ImVec2>& points);
 

@@ -16,6 +16,7 @@ struct BenchOptions {
     bool markdown = false;        ///< tables as docs/benchmarks.md has them; else aligned text
     std::vector<int> sizes = {};  ///< cells along an edge; empty: each table's own
     int repeats = 7;              ///< runs that count, at least 1
+    std::string rows = {};        ///< of the interface's table those parts alone that have these words
 };
 
 /// The tables there are, in the order of the page: "process", "mesher", "prune", "mesh-to-field",

@@ -150,10 +150,16 @@ void interfaceTable(Bench& bench) {
                               number(figure.greatest()),
                               number(most) + (figure.median() <= most ? ", met" : ", missed")});
     };
+    // A part is measured if one of its rows has the words asked for.
+    const auto wished = [&](std::initializer_list<const char*> rows) {
+        return std::ranges::any_of(rows, [&](std::string_view words) {
+            return words.find(bench.options.rows) != std::string_view::npos;
+        });
+    };
     const Result<Graph> tower = readGraph(benchGraph(Field::tower), nullptr);
     if (!tower) return bench.fail(format(tower.error()));
     double resting = 0;
-    {
+    if (wished({"start", "rest"})) {
         const auto start = Clock::now();
         Window window(bench, *tower);
         while (!window.editor.viewport.texture) {
@@ -173,11 +179,11 @@ void interfaceTable(Bench& bench) {
         }
         resting = 100.0 * (processorSeconds() - before) / kRest;
     }
-    {
+    if (wished({"few nodes"})) {
         Window window(bench, grid(kFew));
         row("a frame, " + std::to_string(kFew) + " nodes on the canvas", window.frames(), kMostFew);
     }
-    {
+    if (wished({"keys"})) {
         Window window(bench, moving());
         window.editor.panels.timeline = true;
         window.editor.panels.low = 0.5f;
@@ -192,7 +198,7 @@ void interfaceTable(Bench& bench) {
         editor::selectAllKeys(window.editor);
         row("the same, all keys selected", window.frames(), kMostCurves);
     }
-    {
+    if (wished({"library"})) {
         const fs::path folder = fs::temp_directory_path() / ("fieldwright-bench-" + std::to_string(getpid()));
         const std::string part = writeGraph(chainOfBoxes(1, 0.0));
         for (int i = 0; i < kParts; ++i) {
@@ -217,7 +223,7 @@ void interfaceTable(Bench& bench) {
         }
         fs::remove_all(folder);
     }
-    {
+    if (wished({"one added"})) {
         Window window(bench, grid(kMany));
         const editor::PreviewResult& shown = window.editor.viewport.shown;
         // Frames one after the other until the graph is in the picture; the longest of them, and how long.
@@ -246,7 +252,7 @@ void interfaceTable(Bench& bench) {
             kMostWindowChange);
         row("the longest frame meanwhile", longest, kMostMeanwhile);
     }
-    {
+    if (wished({"code"})) {
         Window window(bench, longCode(kCodeLines));
         editor::Editor& editor = window.editor;
         const std::string lines = "code of " + std::to_string(kCodeLines) + " lines in its large window";
@@ -280,7 +286,7 @@ void interfaceTable(Bench& bench) {
         row("from a key to all that is wrong with the code, frames made meanwhile", checks, kMostCheck);
     }
     double early = 0, end = 0;
-    {
+    if (wished({"many nodes"})) {
         const std::string text = writeGraph(grid(kMany));
         const auto start = Clock::now();
         Result<Graph> read = parseGraph(text, "many.field.json", nullptr);

@@ -19,6 +19,9 @@ int main(int count, char** arguments) {
     app.add_option("--repeats", options.repeats, "Runs that count")
         ->check(CLI::Range(1, 1000))
         ->default_val(options.repeats);
+    app.add_option("--rows", options.rows,
+                   "Of the table interface these parts alone: start, few nodes, keys, library, one added, "
+                   "code, many nodes");
     app.add_option("--device", options.device,
                    "Index or part of the name of the device (see fieldwright info)");
     try {
