@@ -9,17 +9,16 @@ namespace fw::editor {
 
 namespace {
 
-constexpr float kRim = 0.25f;  // pixels beyond the values, so that a line is not thinner than one pixel
-
 struct Reach {
     double least, most;
     void add(double value) { least = std::min(least, value), most = std::max(most, value); }
 };
 
 void paintColumn(Columns& columns, int column, const Reach& reach, const ValueView& values, uint16_t curve) {
-    const float top = (values.y(reach.most) - columns.lo.y - kRim) / columns.side,
-                bottom = (values.y(reach.least) - columns.lo.y + kRim) / columns.side;
-    const int begin = std::max(int(std::floor(top)), 0), end = std::min(int(std::ceil(bottom)), columns.high);
+    const float top = (values.y(reach.most) - columns.lo.y) / columns.side,
+                bottom = (values.y(reach.least) - columns.lo.y) / columns.side;
+    const int begin = std::max(int(std::floor(top)), 0),
+              end = std::min(int(std::floor(bottom)) + 1, columns.high);
     if (begin >= end) return;
     const auto at = columns.cells.begin() + std::ptrdiff_t(column) * columns.high;
     std::fill(at + begin, at + end, curve);
