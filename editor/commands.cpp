@@ -465,7 +465,7 @@ constexpr Command kCommands[] = {
     {"canvas.move_down", "", "Move down", "Ctrl+Down", canvas, anySelected, moveBy<0, 1>},
     {"file.next_document", "File", "Next document", "Alt+PageDown", everywhere, manyTabs, [](Editor& e) { turnTabs(e, 1); },
      true},
-    {"file.last_document", "File", "Last document", "Alt+PageUp", everywhere, manyTabs, [](Editor& e) { turnTabs(e, -1); }},
+    {"file.last_document", "File", "Previous document", "Alt+PageUp", everywhere, manyTabs, [](Editor& e) { turnTabs(e, -1); }},
     {"file.close", "File", "Close", "Ctrl+W", everywhere, always, [](Editor& e) { proceed(e, Files::Next::close); }},
     {"file.quit", "File", "Quit", "Ctrl+Q", everywhere, always, [](Editor& e) { proceed(e, Files::Next::quit); }, true},
 };
