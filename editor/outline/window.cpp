@@ -76,7 +76,10 @@ void frameAll(Window& window, const Points& points, const Area& place) {
             hi[axis] = i == 0 ? at : std::max(hi[axis], at);
         }
     window.middle = {0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1])};
-    const double wide = std::max(hi[0] - lo[0], 1e-6), high = std::max(hi[1] - lo[1], 1e-6);
+    // In less of what the numbers are themselves no pixels could be told apart.
+    const double least = std::max(1e-6, 1e-9 * std::max({std::abs(lo[0]), std::abs(hi[0]), std::abs(lo[1]),
+                                                         std::abs(hi[1])})),
+                 wide = std::max(hi[0] - lo[0], least), high = std::max(hi[1] - lo[1], least);
     window.zoom = 0.8 * std::min(double(place.width()) / wide, double(place.height()) / high);
 }
 
@@ -86,8 +89,13 @@ void drawGrid(const Window& window, const Sheet& sheet) {
     while (step * sheet.zoom < 12.0) step *= 10.0;
     const Position lo = sheet.toSheet({sheet.place.lo.x, sheet.place.hi.y}),
                    hi = sheet.toSheet({sheet.place.hi.x, sheet.place.lo.y});
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        for (double k = std::ceil(lo[axis] / step); k * step <= hi[axis]; ++k) {
+    constexpr double kMostLines = 2000.0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        // Counted, since far from the origin the next number may be the same.
+        const double first = std::ceil(lo[axis] / step),
+                     count = std::min(std::floor(hi[axis] / step) - first, kMostLines);
+        for (double i = 0.0; i <= count; ++i) {
+            const double k = first + i;
             const ImVec2 at = sheet.toScreen({k * step, k * step});
             const bool zero = k == 0.0;
             const ImU32 color = zero ? axisColor(1 - axis) : themeColor(ThemeColor::grid);
@@ -96,6 +104,7 @@ void drawGrid(const Window& window, const Sheet& sheet) {
             else
                 list->AddLine({sheet.place.lo.x, at.y}, {sheet.place.hi.x, at.y}, color, zero ? 1.5f : 1.0f);
         }
+    }
 }
 
 void drawPicture(const Window& window, const Sheet& sheet) {

@@ -124,4 +124,19 @@ TEST(Dialogs, AWireOfAnyLengthIsDrawn) {
     EXPECT_TRUE(editor->document.graph().node("out"));
 }
 
+TEST(Dialogs, AnOutlineFarAwayIsShown) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string file = editor.path("far.field.json");
+    writeText(file,
+              R"({"fieldwright": 1, "nodes": [{"id": "flat", "type": "polygon", "at": [0, 0], "inputs": {
+            "points": [[7e15, 7e15], [7000000000000001, 7e15], [7e15, 7000000000000001]]}}]})");
+    openFile(*editor, file);
+    editor.settle();
+    openOutline(*editor, "flat", "points");
+    editor.settle();
+    EXPECT_TRUE(editor->outline.open);
+    EXPECT_GT(editor->outline.zoom, 0.0);
+}
+
 }  // namespace fw::editor::test::dialogs_test
