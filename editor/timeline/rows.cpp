@@ -90,10 +90,13 @@ void drawRows(const Strip& strip, const StripHit& hit) {
         drawRow(strip, row);
         count += signs.emplace_back(signsOfRow(strip, row, marks)).size();
     }
-    for (std::size_t row = first; row < last; ++row)
-        for (const KeySign& sign : signs[row - first])
-            drawSign(list, sign, rowMiddle(strip, row), radius,
-                     themeColor(sign.chosen ? ThemeColor::active : ThemeColor::text), count > kFewSigns);
+    // Those that are selected lie on top.
+    for (const bool chosen : {false, true})
+        for (std::size_t row = first; row < last; ++row)
+            for (const KeySign& sign : signs[row - first])
+                if (sign.chosen == chosen)
+                    drawSign(list, sign, rowMiddle(strip, row), radius,
+                             themeColor(chosen ? ThemeColor::active : ThemeColor::text), count > kFewSigns);
     if (hit.what != StripHit::What::key) return;
     const Track& track = strip.timeline.tracks[hit.track];
     const double time = track.keys[hit.key].time;
