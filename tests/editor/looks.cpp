@@ -80,6 +80,9 @@ void closeAll(Editor& editor) {
     editor.files.next = Files::Next::none;
     editor.files.outside.reset();
     editor.windows.start.open = false;
+    editor.viewport.ownCamera = false;
+    editor.viewport.pinned.clear();
+    splitInto(editor, 1);
     select(editor, "pierced");
     showPanel(editor, "inspector");
 }
@@ -98,6 +101,12 @@ constexpr const char* kPopup = "a popup";  // whichever is open
 std::vector<Look> looks() {
     return {
         {"main", "", [](Editor&) {}},
+        {"views", "",
+         [](Editor& e) {  // all buttons that the picture can have
+             e.viewport.takeCamera();
+             e.viewport.pinned = "pierced + windows";
+             run(e, "view.four_pictures");
+         }},
         {"inspector", kSide, [](Editor& e) { select(e, "stone"); }},
         {"inspector_code", kSide, [](Editor& e) { select(e, "windows"); }},
         {"outliner", kSide, [](Editor& e) { showPanel(e, "outliner"); }},

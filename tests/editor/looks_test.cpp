@@ -28,10 +28,10 @@ Picture cut(const Picture& picture, const Area& part) {
     return result;
 }
 
-// Smaller windows than these have no room for words so large.
 constexpr Size kSizes[] = {{800, 600, 1},    {1280, 800, 1},    {3840, 2160, 1},
                            {800, 600, 1.5f}, {1280, 800, 1.5f}, {3840, 2160, 1.5f},
-                           {1280, 800, 2},   {3840, 2160, 2},   {3840, 2160, 3}};
+                           {800, 600, 2},    {1280, 800, 2},    {3840, 2160, 2},
+                           {800, 600, 3},    {3840, 2160, 3}};
 
 TEST(Looks, NothingIsCutOff) {
     DrivenEditor driven(graphOfLooks(), 3840, 2160);
