@@ -537,7 +537,7 @@ void runShortcuts(Editor& editor) {
     if (ImGui::IsKeyReleased(space) && !std::exchange(editor.canvas.spacePans, false) && !panel &&
         !editor.outline.focused)
         addHere(editor);
-    const bool picture = editor.viewport.hovered || editor.panels.keyboard == Part::viewport;
+    const bool picture = anyHovered(editor.viewport) || editor.panels.keyboard == Part::viewport;
     const auto heard = [&](const Command& command, const Shortcut& shortcut) {
         if (editor.outline.focused && command.heard != Heard::everywhere) return false;
         if (command.heard == Heard::picture) return picture;

@@ -161,7 +161,10 @@ void showViewport(Editor& editor) {
     showChoices(editor);
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     if (room.x < 1.0f || room.y < 1.0f) {
-        view.hovered = false;
+        for (std::size_t i = 0; i < view.split.count; ++i) {
+            const Borrowed borrowed(view, i);
+            view.hovered = false;
+        }
         return;
     }
     layPictures(editor, {at, {at.x + room.x, at.y + room.y}});

@@ -71,6 +71,13 @@ Borrowed::Borrowed(Viewport& viewport_, std::size_t picture)
 }
 Borrowed::~Borrowed() { takeHand(viewport, before); }
 
+bool anyHovered(const Viewport& viewport) {
+    bool any = viewport.hovered;
+    for (std::size_t i = 0; i < viewport.split.count; ++i)
+        any = any || (i != viewport.split.hand && viewport.split.panes[i].hovered);
+    return any;
+}
+
 void splitInto(Editor& editor, std::size_t count) {
     Viewport& viewport = editor.viewport;
     Split& split = viewport.split;

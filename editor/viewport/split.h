@@ -82,6 +82,9 @@ class Borrowed {
     std::size_t before;
 };
 
+/// Whether the mouse is over any of the pictures.
+bool anyHovered(const Viewport& viewport);
+
 /// Splits the picture in so many; one: the first alone, as it was.
 void splitInto(Editor& editor, std::size_t count);
 /// All look as they did at first.

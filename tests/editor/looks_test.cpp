@@ -65,12 +65,12 @@ TEST(Looks, AsTheyWere) {
     DrivenEditor driven(graphOfLooks(), 2560, 1600);
     std::filesystem::current_path(before);
     NEEDS_EDITOR(driven);
-    const std::set<std::string> ofTheMachine = {"open", "about"};
+    const std::set<std::string> ofTheMachine = {"open", "about"}, likeOthers = {"views"};
     for (const int scale : {1, 2}) {
         resize(driven, 1280 * scale, 800 * scale, float(scale));
         driven.moveAway();
         for (const Look& look : looks()) {
-            if (ofTheMachine.contains(look.name)) continue;
+            if (ofTheMachine.contains(look.name) || likeOthers.contains(look.name)) continue;
             std::filesystem::current_path("/");
             show(driven, look);
             std::filesystem::current_path(before);
