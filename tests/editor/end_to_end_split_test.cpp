@@ -69,6 +69,15 @@ void expectMoved(Program& program, const Area& view, ImVec2 from, int right, int
         << (now ? ": " + std::to_string(now->x - from.x) + ", " + std::to_string(from.y - now->y) : ": none");
 }
 
+/// Presses the keys with the mouse over a view, once it is known to be there.
+void lookIn(Program& program, const Area& view, const std::string& keys, const std::string& words) {
+    program.moveTo({view.lo.x + 12, view.lo.y + 12});
+    EXPECT_TRUE(eventually([&] {
+        program.keys(keys);
+        return program.sees(words, view);
+    })) << words;
+}
+
 std::vector<double> placeOf(const Graph& graph) {
     return inputNumbers(*findNode(graph.nodes, "place"), "offset");
 }
@@ -77,13 +86,11 @@ TEST(EndToEndSplit, EachViewShowsAndMovesTheDocumentFromItsSide) {
     Program program(kDocument);
     ASSERT_TRUE(program.works()) << "Xvfb, xdotool or xclip is not installed: run ./.install test";
     program.frameAll();
-    const Area whole = {{program.view.panel.hi.x + 20, 120}, {1260, 400}};
-    program.moveTo(whole.centre());
-    EXPECT_TRUE(eventually([&] {  // a view of colours alone
-        if (program.sees("Colours")) return true;
-        program.keys("Z");
-        return false;
-    }));
+    const Area whole = {{program.view.panel.hi.x + 20, 100}, {1276, 440}};
+    lookIn(program, whole, "1", "Front · perspective");
+    program.keys("Z", 3);
+    program.waitFor("Colours");  // each in one colour, whatever the light
+    program.keys("0");
     program.waitFor("Scene camera");
     program.keys("Ctrl+Alt+Q");
     const Views views = viewsOf(program);
@@ -141,9 +148,7 @@ TEST(EndToEndSplit, EachViewShowsAndMovesTheDocumentFromItsSide) {
     EXPECT_EQ(placeOf(program.saved())[2], 0.0) << "it is one step";
 
     // Each is looked about in by itself.
-    program.moveTo(views.top.centre());
-    program.keys("3");
-    program.waitFor("Right · orthographic", views.top);
+    lookIn(program, views.top, "3", "Right · orthographic");
     program.waitFor("Front · orthographic", views.front);
     program.keys("Ctrl+B");
     program.waitFor("kept as view 1");
@@ -151,8 +156,7 @@ TEST(EndToEndSplit, EachViewShowsAndMovesTheDocumentFromItsSide) {
     program.drag({away, {away.x + 15, away.y + 10}, {away.x + 30, away.y + 20}});
     program.waitFor("User · orthographic", views.front);
     program.waitFor("Right · orthographic", views.right);
-    program.keys("B");
-    program.waitFor("Right · orthographic", views.front);
+    lookIn(program, views.front, "B", "Right · orthographic");
     program.clickOn("Reset views");
     program.waitFor("Front · orthographic", views.front);
     program.waitFor("Top · orthographic", views.top);
