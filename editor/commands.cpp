@@ -552,22 +552,43 @@ void runShortcuts(Editor& editor) {
     leavePanels(editor);
 }
 
-void showMenus(Editor& editor) {
-    for (const char* menu : {"File", "Edit", "Node", "View", "Picture", "Timeline", "Help"}) {
-        if (!ImGui::BeginMenu(menu)) continue;
-        for (const Command& command : kCommands) {
-            if (std::string_view(command.menu) != menu) continue;
-            if (command.separated) ImGui::Separator();
-            const std::string all = keysOf(command, editor.files.preferences);
-            const std::string first = all.substr(0, all.find(' '));
-            if (ImGui::MenuItem(labelOf(command, editor).c_str(), first.c_str(), shows(command, editor),
-                                command.can(editor)))
-                command.run(editor);
-            if (std::string_view(command.id) == "file.open") showRecent(editor);
-            if (std::string_view(command.id) == "picture.next_view") showKeptViews(editor);
-        }
-        ImGui::EndMenu();
+namespace {
+
+void showMenu(Editor& editor, const char* menu) {
+    if (!ImGui::BeginMenu(menu)) return;
+    for (const Command& command : kCommands) {
+        if (std::string_view(command.menu) != menu) continue;
+        if (command.separated) ImGui::Separator();
+        const std::string all = keysOf(command, editor.files.preferences);
+        const std::string first = all.substr(0, all.find(' '));
+        if (ImGui::MenuItem(labelOf(command, editor).c_str(), first.c_str(), shows(command, editor),
+                            command.can(editor)))
+            command.run(editor);
+        if (std::string_view(command.id) == "file.open") showRecent(editor);
+        if (std::string_view(command.id) == "picture.next_view") showKeptViews(editor);
     }
+    ImGui::EndMenu();
+}
+
+}  // namespace
+
+void showMenus(Editor& editor) {
+    constexpr const char* kMenus[] = {"File", "Edit", "Node", "View", "Picture", "Timeline", "Help"};
+    constexpr const char* kRest = "…";
+    const auto widthOf = [](const char* label) {
+        return ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().ItemSpacing.x;
+    };
+    float room = ImGui::GetContentRegionAvail().x, all = 0.0f;
+    for (const char* menu : kMenus) all += widthOf(menu);
+    // Those for which there is no room are in the last one.
+    std::size_t shown = std::size(kMenus);
+    if (all > room)
+        for (shown = 0, room -= widthOf(kRest); shown < std::size(kMenus); ++shown)
+            if ((room -= widthOf(kMenus[shown])) < 0.0f) break;
+    for (std::size_t i = 0; i < shown; ++i) showMenu(editor, kMenus[i]);
+    if (shown == std::size(kMenus) || !ImGui::BeginMenu(kRest)) return;
+    for (std::size_t i = shown; i < std::size(kMenus); ++i) showMenu(editor, kMenus[i]);
+    ImGui::EndMenu();
 }
 
 }  // namespace fw::editor

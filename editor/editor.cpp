@@ -9,6 +9,7 @@
 #include "editor/panels/properties.h"
 #include "editor/panels/side.h"
 #include "editor/preview/pinned.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "editor/timeline/fields_in_time.h"
 #include "graph/document/named_parameters.h"
@@ -102,15 +103,19 @@ void showSide(Editor& editor, float height) {
 
 void showStatus(Editor& editor) {
     const PreviewResult& shown = editor.viewport.shown;
-    if (ImGui::GetTime() < editor.noticeUntil) return ImGui::TextUnformatted(editor.notice.c_str());
+    const float room = ImGui::GetContentRegionAvail().x;
+    if (ImGui::GetTime() < editor.noticeUntil)
+        return ImGui::TextUnformatted(fitted(editor.notice, room).c_str());
     if (!shown.failure.empty())
         return ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(themeColor(ThemeColor::error)), "%s",
-                                  shown.failure.c_str());
+                                  fitted(shown.failure, room).c_str());
     ImGui::Text("%zu nodes", nodesOf(*editor.graph, editor.canvas.scope).size());
     if (shown.statistics.triangles > 0) {
         ImGui::SameLine();
-        ImGui::TextDisabled("· %u triangles · %.0f ms%s", shown.statistics.triangles,
-                            shown.statistics.milliseconds, editor.preview.busy() ? " · working" : "");
+        char words[100];
+        std::snprintf(words, sizeof words, "· %u triangles · %.0f ms%s", shown.statistics.triangles,
+                      shown.statistics.milliseconds, editor.preview.busy() ? " · working" : "");
+        ImGui::TextDisabled("%s", fitted(words, ImGui::GetContentRegionAvail().x).c_str());
     }
 }
 

@@ -93,8 +93,11 @@ void showExactness(const Editor& editor, const NodeBox& box) {
 void showInspector(Editor& editor) {
     const NodeBox* box = editor.boxes->find(editor.canvas.active);
     if (!box) {
-        ImGui::TextDisabled(editor.canvas.selection.empty() ? "Select a node to see and change its values."
-                                                            : "Click a node to make it the active one.");
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextWrapped("%s", editor.canvas.selection.empty()
+                                     ? "Select a node to see and change its values."
+                                     : "Click a node to make it the active one.");
+        ImGui::PopStyleColor();
         return;
     }
     std::string goTo;

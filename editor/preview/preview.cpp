@@ -126,6 +126,7 @@ class Maker {
     PlayerOptions playerOptions() const;
     Done play(const Graph& graph);
     void draw(std::size_t which, bool urgent);
+    bool sketches(std::size_t which) const;
     Done aim(RenderOptions& options, const Sight& sight);
     void outdateAll();
     void adapt(double took);
@@ -143,6 +144,7 @@ class Maker {
     PreviewResult result;          ///< as it was told last
     std::vector<Error> checked;    ///< the graph's findings; a time may have one more
     std::vector<Sight> sights;     ///< of the wish's eyes
+    Clock::duration sketch{};      ///< that one takes
     std::size_t turned = 0;        ///< that of the last picture
     Box solid = kUnbounded;        ///< where the last one was
     int heldResolution = 0;        ///< cells while a hand moves; 0: as many as at rest
@@ -298,6 +300,13 @@ void Maker::adapt(double took) {
         heldResolution = std::min(full, now * 4 / 3 + 1);
 }
 
+/// Whether it is sketched: on a software device those are that have not the hand, so that they are not in its
+/// way.
+bool Maker::sketches(std::size_t which) const {
+    return which != wish.first && sights[which].due && player->device().software && !showsField(wish.view) &&
+           wish.view != RENDER_AMBIENT;
+}
+
 /// `urgent` is what no newer wish of the same graph cancels.
 void Maker::draw(std::size_t which, bool urgent) {
     Sight& sight = sights[which];
@@ -311,7 +320,8 @@ void Maker::draw(std::size_t which, bool urgent) {
         options.cancel = &overtaken.byAny;
     else if (!player->compiling())
         options.cancel = &overtaken.byOther;
-    if (std::exchange(turned, which) != which) sight.refined = 0;
+    const bool sketched = sketches(which);
+    if (!sketched && std::exchange(turned, which) != which) sight.refined = 0;
     const auto refuseAll = [&](Error error) {
         refuse(std::move(error));
         for (Sight& each : sights) each.due = false, each.rests = true;
@@ -338,13 +348,20 @@ void Maker::draw(std::size_t which, bool urgent) {
     const bool fresh = sight.due;
     if (isDrawnOf(sight, of)) return saysSo(), tell();
     const auto drawing = Clock::now();
-    const Result<bool> drawn = player->show(options, sight.picture);
+    const Result<bool> drawn =
+        sketched ? player->sketch(options, sight.picture) : player->show(options, sight.picture);
     if (!drawn) return refuseAll(drawn.error());
     if (!*drawn && options.cancel && *options.cancel) {
         if (takeRest(sight)) tell();
         return;
     }
     saysSo();
+    if (sketched) {
+        sketch = Clock::now() - drawing;
+        sight.of = of;
+        if (options.scene.camera) sight.seen = *options.scene.camera;
+        return takeSketch(sight), tell();
+    }
     if (!*drawn) {  // it shows that already
         sight.due = false, sight.rests = true;
         if (takeRest(sight) || fresh) tell();
@@ -399,7 +416,7 @@ bool Maker::work() {
     const bool fresh = sights[*next].due;
     draw(*next, fresh && *next == wish.first);
     if (fresh && *next == wish.first)
-        if (const auto stale = staleSight(sights, wish.first, Clock::now())) draw(*stale, true);
+        if (const auto stale = staleSight(sights, wish.first, Clock::now(), sketch)) draw(*stale, true);
     return nextSight(sights, wish.first, turned, refines).has_value();
 }
 

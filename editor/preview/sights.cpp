@@ -1,5 +1,6 @@
 #include "editor/preview/sights.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace fw::editor {
@@ -41,6 +42,8 @@ std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size
         if (there(i) && sights[i].due && (!longest || sights[i].changed < sights[*longest].changed))
             longest = i;
     if (longest || !refines) return longest;
+    for (std::size_t i = 0; i < sights.size(); ++i)
+        if (there(i) && sights[i].rough) return i;
     for (const std::size_t i : {first, turned})
         if (there(i) && !sights[i].rests) return i;
     for (std::size_t i = 0; i < sights.size(); ++i)
@@ -49,10 +52,11 @@ std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size
 }
 
 std::optional<std::size_t> staleSight(const std::vector<Sight>& sights, std::size_t first,
-                                      Clock::time_point now) {
+                                      Clock::time_point now, Clock::duration sketch) {
+    const Clock::duration most = std::max<Clock::duration>(kLongestStale, kStaleSketches * sketch);
     std::optional<std::size_t> longest;
     for (std::size_t i = 0; i < sights.size(); ++i)
-        if (i != first && sights[i].wanted() && sights[i].due && now - sights[i].changed > kLongestStale &&
+        if (i != first && sights[i].wanted() && sights[i].due && now - sights[i].changed > most &&
             (!longest || sights[i].changed < sights[*longest].changed))
             longest = i;
     return longest;
@@ -70,12 +74,18 @@ bool isDrawnOf(Sight& sight, const SightOf& of) {
 }
 
 bool takeDrawn(Sight& sight) {
-    const bool fresh = sight.due;
-    sight.due = false;
+    const bool fresh = sight.due || sight.rough;
+    sight.due = sight.rough = false;
     ++sight.refined;
     if (fresh || (std::has_single_bit(unsigned(sight.refined)) && sight.refined > sight.best))
         return isTold(sight);
     return false;
+}
+
+void takeSketch(Sight& sight) {
+    sight.due = false, sight.rough = true;
+    sight.refined = 0;
+    isTold(sight);
 }
 
 bool takeRest(Sight& sight) { return sight.refined > sight.best && isTold(sight); }

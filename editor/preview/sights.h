@@ -5,7 +5,8 @@
 // that has the hand first; then they are refined one after the other, each to its end, in the same order.
 //
 // While a hand moves, wishes come faster than a slow device can draw. The picture under the hand is made for
-// each of them; the others when there is time, and after kLongestStale in any case, one at a time.
+// each of them; the others are sketched, the mesh alone by a renderer of their own, when there is time, and
+// after a while in any case, one at a time: they have a small part of it at most.
 #pragma once
 
 #include <chrono>
@@ -24,7 +25,9 @@ struct PreviewEye {
     bool operator==(const PreviewEye&) const = default;
 };
 
+/// How long one waits that others go before, at least; and how many times as long as a sketch takes.
 inline constexpr auto kLongestStale = std::chrono::milliseconds(250);
+inline constexpr int kStaleSketches = 12;
 
 /// What a picture is drawn of: of the same it would be the same.
 struct SightOf {
@@ -45,6 +48,7 @@ struct Sight {
     std::shared_ptr<const Picture> told = {};  ///< the best of what there is now; null: none yet
     Camera seen = {};                          ///< by which it was drawn
     bool due = false;                          ///< something has changed since it was drawn
+    bool rough = false;                        ///< what is told is a sketch
     bool rests = false;                        ///< it does not get better
     int refined = 0;                           ///< pictures since the renderer turned to it, or it changed
     int best = 0;                              ///< of those, which was told
@@ -62,15 +66,17 @@ bool aimSights(std::vector<Sight>& sights, const std::vector<PreviewEye>& eyes, 
 /// `refines` is said once nothing is due.
 std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size_t first, std::size_t turned,
                                      bool refines);
-/// One besides the first that has waited for too long; none if none has.
+/// One besides the first that has waited for too long, when a sketch takes so long; none if none has.
 std::optional<std::size_t> staleSight(const std::vector<Sight>& sights, std::size_t first,
-                                      Clock::time_point now);
+                                      Clock::time_point now, Clock::duration sketch = {});
 
 /// It is to be drawn of this: whether what is told is that already, and only goes on to be refined.
 bool isDrawnOf(Sight& sight, const SightOf& of);
 /// A picture was drawn. Whether it is to be told: the first one is, and of those that refine it each that is
 /// the mean of twice as many, once it is better than what was told.
 bool takeDrawn(Sight& sight);
+/// A sketch was drawn, which is told.
+void takeSketch(Sight& sight);
 /// It will not go on for now: whether its last picture is better than what was told.
 bool takeRest(Sight& sight);
 

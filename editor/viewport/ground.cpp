@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kLeastCell = 24.0;  // pixels
 constexpr int kCellsAround = 30, kMostCellsAround = 200, kCellsAPiece = 5;
-constexpr double kMostBar = 120.0;  // pixels, times the scale
+constexpr double kMostBar = 120.0;    // pixels, times the scale,
+constexpr double kMostBarPart = 0.3;  // and of the picture's width
 
 ImU32 faded(ImU32 color, double alpha) {
     return (color & ~IM_COL32_A_MASK) | (ImU32(std::lround(255.0 * alpha)) << IM_COL32_A_SHIFT);
@@ -49,11 +50,13 @@ void drawBar(const Editor& editor, const Lens& lens, ImVec2 end) {
     const float scale = editor.shell.scale(), tall = 5.0f * scale;
     const auto& t = editor.viewport.shown.seen.target;
     const double pixel = lens.metresPerPixel({t[0], t[1], t[2]});
-    const double metres = roundDown125(kMostBar * double(scale) * pixel);
+    const double most = std::min(kMostBar * double(scale), kMostBarPart * double(lens.place.width()));
+    const double metres = roundDown125(most * pixel);
     const std::string words = lengthWords(metres);
     const float wide = float(metres / pixel), pad = 5.0f * scale;
     const ImVec2 text = ImGui::CalcTextSize(words.c_str());
     const float room = std::max(wide, text.x);
+    if (end.y - text.y - tall - 2 * pad < lens.place.lo.y) return;  // there is none for it
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled({end.x - room - 2 * pad, end.y - text.y - tall - 2 * pad}, end,
                         themeColor(ThemeColor::plate), 4 * scale);
@@ -123,10 +126,15 @@ void showGround(Editor& editor) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->PushClipRect(view.place.lo, view.place.hi, true);
     if (view.grid) drawGrid(editor, lens);
-    const std::string words = wordsOf(view, editor.document.graph());
+    const auto fits = [&](const std::string& text) {
+        const ImVec2 size = plateSize(text, scale);
+        return size.x + pad < view.place.width() && size.y + pad < view.place.height();
+    };
+    std::string words = wordsOf(view, editor.document.graph());
+    if (!fits(words)) words.erase(std::min(words.find(" · "), words.size()));  // the side alone
+    if (!fits(words)) return list->PopClipRect();
     const ImVec2 size = plateSize(words, scale),
                  from(view.place.hi.x - pad - size.x, view.place.hi.y - pad - size.y);
-    if (from.x < view.place.lo.x) return list->PopClipRect();  // there is no room
     showPlate(list, from, words, themeColor(ThemeColor::text), scale);
     if (view.ownCamera && view.orthographic) drawBar(editor, lens, {from.x + size.x, from.y - pad});
     list->PopClipRect();

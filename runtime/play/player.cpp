@@ -475,6 +475,14 @@ Result<bool> Player::showTo(const RenderOptions& asked, Picture* onHost) {
     });
 }
 
+Result<bool> Player::sketch(const RenderOptions& asked, Picture& picture) {
+    return halvedIfFull([&] {
+        return look(asked, [&](const MesherResult& mesh, const RenderOptions& wishes) {
+            return session.sketch(mesh, wishes, picture);
+        });
+    });
+}
+
 Result<Scene> Player::scene() const {
     Result<Scene> scene = readScene(sceneAt(now.graph, now.timeline, timelineTime()));
     if (!scene) return problem(now.graph, scene.error().message + " (at " + std::to_string(seconds) + " s)");

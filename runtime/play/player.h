@@ -137,6 +137,8 @@ class Player {
     /// The same, left on the device for a window: picture(), none before the first.
     Result<bool> show(const RenderOptions& wishes) { return showTo(wishes, nullptr); }
     const Image* picture() const { return session.picture(); }
+    /// Such a frame of the mesh alone, beside the live view, which does not know of it: Session::sketch().
+    Result<bool> sketch(const RenderOptions& wishes, Picture& picture);
     /// Another number if the mesh that was made last, or its field, differ from what they were at another.
     uint64_t contentNumber() const { return session.contentNumber(); }
 

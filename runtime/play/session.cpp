@@ -416,13 +416,15 @@ Mesh Session::download(const MesherResult& result, bool parts) const {
 }
 
 template <class Draw>
-auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
+auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw, bool sketches)
     -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options)) {
     // Beside the field, a changed mesh would not be seen: where there are stages, the mesh alone is drawn.
     const bool looksInto = showsField(options.show) || options.show == RENDER_AMBIENT;
     if (tapes && looksInto) return tooLargeToLookInto(current);
-    const bool draft = drafting() || !current.stages.empty() || (!looksInto && (tapes || isTracedForLong()));
-    if (!renderer) renderer = createRenderer(*gpu);
+    const bool draft =
+        drafting() || sketches || !current.stages.empty() || (!looksInto && (tapes || isTracedForLong()));
+    std::optional<Renderer>& with = sketches ? sketcher : renderer;
+    if (!with) with = createRenderer(*gpu);
     if (!draft && renderer->field.empty())
         setField(*renderer, std::move(*createFieldKernels(*gpu, emitField(current))));
     std::vector<gpu::MeshVertex> points;
@@ -451,7 +453,7 @@ auto Session::draw(const MesherResult& result, RenderOptions options, Draw draw)
                             .particles = clouds,
                             .draft = draft ? std::optional(look) : std::nullopt,
                             .content = content};
-    return draw(*renderer, scene, options);
+    return draw(*with, scene, options);
 }
 
 Result<Picture> Session::render(const MesherResult& result, const RenderOptions& options) {
@@ -472,6 +474,15 @@ Result<bool> Session::renderLive(const MesherResult& result, const RenderOptions
         });
     if (drawn && *drawn) rememberParameters();
     return drawn;
+}
+
+Result<bool> Session::sketch(const MesherResult& result, const RenderOptions& options, Picture& onHost) {
+    return draw(
+        result, options,
+        [&](Renderer& with, const RenderScene& scene, const RenderOptions& wishes) {
+            return fw::renderLive(with, scene, wishes, &onHost);
+        },
+        true);
 }
 
 }  // namespace fw

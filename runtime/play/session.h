@@ -126,6 +126,9 @@ class Session {
     /// The live view's next frame, into picture() and, if one is given, the host's. False if it would be the
     /// same as the last. Errors as renderLive.
     Result<bool> renderLive(const MesherResult& result, const RenderOptions& options, Picture* onHost);
+    /// A frame of the mesh alone, drawn by a renderer of its own: the live view goes on as if it had not been
+    /// asked for. Not of views that showsField() or of ambient occlusion. False and errors as renderLive().
+    Result<bool> sketch(const MesherResult& result, const RenderOptions& options, Picture& onHost);
     /// The last picture on the device, R32_UINT; none before the first.
     const Image* picture() const;
 
@@ -162,7 +165,7 @@ class Session {
     Done runStages(MesherResult& result, const Box& region, const Program* onHost, bool timed);
     /// Calls draw(renderer, scene, options) with the mesh's points for what the options leave open.
     template <class Draw>
-    auto draw(const MesherResult& result, RenderOptions options, Draw draw)
+    auto draw(const MesherResult& result, RenderOptions options, Draw draw, bool sketches = false)
         -> decltype(draw(std::declval<Renderer&>(), std::declval<RenderScene&>(), options));
 
     std::unique_ptr<Device> gpu;  ///< stays put when the session moves, for the thread that compiles
@@ -182,6 +185,7 @@ class Session {
     MeshStageBuffers stageBuffers;
     MeshGrid grid;
     std::optional<Renderer> renderer;  ///< made by the first picture
+    std::optional<Renderer> sketcher;  ///< made by the first sketch; it has no field
     Image lastPicture;                 ///< of the renderer before, which had another field
     uint64_t content = 0;              ///< counts changes of mesh and parameters
     Buffer parameters, images, volumes;

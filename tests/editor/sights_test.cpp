@@ -115,4 +115,24 @@ TEST(Sights, AnEditThatChangesNothingSeenDrawsNothing) {
     EXPECT_TRUE(sight.due && !sight.rests && sight.refined == 0 && sight.best == 0);
 }
 
+TEST(Sights, ASketchIsTheFirstToBecomeAPicture) {
+    std::vector<Sight> sights = threeSights();
+    drawn(sights, 0, true, 50);
+    for (Sight& sight : sights) sight.outdate(kStart);
+    takeDrawn(sights[0]);
+    takeSketch(sights[1]), takeSketch(sights[2]);
+    EXPECT_TRUE(sights[1].told && sights[1].rough && !sights[1].due);
+    EXPECT_EQ(nextSight(sights, 0, 0, false), std::nullopt) << "not while a hand moves";
+    EXPECT_EQ(nextSight(sights, 0, 0, true), 1u) << "before the first is refined";
+    EXPECT_TRUE(takeDrawn(sights[1])) << "it is told though it is but one";
+    EXPECT_EQ(nextSight(sights, 0, 1, true), 2u);
+    takeDrawn(sights[2]);
+    EXPECT_FALSE(sights[2].rough);
+    // Where a sketch takes long, others wait for long.
+    sights[1].outdate(kStart);
+    EXPECT_EQ(staleSight(sights, 0, kStart + milliseconds(300), milliseconds(10)), 1u);
+    EXPECT_EQ(staleSight(sights, 0, kStart + milliseconds(300), milliseconds(100)), std::nullopt);
+    EXPECT_EQ(staleSight(sights, 0, kStart + milliseconds(1300), milliseconds(100)), 1u);
+}
+
 }  // namespace fw::editor::sights_test
