@@ -23,6 +23,7 @@ namespace {
 
 /// Inputs that stay live after the hand has let go of them: taking hold again, or undoing, compiles nothing.
 constexpr std::size_t kMostLive = 6;
+constexpr auto kSettled = std::chrono::milliseconds(200);
 constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
 constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
@@ -411,13 +412,16 @@ bool Maker::work() {
     }
     if (await) return false;
     const bool refines = !compiling && wish.held.empty();
-    const auto next = nextSight(sights, wish.first, turned, refines);
+    const auto nextOne = [&] {
+        return nextSight(sights, wish.first, turned, refines, Clock::now() - since > kSettled);
+    };
+    const auto next = nextOne();
     if (!next) return false;
     const bool fresh = sights[*next].due;
     draw(*next, fresh && *next == wish.first);
     if (fresh && *next == wish.first)
         if (const auto stale = staleSight(sights, wish.first, Clock::now(), sketch)) draw(*stale, true);
-    return nextSight(sights, wish.first, turned, refines).has_value();
+    return nextOne().has_value();
 }
 
 }  // namespace

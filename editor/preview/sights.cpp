@@ -34,7 +34,7 @@ bool aimSights(std::vector<Sight>& sights, const std::vector<PreviewEye>& eyes, 
 }
 
 std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size_t first, std::size_t turned,
-                                     bool refines) {
+                                     bool refines, bool settled) {
     const auto there = [&](std::size_t i) { return i < sights.size() && sights[i].wanted(); };
     if (there(first) && sights[first].due) return first;
     std::optional<std::size_t> longest;
@@ -42,6 +42,7 @@ std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size
         if (there(i) && sights[i].due && (!longest || sights[i].changed < sights[*longest].changed))
             longest = i;
     if (longest || !refines) return longest;
+    if (!settled && there(first) && !sights[first].rests) return first;
     for (std::size_t i = 0; i < sights.size(); ++i)
         if (there(i) && sights[i].rough) return i;
     for (const std::size_t i : {first, turned})

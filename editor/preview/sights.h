@@ -63,9 +63,10 @@ struct Sight {
 bool aimSights(std::vector<Sight>& sights, const std::vector<PreviewEye>& eyes, Clock::time_point now);
 
 /// Which one to draw next: `first` has the hand, `turned` was drawn last. None: all is done, which without
-/// `refines` is said once nothing is due.
+/// `refines` is said once nothing is due. Until it is `settled` that no newer wish follows soon, the renderer
+/// stays with the first one as long as that gets better.
 std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size_t first, std::size_t turned,
-                                     bool refines);
+                                     bool refines, bool settled = true);
 /// One besides the first that has waited for too long, when a sketch takes so long; none if none has.
 std::optional<std::size_t> staleSight(const std::vector<Sight>& sights, std::size_t first,
                                       Clock::time_point now, Clock::duration sketch = {});
