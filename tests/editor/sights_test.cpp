@@ -123,6 +123,7 @@ TEST(Sights, ASketchIsTheFirstToBecomeAPicture) {
     takeSketch(sights[1]), takeSketch(sights[2]);
     EXPECT_TRUE(sights[1].told && sights[1].rough && !sights[1].due);
     EXPECT_EQ(nextSight(sights, 0, 0, false), std::nullopt) << "not while a hand moves";
+    sights[0].rests = false;
     EXPECT_EQ(nextSight(sights, 0, 0, true, false), 0u) << "a newer wish may come any time";
     EXPECT_EQ(nextSight(sights, 0, 0, true), 1u) << "before the first is refined";
     EXPECT_TRUE(takeDrawn(sights[1])) << "it is told though it is but one";
