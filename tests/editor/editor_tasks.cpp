@@ -96,8 +96,8 @@ void count(const std::string& job, const char* document, const Way& now, const W
     };
     const std::optional<Effort> counted = done(now);
     if (failed()) return;
-    // Of these the former way is reckoned.
-    const bool reckoned = job == "A sign" || job == "A cut mesh" || job == "A turntable";
+    // Of this the former way is reckoned: a file and a command, not keys in the window.
+    const bool reckoned = job == "A turntable";
     const std::optional<Effort> before = isLong() && !reckoned ? done(former) : std::nullopt;
     if (!failed()) compare(job, *counted, before);
 }

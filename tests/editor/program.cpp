@@ -147,14 +147,14 @@ void Program::start(const std::vector<std::string>& arguments) {
         _exit(126);
     }
     ASSERT_GT(process, 0);
+    // To ask for the window again and again would cost more than to look.
+    waitFor("File");
     // The title is set by the first frame.
     ASSERT_TRUE(waitUntil([&] {
         window = trimmed(runProgram("xdotool search --onlyvisible --name ' - Fieldwright$'").output);
         return !window.empty() && window.find_first_not_of("0123456789") == std::string::npos;
     })) << "no window: "
         << window;
-    // And is there before anything is to be seen.
-    waitFor("File");
     // Without a window manager nobody else gives it the keyboard.
     send("windowfocus --sync " + window + " mousemove 640 790");
 }
