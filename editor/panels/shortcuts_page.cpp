@@ -112,7 +112,7 @@ void showPart(const Editor& editor, int part) {
         showMenu(editor, "Node", "Node");
         heading("Mouse on the canvas");
         for (const auto& [mouse, what] : kMouse) row(mouse, what);
-        heading("Numbers and nodes as they are typed");
+        heading("Typing on the canvas");
         for (const auto& [keys, what] : kTyping) row(keys, what);
         showMenu(editor, "Timeline", "On the timeline");
         heading("Mouse on the timeline");
