@@ -204,8 +204,15 @@ void beginNumber(Editor& editor) {
     if (io.KeyCtrl || io.KeyAlt || io.KeySuper || io.InputQueueCharacters.empty()) return;
     const ImWchar first = io.InputQueueCharacters[0];
     if (first != '.' && (first < '0' || first > '9')) return;
+    constexpr float kReadable =
+        0.75f;  // pixels of a canvas unit: from farther off numbers are not edited on nodes
+    CanvasView& view = editor.canvas.view;
+    const CanvasView before = view;
+    if (!showsFields(view)) view.zoomTo(kReadable / view.scale, view.panel.centre());
     if (typeFirstValue(editor.canvas, editor.document, *editor.boxes))
         editor.canvas.number.typed.begun = char(first);
+    else
+        view = before;
 }
 
 /// Alt by itself goes to the menus, but not when it was held for something else.

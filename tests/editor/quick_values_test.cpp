@@ -52,6 +52,14 @@ TEST_F(QuickValues, ADigitBeginsTheFirstNumber) {
     editor.keys("Return");
     editor.send("type --delay 0 --args 1 1.5 key Return");
     EXPECT_EQ(extents("box").at(0), 1.5);
+    // From far off the canvas comes nearer for it.
+    CanvasView& view = editor->canvas.view;
+    view.zoomTo(0.3f, view.panel.centre());
+    editor.settle();
+    editor.send("type --delay 0 --args 1 2.5 key Return");
+    EXPECT_EQ(extents("box").at(0), 2.5);
+    EXPECT_TRUE(showsFields(view));
+    editor.keys("ctrl+z");
     editor->canvas.select({});
     editor.send("type --delay 0 --args 1 8");
     EXPECT_EQ(editor->canvas.number.state, NumberHand::State::none);
