@@ -42,10 +42,11 @@ std::optional<Join> joinOf(const Graph& graph, std::string_view scope, std::stri
 /// The node type that makes of this the other, as a solid of particles, and needs nothing else; nullptr: none
 /// does.
 const NodeType* bridgeOf(std::optional<Type> from, std::optional<Type> to) {
-    if (!from || !to || from == to || componentCount(*from) > 0 || componentCount(*to) > 0) return nullptr;
-    const auto isWired = [](const InputSpec& input) {
-        return input.type == Type::surface || input.type == Type::mesh || input.type == Type::particles;
+    const auto isThing = [](Type type) {
+        return type == Type::surface || type == Type::mesh || type == Type::particles;
     };
+    const auto isWired = [&](const InputSpec& input) { return isThing(input.type); };
+    if (!from || !to || from == to || !isThing(*from) || !isThing(*to)) return nullptr;
     for (const NodeType& type : nodeTypes())
         if (type.role == NodeRole::plain && type.outputs.size() == 1 && type.outputs[0].type == *to &&
             std::ranges::count_if(type.inputs, isWired) == 1 &&

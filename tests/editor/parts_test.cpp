@@ -52,6 +52,7 @@ TEST(Parts, ANameIsProposed) {
     Graph graph = test::graphOf(R"({"id": "cup", "type": "subtract"}, {"id": "box_2", "type": "box"},
         {"id": "a", "type": "sphere", "label": "Marble"}, {"id": "g", "type": "group", "group": "left_wheel"})",
                                 R"(, "groups": [{"id": "left_wheel", "nodes": []}])");
+    graph.path.clear();
     EXPECT_EQ(proposedName(graph, "", "cup", {}), "Cup");
     EXPECT_EQ(proposedName(graph, "", "a", {}), "Marble");
     EXPECT_EQ(proposedName(graph, "", "g", {}), "Left wheel");
@@ -151,9 +152,8 @@ TEST(Parts, KeepsNodesShowsThemAndGivesThemBack) {
     program.frameAll();
     program.click(program.title("ball"));
     program.keys("F3");
-    program.type("library\n");
+    program.type("keep\n");
     program.waitFor("Nothing is kept yet");
-    program.clickOn("of the selection");
     program.type("My marble\n");
     program.waitFor("kept as my_marble");
     const std::string kept = program.path("data/fieldwright/library/my_marble.field.json");
