@@ -107,7 +107,7 @@ TEST(EditorTasks, ALibraryPart) {
             person.waitFor("with 3 nodes that feed it");
             person.type("\n");
             person.waitFor("kept as cup");
-            person.open("shelf.field.json", "s");
+            person.open("shelf.field.json", "sh");
             person.addWired({"cup"});
             person.keys("Ctrl+S");
         },
