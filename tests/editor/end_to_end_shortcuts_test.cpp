@@ -67,8 +67,10 @@ TEST_P(EndToEndShortcuts, DoWhatTheTableSays) {
                 continue;
             }
             if (!program) {
-                program.emplace(GetParam() == "timeline" ? kMoving : kDocument,
-                                GetParam() == "picture" ? 0.4f : Program::kLittle);
+                if (GetParam() == "picture")
+                    program.emplace(kDocument, 0.35f, 0.27f);
+                else
+                    program.emplace(GetParam() == "timeline" ? kMoving : kDocument, Program::kLittle);
                 ASSERT_TRUE(program->works())
                     << "Xvfb, xdotool or xclip is not installed: run ./.install test";
                 original = program->save();

@@ -19,6 +19,7 @@
 #include "editor/shell/theme.h"
 #include "graph/document/json.h"
 #include "tests/support/dropped_file.h"
+#include "tests/support/window_title.h"
 
 namespace fw::editor::test {
 
@@ -92,15 +93,16 @@ bool eventually(const std::function<bool()>& condition) {
     return true;
 }
 
-Program::Program(const std::string& text, float picture)
+Program::Program(const std::string& text, float picture, float side)
     : document(folder.path("document.field.json")), share(picture) {
     usable = display.works() && runProgram("xdotool version").status == 0;
     if (!usable) return;
     writeText(document, text);
-    if (share != kUsual) {
+    if (share != kUsual || side != kUsualSide) {
         std::filesystem::create_directories(folder.path("config/fieldwright"));
-        writeText(folder.path("config/fieldwright/editor.json"),
-                  "{\"panels\": {\"top\": " + std::to_string(share) + "}}");
+        writeText(
+            folder.path("config/fieldwright/editor.json"),
+            "{\"panels\": {\"top\": " + std::to_string(share) + ", \"side\": " + std::to_string(side) + "}}");
     }
     read();
     start({document});
@@ -299,7 +301,7 @@ void Program::clickOn(const std::string& words, const std::optional<Area>& withi
     if (found.width() > 0) click(found.centre());
 }
 
-std::string Program::title() const { return trimmed(runProgram("xdotool getwindowname " + window).output); }
+std::string Program::title() const { return fw::test::windowTitle(window); }
 
 void Program::waitForTitle(const std::string& wanted) {
     EXPECT_TRUE(waitUntil([&] { return title() == wanted; })) << "it is " << title() << ", not " << wanted;

@@ -34,9 +34,11 @@ struct Effort {
 class Program {
   public:
     /// With a document of this text, or with the empty document if there is none; the picture has this share
-    /// of the window's height, of which a software device is the quicker the less it is. Check works() first.
-    explicit Program(const std::string& text = R"({"fieldwright": 1, "nodes": []})", float picture = kUsual);
-    static constexpr float kUsual = 0.55f, kLittle = 0.2f;
+    /// of the window's height, and with the panels this share of its width: a software device is the quicker
+    /// the less it is. Check works() first.
+    explicit Program(const std::string& text = R"({"fieldwright": 1, "nodes": []})", float picture = kUsual,
+                     float side = kUsualSide);
+    static constexpr float kUsual = 0.55f, kLittle = 0.2f, kUsualSide = 0.36f;
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
     /// Ends the editor. If the test has failed, a picture of the screen lies beside the test program.
@@ -93,7 +95,8 @@ class Program {
     // The document.
     std::string save();    ///< Ctrl+S, and the file's bytes
     const Graph& saved();  ///< the same, read
-    /// Opens this file in place of the document, which has no unsaved changes; by what is typed, if that is not its path.
+    /// Opens this file in place of the document, which has no unsaved changes; by what is typed, if that is
+    /// not its path.
     void open(const std::string& path, const std::string& typed = {});
     const Graph& graph() const { return known; }
     void clipboard(const std::string& text);

@@ -31,7 +31,7 @@ void turnPanel(Program& program, const std::string& keys) {
     program.save();
     const Picture before = program.screen();
     program.keys(keys);
-    program.waitForChange(before, {{program.view.panel.hi.x + 20, 500}, {1260, 700}});
+    program.waitForChange(before, {{program.view.panel.hi.x + 20, program.pictureEnd() + 60}, {1260, 700}});
 }
 
 /// The keyboard steers the picture, wherever the mouse is.
