@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "editor/preview/detail.h"
 #include "editor/preview/pinned.h"
 #include "graph/check/check.h"
 #include "runtime/play/player.h"
@@ -25,13 +26,9 @@ namespace {
 constexpr std::size_t kMostLive = 6;
 constexpr auto kSettled = std::chrono::milliseconds(200);
 constexpr auto kCompilePoll = std::chrono::milliseconds(5);
-/// While a hand moves, the mesh gets coarser if mesh and picture take longer than this, milliseconds.
-constexpr double kMostHeld = 55.0, kFewHeld = 30.0;
-constexpr int kLeastHeldResolution = 48;
-/// Without kernels the first picture of a graph is of a mesh that tapes take so long for, seconds (of what
-/// secondsByTapes() fears, which is several times what it takes), and the next of the whole, once nothing was
-/// asked for so long, milliseconds.
-constexpr double kMostFirst = 0.4, kRest = 120.0;
+/// A first mesh with few cells is followed by that with all, once nothing was asked for so long,
+/// milliseconds.
+constexpr double kRest = 120.0;
 /// Fewer steps of particles than this are soon made: nobody is told of them.
 constexpr int kToldSteps = 20;
 
@@ -148,7 +145,7 @@ class Maker {
     Clock::duration sketch{};      ///< that one takes
     std::size_t turned = 0;        ///< that of the last picture
     Box solid = kUnbounded;        ///< where the last one was
-    int heldResolution = 0;        ///< cells while a hand moves; 0: as many as at rest
+    HeldDetail heldDetail;
     bool await = false;    ///< what changed is only what is held: the picture stays until kernels are there
     bool compiled = true;  ///< all kernels were there for the last picture
     bool good = false;     ///< the graph can be drawn
@@ -161,7 +158,7 @@ class Maker {
 PlayerOptions Maker::playerOptions() const {
     PlayerOptions options;
     options.resolution = wish.resolution;
-    if (!wish.held.empty() && heldResolution > 0) options.resolution = heldResolution;
+    if (!wish.held.empty() && heldDetail.cells > 0) options.resolution = heldDetail.cells;
     options.liveParameters = false;
     options.live = {live.begin(), live.end()};
     options.compileBehind = options.checked = true;
@@ -243,10 +240,11 @@ void Maker::outdateAll() {
 /// A large field that has no kernels yet is shown with few cells first.
 void Maker::coarsen() {
     player->coarsen(0);
-    const double fear =
-        player->meshesOnHost() ? secondsByTapes(player->program(), player->resolution()) : 0.0;
-    coarse = fear > 2.0 * kMostFirst;
-    if (coarse) player->coarsen(int(player->resolution() * std::sqrt(kMostFirst / fear)));
+    const int cells = player->resolution();
+    const int few =
+        player->meshesOnHost() ? firstCells(cells, secondsByTapes(player->program(), cells)) : cells;
+    coarse = few < cells;
+    if (coarse) player->coarsen(few);
 }
 
 void Maker::take(PreviewWish newer) {
@@ -258,7 +256,7 @@ void Maker::take(PreviewWish newer) {
     const bool sameLook =
         newer.seconds == wish.seconds && newer.view == wish.view && newer.slice == wish.slice;
     if (!first && newer.document != wish.document) sights.clear(), result = {};
-    if (newer.held.empty()) heldResolution = 0;
+    if (newer.held.empty()) heldDetail.cells = 0;
     const bool letGo = !wish.held.empty() && newer.held.empty();
     wish = std::move(newer);
     if (!wish.graph) return;
@@ -286,19 +284,15 @@ Done Maker::aim(RenderOptions& options, const Sight& sight) {
         const auto points = player->outline();
         if (!points) return points.error();
         if (!points->empty())
-            options.scene.camera = framingCamera(*points, float(options.width) / float(options.height));
+            options.scene.camera = framingCamera(*points, float(sight.eye.width) / float(sight.eye.height));
     }
     return done();
 }
 
 void Maker::adapt(double took) {
     if (wish.held.empty() || player->compiling()) return;
-    const int now = player->resolution();
-    const int full = wish.resolution > 0 ? wish.resolution : player->program().resolution;
-    if (took > kMostHeld && now > kLeastHeldResolution)
-        heldResolution = std::max(kLeastHeldResolution, now * 3 / 4);
-    else if (took < kFewHeld && now < full)
-        heldResolution = std::min(full, now * 4 / 3 + 1);
+    heldDetail =
+        adapted(heldDetail, took, wish.resolution > 0 ? wish.resolution : player->program().resolution);
 }
 
 /// Whether it is sketched: on a software device those are that have not the hand, so that they are not in its
@@ -311,8 +305,12 @@ bool Maker::sketches(std::size_t which) const {
 /// `urgent` is what no newer wish of the same graph cancels.
 void Maker::draw(std::size_t which, bool urgent) {
     Sight& sight = sights[which];
-    RenderOptions options{.width = std::clamp(sight.eye.width, kLeastPictureSide, kMostPictureSide),
-                          .height = std::clamp(sight.eye.height, kLeastPictureSide, kMostPictureSide),
+    const auto side = [&](int pixels) {
+        const double scale = wish.held.empty() ? 1.0 : heldDetail.scale;
+        return std::clamp(int(std::lround(scale * pixels)), kLeastPictureSide, kMostPictureSide);
+    };
+    RenderOptions options{.width = side(sight.eye.width),
+                          .height = side(sight.eye.height),
                           .primary = Primary::measured,
                           .show = wish.view,
                           .slice = wish.slice};

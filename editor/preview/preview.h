@@ -61,7 +61,7 @@ struct PreviewResult {
     uint64_t document = 0;  ///< as it was asked for
     std::vector<Error> findings = {};
     bool current = false;  ///< the picture shows that graph; otherwise the last that was valid
-    Picture picture = {};  ///< empty: none yet
+    Picture picture = {};  ///< empty: none yet; smaller than asked for while a hand moves (detail.h)
     bool draft = false;    ///< of the mesh alone: better ones come when kernels are compiled
     Camera seen = {};      ///< what it was seen by
     std::vector<PreviewSight> others = {};       ///< as those of the wish

@@ -130,7 +130,7 @@ bool glyphsAreWanted() { return asked().fresh; }
 
 ImFont* Fonts::codeOf(float pixels) const { return nearest(code, pixels); }
 
-Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
+Fonts readFonts(ImFontAtlas& atlas, float scale) {
     atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
     atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
     atlas.TexDesiredWidth = 2048;
@@ -164,10 +164,12 @@ Fonts bakeFonts(ImFontAtlas& atlas, float scale) {
         fonts.missing =
             "the fonts DejaVu Sans and DejaVu Sans Mono are not installed (Debian: fonts-dejavu-core): "
             "text is coarser than it should be, and some signs are missing";
+    return fonts;
+}
+
+void bakeFonts(ImFontAtlas& atlas) {
     atlas.Build();
     atlas.ClearInputData();  // the files, each as often as there are sizes
-    ImGui::GetIO().FontDefault = fonts.of(kFontSize * scale);
-    return fonts;
 }
 
 }  // namespace fw::editor

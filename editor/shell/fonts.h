@@ -36,8 +36,10 @@ void wantGlyphs(std::string_view text);
 /// Whether some are that were not when fonts were baked last.
 bool glyphsAreWanted();
 
-/// Bakes them into the atlas, for an interface of this scale; text of size kFontSize becomes the default
-/// font. Where the files are not found, ImGui's own font stands in, and `missing` says so.
-Fonts bakeFonts(ImFontAtlas& atlas, float scale);
+/// Reads them into the atlas, for an interface of this scale. Where the files are not found, ImGui's own font
+/// stands in, and `missing` says so.
+Fonts readFonts(ImFontAtlas& atlas, float scale);
+/// Bakes what was read, which takes a tenth of a second: on any thread, while no other touches the atlas.
+void bakeFonts(ImFontAtlas& atlas);
 
 }  // namespace fw::editor

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <future>
 #include <optional>
 
 #include "editor/shell/draw_lists.h"
@@ -118,15 +119,24 @@ struct Shell::State {
     }
 
     /// Style and fonts for the theme and for the scale asked for, or the display's, which changes as the
-    /// window is moved to another. Not within a frame.
+    /// window is moved to another. Not within a frame. The fonts are there after finishFonts().
     void followScale() {
         const float before = std::exchange(scale, scaleOf(window.get(), askedScale));
         if (scale != before || styled != theme()) applyTheme(scale);
         styled = theme();
         if (scale == before && !glyphsAreWanted()) return;
+        finishFonts();
         ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
         atlas.Clear();
-        fonts = bakeFonts(atlas, scale);
+        fonts = readFonts(atlas, scale);
+        baking = std::async(std::launch::async, [&atlas] { bakeFonts(atlas); });
+    }
+
+    void finishFonts() {
+        if (!baking.valid()) return;
+        baking.get();
+        ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+        ImGui::GetIO().FontDefault = fonts.of(kFontSize * scale);
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         atlas.GetTexDataAsRGBA32(&pixels, &width, &height);
@@ -152,6 +162,9 @@ struct Shell::State {
     float scale = 0.0f;
     Theme styled = Theme::dark;
     Fonts fonts;
+    /// Beside whatever else a start takes. ImGui's count of allocations, which both threads change, is shown
+    /// to nobody.
+    std::future<void> baking;
     DrawLists lists;
     Texture glyphs;
     std::vector<std::unique_ptr<Texture>> textures, forgotten;
@@ -189,6 +202,7 @@ bool Shell::answer(const std::function<void()>& show) {
     if (width == 0 || height == 0) return false;
     state->forgotten.clear();
     state->followScale();
+    state->finishFonts();
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {float(width), float(height)};  // in pixels, wherever the system counts otherwise

@@ -39,7 +39,8 @@ Reader::Reader() : atlas(std::make_unique<ImFontAtlas>()) {
     ImGuiContext* before = ImGui::GetCurrentContext();
     ImGuiContext* own = ImGui::CreateContext(atlas.get());
     ImGui::SetCurrentContext(own);
-    fonts = bakeFonts(*atlas, 1.0f);
+    fonts = readFonts(*atlas, 1.0f);
+    bakeFonts(*atlas);
     ImGui::SetCurrentContext(before ? before : own);
     ImGui::DestroyContext(own);
 }
