@@ -292,6 +292,67 @@ TEST(Preview, WhatIsHeldMovesAndBuildsNoPipeline) {
     EXPECT_EQ(previewed.full().statistics.pipelines, rest.statistics.pipelines);
 }
 
+/// So many boxes that tapes may take long for all cells of them. Another structure for another size of the
+/// first.
+std::shared_ptr<const Graph> manyBoxes(double first) {
+    constexpr int kBoxes = 60;
+    Graph graph;
+    const auto add = [&](std::string id, std::string type) -> Node& {
+        Node& node = graph.nodes.emplace_back();
+        node.id = std::move(id), node.type = std::move(type);
+        return node;
+    };
+    const auto holding = [](auto value) {
+        InputValue input;
+        input.value = std::move(value);
+        return input;
+    };
+    std::string all;
+    for (int i = 0; i < kBoxes; ++i) {
+        const std::string number = std::to_string(i);
+        const double size = i == 0 ? first : 0.3 + 0.003 * i;  // unlike each other: no family
+        add("box" + number, "box_max")
+            .set("half_extents", holding(std::vector<double>{size, 0.9 * size, 0.3}));
+        Node& moved = add("moved" + number, "translate");
+        moved.set("surface", holding(Link{"box" + number, ""}));
+        moved.set("offset", holding(std::vector<double>{0.35 * (i % 8), 0.35 * (i / 8), 0.01 * (i % 7)}));
+        if (i == 0) {
+            all = "moved0";
+            continue;
+        }
+        Node& joined = add("joined" + number, i % 3 ? "union" : "difference");
+        joined.set("a", holding(Link{all, ""}));
+        joined.set("b", holding(Link{"moved" + number, ""}));
+        all = joined.id;
+    }
+    Node& out = add("out", "output");
+    out.set("surface", holding(Link{all, ""}));
+    out.set("resolution", holding(256.0));
+    return std::make_shared<const Graph>(std::move(graph));
+}
+
+TEST(Preview, ALargeGraphIsShownWithFewCellsFirstAndWithAllOnceNothingIsAskedFor) {
+    Previewed previewed;
+    std::random_device seed;
+    for (int i = 0; i < 2; ++i) {
+        previewed.ask({.graph = manyBoxes(0.3 + double(seed()) * 1e-11)});
+        const auto shown = [&](const PreviewResult& result) {
+            return result.revision == previewed.revision && result.current;
+        };
+        const PreviewResult first = previewed.until(shown);
+        ASSERT_TRUE(first.findings.empty()) << first.findings[0].message;
+        const PreviewResult all = previewed.until([&](const PreviewResult& result) {
+            return shown(result) && result.statistics.resolution == 256;
+        });
+        if (!first.draft) continue;  // kernels were sooner there
+        EXPECT_LT(first.statistics.resolution, 230);
+        EXPECT_GT(all.statistics.triangles, first.statistics.triangles);
+        EXPECT_EQ(all.region, first.region);
+        // The same solid: only edges are elsewhere, by a cell.
+        EXPECT_LT(difference(all.picture, first.picture), 8.0);
+    }
+}
+
 TEST(Preview, AnEditWithoutEffectIsToldOf) {
     Previewed previewed;
     previewed.ask({.graph = joined(0.7)});

@@ -75,7 +75,9 @@ TEST_F(ShellTest, DrawsWhatWasAskedFor) {
         ImDrawList& list = *ImGui::GetBackgroundDrawList();
         list.AddRectFilled({10, 10}, {110, 60}, IM_COL32(200, 30, 60, 255));
         list.AddRectFilled({200, 10}, {300, 60}, IM_COL32(1, 128, 254, 255));
-        list.AddRectFilled({250, 30}, {300, 60}, IM_COL32(255, 255, 255, 51));  // one part in five
+        list.AddRectFilled({250, 30}, {300, 60}, IM_COL32(255, 255, 255, 51));   // one part in five
+        list.AddRectFilled({200, 100}, {340, 180}, IM_COL32(1, 128, 254, 255));  // large: without a picture
+        list.AddRectFilled({220, 110}, {320, 170}, IM_COL32(255, 255, 255, 51));
         list.PushClipRect({400, 10}, {450, 30});
         list.AddRectFilled({350, 0}, {600, 200}, IM_COL32(0, 158, 115, 255));
         list.PopClipRect();
@@ -94,6 +96,8 @@ TEST_F(ShellTest, DrawsWhatWasAskedFor) {
     EXPECT_EQ(at(seen, 109, 60), canvas);
     EXPECT_EQ(at(seen, 210, 20), blue);
     EXPECT_EQ(at(seen, 275, 45), glm::ivec3(52, 153, 254));  // blended in sRGB
+    EXPECT_EQ(at(seen, 210, 105), blue);
+    EXPECT_EQ(at(seen, 270, 140), glm::ivec3(52, 153, 254));
     EXPECT_EQ(at(seen, 400, 10), green);
     EXPECT_EQ(at(seen, 449, 29), green);
     for (const auto& [x, y] : {std::pair{399, 20}, {450, 20}, {420, 9}, {420, 30}})
