@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "editor/canvas/fields.h"
 #include "editor/shell/theme.h"
@@ -16,11 +17,14 @@ namespace fw::editor {
 namespace {
 
 constexpr float kTangent = 42.0f, kPoint = 3.5f, kNearPoint = 7.0f;  // pixels of the interface
-constexpr float kApart = 5.0f;            // pixels of the interface between keys that are drawn as points
-constexpr std::size_t kFineCurves = 8;    // so many are drawn as fine as they can be seen
-constexpr std::size_t kFewKeys = 600;     // so many keys of curves are drawn one by one
-constexpr std::size_t kFewSelected = 50;  // so many of more have their tangents shown
-constexpr float kCrowd = 12.0f;           // pixels of the interface: a square with one point of many
+constexpr float kApart = 5.0f;              // pixels of the interface between keys that are drawn as points
+constexpr std::size_t kFineCurves = 8;      // so many are drawn as fine as they can be seen
+constexpr std::size_t kFewKeys = 600;       // so many keys of curves are drawn one by one
+constexpr std::size_t kMostCurves = 65535;  // that columns have numbers for
+constexpr std::size_t kManyPieces = 10000;  // rectangles of curves: with more they are drawn more coarsely,
+constexpr float kCoarsest = 3.0f;           // until cells are so large; pixels of the interface
+constexpr std::size_t kFewSelected = 50;    // so many of more have their tangents shown
+constexpr float kCrowd = 12.0f;             // pixels of the interface: a square with one point of many
 
 constexpr float kDim = 0.4f;  // opacity
 
@@ -219,21 +223,29 @@ void drawCrowdedPoints(const Strip& strip, const StripHit& hit) {
                true);
 }
 
-/// Curves with many keys: what is seen of all of them together.
+/// Curves with many keys: what is seen of all of them together, the coarser the more there is of it.
 void drawCrowd(const Strip& strip, const StripHit& hit, std::size_t curves) {
     ImDrawList* list = ImGui::GetWindowDrawList();
-    const float side = std::max(std::round(strip.scale()), 1.0f) * (curves <= kFineCurves ? 1.0f : 2.0f);
-    Columns columns = emptyColumns(strip.body.lo, strip.body.hi, side);
     std::vector<ImU32> colors{0};
     eachShown(strip, [&](std::size_t, const Track& track) {
-        const std::size_t count = track.keys[0].value.size();
-        if (colors.size() + count > 65535u) return;
-        paintCurves(columns, track, strip.state.view, strip.state.values, uint16_t(colors.size()));
-        for (std::size_t c = 0; c < count; ++c)
+        for (std::size_t c = 0; c < track.keys[0].value.size(); ++c)
             colors.push_back(dimmedOnPanel(curveColor(track, c), isDim(strip, track)));
     });
-    for (const ColumnPiece& piece : piecesOf(columns))
-        list->AddRectFilled(piece.lo, piece.hi, colors[piece.curve]);
+    if (colors.size() > kMostCurves) colors.resize(kMostCurves);
+    const float scale = std::max(std::round(strip.scale()), 1.0f);
+    std::vector<ColumnPiece> pieces;
+    for (float side = curves <= kFineCurves ? 1.0f : 2.0f; side <= kCoarsest; ++side) {
+        Columns columns = emptyColumns(strip.body.lo, strip.body.hi, side * scale);
+        std::size_t next = 1;
+        eachShown(strip, [&](std::size_t, const Track& track) {
+            const std::size_t first = std::exchange(next, next + track.keys[0].value.size());
+            if (next <= colors.size())
+                paintCurves(columns, track, strip.state.view, strip.state.values, uint16_t(first));
+        });
+        pieces = piecesOf(columns);
+        if (pieces.size() <= kManyPieces) break;
+    }
+    for (const ColumnPiece& piece : pieces) list->AddRectFilled(piece.lo, piece.hi, colors[piece.curve]);
     drawCrowdedPoints(strip, hit);
 }
 
