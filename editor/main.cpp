@@ -67,9 +67,9 @@ int run(const Options& options) {
         Shell::wake();
     });
     Shell shell(options.shell);
-    if (!shell.fonts().missing.empty()) complain(shell.fonts().missing);
     Editor editor(shell, Graph(), {.pick = options.shell.device});
     startFiles(editor, options.graph);
+    if (!shell.fonts().missing.empty()) complain(shell.fonts().missing);
     const Preferences& preferences = editor.files.preferences;
     if (options.shell.scale == 0.0f) shell.setScale(preferences.scale);
     if (const auto size = windowSizeOf(preferences.panels); size && !options.sized)

@@ -261,7 +261,10 @@ void Shell::forget(ImTextureID id) {
 }
 
 std::vector<std::string> Shell::takeDropped() { return state->input.takeDropped(); }
-const Fonts& Shell::fonts() const { return state->fonts; }
+const Fonts& Shell::fonts() const {
+    state->finishFonts();
+    return state->fonts;
+}
 float Shell::scale() const { return state->scale; }
 void Shell::setScale(float asked) {
     state->askedScale = asked;

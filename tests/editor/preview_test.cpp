@@ -295,7 +295,7 @@ TEST(Preview, WhatIsHeldMovesAndBuildsNoPipeline) {
 /// So many boxes that tapes may take long for all cells of them. Another structure for another size of the
 /// first.
 std::shared_ptr<const Graph> manyBoxes(double first) {
-    constexpr int kBoxes = 60;
+    constexpr int kBoxes = 110;
     Graph graph;
     const auto add = [&](std::string id, std::string type) -> Node& {
         Node& node = graph.nodes.emplace_back();
@@ -334,23 +334,17 @@ std::shared_ptr<const Graph> manyBoxes(double first) {
 TEST(Preview, ALargeGraphIsShownWithFewCellsFirstAndWithAllOnceNothingIsAskedFor) {
     Previewed previewed;
     std::random_device seed;
-    for (int i = 0; i < 2; ++i) {
-        previewed.ask({.graph = manyBoxes(0.3 + double(seed()) * 1e-11)});
-        const auto shown = [&](const PreviewResult& result) {
-            return result.revision == previewed.revision && result.current;
-        };
-        const PreviewResult first = previewed.until(shown);
-        ASSERT_TRUE(first.findings.empty()) << first.findings[0].message;
-        const PreviewResult all = previewed.until([&](const PreviewResult& result) {
-            return shown(result) && result.statistics.resolution == 256;
-        });
-        if (!first.draft) continue;  // kernels were sooner there
-        EXPECT_LT(first.statistics.resolution, 230);
-        EXPECT_GT(all.statistics.triangles, first.statistics.triangles);
-        EXPECT_EQ(all.region, first.region);
-        // The same solid: only edges are elsewhere, by a cell.
-        EXPECT_LT(difference(all.picture, first.picture), 8.0);
-    }
+    previewed.ask({.graph = manyBoxes(0.3 + double(seed()) * 1e-11)});
+    const PreviewResult first = previewed.until([](const PreviewResult& result) { return result.current; });
+    ASSERT_TRUE(first.findings.empty()) << first.findings[0].message;
+    const PreviewResult all = previewed.until(
+        [](const PreviewResult& result) { return result.current && result.statistics.resolution == 256; });
+    if (!first.draft) GTEST_SKIP() << "the kernels were there sooner than a picture";
+    EXPECT_LT(first.statistics.resolution, 200);
+    EXPECT_GT(all.statistics.triangles, 1.5 * first.statistics.triangles);
+    EXPECT_EQ(all.region, first.region);
+    // The same solid: only edges are elsewhere, by a cell.
+    EXPECT_LT(difference(all.picture, first.picture), 8.0);
 }
 
 TEST(Preview, AnEditWithoutEffectIsToldOf) {
