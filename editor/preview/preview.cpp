@@ -24,6 +24,10 @@ namespace {
 
 /// Inputs that stay live after the hand has let go of them: taking hold again, or undoing, compiles nothing.
 constexpr std::size_t kMostLive = 6;
+/// While a hand moves: how long the others wait for a newer wish, and in how many times its own length one of
+/// them is sketched once if wishes do not stop.
+constexpr auto kPause = std::chrono::milliseconds(40);
+constexpr int kSketchesApart = 12;
 constexpr auto kSettled = std::chrono::milliseconds(200);
 constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// A first mesh with few cells is followed by that with all, once nothing was asked for so long,
@@ -114,6 +118,8 @@ class Maker {
     void take(PreviewWish newer);
     /// The next thing to do for the wish: a picture, or nothing. Whether there is more to do at once.
     bool work();
+    /// Whether a newer wish will probably come before there is time for more.
+    bool pauses() const { return pausing; }
     /// Whether more will have to be done when kernels are compiled.
     bool waits() {
         return player && playsOf == wish.document && (coarse || !compiled || player->compiling());
@@ -138,13 +144,15 @@ class Maker {
     const Overtaken& overtaken;
     std::optional<Player> player;
     PreviewWish wish;
-    std::deque<std::string> live;  ///< held last first
-    PreviewResult result;          ///< as it was told last
-    std::vector<Error> checked;    ///< the graph's findings; a time may have one more
-    std::vector<Sight> sights;     ///< of the wish's eyes
-    Clock::duration sketch{};      ///< that one takes
-    std::size_t turned = 0;        ///< that of the last picture
-    Box solid = kUnbounded;        ///< where the last one was
+    std::deque<std::string> live;     ///< held last first
+    PreviewResult result;             ///< as it was told last
+    std::vector<Error> checked;       ///< the graph's findings; a time may have one more
+    std::vector<Sight> sights;        ///< of the wish's eyes
+    Clock::duration sketch{};         ///< that one takes
+    Clock::time_point sketched = {};  ///< when one was made last
+    bool pausing = false;             ///< the picture under the hand was drawn, and the others may wait
+    std::size_t turned = 0;           ///< that of the last picture
+    Box solid = kUnbounded;           ///< where the last one was
     HeldDetail heldDetail;
     bool await = false;    ///< what changed is only what is held: the picture stays until kernels are there
     bool compiled = true;  ///< all kernels were there for the last picture
@@ -319,8 +327,8 @@ void Maker::draw(std::size_t which, bool urgent) {
         options.cancel = &overtaken.byAny;
     else if (!player->compiling())
         options.cancel = &overtaken.byOther;
-    const bool sketched = sketches(which);
-    if (!sketched && std::exchange(turned, which) != which) sight.refined = 0;
+    const bool asSketch = sketches(which);
+    if (!asSketch && std::exchange(turned, which) != which) sight.refined = 0;
     const auto refuseAll = [&](Error error) {
         refuse(std::move(error));
         for (Sight& each : sights) each.due = false, each.rests = true;
@@ -348,15 +356,15 @@ void Maker::draw(std::size_t which, bool urgent) {
     if (isDrawnOf(sight, of)) return saysSo(), tell();
     const auto drawing = Clock::now();
     const Result<bool> drawn =
-        sketched ? player->sketch(options, sight.picture) : player->show(options, sight.picture);
+        asSketch ? player->sketch(options, sight.picture) : player->show(options, sight.picture);
     if (!drawn) return refuseAll(drawn.error());
     if (!*drawn && options.cancel && *options.cancel) {
         if (takeRest(sight)) tell();
         return;
     }
     saysSo();
-    if (sketched) {
-        sketch = Clock::now() - drawing;
+    if (asSketch) {
+        sketched = Clock::now(), sketch = sketched - drawing;
         sight.of = of;
         if (options.scene.camera) sight.seen = *options.scene.camera;
         return takeSketch(sight), tell();
@@ -397,6 +405,7 @@ void Maker::tell() {
 }
 
 bool Maker::work() {
+    pausing = false;
     if (!player || playsOf != wish.document) return false;
     const bool compiling = player->compiling();
     if (!compiling && !compiled) since = Clock::now(), outdateAll();  // from the draft to the full
@@ -417,8 +426,9 @@ bool Maker::work() {
     if (!next) return false;
     const bool fresh = sights[*next].due;
     draw(*next, fresh && *next == wish.first);
-    if (fresh && *next == wish.first)
-        if (const auto stale = staleSight(sights, wish.first, Clock::now(), sketch)) draw(*stale, true);
+    pausing = fresh && *next == wish.first && !wish.held.empty();
+    if (fresh && *next == wish.first && Clock::now() - sketched > kSketchesApart * sketch)
+        if (const auto stale = staleSight(sights, wish.first, Clock::now())) draw(*stale, true);
     return nextOne().has_value();
 }
 
@@ -443,6 +453,8 @@ void Preview::Shared::work() {
             const auto woken = [&] { return stop || next; };
             if (!more && waits) {
                 asked.wait_for(lock, kCompilePoll, woken);
+            } else if (more && maker.pauses()) {
+                asked.wait_for(lock, kPause, woken);
             } else if (!more) {
                 working = next.has_value();
                 asked.wait(lock, woken);

@@ -1,6 +1,5 @@
 #include "editor/preview/sights.h"
 
-#include <algorithm>
 #include <bit>
 
 namespace fw::editor {
@@ -53,11 +52,10 @@ std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size
 }
 
 std::optional<std::size_t> staleSight(const std::vector<Sight>& sights, std::size_t first,
-                                      Clock::time_point now, Clock::duration sketch) {
-    const Clock::duration most = std::max<Clock::duration>(kLongestStale, kStaleSketches * sketch);
+                                      Clock::time_point now) {
     std::optional<std::size_t> longest;
     for (std::size_t i = 0; i < sights.size(); ++i)
-        if (i != first && sights[i].wanted() && sights[i].due && now - sights[i].changed > most &&
+        if (i != first && sights[i].wanted() && sights[i].due && now - sights[i].changed > kLongestStale &&
             (!longest || sights[i].changed < sights[*longest].changed))
             longest = i;
     return longest;

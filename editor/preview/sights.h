@@ -25,9 +25,7 @@ struct PreviewEye {
     bool operator==(const PreviewEye&) const = default;
 };
 
-/// How long one waits that others go before, at least; and how many times as long as a sketch takes.
 inline constexpr auto kLongestStale = std::chrono::milliseconds(250);
-inline constexpr int kStaleSketches = 12;
 
 /// What a picture is drawn of: of the same it would be the same.
 struct SightOf {
@@ -67,9 +65,9 @@ bool aimSights(std::vector<Sight>& sights, const std::vector<PreviewEye>& eyes, 
 /// stays with the first one as long as that gets better.
 std::optional<std::size_t> nextSight(const std::vector<Sight>& sights, std::size_t first, std::size_t turned,
                                      bool refines, bool settled = true);
-/// One besides the first that has waited for too long, when a sketch takes so long; none if none has.
+/// One besides the first that has waited for longer than kLongestStale; none if none has.
 std::optional<std::size_t> staleSight(const std::vector<Sight>& sights, std::size_t first,
-                                      Clock::time_point now, Clock::duration sketch = {});
+                                      Clock::time_point now);
 
 /// It is to be drawn of this: whether what is told is that already, and only goes on to be refined.
 bool isDrawnOf(Sight& sight, const SightOf& of);

@@ -130,11 +130,6 @@ TEST(Sights, ASketchIsTheFirstToBecomeAPicture) {
     EXPECT_EQ(nextSight(sights, 0, 1, true), 2u);
     takeDrawn(sights[2]);
     EXPECT_FALSE(sights[2].rough);
-    // Where a sketch takes long, others wait for long.
-    sights[1].outdate(kStart);
-    EXPECT_EQ(staleSight(sights, 0, kStart + milliseconds(300), milliseconds(10)), 1u);
-    EXPECT_EQ(staleSight(sights, 0, kStart + milliseconds(300), milliseconds(100)), std::nullopt);
-    EXPECT_EQ(staleSight(sights, 0, kStart + milliseconds(1300), milliseconds(100)), 1u);
 }
 
 }  // namespace fw::editor::sights_test
