@@ -203,11 +203,11 @@ std::optional<Graph> joinByBridge(const Graph& graph, std::string_view scope, co
         std::string between;
         Graph made = bridged(graph, scope, *bridge, between);
         made = connect(made, scope, {between, bridge->type->outputs[0].name}, bridge->input);
-        double right = standOf(made, scope, to).at[0];
-        const double top = standOf(made, scope, to).at[1];
+        Position at = standOf(made, scope, to).at;
         for (const std::string& each : {between, id}) {
-            right -= kJoinedBeside + standOf(made, scope, each).size[0];
-            made = stood(made, scope, each, roomBelow(made, scope, each, {right, top}));
+            at[0] -= kJoinedBeside + standOf(made, scope, each).size[0];
+            at = roomBelow(made, scope, each, at);
+            made = stood(made, scope, each, at);
         }
         return made;
     }

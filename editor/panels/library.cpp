@@ -133,6 +133,8 @@ void keepSelected(Editor& editor) {
     if (const Done kept = keepPart(editor, NodeIds(chosen.begin(), chosen.end()), name); !kept)
         return say(editor, format(kept.error()));
     say(editor, "kept as " + name + " in the library");
+    panel.latest =
+        (fs::path(libraryFolder(editor.files.preferences)) / (name + std::string(kGraphEnding))).string();
     panel.name.clear();
     panel.looked = {};
     editor.panels.next = Part::canvas;
