@@ -133,8 +133,9 @@ void keepSelected(Editor& editor) {
     if (const Done kept = keepPart(editor, NodeIds(chosen.begin(), chosen.end()), name); !kept)
         return say(editor, format(kept.error()));
     say(editor, "kept as " + name + " in the library");
-    panel.latest =
-        (fs::path(libraryFolder(editor.files.preferences)) / (name + std::string(kGraphEnding))).string();
+    const std::string file = name + std::string(kGraphEnding);
+    toFront(editor.files.preferences.taken,
+            (fs::path(libraryFolder(editor.files.preferences)) / file).string(), kMostTaken);
     panel.name.clear();
     panel.looked = {};
     editor.panels.next = Part::canvas;

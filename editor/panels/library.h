@@ -22,10 +22,9 @@ namespace fw::editor {
 
 struct LibraryPanel {
     std::string search = {};
-    std::string name = {};    ///< typed for the part that is to be kept
-    bool names = false;       ///< it is to be typed from the next frame on
-    bool feeds = true;        ///< what feeds the selected nodes is kept with them
-    std::string latest = {};  ///< path of the part that was kept last, until it is added
+    std::string name = {};  ///< typed for the part that is to be kept
+    bool names = false;     ///< it is to be typed from the next frame on
+    bool feeds = true;      ///< what feeds the selected nodes is kept with them
     FileBrowser browser = {};
 
     std::string folder = {};  ///< that was read
