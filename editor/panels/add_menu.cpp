@@ -48,7 +48,8 @@ std::vector<const NodeType*> offered(const Editor& editor) {
 }
 
 /// The menu as it stands: what matches, the best first; or, before anything is typed, the part that was kept
-/// last, favourites, what was taken last or is taken most, and then all by category.
+/// or taken last, if nothing was since, favourites, what was taken last or is taken most, and then all by
+/// category.
 std::vector<Offer> offersOf(const Editor& editor) {
     const AddMenu& menu = editor.add;
     const Preferences& preferences = editor.files.preferences;
@@ -62,9 +63,9 @@ std::vector<Offer> offersOf(const Editor& editor) {
         const auto part = [&](std::span<const NodeType* const> some, const char* heading) {
             for (const NodeType* type : some) add(type, type == some.front() ? heading : "");
         };
-        for (const LibraryPart& kept : editor.library.parts)
-            if (!menu.wish.plug && kept.path == editor.library.latest)
-                offers.push_back({"Kept last", kept.label + " (library)", nullptr, nullptr, &kept});
+        for (const LibraryPart& last : editor.library.parts)
+            if (!menu.wish.plug && !preferences.taken.empty() && last.path == preferences.taken.front())
+                offers.push_back({"The last", last.label + " (library)", nullptr, nullptr, &last});
         std::vector<const NodeType*> favourites;
         for (const std::string& id : preferences.favourites)
             for (const NodeType* type : types)
@@ -121,7 +122,7 @@ void add(Editor& editor, const Offer& offer, bool wired) {
     }
     if (offer.part) {
         const LibraryPart part = *offer.part;
-        if (part.path == editor.library.latest) editor.library.latest.clear();
+        toFront(editor.files.preferences.taken, part.path, kMostTaken);
         addPart(editor, part, position(menu.wish.at), false, to);
         return ImGui::CloseCurrentPopup();
     }
