@@ -154,8 +154,8 @@ TEST(EditorTasks, AMend) {
             person.save();
             person.wire("sphere", "both", "a");
             person.click(person.title("cube"));
-            const Area label = person.waitFor("Path");
-            person.click({label.hi.x + 200, label.centre().y});
+            // In the field, beside which the error says it too.
+            person.clickOn("cube.obj", Area{{person.view.panel.hi.x + 170, 400}, {1280, 800}});
             person.keys("Ctrl+A");
             person.type("elsewhere/cube.obj\n");
             person.keys("Ctrl+S");

@@ -195,7 +195,7 @@ void Program::type(const std::string& text) {
             line += each;
             continue;
         }
-        if (!line.empty()) words += "type" + std::string(kDelay) + "--args 1 " + inQuotes(line) + " ";
+        if (!line.empty()) words += "type" + std::string(kDelay) + "--args 1 -- " + inQuotes(line) + " ";
         if (each == '\n') words += "key Return ";
         line.clear();
     }
