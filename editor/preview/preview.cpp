@@ -263,7 +263,10 @@ void Maker::take(PreviewWish newer) {
     const bool sameHeld = newer.held == wish.held, sameMesh = newer.resolution == wish.resolution;
     const bool sameLook =
         newer.seconds == wish.seconds && newer.view == wish.view && newer.slice == wish.slice;
-    if (!first && newer.document != wish.document) sights.clear(), result = {};
+    if (!first && newer.document != wish.document) {
+        for (Sight& sight : sights) sight.forget(since);
+        result = {};
+    }
     if (newer.held.empty()) heldDetail.cells = 0;
     const bool letGo = !wish.held.empty() && newer.held.empty();
     wish = std::move(newer);
@@ -351,6 +354,9 @@ void Maker::draw(std::size_t which, bool urgent) {
         if (std::optional<Error> note = player->coarser()) result.findings.push_back(std::move(*note));
         result.current = good;
         result.draft = player->compiling();
+        result.statistics.vertices = mesh->vertices;
+        result.statistics.triangles = mesh->triangles;
+        result.statistics.resolution = player->resolution();
     };
     const bool fresh = sight.due;
     if (isDrawnOf(sight, of)) return saysSo(), tell();
@@ -369,14 +375,13 @@ void Maker::draw(std::size_t which, bool urgent) {
         if (options.scene.camera) sight.seen = *options.scene.camera;
         return takeSketch(sight), tell();
     }
-    if (!*drawn) {  // it shows that already
-        sight.due = false, sight.rests = true;
-        if (takeRest(sight) || fresh) tell();
+    if (options.scene.camera) sight.seen = *options.scene.camera;
+    if (!*drawn) {  // the renderer is at the end of that
+        if (takeSame(sight, sights, of) || fresh) tell();
         return;
     }
-    const double drew = millisecondsSince(drawing);
     sight.of = of;
-    if (options.scene.camera) sight.seen = *options.scene.camera;
+    const double drew = millisecondsSince(drawing);
     if (!fresh && result.particles.empty()) result.particles = player->particleVolumes();
     if (fresh && which == wish.first) {
         result.particles.clear();
@@ -387,9 +392,6 @@ void Maker::draw(std::size_t which, bool urgent) {
         adapt(loading + meshing + drew);
         loading = 0;
     }
-    result.statistics.vertices = mesh->vertices;
-    result.statistics.triangles = mesh->triangles;
-    result.statistics.resolution = player->resolution();
     result.statistics.pipelines = player->pipelinesBuilt();
     result.statistics.deviceBytes = player->device().record->allocated;
     // Each picture refines the one before: not every one is worth waking the interface.

@@ -1,5 +1,6 @@
 #include "editor/preview/sights.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace fw::editor {
@@ -17,6 +18,12 @@ bool isTold(Sight& sight) {
 void Sight::outdate(Clock::time_point now) {
     if (!due) changed = now;
     due = true;
+}
+
+void Sight::forget(Clock::time_point now) {
+    told = nullptr;
+    rests = false;
+    outdate(now);
 }
 
 bool aimSights(std::vector<Sight>& sights, const std::vector<PreviewEye>& eyes, Clock::time_point now) {
@@ -85,6 +92,19 @@ void takeSketch(Sight& sight) {
     sight.due = false, sight.rough = true;
     sight.refined = 0;
     isTold(sight);
+}
+
+bool takeSame(Sight& sight, const std::vector<Sight>& sights, const SightOf& of) {
+    const auto has = [&](const Sight& each) {
+        return each.of == of && !each.rough && !each.picture.pixels.empty();
+    };
+    if (!has(sight))
+        if (const auto same = std::find_if(sights.begin(), sights.end(), has); same != sights.end())
+            sight.picture = same->picture, sight.told = nullptr;
+    sight.of = of;
+    sight.due = sight.rough = false;
+    sight.rests = true;
+    return (!sight.told || sight.refined > sight.best) && isTold(sight);
 }
 
 bool takeRest(Sight& sight) { return sight.refined > sight.best && isTold(sight); }

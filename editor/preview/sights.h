@@ -55,6 +55,8 @@ struct Sight {
     bool wanted() const { return eye.width > 0 && eye.height > 0; }
     /// It has to be drawn anew.
     void outdate(Clock::time_point now);
+    /// And what was told is not to be shown any more: it is of another document.
+    void forget(Clock::time_point now);
 };
 
 /// These eyes in place of those before; what sees otherwise than it did is due. Whether any does.
@@ -76,6 +78,9 @@ bool isDrawnOf(Sight& sight, const SightOf& of);
 bool takeDrawn(Sight& sight);
 /// A sketch was drawn, which is told.
 void takeSketch(Sight& sight);
+/// The renderer has nothing to add to what it drew of this last, for this eye or for another that sees the
+/// same. Whether that is to be told.
+bool takeSame(Sight& sight, const std::vector<Sight>& sights, const SightOf& of);
 /// It will not go on for now: whether its last picture is better than what was told.
 bool takeRest(Sight& sight);
 

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "editor/files/render_queue.h"
@@ -241,6 +242,7 @@ TEST_F(Pictures, EndInAnotherOrderThanTheyWereAskedFor) {
     };
     const auto add = [&](const char* name) { return queue->add(wish(folder.path(name))); };
     const uint64_t a = add("a.png"), b = add("b.png"), c = add("c.png"), d = add("d.png");
+    while (stateOf(a).phase != Phase::running) std::this_thread::yield();
     // The second comes last, and the fourth never: it has ended before any other.
     queue->cancel(b), queue->cancel(d);
     queue->goOn(b);

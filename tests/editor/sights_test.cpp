@@ -132,4 +132,23 @@ TEST(Sights, ASketchIsTheFirstToBecomeAPicture) {
     EXPECT_FALSE(sights[2].rough);
 }
 
+TEST(Sights, WhatTheRendererIsAtTheEndOfIsToldAgainOrForAnotherEye) {
+    std::vector<Sight> sights = threeSights();
+    const SightOf of{.content = 7, .width = 1, .height = 1};
+    sights[0].picture.pixels = {1, 2, 3, 4};
+    sights[0].of = of;
+    takeDrawn(sights[0]);
+    sights[0].forget(kStart);  // another document, of which there is no picture, and back
+    EXPECT_TRUE(!sights[0].told && sights[0].due);
+    EXPECT_FALSE(isDrawnOf(sights[0], of));
+    EXPECT_TRUE(takeSame(sights[0], sights, of));
+    ASSERT_TRUE(sights[0].told);
+    EXPECT_EQ(sights[0].told->pixels, sights[0].picture.pixels);
+    EXPECT_FALSE(takeSame(sights[0], sights, of)) << "that is told";
+    EXPECT_TRUE(takeSame(sights[1], sights, of)) << "the same view in another of the pictures";
+    ASSERT_TRUE(sights[1].told);
+    EXPECT_EQ(sights[1].told->pixels, sights[0].picture.pixels);
+    EXPECT_TRUE(!sights[1].due && sights[1].rests);
+}
+
 }  // namespace fw::editor::sights_test
