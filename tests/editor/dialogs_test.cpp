@@ -105,25 +105,6 @@ TEST(Dialogs, CostsOfGroupsInGroupsAreOfTheNodeThatIsSeen) {
     EXPECT_DOUBLE_EQ(inside.at("bar"), 0.25);
 }
 
-TEST(Dialogs, AWireOfAnyLengthIsDrawn) {
-    DrivenEditor editor;
-    NEEDS_EDITOR(editor);
-    const std::string file = editor.path("far.field.json");
-    writeText(file,
-              R"({"fieldwright": 1, "nodes": [{"id": "ball", "type": "sphere", "at": [0, 0]},
-            {"id": "out", "type": "output", "at": [1e9, 0], "inputs": {"surface": {"from": "ball"}, "resolution": 16}}]})");
-    openFile(*editor, file);
-    editor->canvas.exactness = true;
-    editor->canvas.frameNext = false;
-    editor->viewport.shown.exactness["ball"].exactness = Exactness{.outside = false};
-    for (const float middle : {1e9f, 0.0f, 5e8f}) {
-        editor->canvas.view.middle = {middle, 0};
-        editor->canvas.view.zoom = 1.0f;
-        editor.settle();
-    }
-    EXPECT_TRUE(editor->document.graph().node("out"));
-}
-
 TEST(Dialogs, AnOutlineFarAwayIsShown) {
     DrivenEditor editor;
     NEEDS_EDITOR(editor);
