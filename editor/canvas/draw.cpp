@@ -59,6 +59,10 @@ void drawGrid(const Pen& pen) {
     while (step * view.unit() < 14.0f) step *= 4.0f;
     const Area seen = view.seen();
     const ImU32 color = themeColor(ThemeColor::grid);
+    // So far away that the next place is the same one there is no grid.
+    if (seen.lo.x + step == seen.lo.x || seen.hi.x + step == seen.hi.x || seen.lo.y + step == seen.lo.y ||
+        seen.hi.y + step == seen.hi.y)
+        return;
     for (float x = std::floor(seen.lo.x / step) * step; x < seen.hi.x; x += step) {
         const float at = std::floor(view.toScreen({x, 0}).x);
         pen.list->AddRectFilled({at, view.panel.lo.y}, {at + 1, view.panel.hi.y}, color);
