@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
@@ -76,11 +77,13 @@ TEST(Snapping, VerticesOfAMeshStandWhereItsFieldDoes) {
     graph.path = folder.path("a.field.json");
     const auto found = meshVertices(graph, "", {"place"}, "", 0.0);
     ASSERT_EQ(found.size(), 4u);
-    EXPECT_EQ(found[0], glm::dvec3(10, 0, 0));
-    EXPECT_EQ(found[3], glm::dvec3(10, 0, 3));
+    for (const glm::dvec3& corner :
+         {glm::dvec3(10, 0, 0), glm::dvec3(11, 0, 0), glm::dvec3(10, 2, 0), glm::dvec3(10, 0, 3)})
+        EXPECT_EQ(std::ranges::count(found, corner), 1);
     EXPECT_TRUE(meshVertices(graph, "", {"put"}, "", 0.0).empty()) << "it goes along";
     EXPECT_TRUE(meshVertices(graph, "", {}, "ball", 0.0).empty()) << "it is not in the picture";
-    EXPECT_EQ(meshVertices(graph, "", {}, "solid", 0.0).at(1), glm::dvec3(1, 0, 0)) << "shown alone";
+    const auto alone = meshVertices(graph, "", {}, "solid", 0.0);
+    EXPECT_EQ(std::ranges::count(alone, glm::dvec3(1, 0, 0)), 1) << "shown alone it is not moved";
     std::filesystem::remove(folder.path("corner.obj"));
     graph.node("file")->set("path", [] {
         InputValue gone;
