@@ -159,7 +159,8 @@ class Maker {
     bool good = false;     ///< the graph can be drawn
     bool coarse = false;   ///< the mesh has few cells, that there be a picture soon
     std::optional<uint64_t> playsOf;  ///< the document that the player has a graph of
-    Clock::time_point since, taken;   ///< what the picture came for; when the wish was taken
+    Clock::time_point since,
+        rests;  ///< what the picture came for; when the wish was taken or a picture drawn last
     double loading = 0;
 };
 
@@ -256,7 +257,7 @@ void Maker::coarsen() {
 }
 
 void Maker::take(PreviewWish newer) {
-    since = taken = Clock::now();
+    since = rests = Clock::now();
     const bool first = !wish.graph;
     const bool sameGraph =
         !first && newer.graph == wish.graph && newer.revision == wish.revision && newer.pinned == wish.pinned;
@@ -414,7 +415,7 @@ bool Maker::work() {
     compiled = !compiling;
     if (await && !compiling) await = false, outdateAll();
     const bool due = std::any_of(sights.begin(), sights.end(), [](const Sight& sight) { return sight.due; });
-    if (coarse && (!player->meshesOnHost() || (!due && millisecondsSince(taken) > kRest))) {
+    if (coarse && (!player->meshesOnHost() || (!due && millisecondsSince(rests) > kRest))) {
         player->coarsen(0);
         coarse = false, await = false;
         since = Clock::now(), outdateAll();
@@ -428,6 +429,7 @@ bool Maker::work() {
     if (!next) return false;
     const bool fresh = sights[*next].due;
     draw(*next, fresh && *next == wish.first);
+    rests = Clock::now();
     pausing = fresh && *next == wish.first && !wish.held.empty();
     if (fresh && *next == wish.first && Clock::now() - sketched > kSketchesApart * sketch)
         if (const auto stale = staleSight(sights, wish.first, Clock::now())) draw(*stale, true);
