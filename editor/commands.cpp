@@ -555,7 +555,9 @@ void runShortcuts(Editor& editor) {
     for (const auto& [shortcut, command] : editor.keymap)
         if (pressed(shortcut) && heard(*command, shortcut) && command->can(editor))
             return command->run(editor);
-    if (!panel && !picture && !editor.outline.focused && anyActive(editor)) beginNumber(editor);
+    if (!panel && !picture && !editor.outline.focused && anyActive(editor) &&
+        !isOverAny(editor.viewport, io.MousePos))
+        beginNumber(editor);
     leavePanels(editor);
 }
 

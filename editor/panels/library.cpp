@@ -171,7 +171,9 @@ void showKeeping(Editor& editor) {
     if (feeding == 0) return;
     const std::string words =
         "with " + std::to_string(feeding) + (feeding == 1 ? " node that feeds it" : " nodes that feed it");
-    ImGui::Checkbox((words + "###feeds").c_str(), &panel.feeds);
+    const float room =
+        ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::Checkbox((fitted(words, room) + "###feeds").c_str(), &panel.feeds);
 }
 
 void showParts(Editor& editor, const std::vector<std::size_t>& found, Asked& asked) {

@@ -78,6 +78,13 @@ bool anyHovered(const Viewport& viewport) {
     return any;
 }
 
+bool isOverAny(const Viewport& viewport, ImVec2 place) {
+    bool any = viewport.place.contains(place);
+    for (std::size_t i = 0; i < viewport.split.count; ++i)
+        any = any || (i != viewport.split.hand && viewport.split.panes[i].place.contains(place));
+    return any;
+}
+
 void splitInto(Editor& editor, std::size_t count) {
     Viewport& viewport = editor.viewport;
     Split& split = viewport.split;

@@ -84,6 +84,8 @@ class Borrowed {
 
 /// Whether the mouse is over any of the pictures.
 bool anyHovered(const Viewport& viewport);
+/// The same of a place that the mouse has come to since the last frame, whatever lies above the pictures.
+bool isOverAny(const Viewport& viewport, ImVec2 place);
 
 /// Splits the picture in so many; one: the first alone, as it was.
 void splitInto(Editor& editor, std::size_t count);

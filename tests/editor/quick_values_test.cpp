@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 #include "tests/editor/graphs.h"
 
@@ -43,11 +44,12 @@ TEST_F(QuickValues, ADigitBeginsTheFirstNumber) {
     editor.send("type --delay 0 --args 1 0.25 key Tab type --delay 0 --args 1 2*3 key Return");
     EXPECT_EQ(extents("box").at(0), 0.25);
     EXPECT_EQ(extents("box").at(1), 6.0);
-    editor.keys("ctrl+z ctrl+z");
-    EXPECT_EQ(graph(), before);
+    editor.keys("ctrl+z");
+    editor.keys("ctrl+z");
+    EXPECT_EQ(writeGraph(graph()), writeGraph(before));
     // Escape takes it back, and nothing is begun where nothing is selected, or in a field.
     editor.send("type --delay 0 --args 1 7 key Escape");
-    EXPECT_EQ(graph(), before);
+    EXPECT_EQ(writeGraph(graph()), writeGraph(before));
     EXPECT_EQ(editor->canvas.number.state, NumberHand::State::none);
     editor.keys("Return");
     editor.send("type --delay 0 --args 1 1.5 key Return");
@@ -96,7 +98,8 @@ TEST_F(QuickValues, ShiftEnterGoesOnToTheNextNode) {
     EXPECT_EQ(editor->document.undoName(), "Add Cylinder");
     editor.keys("ctrl+z");
     EXPECT_EQ(editor->document.undoName(), "Add Subtract");
-    editor.keys("ctrl+z ctrl+z");
+    editor.keys("ctrl+z");
+    editor.keys("ctrl+z");
     EXPECT_EQ(editor->document.step(), 0u);
 }
 

@@ -235,9 +235,10 @@ const Cases& windowCases() {
          [](Program& p, const std::string& keys) {
              pick(p, {"ball"});
              p.keys(keys);
-             p.waitFor("A ball centred at the origin");
+             p.waitFor("Node reference");
+             p.waitFor("Meaning");
              p.keys("Escape");
-             p.waitUntilGone("A ball centred at the origin");
+             p.waitUntilGone("Node reference");
          }},
         {"help.find",
          [](Program& p, const std::string& keys) {
