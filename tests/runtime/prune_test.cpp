@@ -172,7 +172,7 @@ std::string randomCode(uint32_t seed) {
 }
 
 TEST(Prune, RandomGraphsWithFamilies) {
-    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 150 : 6;
+    const uint32_t most = std::getenv("FIELDWRIGHT_LONG") ? 150 : 4;
     int pruned = 0;
     for (uint32_t seed = 1; seed <= most; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
