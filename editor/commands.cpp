@@ -198,14 +198,15 @@ void rename(Editor& editor) {
     editor.windows.renames = true;
 }
 
+constexpr float kReadable =
+    0.75f;  // pixels of a canvas unit: from farther off numbers are not edited on nodes
+
 /// A digit begins the first number of the active node, in place of Enter and the digit.
 void beginNumber(Editor& editor) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl || io.KeyAlt || io.KeySuper || io.InputQueueCharacters.empty()) return;
     const ImWchar first = io.InputQueueCharacters[0];
     if (first != '.' && (first < '0' || first > '9')) return;
-    constexpr float kReadable =
-        0.75f;  // pixels of a canvas unit: from farther off numbers are not edited on nodes
     CanvasView& view = editor.canvas.view;
     const CanvasView before = view;
     if (!showsFields(view)) view.zoomTo(kReadable / view.scale, view.panel.centre());

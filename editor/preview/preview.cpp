@@ -28,6 +28,7 @@ constexpr std::size_t kMostLive = 6;
 /// them is sketched once if wishes do not stop.
 constexpr auto kPause = std::chrono::milliseconds(40);
 constexpr int kSketchesApart = 12;
+/// So long after a change, if none followed, the renderer turns to other views to refine them.
 constexpr auto kSettled = std::chrono::milliseconds(200);
 constexpr auto kCompilePoll = std::chrono::milliseconds(5);
 /// A first mesh with few cells is followed by that with all, once nothing was asked for so long,
@@ -159,8 +160,8 @@ class Maker {
     bool good = false;     ///< the graph can be drawn
     bool coarse = false;   ///< the mesh has few cells, that there be a picture soon
     std::optional<uint64_t> playsOf;  ///< the document that the player has a graph of
-    Clock::time_point since,
-        rests;  ///< what the picture came for; when the wish was taken or a picture drawn last
+    Clock::time_point since;          ///< what the picture came for
+    Clock::time_point rests;          ///< when the wish was taken, or a picture drawn last
     double loading = 0;
 };
 
@@ -370,18 +371,16 @@ void Maker::draw(std::size_t which, bool urgent) {
         return;
     }
     saysSo();
-    if (asSketch) {
-        sketched = Clock::now(), sketch = sketched - drawing;
-        sight.of = of;
-        if (options.scene.camera) sight.seen = *options.scene.camera;
-        return takeSketch(sight), tell();
-    }
     if (options.scene.camera) sight.seen = *options.scene.camera;
-    if (!*drawn) {  // the renderer is at the end of that
+    if (!asSketch && !*drawn) {  // the renderer is at the end of that
         if (takeSame(sight, sights, of) || fresh) tell();
         return;
     }
     sight.of = of;
+    if (asSketch) {
+        sketched = Clock::now(), sketch = sketched - drawing;
+        return takeSketch(sight), tell();
+    }
     const double drew = millisecondsSince(drawing);
     if (!fresh && result.particles.empty()) result.particles = player->particleVolumes();
     if (fresh && which == wish.first) {
@@ -427,12 +426,12 @@ bool Maker::work() {
     };
     const auto next = nextOne();
     if (!next) return false;
-    const bool fresh = sights[*next].due;
-    draw(*next, fresh && *next == wish.first);
+    const bool urgent = sights[*next].due && *next == wish.first;
+    draw(*next, urgent);
     rests = Clock::now();
-    pausing = fresh && *next == wish.first && !wish.held.empty();
-    if (fresh && *next == wish.first && Clock::now() - sketched > kSketchesApart * sketch)
-        if (const auto stale = staleSight(sights, wish.first, Clock::now())) draw(*stale, true);
+    pausing = urgent && !wish.held.empty();
+    if (urgent && rests - sketched > kSketchesApart * sketch)
+        if (const auto stale = staleSight(sights, wish.first, rests)) draw(*stale, true);
     return nextOne().has_value();
 }
 

@@ -17,6 +17,15 @@ Pane paneOf(const Viewport& viewport) {
             viewport.split.panes[viewport.split.hand].shown};
 }
 
+/// Whether it is so of one of the pictures, that under the hand among them.
+template <class Is>
+bool anyPane(const Viewport& viewport, Is is) {
+    const Split& split = viewport.split;
+    for (std::size_t i = 0; i < split.count; ++i)
+        if (is(i == split.hand ? paneOf(viewport) : split.panes[i])) return true;
+    return false;
+}
+
 }  // namespace
 
 Camera Eye::own() const {
@@ -72,17 +81,11 @@ Borrowed::Borrowed(Viewport& viewport_, std::size_t picture)
 Borrowed::~Borrowed() { takeHand(viewport, before); }
 
 bool anyHovered(const Viewport& viewport) {
-    bool any = viewport.hovered;
-    for (std::size_t i = 0; i < viewport.split.count; ++i)
-        any = any || (i != viewport.split.hand && viewport.split.panes[i].hovered);
-    return any;
+    return anyPane(viewport, [](const Pane& pane) { return pane.hovered; });
 }
 
 bool isOverAny(const Viewport& viewport, ImVec2 place) {
-    bool any = viewport.place.contains(place);
-    for (std::size_t i = 0; i < viewport.split.count; ++i)
-        any = any || (i != viewport.split.hand && viewport.split.panes[i].place.contains(place));
-    return any;
+    return anyPane(viewport, [&](const Pane& pane) { return pane.place.contains(place); });
 }
 
 void splitInto(Editor& editor, std::size_t count) {
