@@ -103,7 +103,7 @@ Done makePlace(const RenderWish& wish) {
         fs::create_directories(wish.path, failure);
         if (!fs::is_directory(wish.path, failure))
             return Error{.message = wish.path + ": cannot make the folder: " + failure.message()};
-        return checkWritable(pathOf(frames, frames.frames.first));
+        return checkWritable(filesOf(frames).path(frames.frames.first));
     }
     if (lowerExtension(wish.path) != "." + nameOf(wish.picture.format))
         return Error{.message = wish.path + ": the name has to end in ." + nameOf(wish.picture.format)};
@@ -194,6 +194,7 @@ Done RenderQueue::Shared::still(const RenderWish& wish, Player& player) {
 
 Done RenderQueue::Shared::sequence(const RenderWish& wish, Player& player) {
     const SequenceWish frames = sequenceOf(wish);
+    const FrameFiles files = filesOf(frames);
     RenderOptions render = renderOptions(wish.picture, player);
     render.framesPerSecond = frames.frames.framesPerSecond;
     render.cancel = &cancel;
@@ -203,7 +204,7 @@ Done RenderQueue::Shared::sequence(const RenderWish& wish, Player& player) {
     const auto count = float(frames.frames.count());
     for (long frame = frames.frames.first; frame < frames.frames.last; ++frame) {
         if (cancel) return kStopped;
-        const bool there = isThere(frames, frame);
+        const bool there = files.isThere(frame);
         const Clock::time_point begin = Clock::now();
         if (!there) {
             Result<Picture> picture = onceMoreIfLost([&] { return drawFrame(player, frames, frame, render); },
@@ -212,8 +213,7 @@ Done RenderQueue::Shared::sequence(const RenderWish& wish, Player& player) {
                                                          change([](RenderState& now) { now.again = true; });
                                                      });
             if (!picture) return picture.error();
-            if (const Done written = save(*picture, light, wish.picture.format, pathOf(frames, frame));
-                !written)
+            if (const Done written = save(*picture, light, wish.picture.format, files.path(frame)); !written)
                 return written;
             capped = capped || player.capped();
             show(std::move(*picture));

@@ -344,15 +344,15 @@ void showPicture(Editor& editor, const std::vector<RenderItem>& items) {
 long framesThere(Editor& editor, const RenderWish& wish, const std::vector<RenderItem>& items) {
     constexpr long kMany = 1000;
     RenderDialog::Counted& counted = editor.rendering.counted;
-    const SequenceWish frames = sequenceOf(wish);
-    const std::string asked = pathOf(frames, frames.frames.first) + pathOf(frames, frames.frames.last - 1) +
+    const FrameFiles files = filesOf(sequenceOf(wish));
+    const std::string asked = files.path(files.frames.first) + files.path(files.frames.last - 1) +
                               std::to_string(wish.picture.width) + "x" + std::to_string(wish.picture.height);
     long made = 0;
     for (const RenderItem& item : items) made += item.state.made;
     const double now = ImGui::GetTime();
     const bool old = made != counted.made || (now > counted.seconds + 1.0 && counted.there < kMany);
     if (asked != counted.asked || (old && !renders(editor)))
-        counted = {asked, made, now, fw::framesThere(frames)};
+        counted = {asked, made, now, files.countThere()};
     return counted.there;
 }
 

@@ -17,6 +17,7 @@
 #include "runtime/gpu/device.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "runtime/pictures/wish.h"
+#include "runtime/play/frames.h"
 #include "runtime/play/session.h"
 
 namespace fw::cli {
@@ -60,12 +61,22 @@ struct MeshOutput {
     bool measured() const { return !report.empty() || !required.empty(); }
 };
 
+/// Which frames of a timeline a sequence has, if one is asked for.
+struct SequenceOptions {
+    FrameTimes frames;
+    bool overwrite = false;  ///< frames that are there already; else they are passed over
+};
+
 struct ExportOptions : MeshOutput {
     MeshOptions mesh;
-    bool manifold = false;  ///< as fw::ExportOptions has it
-    int tiles = 0;          ///< along the longest side; 0: as many as it takes
-    std::string share;      ///< "i/n": only this part of the tiles; empty: all
-    std::string particles;  ///< the node whose particles are written in place of a mesh; empty: none
+    SequenceOptions sequence;        ///< a numbered mesh for every frame
+    bool animated = false;           ///< the same as one file that moves
+    std::vector<std::string> sweep;  ///< a mesh for every variant (graph/document/sweep.h)
+    std::string format;              ///< of the meshes of a sequence or sweep: "glb"; empty: that
+    bool manifold = false;           ///< as fw::ExportOptions has it
+    int tiles = 0;                   ///< along the longest side; 0: as many as it takes
+    std::string share;               ///< "i/n": only this part of the tiles; empty: all
+    std::string particles;           ///< the node whose particles are written in place of a mesh; empty: none
 };
 int runExport(const ExportOptions& options);
 
@@ -79,10 +90,8 @@ struct RenderCommandOptions {
     std::string output, size = "1280x720", view = "picture";
     PictureWish picture;                  ///< but for its size, view and format
     std::optional<PictureFormat> format;  ///< if not given, the output's ending says it; of a sequence PNG
-    std::optional<double> from, to, framesPerSecond;  ///< any of them: a numbered picture for every frame
-    bool range = false;                               ///< the same, within the timeline's range
-    std::optional<double> turntable;  ///< the same, of a camera that goes around in so many seconds
-    bool overwrite = false;
+    SequenceOptions sequence;             ///< a numbered picture for every frame
+    std::optional<double> turntable;      ///< the same, of a camera that goes around in so many seconds
 };
 int runRender(const RenderCommandOptions& options);
 

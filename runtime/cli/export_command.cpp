@@ -4,6 +4,7 @@
 
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/measured.h"
+#include "runtime/cli/sequence.h"
 #include "runtime/cli/tiled_export.h"
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
@@ -11,6 +12,7 @@
 #include "runtime/play/particles_at.h"
 #include "runtime/play/tiled_mesh.h"
 #include "runtime/system/interruption.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::cli {
 
@@ -125,6 +127,21 @@ int exportParticles(const ExportOptions& options, Progress& progress) {
 int runExport(const ExportOptions& options) {
     Progress progress;
     if (!options.particles.empty()) return exportParticles(options, progress);
+    if (options.animated) return exportAnimated(options);
+    if (!options.sweep.empty()) return exportSweep(options);
+    if (options.sequence.frames.asked()) return exportSequence(options);
+    if (const std::string ending = lowerExtension(options.output);
+        !options.format.empty() && ending != "." + options.format)
+        return print({.message =
+                          "its ending is not that of --format " + options.format +
+                          ": leave that out, or ask for a sequence or a sweep (--from, --to, --fps, --sweep)",
+                      .file = options.output}),
+               kBadUsage;
+    if (options.sequence.overwrite)
+        return print({.message = "--overwrite is for a sequence or a sweep: give --from, --to, --fps, "
+                                 "--range or --sweep",
+                      .file = options.output}),
+               kBadUsage;
     const bool tiled = options.tiles > 0 || !options.share.empty();
     fw::ExportOptions how{.manifold = options.manifold};
     if (const Done fine =
@@ -153,7 +170,8 @@ int runExport(const ExportOptions& options) {
     progress.start("write", 70);
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
-    how.examine = measuring(options, &meshed.session, meshed.region, progress, report);
+    const MeshedFrom from{&meshed.session.program(), meshed.region, meshed.session.device().name()};
+    how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportMesh(whole->mesh, options.output, how);
     if (!written) return print(written.error()), kSystemFailure;

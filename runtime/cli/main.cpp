@@ -71,6 +71,35 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
                         "Index or part of the name of the device (see fieldwright info)");
 }
 
+/// What a command takes that makes a file for every frame.
+void addSequence(CLI::App* command, SequenceOptions& sequence) {
+    CLI::Option* moment = command->get_option("--time");
+    command->add_option("--from", sequence.frames.from, "Seconds of the first frame (default: 0)")
+        ->check(finite())
+        ->excludes(moment);
+    command
+        ->add_option("--to", sequence.frames.to,
+                     "Seconds that the frames stay below (default: the timeline's length)")
+        ->check(finite())
+        ->excludes(moment);
+    command
+        ->add_option("--fps", sequence.frames.framesPerSecond,
+                     "Frames a second (default: the timeline's, else 30); frame n shows the time n / fps")
+        ->check(finite())
+        ->check(CLI::Range(0.001, kMostFramesPerSecond));
+    command
+        ->add_flag("--range", sequence.frames.range,
+                   "The frames of the timeline's range (default: of all of it)")
+        ->excludes(moment);
+    command->add_flag("--overwrite", sequence.overwrite,
+                      "Make frames anew that are there already (default: skip them)");
+}
+
+void oneMomentOrMany(const CLI::App* command) {
+    if (command->count("--time") > 0 && command->count("--fps") > 0)
+        throw CLI::ExcludesError("--time", "--fps");
+}
+
 void addMeasures(CLI::App* command, MeshOutput& output) {
     command
         ->add_option("--report", output.report,
@@ -126,8 +155,10 @@ int run(int count, char** arguments) {
         "Try:  fieldwright export samples/tower.field.json -o tower.glb");
 
     ExportOptions exportOptions;
-    CLI::App* exportCommand =
-        app.add_subcommand("export", "Turn a graph into a mesh file, or its particles into points");
+    CLI::App* exportCommand = app.add_subcommand(
+        "export",
+        "Turn a graph into a mesh file, with --from, --to or --fps into one for every frame; "
+        "or its particles into points");
     addMesh(exportCommand, exportOptions.mesh);
     std::string endings;
     for (const ExportFormat& format : exportFormats())
@@ -136,9 +167,9 @@ int run(int count, char** arguments) {
     for (const char* ending : kPointEndings)
         pointEndings += (pointEndings.empty() ? "" : " ") + std::string(ending);
     exportCommand
-        ->add_option(
-            "-o,--output", exportOptions.output,
-            "The mesh file; its ending says the format: " + endings + "; of particles: " + pointEndings)
+        ->add_option("-o,--output", exportOptions.output,
+                     "The mesh file; its ending says the format: " + endings + "; of particles: " +
+                         pointEndings + "; of a sequence or a sweep the folder, for 000000.glb and so on")
         ->required();
     exportCommand->add_flag("--manifold", exportOptions.manifold,
                             "Mark the mesh of a .glb or .gltf as a solid (EXT_mesh_manifold), for programs "
@@ -153,6 +184,31 @@ int run(int count, char** arguments) {
             ->type_name("NODE")
             ->check(something());
     addMeasures(exportCommand, exportOptions);
+    addSequence(exportCommand, exportOptions.sequence);
+    exportCommand->parse_complete_callback([exportCommand] { oneMomentOrMany(exportCommand); });
+    std::vector<std::string> formats;
+    for (const ExportFormat& format : exportFormats()) formats.emplace_back(format.ending + 1);
+    exportCommand
+        ->add_option("--format", exportOptions.format,
+                     "Of a sequence or a sweep: what each of its meshes is (default: glb)")
+        ->check(oneOf(formats));
+    CLI::Option* animated = exportCommand->add_flag(
+        "--animated", exportOptions.animated,
+        "Write all frames into one .glb or .gltf, in which they take turns (default: of the whole timeline)");
+    for (const char* ofOne : {"--time", "--overwrite", "--format"})
+        animated->excludes(exportCommand->get_option(ofOne));
+    CLI::Option* sweep =
+        exportCommand
+            ->add_option(
+                "--sweep", exportOptions.sweep,
+                "Write a mesh for every value of a parameter, into a folder: name=from:to:count; of "
+                "several every combination; or FILE.csv, whose first line has names and each further "
+                "one values")
+            ->take_all()
+            ->allow_extra_args(false)
+            ->check(something());
+    for (const char* ofSequences : {"--from", "--to", "--fps", "--range", "--animated"})
+        sweep->excludes(exportCommand->get_option(ofSequences));
     exportCommand
         ->add_option("--tiles", exportOptions.tiles,
                      "Mesh in tiles, about this many along the longest side, each by itself: memory is "
@@ -166,8 +222,13 @@ int run(int count, char** arguments) {
             "part that was stopped goes on where it was")
         ->check(something());
     for (const char* ofMeshes :
-         {"--resolution", "--region", "--method", "--manifold", "--report", "--require", "--tiles", "--tile"})
+         {"--resolution", "--region", "--method", "--manifold", "--report", "--require", "--tiles", "--tile",
+          "--from", "--to", "--fps", "--range", "--overwrite", "--format", "--animated", "--sweep"})
         particles->excludes(exportCommand->get_option(ofMeshes));
+    for (const char* ofSequences :
+         {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep"})
+        for (const char* ofOne : {"--tiles", "--tile"})
+            exportCommand->get_option(ofSequences)->excludes(exportCommand->get_option(ofOne));
 
     MergeOptions mergeOptions;
     CLI::App* mergeCommand =
@@ -189,24 +250,7 @@ int run(int count, char** arguments) {
         ->add_option("-o,--output", renderOptions.output,
                      "The picture, a .png or .exr file; of a sequence the folder, for 000000.png and so on")
         ->required();
-    CLI::Option* moment = renderCommand->get_option("--time");
-    renderCommand->add_option("--from", renderOptions.from, "Seconds of the first frame (default: 0)")
-        ->check(finite())
-        ->excludes(moment);
-    renderCommand
-        ->add_option("--to", renderOptions.to,
-                     "Seconds that the frames stay below (default: the timeline's length)")
-        ->check(finite())
-        ->excludes(moment);
-    renderCommand
-        ->add_option("--fps", renderOptions.framesPerSecond,
-                     "Frames a second (default: the timeline's, else 30); frame n shows the time n / fps")
-        ->check(finite())
-        ->check(CLI::Range(0.001, kMostFramesPerSecond));
-    renderCommand
-        ->add_flag("--range", renderOptions.range,
-                   "The frames of the timeline's range (default: of all of it)")
-        ->excludes(moment);
+    addSequence(renderCommand, renderOptions.sequence);
     renderCommand
         ->add_option("--turntable", renderOptions.turntable,
                      "A camera that goes once around the solid in so many seconds; --time says what it shows")
@@ -215,18 +259,14 @@ int run(int count, char** arguments) {
         ->excludes("--from")
         ->excludes("--to")
         ->excludes("--range");
-    renderCommand->parse_complete_callback([renderCommand, moment] {
-        if (moment->count() > 0 && renderCommand->count("--fps") > 0 &&
-            renderCommand->count("--turntable") == 0)
-            throw CLI::ExcludesError("--time", "--fps");
+    renderCommand->parse_complete_callback([renderCommand] {
+        if (renderCommand->count("--turntable") == 0) oneMomentOrMany(renderCommand);
     });
-    renderCommand->add_flag("--overwrite", renderOptions.overwrite,
-                            "Make frames anew that are there already (default: skip them)");
-    static const std::map<std::string, PictureFormat> formats = {{"png", PictureFormat::png},
-                                                                 {"exr", PictureFormat::exr}};
+    static const std::map<std::string, PictureFormat> pictureFormats = {{"png", PictureFormat::png},
+                                                                        {"exr", PictureFormat::exr}};
     renderCommand
         ->add_option_function<std::string>(
-            "--format", [&](const std::string& name) { renderOptions.format = formats.at(name); },
+            "--format", [&](const std::string& name) { renderOptions.format = pictureFormats.at(name); },
             "png: what a display shows; exr: linear light before exposure and tone map, with depth, normals, "
             "materials and alpha (default: as the output ends, else png)")
         ->check(oneOf({"png", "exr"}));

@@ -10,15 +10,15 @@ namespace fw::cli {
 
 namespace {
 
-Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const Session* session,
-                       const Box& region, Progress& progress) {
-    const double total = millisecondsSince(progress.begun);
+Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const MeshedFrom& from,
+                       Progress* progress) {
+    const double total = progress ? millisecondsSince(progress->begun) : 0.0;
     const uint64_t peak = peakMemoryBytes();
-    progress.start("report", 85);
+    if (progress) progress->start("report", 85);
     std::future<MeasureOptions> compared;
-    if (session && (!options.report.empty() || needField(options.required)))
+    if (from.program && (!options.report.empty() || needField(options.required)))
         compared = std::async(std::launch::async, [&] {
-            return measureOf(session->program(), region,
+            return measureOf(*from.program, from.region,
                              needField(options.required) ? Points::all : Points::affordable);
         });
     const Result<WeldedMesh> read = readWelded(file);
@@ -26,25 +26,30 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
     if (!read) return read.error();
     measured.selfIntersections = true;
     Report report = reportOnWelded(*read, measured);
-    progress.finish();
-    report.stages = progress.stages;
+    if (progress) progress->finish(), report.stages = progress->stages;
     report.totalMs = total;
     report.peakMemoryBytes = peak;
-    if (session) report.device = session->device().name();
+    report.device = from.device;
     return report;
 }
 
 }  // namespace
 
-std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const Session* session,
-                                                 const Box& region, Progress& progress, Report& report) {
+std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
+                                                 Progress* progress, Report& report) {
     if (!options.measured()) return {};
-    return [&, session](const StoredMesh& file) -> Done {
-        Result<Report> measured = measure(options, file, session, region, progress);
+    return [&, progress](const StoredMesh& file) -> Done {
+        Result<Report> measured = measure(options, file, from, progress);
         if (!measured) return measured.error();
         report = std::move(*measured);
         return done();
     };
+}
+
+int tellUnmet(const MeshOutput& options, const std::string& file, const Report& report) {
+    const std::vector<std::string> reasons = unmet(options.required, report);
+    for (const std::string& reason : reasons) std::fprintf(stderr, "%s: %s\n", file.c_str(), reason.c_str());
+    return reasons.empty() ? kDone : kBadInput;
 }
 
 int tellReport(const MeshOutput& options, const Report& report) {
@@ -54,10 +59,7 @@ int tellReport(const MeshOutput& options, const Report& report) {
         file->write(writeReport(report));
         if (const Done saved = file->commit(); !saved) return print(saved.error()), kSystemFailure;
     }
-    const std::vector<std::string> reasons = unmet(options.required, report);
-    for (const std::string& reason : reasons)
-        std::fprintf(stderr, "%s: %s\n", options.output.c_str(), reason.c_str());
-    return reasons.empty() ? kDone : kBadInput;
+    return tellUnmet(options, options.output, report);
 }
 
 }  // namespace fw::cli

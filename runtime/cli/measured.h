@@ -7,11 +7,22 @@
 
 namespace fw::cli {
 
+/// What a mesh file is held against: the program that it was made of, if it is known, the region that was
+/// meshed, and the device.
+struct MeshedFrom {
+    const Program* program = nullptr;
+    Box region = {};
+    std::string device = {};
+};
+
 /// What fw::ExportOptions::examine has to be to measure the file into `report`: nothing, unless that is
-/// asked. It is measured against the program of `session`, which was meshed in `region`, if one is given.
-/// Errors: as readWelded(). All that is given must outlive it.
-std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const Session* session,
-                                                 const Box& region, Progress& progress, Report& report);
+/// asked. Its stages are those of `progress`, if one is given. Errors: as readWelded(). All that is given
+/// must outlive it.
+std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
+                                                 Progress* progress, Report& report);
+
+/// Says in what a mesh is not what it is required to be; the exit status.
+int tellUnmet(const MeshOutput& options, const std::string& file, const Report& report);
 
 /// Writes the report, and says in what the mesh is not what it is required to be; the exit status.
 int tellReport(const MeshOutput& options, const Report& report);

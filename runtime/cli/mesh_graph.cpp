@@ -34,6 +34,11 @@ void Progress::finish() {
     current.clear();
 }
 
+Error in(Error error, const std::string& where) {
+    error.message += " (" + where + ")";
+    return error;
+}
+
 int badInput(const MeshOptions& options, Error error) {
     error.file = options.graph.path;
     print(error);

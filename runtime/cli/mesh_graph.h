@@ -70,6 +70,9 @@ void renewDevice(Player& player, const std::string& goesOn);
 /// "1280x720" to {1280, 720}. If it is not that, or no picture can have that size, says so for the command.
 std::optional<std::pair<int, int>> pictureSize(const char* command, const std::string& text);
 
+/// The error, which came up where it says.
+Error in(Error error, const std::string& where);
+
 /// Prints the error with the graph's file; returns the exit status of bad input.
 int badInput(const MeshOptions& options, Error error);
 

@@ -32,7 +32,7 @@ int playHeadless(const PlayOptions& options, std::pair<int, int> size) {
     double seconds = 0.0;
     long made = 0;
     {
-        SequenceProgress progress(range.count());
+        SequenceProgress progress("frame", range.count());
         for (long frame = 0; frame < range.last; ++frame) {
             const auto make = [&] {
                 player->seek(start + range.time(frame));

@@ -66,8 +66,7 @@ int runRender(const RenderCommandOptions& options) {
         std::fprintf(stderr, "fieldwright render: --transparent is of the picture: leave out --view\n");
         return kBadUsage;
     }
-    if (options.from || options.to || options.framesPerSecond || options.range || options.turntable)
-        return runSequence(options, wish);
+    if (options.sequence.frames.asked() || options.turntable) return renderSequence(options, wish);
     if (lowerExtension(options.output) != "." + nameOf(wish.format)) {
         std::fprintf(
             stderr,
@@ -78,7 +77,7 @@ int runRender(const RenderCommandOptions& options) {
                            : ".png or .exr");
         return kBadUsage;
     }
-    if (options.overwrite) {
+    if (options.sequence.overwrite) {
         std::fprintf(stderr,
                      "fieldwright render: --overwrite is for a sequence: give --from, --to, --fps, --range "
                      "or --turntable\n");

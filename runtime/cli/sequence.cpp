@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/system/interruption.h"
@@ -14,16 +16,8 @@ namespace fw::cli {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-int badUsage(const std::string& message) {
-    std::fprintf(stderr, "fieldwright render: %s\n", message.c_str());
-    return kBadUsage;
-}
-
-}  // namespace
-
-SequenceProgress::SequenceProgress(long count_) : count(count_), shown(isatty(STDERR_FILENO)) {}
+SequenceProgress::SequenceProgress(const char* one_, long count_)
+    : one(one_), count(count_), shown(isatty(STDERR_FILENO)) {}
 
 SequenceProgress::~SequenceProgress() {
     if (shown) std::fprintf(stderr, "\r\033[K");
@@ -37,107 +31,125 @@ void SequenceProgress::next(bool work) {
     if (!shown) return;
     const double rate = static_cast<double>(made) / std::max(seconds(), 1e-6);
     const long left = rate > 0.0 ? std::lround(static_cast<double>(count - done) / rate) : 0;
-    std::fprintf(stderr, "\r\033[K%3ld %%  frame %ld of %ld, %.2f a second, %ld:%02ld left",
-                 100 * done / count, done, count, rate, left / 60, left % 60);
+    std::fprintf(stderr, "\r\033[K%3ld %%  %s %ld of %ld, %.2f a second, %ld:%02ld left", 100 * done / count,
+                 one, done, count, rate, left / 60, left % 60);
     std::fflush(stderr);
 }
 
-namespace {
-
-/// The frames of the graph that are asked for. Errors: none there.
-Result<FrameRange> framesOf(const Graph& graph, const RenderCommandOptions& options) {
-    const Timeline timeline = *readTimeline(graph);
-    const double rate = options.framesPerSecond.value_or(timeline.framesPerSecond);
-    if (options.turntable) return framesBetween(0.0, *options.turntable, rate);
-    if (options.range && !timeline.range)
-        return Error{.message = "the timeline has no range: give --from and --to"};
-    const TimeRange within = options.range ? *timeline.range : TimeRange{0.0, timeline.length};
-    return framesBetween(options.from.value_or(within.from), options.to.value_or(within.to), rate);
-}
-
-}  // namespace
-
-int runSequence(const RenderCommandOptions& options, const PictureWish& picture) {
-    SequenceWish wish{.picture = picture, .folder = options.output, .overwrite = options.overwrite};
-    if (options.turntable) wish.turntable = options.mesh.graph.time;
-    if (const std::string ending = lowerExtension(options.output); ending == ".png" || ending == ".exr")
-        return badUsage(options.output +
-                        ": a sequence goes into a folder, a file for each frame: give its name" +
-                        (ending == ".exr" ? ", and --format exr" : ""));
-    std::error_code failure;
-    if (fs::exists(options.output, failure) && !fs::is_directory(options.output, failure))
-        return badUsage(options.output + ": this is a file: a sequence goes into a folder");
-
-    const auto accept = [&](const Graph& graph) {
-        const Result<FrameRange> frames = framesOf(graph, options);
-        if (!frames) return badUsage(frames.error().message + " (--from, --to, --fps, --turntable)");
-        wish.frames = *frames;
-        const Done free = checkFrames(wish, graph);
-        return free ? kDone : badUsage(free.error().message + " (--size, -o, --overwrite)");
+int makeFrames(const FrameWork& work, const std::string& folder) {
+    const auto badUsage = [&](const std::string& message) {
+        std::fprintf(stderr, "fieldwright %s: %s\n", work.command, message.c_str());
+        return kBadUsage;
     };
+    std::error_code failure;
+    if (fs::exists(folder, failure) && !fs::is_directory(folder, failure))
+        return badUsage(folder + ": this is a file: a sequence goes into a folder");
+    FrameFiles files;
     std::optional<Player> player;
     {
         Progress progress;
         int status = kDone;
-        player = openPlayer(options.mesh, progress, {.liveParameters = false, .fieldBy = renderedBy(picture)},
-                            status, accept);
+        player = openPlayer(work.mesh, progress, work.player, status, [&](const Graph& graph) {
+            Result<FrameFiles> wanted = work.files(graph);
+            if (!wanted) return badUsage(wanted.error().message);
+            files = std::move(*wanted);
+            return kDone;
+        });
         if (!player) return status;
     }
-    const FrameRange& range = wish.frames;
-    if (!player->moves() && !wish.turntable)
+    const FrameRange& range = files.frames;
+    if (!player->moves() && !work.rests)
         std::fprintf(stderr, "%s: note: nothing moves in this graph: all frames are the same\n",
-                     options.mesh.graph.path.c_str());
+                     work.mesh.graph.path.c_str());
 
-    const bool fresh = !fs::exists(options.output, failure);
+    const bool fresh = !fs::exists(folder, failure);
     const auto goesOn = [&](long done) {
-        return WhenEnded{.said = "; " + std::to_string(done) + " of " + std::to_string(range.count()) +
-                                 " frames were made: the same command goes on",
-                         .folder = fresh ? options.output : ""};
+        return WhenEnded{.said = "; " + std::to_string(done) + " of " + std::to_string(range.count()) + " " +
+                                 work.one + "s were made: the same command goes on",
+                         .folder = fresh ? folder : ""};
     };
     whenEnded(goesOn(0));
-    fs::create_directories(options.output, failure);
-    if (!fs::is_directory(options.output)) {
-        std::fprintf(stderr, "%s: error: cannot make the folder: %s\n", options.output.c_str(),
+    fs::create_directories(folder, failure);
+    if (!fs::is_directory(folder)) {
+        std::fprintf(stderr, "%s: error: cannot make the folder: %s\n", folder.c_str(),
                      failure.message().c_str());
         return kSystemFailure;
     }
 
     bool capped = false;
-    long made = 0;
+    std::atomic<long> kept = 0;
+    int status = kDone;
     {
-        SequenceProgress progress(range.count());
-        RenderOptions render = renderOptions(picture, *player);
-        render.framesPerSecond = range.framesPerSecond;
-        LightPicture light;
-        if (picture.format == PictureFormat::exr) render.light = &light;
-        for (long frame = range.first; frame < range.last; ++frame) {
-            const bool there = isThere(wish, frame);
+        SequenceProgress progress(work.one, range.count());
+        for (long frame = range.first; frame < range.last && status == kDone; ++frame) {
+            const bool there = files.isThere(frame);
             if (!there) {
                 const auto make = [&] {
-                    Result<Picture> drawn = drawFrame(*player, wish, frame, render);
-                    if (drawn) capped = capped || player->capped();
-                    return drawn;
+                    return work.make(*player, frame, files.path(frame), [&] { whenEnded(goesOn(++kept)); });
                 };
-                const Result<Picture> drawn = onceMoreIfLost(
-                    make, [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
-                if (!drawn) return badInput(options.mesh, drawn.error());
-                if (progress.made == 0) noteDraft(*player, picture, options.output);
-                if (const Done written = save(*drawn, light, picture.format, pathOf(wish, frame)); !written)
-                    return print(written.error()), kSystemFailure;
+                status =
+                    onceMoreIfLost(make, [&] { renewDevice(*player, "going on at " + files.name(frame)); });
+                capped = capped || player->capped();
             }
             progress.next(!there);
-            whenEnded(goesOn(progress.made));
         }
-        made = progress.made;
+        const int ended = work.end();
+        if (status == kDone) status = ended;
     }
-    if (made < range.count())
-        std::fprintf(stderr, "%s: note: %ld of %ld frames were there already (--overwrite makes them anew)\n",
-                     options.output.c_str(), range.count() - made, range.count());
+    if (status != kDone) return status;
+    if (kept < range.count())
+        std::fprintf(stderr, "%s: note: %ld of %ld %ss were there already (--overwrite makes them anew)\n",
+                     folder.c_str(), range.count() - kept, range.count(), work.one);
     if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     if (capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
-                     options.output.c_str());
+                     folder.c_str());
     return kDone;
+}
+
+int renderSequence(const RenderCommandOptions& options, const PictureWish& picture) {
+    SequenceWish wish{.picture = picture, .folder = options.output, .overwrite = options.sequence.overwrite};
+    if (options.turntable) wish.turntable = options.mesh.graph.time;
+    if (const std::string ending = lowerExtension(options.output); ending == ".png" || ending == ".exr") {
+        std::fprintf(stderr,
+                     "fieldwright render: %s: a sequence goes into a folder, a file for each frame: give its "
+                     "name%s\n",
+                     options.output.c_str(), ending == ".exr" ? ", and --format exr" : "");
+        return kBadUsage;
+    }
+    const auto filesOfGraph = [&](const Graph& graph) -> Result<FrameFiles> {
+        const Timeline timeline = *readTimeline(graph);
+        const FrameTimes& times = options.sequence.frames;
+        const Result<FrameRange> frames =
+            options.turntable ? framesBetween(0.0, *options.turntable,
+                                              times.framesPerSecond.value_or(timeline.framesPerSecond))
+                              : framesOf(timeline, times);
+        if (!frames) return Error{.message = frames.error().message + " (--from, --to, --fps, --turntable)"};
+        wish.frames = *frames;
+        if (const Done free = checkFrames(wish, graph); !free)
+            return Error{.message = free.error().message + " (--size, -o, --overwrite)"};
+        return filesOf(wish);
+    };
+    LightPicture light;
+    bool first = true;
+    const auto make = [&](Player& player, long frame, const std::string& path, std::function<void()> kept) {
+        RenderOptions render = renderOptions(picture, player);
+        render.framesPerSecond = wish.frames.framesPerSecond;
+        if (picture.format == PictureFormat::exr) render.light = &light;
+        const Result<Picture> drawn = drawFrame(player, wish, frame, render);
+        if (!drawn) return badInput(options.mesh, drawn.error());
+        if (std::exchange(first, false)) noteDraft(player, picture, options.output);
+        if (const Done written = save(*drawn, light, picture.format, path, kept); !written)
+            return print(written.error()), kSystemFailure;
+        return kDone;
+    };
+    return makeFrames({.command = "render",
+                       .mesh = options.mesh,
+                       .player = {.liveParameters = false, .fieldBy = renderedBy(picture)},
+                       .rests = wish.turntable.has_value(),
+                       .files = filesOfGraph,
+                       .make = make},
+                      options.output);
 }
 
 }  // namespace fw::cli

@@ -130,7 +130,9 @@ int writePieces(const MeshOutput& options, MeshPieces& mesh, const Session* sess
     showLoading(mesh, progress, begin);
     Report report;
     fw::ExportOptions how;
-    how.examine = measuring(options, session, region, progress, report);
+    MeshedFrom from{.region = region};
+    if (session) from.program = &session->program(), from.device = session->device().name();
+    how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportPieces(mesh, options.output, how);
     progress.finish();

@@ -79,24 +79,6 @@ std::vector<glm::vec3> repairedNormals(const Mesh& mesh) {
     return normals;
 }
 
-std::string percentEncoded(const std::string& name) {
-    constexpr char kHex[] = "0123456789ABCDEF";
-    std::string uri;
-    for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                           std::string_view("-._~").find(c) != std::string_view::npos;
-        if (plain) {
-            uri += c;
-        } else {
-            uri += '%';
-            uri += kHex[byte >> 4];
-            uri += kHex[byte & 15];
-        }
-    }
-    return uri;
-}
-
 /// Names stand on a line of their own in OBJ, and in JSON and XML: spaces, control characters and broken
 /// UTF-8 must not reach them.
 std::string printable(std::string name) {
@@ -138,21 +120,6 @@ Merges mergesOf(const Mesh& mesh, const WeldedMesh& solid) {
 float voxelSize(const ExportOptions& options, const Bounds& bounds) {
     const glm::vec3 size = bounds.max - bounds.min;
     return options.cellSize > 0.0f ? options.cellSize : std::max({size.x, size.y, size.z}) / 128.0f;
-}
-
-Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
-                                OutputFile* beside) {
-    ExportedFiles files{exportedPaths(path), file.size() + (beside ? beside->size() : 0)};
-    if (Done finished = file.finish(); !finished) return finished.error();
-    if (Done finished = beside ? beside->finish() : done(); !finished) return finished.error();
-    if (options.examine)
-        if (Done fine = options.examine({path, file.place(), beside ? beside->place() : ""}); !fine)
-            return fine.error();
-    // The file asked for goes last: when it is there, all of the export is.
-    const Uninterrupted now;
-    if (Done committed = beside ? beside->commit() : done(); !committed) return committed.error();
-    if (Done committed = file.commit(options.kept); !committed) return committed.error();
-    return files;
 }
 
 /// Hands that part of every piece to `write`, while the next is loaded.
@@ -218,7 +185,98 @@ Done writePlyPieces(const MeshPieces& mesh, OutputFile& file) {
     return checkFilled({vertices, faces}, file);
 }
 
+/// A file of the format without a triangle.
+Result<ExportedFiles> exportEmpty(const std::string& path, Format format, const ExportOptions& options) {
+    const std::string name = objectName(path, options), besidePath = exportedPaths(path).back();
+    Result<OutputFile> file = OutputFile::open(path, options.cancel);
+    if (!file) return file.error();
+    std::optional<OutputFile> beside;
+    if (besidePath != path) {
+        Result<OutputFile> opened = OutputFile::open(besidePath, options.cancel);
+        if (!opened) return opened.error();
+        beside.emplace(std::move(*opened));
+    }
+    std::string failure;
+    switch (format) {
+        case Format::glb: writeEmptyGltf(name, true, *file); break;
+        case Format::gltf: writeEmptyGltf(name, false, *file); break;
+        case Format::obj:
+            writeObjHead({}, false, name, std::filesystem::path(besidePath).filename().string(), *file,
+                         *beside);
+            break;
+        case Format::stl: writeStlHeader(0, *file); break;
+        case Format::ply: writePlyHeader(0, 0, true, *file); break;
+        case Format::threeMf: failure = write3mf({}, {}, name, options.cancel, *file); break;
+        case Format::vdb:
+            failure =
+                writeVdb({}, options.cellSize > 0.0f ? options.cellSize : 1.0f, name, options.cancel, *file);
+            break;
+    }
+    if (!failure.empty()) return Error{.message = "cannot write: " + failure, .file = path};
+    return commitAll(path, options, *file, beside ? &*beside : nullptr);
+}
+
 }  // namespace
+
+Result<Bounds> checkMesh(const Mesh& mesh, const std::string& path) {
+    const auto refuse = [&](std::string message) {
+        return Error{.message = std::move(message), .file = path};
+    };
+    if (mesh.positions.size() > 0x7fffffffu || mesh.triangleCount() > 0xffffffffu)
+        return refuse("the mesh is too large for this format; lower the resolution");
+    std::future<uint32_t> greatest = std::async(
+        std::launch::async, [&] { return *std::max_element(mesh.indices.begin(), mesh.indices.end()); });
+    const std::optional<Bounds> bounds = finiteBounds(mesh.positions);
+    if (greatest.get() >= mesh.positions.size())
+        return refuse("the mesh refers to a vertex that it does not have");
+    if (!bounds)
+        return refuse("the mesh has a vertex that is not finite; the field is infinite or undefined there");
+    return *bounds;
+}
+
+std::optional<Mesh> withUnitNormals(const Mesh& mesh) {
+    if (std::ranges::all_of(mesh.normals, unitLength)) return std::nullopt;
+    Mesh repaired = mesh;
+    repaired.normals = repairedNormals(mesh);
+    return repaired;
+}
+
+std::string objectName(const std::string& path, const ExportOptions& options) {
+    return printable(options.name.empty() ? std::filesystem::path(path).stem().string() : options.name);
+}
+
+std::string percentEncoded(const std::string& name) {
+    constexpr char kHex[] = "0123456789ABCDEF";
+    std::string uri;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                           std::string_view("-._~").find(c) != std::string_view::npos;
+        if (plain) {
+            uri += c;
+        } else {
+            uri += '%';
+            uri += kHex[byte >> 4];
+            uri += kHex[byte & 15];
+        }
+    }
+    return uri;
+}
+
+Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
+                                OutputFile* beside) {
+    ExportedFiles files{exportedPaths(path), file.size() + (beside ? beside->size() : 0)};
+    if (Done finished = file.finish(); !finished) return finished.error();
+    if (Done finished = beside ? beside->finish() : done(); !finished) return finished.error();
+    if (options.examine)
+        if (Done fine = options.examine({path, file.place(), beside ? beside->place() : ""}); !fine)
+            return fine.error();
+    // The file asked for goes last: when it is there, all of the export is.
+    const Uninterrupted now;
+    if (Done committed = beside ? beside->commit() : done(); !committed) return committed.error();
+    if (Done committed = file.commit(options.kept); !committed) return committed.error();
+    return files;
+}
 
 std::span<const ExportFormat> exportFormats() { return kFormats; }
 
@@ -269,24 +327,13 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
     assert(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
 
+    if (mesh.indices.empty() && options.mayBeEmpty) return exportEmpty(path, format, options);
     if (mesh.indices.empty() || mesh.positions.empty())
         return refuse("nothing to export: the surface has no triangle inside the region");
-    if (mesh.positions.size() > 0x7fffffffu || mesh.triangleCount() > 0xffffffffu)
-        return refuse("the mesh is too large for this format; lower the resolution");
-    std::future<uint32_t> greatest = std::async(
-        std::launch::async, [&] { return *std::max_element(mesh.indices.begin(), mesh.indices.end()); });
-    const std::optional<Bounds> bounds = finiteBounds(mesh.positions);
-    const bool repairs =
-        std::any_of(mesh.normals.begin(), mesh.normals.end(), [](glm::vec3 n) { return !unitLength(n); });
-    if (greatest.get() >= mesh.positions.size())
-        return refuse("the mesh refers to a vertex that it does not have");
-    if (!bounds)
-        return refuse("the mesh has a vertex that is not finite; the field is infinite or undefined there");
-    if (repairs) {
-        Mesh repaired = mesh;
-        repaired.normals = repairedNormals(mesh);
-        return exportMesh(repaired, path, options);
-    }
+    const Result<Bounds> bounds = checkMesh(mesh, path);
+    if (!bounds) return bounds.error();
+    if (const std::optional<Mesh> repaired = withUnitNormals(mesh))
+        return exportMesh(*repaired, path, options);
 
     WeldedMesh solid;
     if (options.manifold || format == Format::threeMf || format == Format::vdb) {
@@ -298,8 +345,7 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     const Merges merges = options.manifold ? mergesOf(mesh, solid) : Merges{};
     const Merges* const marked = options.manifold ? &merges : nullptr;
 
-    const std::filesystem::path full(path);
-    const std::string name = printable(options.name.empty() ? full.stem().string() : options.name);
+    const std::string name = objectName(path, options);
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
     if (!file) return file.error();
 
@@ -354,8 +400,7 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         return refuse(
             "the mesh has more vertices or triangles than the format can number; lower the resolution");
 
-    const std::string name =
-        printable(options.name.empty() ? std::filesystem::path(path).stem().string() : options.name);
+    const std::string name = objectName(path, options);
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
     if (!file) return file.error();
     const GltfLayout layout{.vertices = mesh.vertexCount,
@@ -384,11 +429,11 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
             writeObjFaces(m, 0, m.triangleCount(), *file);
         });
     } else if (format == Format::glb) {
-        if (!writeGlbHead(mesh.material, layout, bounds, name, *file))
+        if (!writeGlbHead(gltfJson(mesh.material, layout, bounds, name, {}), layout.bytes(), *file))
             return refuse(
                 "the mesh exceeds the 4 GiB of a GLB; write .gltf or .ply, or lower the resolution");
         written = writeGltfPieces(mesh, layout, *file);
-        writeGlbEnd(layout, *file);
+        writeGlbEnd(layout.bytes(), *file);
     } else if (format == Format::stl) {
         writeStlHeader(mesh.triangleCount, *file);
         written =

@@ -33,6 +33,7 @@ struct ExportOptions {
                             ///< large; 0: a 128th of the mesh's longest side
     bool manifold =
         false;  ///< of glTF: say which vertices are one, so that it is a solid (EXT_mesh_manifold)
+    bool mayBeEmpty = false;  ///< a mesh without triangles is a file without any, and no error
     const std::atomic<bool>* cancel =
         nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
     /// Called with the files, whole, before they replace what has their names; an Error ends the export.

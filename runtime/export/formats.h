@@ -7,10 +7,10 @@
 
 #include <atomic>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
-#include "runtime/measure/read_back.h"
-#include "runtime/mesh/mesh.h"
+#include "runtime/export/export.h"
 #include "runtime/system/output_file.h"
 
 namespace fw {
@@ -19,6 +19,19 @@ namespace fw {
 struct Bounds {
     glm::vec3 min, max;
 };
+
+/// Its bounds, of a mesh that can be written to `path`. Errors: too many vertices, an index out of range, a
+/// coordinate that is not finite.
+Result<Bounds> checkMesh(const Mesh& mesh, const std::string& path);
+/// The mesh with those normals replaced that are no unit vectors; none if all are.
+std::optional<Mesh> withUnitNormals(const Mesh& mesh);
+/// What the object in a file is called.
+std::string objectName(const std::string& path, const ExportOptions& options);
+/// A file's name as a URI.
+std::string percentEncoded(const std::string& name);
+/// Gives the files their names, if options.examine() finds nothing wrong: `file`, and the one beside it.
+Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
+                                OutputFile* beside);
 
 /// Where the triangles of a solid have another vertex than those of its mesh: entry `entries[i]` of the
 /// indices is `vertices[i]`, which lies at the same place. Entries ascend.
@@ -46,10 +59,13 @@ struct GltfLayout {
 /// indices.
 std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
                      const std::string& name, const std::string& uri);
-/// All of a GLB before its binary part; false if the whole would exceed the format's 4 GiB.
-bool writeGlbHead(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds, const std::string& name,
-                  OutputFile& file);
-void writeGlbEnd(const GltfLayout& layout, OutputFile& file);
+GltfLayout gltfLayout(const Mesh& mesh, const Merges* merges = nullptr);
+/// The binary part.
+void writeGltfBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* merges, OutputFile& file);
+/// All of a GLB before its binary part of so many bytes; false, and nothing is written, if the whole would
+/// exceed the format's 4 GiB.
+bool writeGlbHead(std::string json, uint64_t bytes, OutputFile& file);
+void writeGlbEnd(uint64_t bytes, OutputFile& file);
 void writeGltfColors(const Mesh& mesh, OutputFile& file);
 void writeGltfIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& file);
 
@@ -60,6 +76,8 @@ bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, c
 /// `binaryUri` is the name of the binary file beside the glTF, as it stands in the JSON.
 void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
                const std::string& binaryUri, OutputFile& file, OutputFile& binary);
+/// A scene with one node of that name and no mesh; as a GLB, or as text.
+void writeEmptyGltf(const std::string& name, bool binary, OutputFile& file);
 /// `libraryName` is the name of the material file beside the OBJ.
 void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
               OutputFile& library);

@@ -35,16 +35,6 @@
 namespace fw {
 namespace {
 
-GltfLayout layoutOf(const Mesh& mesh, const Merges* merges) {
-    return {.vertices = mesh.positions.size(),
-            .indices = mesh.indices.size(),
-            .normals = !mesh.normals.empty(),
-            .colors = !mesh.colors.empty(),
-            .solid = merges != nullptr,
-            .merges = merges ? merges->entries.size() : 0,
-            .thickness = transmits(mesh) ? sizeOf(mesh).meanChord() : 0.0f};
-}
-
 /// Adds EXT_mesh_manifold. The accessors that the document has are those of its primitives, which have the
 /// triangles behind each other in one view; the solid has them all.
 void addManifold(nlohmann::json& document, const GltfLayout& layout) {
@@ -147,7 +137,19 @@ uint16_t unit16(float value) {
                         : uint16_t{0};  // NaN: 0
 }
 
-void writeBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* merges, OutputFile& file) {
+}  // namespace
+
+GltfLayout gltfLayout(const Mesh& mesh, const Merges* merges) {
+    return {.vertices = mesh.positions.size(),
+            .indices = mesh.indices.size(),
+            .normals = !mesh.normals.empty(),
+            .colors = !mesh.colors.empty(),
+            .solid = merges != nullptr,
+            .merges = merges ? merges->entries.size() : 0,
+            .thickness = transmits(mesh) ? sizeOf(mesh).meanChord() : 0.0f};
+}
+
+void writeGltfBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* merges, OutputFile& file) {
     const bool asShorts = layout.shortIndices();
     file.write(std::span(mesh.positions));
     file.write(std::span(mesh.normals));
@@ -158,8 +160,6 @@ void writeBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* merge
     file.write(std::span(merges->entries));
     writeGltfIndices(merges->vertices, asShorts, file);
 }
-
-}  // namespace
 
 std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
                      const std::string& name, const std::string& uri) {
@@ -282,12 +282,10 @@ void writeGltfIndices(std::span<const uint32_t> indices, bool asShorts, OutputFi
     writeBlocks(indices.size(), 2, narrow, file);
 }
 
-bool writeGlbHead(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds, const std::string& name,
-                  OutputFile& file) {
-    std::string json = gltfJson(mesh, layout, bounds, name, {});
+bool writeGlbHead(std::string json, uint64_t bytes, OutputFile& file) {
     json.resize((json.size() + 3) / 4 * 4, ' ');
-    const uint64_t padded = (layout.bytes() + 3) / 4 * 4;
-    const uint64_t total = 12 + 8 + json.size() + 8 + padded;
+    const uint64_t padded = (bytes + 3) / 4 * 4;
+    const uint64_t total = 12 + 8 + json.size() + (bytes > 0 ? 8 + padded : 0);
     if (total > 0xffffffffu) return false;
     const std::array<uint32_t, 5> head = {0x46546C67, 2, static_cast<uint32_t>(total),
                                           static_cast<uint32_t>(json.size()),
@@ -295,28 +293,39 @@ bool writeGlbHead(const Mesh& mesh, const GltfLayout& layout, const Bounds& boun
     const std::array<uint32_t, 2> chunk = {static_cast<uint32_t>(padded), 0x004E4942};  // length, "BIN"
     file.write(std::span<const uint32_t>(head));
     file.write(json);
-    file.write(std::span<const uint32_t>(chunk));
+    if (bytes > 0) file.write(std::span<const uint32_t>(chunk));
     return true;
 }
 
-void writeGlbEnd(const GltfLayout& layout, OutputFile& file) {
-    file.write("\0\0\0", (4 - layout.bytes() % 4) % 4);
-}
+void writeGlbEnd(uint64_t bytes, OutputFile& file) { file.write("\0\0\0", (4 - bytes % 4) % 4); }
 
 bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
               OutputFile& file) {
-    const GltfLayout layout = layoutOf(mesh, merges);
-    if (!writeGlbHead(mesh, layout, bounds, name, file)) return false;
-    writeBinary(mesh, layout, merges, file);
-    writeGlbEnd(layout, file);
+    const GltfLayout layout = gltfLayout(mesh, merges);
+    if (!writeGlbHead(gltfJson(mesh, layout, bounds, name, {}), layout.bytes(), file)) return false;
+    writeGltfBinary(mesh, layout, merges, file);
+    writeGlbEnd(layout.bytes(), file);
     return true;
 }
 
 void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
                const std::string& binaryUri, OutputFile& file, OutputFile& binary) {
-    const GltfLayout layout = layoutOf(mesh, merges);
+    const GltfLayout layout = gltfLayout(mesh, merges);
     file.write(gltfJson(mesh, layout, bounds, name, binaryUri));
-    writeBinary(mesh, layout, merges, binary);
+    writeGltfBinary(mesh, layout, merges, binary);
+}
+
+void writeEmptyGltf(const std::string& name, bool binary, OutputFile& file) {
+    const std::string json = nlohmann::json{
+        {"asset", {{"generator", generatorName()}, {"version", "2.0"}}},
+        {"nodes", {{{"name", name}}}},
+        {"scene", 0},
+        {"scenes",
+         {{{"nodes", {0}}}}}}.dump();
+    if (binary)
+        writeGlbHead(json, 0, file);
+    else
+        file.write(json);
 }
 
 }  // namespace fw

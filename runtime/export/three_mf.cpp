@@ -102,20 +102,23 @@ std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::strin
     content.add(std::span<const MODELMESH_TRIANGLECOLOR_SRGB>(colors));
 
     Calls calls;
-    const Object model = emptyModel(calls), object = calls.make(lib3mf_model_addmeshobject, model);
+    const Object model = emptyModel(calls);
     const std::string generator = generatorName();
     calls.check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), model);
     calls.check(lib3mf_model_addmetadatautf8(model.get(), "Application", generator.c_str()), model);
     calls.check(lib3mf_model_setbuilduuidutf8(model.get(), content.uuid(1).c_str()), model);
-    calls.check(lib3mf_object_setnameutf8(object.get(), name.c_str()), object);
-    calls.check(lib3mf_object_setuuidutf8(object.get(), content.uuid(2).c_str()), object);
-    calls.check(
-        lib3mf_meshobject_setgeometry(object.get(), vertices.data(), static_cast<DWORD>(vertices.size()),
-                                      triangles.data(), static_cast<DWORD>(triangles.size())),
-        object);
-    setColors(calls, model, object, mesh, colors, name);
-    const Object item = calls.make(lib3mf_model_addbuilditem, model, object.get(), nullptr);
-    calls.check(lib3mf_builditem_setuuidutf8(item.get(), content.uuid(3).c_str()), item);
+    if (!triangles.empty()) {
+        const Object object = calls.make(lib3mf_model_addmeshobject, model);
+        calls.check(lib3mf_object_setnameutf8(object.get(), name.c_str()), object);
+        calls.check(lib3mf_object_setuuidutf8(object.get(), content.uuid(2).c_str()), object);
+        calls.check(
+            lib3mf_meshobject_setgeometry(object.get(), vertices.data(), static_cast<DWORD>(vertices.size()),
+                                          triangles.data(), static_cast<DWORD>(triangles.size())),
+            object);
+        setColors(calls, model, object, mesh, colors, name);
+        const Object item = calls.make(lib3mf_model_addbuilditem, model, object.get(), nullptr);
+        calls.check(lib3mf_builditem_setuuidutf8(item.get(), content.uuid(3).c_str()), item);
+    }
 
     const Object writer = calls.make(lib3mf_model_querywriter, model, "3mf");
     const auto goesOn = [](int, ProgressIdentifier, void* flag) {

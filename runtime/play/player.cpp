@@ -357,11 +357,11 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     return result;
 }
 
-Result<Mesh> Player::mesh() {
+Result<Mesh> Player::mesh(bool parts) {
     return halvedIfFull([&]() -> Result<Mesh> {
         const Result<MesherResult> result = makeMesh(true);
         if (!result) return result.error();
-        return session.download(*result);
+        return session.download(*result, parts);
     });
 }
 

@@ -103,8 +103,8 @@ class Player {
     void advance(double by) { seek(seconds + by); }
 
     /// The mesh now, copied to the host; without triangles where the solid is empty. Errors as
-    /// Session::polygonise.
-    Result<Mesh> mesh();
+    /// Session::polygonise. With `parts`, where the material varies, each part has its own (partByMaterial).
+    Result<Mesh> mesh(bool parts = false);
     /// The same where the mesher left it on the device: in deviceMesh(), until the next call of anything.
     /// That of a picture that showsParticles() lacks their surfaces.
     Result<MesherResult> meshOnDevice(uint32_t show = RENDER_PICTURE);
@@ -173,6 +173,9 @@ class Player {
     /// Why pictures are drafts, and stay so: Session::whyDraft().
     std::string whyDraft() { return session.whyDraft(); }
 
+    /// The program with the values that it has now and the samples of its particles, for the host to
+    /// evaluate.
+    Program programOnHost() const { return session.onHost(); }
     /// The samples of the particles' fields as they were made last, for the host.
     std::vector<FieldVolumePtr> particleVolumes() const { return session.particleVolumes(); }
     /// Places for particles that fly now, of which some may be empty.

@@ -100,6 +100,8 @@ class Session {
     /// The samples of its particles as they were made last, for the host: of each of the program's volumes
     /// that has some.
     std::vector<FieldVolumePtr> particleVolumes() const;
+    /// The program with those, for the host to evaluate.
+    Program onHost() const;
     uint64_t particleSlots() const { return particles ? particles->slots() : 0; }
 
     /// Runs the mesher into device memory, and then the program's stages. Errors: a region without bounds
@@ -143,8 +145,6 @@ class Session {
     /// Of the surface, if it is the same everywhere, else of the default material.
     float constant(int component) const;
     glm::vec3 constantVector(int component) const;
-    /// The program with the samples of its particles, for the host to evaluate.
-    Program onHost() const;
     FieldBuffers fieldBuffers() const {
         return {
             .parameters = &parameters, .images = &images, .volumes = &volumes, .before = &parametersBefore};

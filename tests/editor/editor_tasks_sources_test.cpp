@@ -22,6 +22,8 @@ constexpr const char* kBroken = R"({"fieldwright": 1, "nodes": [
     {"id": "both", "type": "union", "at": [480, 0], "inputs": {"a": {"from": "ball"}, "b": {"from": "solid"}}},
     {"id": "output", "type": "output", "at": [700, 0], "inputs": {"surface": {"from": "both"}, "resolution": 16}}]})";
 
+const Area kInspector{{824, 440}, {1280, 800}};
+
 TEST(EditorTasks, ACutMesh) {
     count(
         "A cut mesh", kNew,
@@ -38,7 +40,7 @@ TEST(EditorTasks, ACutMesh) {
             fs::copy_file(person.path("elsewhere/cube.obj"), person.path("cube.obj"));
             person.makeRoom();
             person.addAt("mesh file", person.spot(-1.6f, -1.6f));
-            const Area label = person.waitFor("Path");
+            const Area label = person.waitFor("Path", kInspector);  // the node has such a word too
             person.click({label.hi.x + 200, label.centre().y});
             person.type("cube.obj\n");
             person.save();

@@ -29,7 +29,7 @@ using fw::test::writeText;
 
 namespace {
 
-constexpr double kPatience = 30.0;             // seconds; only what fails takes so long
+constexpr double kPatience = 120.0;            // seconds; only what fails takes so long
 constexpr const char* kDelay = " --delay 5 ";  // ms: GLFW takes presses of a key within one for a single one
 constexpr double kLook = 0.02;                 // seconds between two looks
 

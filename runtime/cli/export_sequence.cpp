@@ -1,0 +1,260 @@
+// `fieldwright export` of many meshes: a numbered file for every frame of a timeline, one that moves, or a
+// file for every variant of a sweep.
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "graph/document/named_parameters.h"
+#include "graph/document/sweep.h"
+#include "runtime/cli/measured.h"
+#include "runtime/cli/sequence.h"
+#include "runtime/export/animated.h"
+#include "runtime/export/outputs.h"
+#include "runtime/play/mesh_sequence.h"
+#include "runtime/system/output_file.h"
+
+namespace fw::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+int badExport(const std::string& message) {
+    std::fprintf(stderr, "fieldwright export: %s\n", message.c_str());
+    return kBadUsage;
+}
+
+/// What there is many of: files, and how the player comes to show one.
+struct ManyMeshes {
+    const char* one;  ///< "frame"
+    PlayerOptions player = {.liveParameters = false};
+    std::function<Result<FrameFiles>(const Graph&)> files = {};
+    std::function<Done(Player&, long)> show = {};
+    std::function<ordered_json(long)> about = {};  ///< what a report says of one beside its file's name
+};
+
+/// What the files hold, measured as each is written or, of one that was there, from it alone.
+struct MeasuredMeshes {
+    const MeshOutput& options;
+    const ManyMeshes& many;
+    std::map<long, Report> reports = {};
+
+    /// Measures the files that were there, and says what is wrong with any; the exit status.
+    int end(const FrameFiles& files) {
+        if (!options.measured()) return kDone;
+        ordered_json list = ordered_json::array();
+        bool unmet = false;
+        for (long number = files.frames.first; number < files.frames.last; ++number) {
+            const std::string path = files.path(number);
+            if (!reports.contains(number)) {
+                Result<Report> there = reportOnFile(path, {.selfIntersections = true});
+                if (!there) return print(there.error()), kSystemFailure;
+                reports.emplace(number, std::move(*there));
+            }
+            const Report& report = reports.at(number);
+            ordered_json entry = {{"file", files.name(number)}};
+            entry.update(many.about(number));
+            entry.update(ordered_json::parse(writeReport(report)));
+            list.push_back(std::move(entry));
+            unmet |= tellUnmet(options, path, report) != kDone;
+        }
+        if (!options.report.empty()) {
+            Result<OutputFile> file = OutputFile::open(options.report, nullptr);
+            if (!file) return print(file.error()), kSystemFailure;
+            file->write(ordered_json{{std::string(many.one) + "s", list}}.dump(2) + "\n");
+            if (const Done saved = file->commit(); !saved) return print(saved.error()), kSystemFailure;
+        }
+        return unmet ? kBadInput : kDone;
+    }
+};
+
+int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::string& ending) {
+    if (exportFormat(options.output))
+        return badExport(options.output + ": each " + many.one +
+                         " is a file of its own, in a folder: give its name, and --format " +
+                         lowerExtension(options.output).substr(1));
+    const fw::ExportOptions how{.manifold = options.manifold, .mayBeEmpty = true};
+    if (const Done fine = checkExportPath("a" + ending, how, options.measured()); !fine)
+        return badExport(fine.error().message);
+    if (!options.report.empty())
+        if (const Done distinct = checkDistinct(options.mesh.graph.path, {options.report}); !distinct)
+            return print(distinct.error()), kBadUsage;
+
+    FrameFiles files;
+    const auto filesOfGraph = [&](const Graph& graph) -> Result<FrameFiles> {
+        const Result<FrameFiles> wanted = many.files(graph);
+        if (!wanted) return wanted.error();
+        files = *wanted;
+        if (const Done free = checkFrames(files, graph); !free)
+            return Error{.message = free.error().message + " (-o, --format)"};
+        return files;
+    };
+    WrittenBehind writing;
+    MeasuredMeshes measured{options, many};
+    bool empty = false;
+    const auto make = [&](Player& player, long number, const std::string& path, std::function<void()> kept) {
+        if (const Done shown = many.show(player, number); !shown)
+            return badInput(options.mesh, shown.error());
+        Result<Mesh> mesh = player.mesh(exportFormat(path)->parts);
+        if (!mesh) return badInput(options.mesh, in(mesh.error(), many.one + (' ' + files.name(number))));
+        if (mesh->indices.empty() && !std::exchange(empty, true))
+            std::fprintf(stderr, "%s: note: the solid is empty there, and the file has no triangles\n",
+                         path.c_str());
+        fw::ExportOptions with = how;
+        with.cellSize = float(longestSide(player.region()) / player.resolution());
+        with.kept = std::move(kept);
+        std::shared_ptr<const Program> program;
+        if (options.measured()) program = std::make_shared<Program>(player.programOnHost());
+        const MeshedFrom from{program.get(), player.region(), player.device().name()};
+        auto write = [&, path, number, with, program, from, mesh = std::move(*mesh)]() mutable -> Done {
+            Report report;
+            if (!mesh.indices.empty()) with.examine = measuring(options, from, nullptr, report);
+            const Result<ExportedFiles> written = exportMesh(mesh, path, with);
+            if (!written) return written.error();
+            measured.reports.emplace(number, std::move(report));
+            return done();
+        };
+        if (const Done before = writing.begin(std::move(write)); !before)
+            return print(before.error()), kSystemFailure;
+        return kDone;
+    };
+    const auto end = [&] {
+        const Done written = writing.end();
+        return written ? kDone : (print(written.error()), kSystemFailure);
+    };
+    const int status = makeFrames({.command = "export",
+                                   .one = many.one,
+                                   .mesh = options.mesh,
+                                   .player = many.player,
+                                   .rests = many.one != std::string_view("frame"),
+                                   .files = filesOfGraph,
+                                   .make = make,
+                                   .end = end},
+                                  options.output);
+    return status == kDone ? measured.end(files) : status;
+}
+
+Result<FrameRange> framesAsked(const Graph& graph, const ExportOptions& options) {
+    Result<FrameRange> frames = framesOf(*readTimeline(graph), options.sequence.frames);
+    if (!frames) return Error{.message = frames.error().message + " (--from, --to, --fps)"};
+    return frames;
+}
+
+std::string endingOf(const ExportOptions& options) {
+    return "." + (options.format.empty() ? "glb" : options.format);
+}
+
+/// The names and numbers of a variant's values, of a graph that has such parameters.
+using NamedNumbers = std::vector<std::pair<std::string, std::vector<double>>>;
+Result<NamedNumbers> numbersOf(Graph graph, const Variant& variant) {
+    NamedNumbers numbers;
+    for (const NamedValue& value : variant.values) {
+        if (const Done set = setParameter(graph, value.name, value.value); !set) return set.error();
+        const NamedParameter parameter = *findParameter(graph, value.name);
+        numbers.emplace_back(value.name, inputNumbers(*graph.node(parameter.node), parameter.input));
+    }
+    return numbers;
+}
+
+}  // namespace
+
+int exportSequence(const ExportOptions& options) {
+    FrameRange range;
+    const auto files = [&](const Graph& graph) -> Result<FrameFiles> {
+        const Result<FrameRange> frames = framesAsked(graph, options);
+        if (!frames) return frames.error();
+        range = *frames;
+        return meshFrames(options.output, endingOf(options), range, options.sequence.overwrite);
+    };
+    const auto show = [&](Player& player, long frame) { return player.seek(range.time(frame)), done(); };
+    const auto about = [&](long frame) { return ordered_json{{"time", range.time(frame)}}; };
+    return exportMany(options, {.one = "frame", .files = files, .show = show, .about = about},
+                      endingOf(options));
+}
+
+int exportSweep(const ExportOptions& options) {
+    const Result<std::vector<Variant>> variants = readSweep(options.sweep);
+    if (!variants) return print(variants.error()), kBadUsage;
+    std::vector<NamedNumbers> numbers;
+    ManyMeshes many{.one = "variant"};
+    many.files = [&](const Graph& graph) -> Result<FrameFiles> {
+        for (const Variant& variant : *variants) {
+            Result<NamedNumbers> found = numbersOf(graph, variant);
+            if (!found) return Error{.message = found.error().message + " (--sweep, " + variant.stem + ")"};
+            numbers.push_back(std::move(*found));
+        }
+        FrameFiles files = meshFrames(options.output, endingOf(options), {0, long(variants->size())},
+                                      options.sequence.overwrite);
+        files.stem = [&](long number) { return (*variants)[std::size_t(number)].stem; };
+        return files;
+    };
+    many.show = [&](Player& player, long number) -> Done {
+        for (const auto& [name, value] : numbers[std::size_t(number)])
+            if (Done set = player.set(name, value); !set) return set;
+        return done();
+    };
+    many.about = [&](long number) {
+        ordered_json values = ordered_json::object();
+        for (const auto& [name, value] : numbers[std::size_t(number)])
+            values[name] = value.size() == 1 ? ordered_json(value.front()) : ordered_json(value);
+        return ordered_json{{"values", values}};
+    };
+    many.player.liveParameters = true;
+    return exportMany(options, many, endingOf(options));
+}
+
+int exportAnimated(const ExportOptions& options) {
+    const fw::ExportOptions how{.manifold = options.manifold,
+                                .kept = [] { whenEnded({.said = "; the file was written"}); }};
+    if (const Done fine = checkAnimatedPath(options.output, how); !fine)
+        return print(fine.error()), kBadUsage;
+    if (options.measured())
+        return badExport("--report and --require measure one mesh: export the frames into a folder for them");
+    MeshOptions wanted = options.mesh;
+    wanted.outputs = exportedPaths(options.output);
+    if (const Done distinct = checkDistinct(wanted.graph.path, wanted.outputs); !distinct)
+        return print(distinct.error()), kBadUsage;
+    FrameRange range;
+    std::optional<Player> player;
+    {
+        Progress progress;
+        int status = kDone;
+        player = openPlayer(wanted, progress, {.liveParameters = false}, status, [&](const Graph& graph) {
+            const Result<FrameRange> frames = framesAsked(graph, options);
+            if (!frames) return badExport(frames.error().message);
+            range = *frames;
+            return kDone;
+        });
+        if (!player) return status;
+    }
+    Result<AnimatedGltf> file = AnimatedGltf::open(options.output, how);
+    if (!file) return print(file.error()), kSystemFailure;
+    WrittenBehind writing;
+    const double begin = range.time(range.first);
+    SequenceProgress progress("frame", range.count());
+    for (long frame = range.first; frame < range.last; ++frame) {
+        Result<Mesh> mesh = onceMoreIfLost(
+            [&] {
+                player->seek(range.time(frame));
+                return player->mesh(true);
+            },
+            [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
+        if (!mesh) return badInput(options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
+        auto add = [&, frame, mesh = std::move(*mesh)] {
+            return file->add(mesh, range.time(frame) - begin, "frame_" + std::to_string(frame));
+        };
+        if (const Done before = writing.begin(std::move(add)); !before)
+            return print(before.error()), kSystemFailure;
+        progress.next(true);
+    }
+    Done written = writing.end();
+    if (written)
+        if (const Result<ExportedFiles> files = file->end(range.time(range.last) - begin); !files)
+            written = files.error();
+    if (!written) return print(written.error()), kSystemFailure;
+    if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
+    return kDone;
+}
+
+}  // namespace fw::cli

@@ -1,0 +1,337 @@
+// `fieldwright export` of many meshes, as a user calls it: of a timeline, as one file that moves, and of a
+// sweep.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "runtime/export/whole.h"
+#include "runtime/measure/mesh_report.h"
+#include "tests/support/command.h"
+#include "tests/support/graph/temp_dir.h"
+
+namespace fw::mesh_sequence_test {
+
+using test::CommandResult;
+using test::expectRefusal;
+using test::readText;
+using test::runCommand;
+using test::TempDir;
+
+/// A ball that rests, and one that goes to and fro: 0, 1/4, 1/2, 3/4, 1, 3/4, … metres.
+const std::string kGraph = R"({"fieldwright": 1, "parameters": [
+  {"name": "size", "node": "rest", "input": "radius", "min": 0.1, "max": 1}], "nodes": [
+  {"id": "rest", "type": "sphere", "inputs": {"radius": 0.5}},
+  {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+  {"id": "lift", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0, 1.5, 0]}},
+  {"id": "both", "type": "union", "inputs": {"a": {"from": "rest"}, "b": {"from": "lift"}}},
+  {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}, "resolution": 24}}],
+ "timeline": {"length": 2, "fps": 4, "tracks": [{"node": "lift", "input": "offset", "keys": [
+   {"time": 0, "value": [0, 1.5, 0]}, {"time": 1, "value": [1, 1.5, 0]}, {"time": 2, "value": [0, 1.5, 0]}]}]}})";
+
+/// A ball that another one eats, from within.
+const std::string kEaten = R"({"fieldwright": 1, "nodes": [
+  {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
+  {"id": "bite", "type": "sphere", "inputs": {"radius": 0.3}},
+  {"id": "cut", "type": "subtract", "inputs": {"a": {"from": "ball"}, "b": {"from": "bite"}}},
+  {"id": "out", "type": "output", "inputs": {"surface": {"from": "cut"}, "resolution": 16}}],
+ "timeline": {"length": 1, "fps": 4, "tracks": [{"node": "bite", "input": "radius", "keys": [
+   {"time": 0, "value": 0.3}, {"time": 0.25, "value": 1}, {"time": 0.5, "value": 1},
+   {"time": 0.75, "value": 0.3}]}]}})";
+
+struct MeshSequence : testing::Test {
+    TempDir folder;
+    std::string graph = folder.path("a.field.json"), frames = folder.path("frames");
+    void SetUp() override { test::writeText(graph, kGraph); }
+
+    CommandResult exported(const std::string& output, const std::vector<std::string>& more) const {
+        std::vector<std::string> words = {"export", graph, "-o", output};
+        words.insert(words.end(), more.begin(), more.end());
+        return runCommand(words);
+    }
+    std::vector<std::string> names(const std::string& path) const {
+        std::vector<std::string> list;
+        for (const auto& entry : std::filesystem::directory_iterator(path))
+            list.push_back(entry.path().filename());
+        std::sort(list.begin(), list.end());
+        return list;
+    }
+    std::string frame(const std::string& path, int number, const std::string& ending = ".glb") const {
+        return path + "/00000" + std::to_string(number) + ending;
+    }
+};
+
+nlohmann::json jsonOf(const std::string& glb) {
+    uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, 4);
+    return nlohmann::json::parse(glb.substr(20, length));
+}
+
+/// The floats of an accessor of a GLB whose buffers are not interleaved.
+std::vector<float> floatsOf(const std::string& glb, const nlohmann::json& document, std::size_t accessor) {
+    uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, 4);
+    const nlohmann::json& of = document["accessors"][accessor];
+    const nlohmann::json& view = document["bufferViews"][of["bufferView"].get<std::size_t>()];
+    const std::size_t parts = of["type"] == "VEC3" ? 3 : 1;
+    std::vector<float> values(parts * of["count"].get<std::size_t>());
+    std::memcpy(values.data(),
+                glb.data() + 28 + length + view.value("byteOffset", 0u) + of.value("byteOffset", 0u),
+                values.size() * sizeof(float));
+    return values;
+}
+
+using Place = std::array<float, 3>;
+/// The places of the vertices below a height.
+std::set<Place> placesBelow(const std::string& path, float height) {
+    const std::string glb = readText(path);
+    const nlohmann::json document = jsonOf(glb);
+    const std::vector<float> values =
+        floatsOf(glb, document, document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+    std::set<Place> places;
+    for (std::size_t i = 0; i < values.size(); i += 3)
+        if (values[i + 1] < height) places.insert({values[i], values[i + 1], values[i + 2]});
+    return places;
+}
+
+TEST_F(MeshSequence, NumbersFramesByTheirTimeOnOneGrid) {
+    const CommandResult all = exported(frames, {"--from", "0"});
+    EXPECT_EQ(all.status, 0) << all.errors;
+    EXPECT_EQ(all.output + all.errors, "");
+    EXPECT_EQ(names(frames),
+              (std::vector<std::string>{"000000.glb", "000001.glb", "000002.glb", "000003.glb", "000004.glb",
+                                        "000005.glb", "000006.glb", "000007.glb"}));
+    const double ball = 4.0 / 3.0 * std::numbers::pi * 0.125;
+    for (int number = 0; number < 8; ++number) {
+        const Result<Report> report = reportOnFile(frame(frames, number));
+        ASSERT_TRUE(report) << format(report.error());
+        EXPECT_TRUE(report->closedManifold());
+        EXPECT_EQ(report->shells, 2u);
+        EXPECT_NEAR(report->volume, 2 * ball, 0.08 * ball) << "of cells as large as a seventh of its radius";
+        EXPECT_NEAR(report->boundsMax[0], 0.5 + (number <= 4 ? number : 8 - number) / 4.0, 0.01) << number;
+    }
+    // What rests has the same vertices in every frame: the grid does not swim.
+    const std::set<Place> resting = placesBelow(frame(frames, 0), 0.7f);
+    EXPECT_GT(resting.size(), 100u);
+    for (int number = 1; number < 8; ++number)
+        EXPECT_TRUE(placesBelow(frame(frames, number), 0.7f) == resting) << number;
+    // Some of the frames alone, and in another order, are the same bytes.
+    const std::string part = folder.path("part");
+    EXPECT_EQ(exported(part, {"--from", "1"}).status, 0);
+    EXPECT_EQ(exported(part, {"--to", "1"}).status, 0);
+    for (int number = 0; number < 8; ++number)
+        EXPECT_TRUE(readText(frame(part, number)) == readText(frame(frames, number))) << number;
+}
+
+TEST_F(MeshSequence, GoesOnWhereItStopped) {
+    for (const std::string ending : {".glb", ".gltf", ".obj", ".stl", ".ply", ".3mf"}) {
+        const std::string at = folder.path("of_" + ending.substr(1));
+        const std::vector<std::string> words = {"--to", "1", "--format", ending.substr(1)};
+        ASSERT_EQ(exported(at, words).status, 0) << ending;
+        std::string whole[4];
+        for (int number = 0; number < 4; ++number) {
+            whole[number] = readText(frame(at, number, ending));
+            EXPECT_TRUE(isWholeMesh(frame(at, number, ending))) << ending;
+        }
+        std::filesystem::remove(frame(at, 1, ending));
+        test::writeText(frame(at, 2, ending), whole[2].substr(0, whole[2].size() * 2 / 3 - 1));
+        test::writeText(frame(at, 3, ending), "");
+        const CommandResult more = exported(at, words);
+        EXPECT_EQ(more.status, 0) << more.errors;
+        EXPECT_NE(more.errors.find("1 of 4 frames were there already (--overwrite makes them anew)"),
+                  std::string::npos)
+            << ending << more.errors;
+        for (int number = 0; number < 4; ++number)
+            EXPECT_TRUE(readText(frame(at, number, ending)) == whole[number]) << ending << number;
+    }
+    const std::string at = folder.path("of_gltf");
+    std::filesystem::remove(frame(at, 0, ".bin"));
+    EXPECT_FALSE(isWholeMesh(frame(at, 0, ".gltf")));
+    EXPECT_EQ(exported(folder.path("of_vdb"), {"--to", "0.5", "--format", "vdb"}).status, 0);
+    EXPECT_EQ(names(folder.path("of_vdb")), (std::vector<std::string>{"000000.vdb", "000001.vdb"}));
+}
+
+TEST_F(MeshSequence, AFrameWithoutASolidIsAnEmptyFile) {
+    test::writeText(graph, kEaten);
+    for (const std::string ending : {".glb", ".gltf", ".obj", ".stl", ".ply", ".3mf", ".vdb"}) {
+        const std::string at = folder.path("of_" + ending.substr(1));
+        const CommandResult made = exported(at, {"--from", "0", "--format", ending.substr(1)});
+        EXPECT_EQ(made.status, 0) << made.errors;
+        EXPECT_EQ(made.errors,
+                  frame(at, 1, ending) + ": note: the solid is empty there, and the file has no triangles\n");
+        for (int number = 0; number < 4; ++number) EXPECT_TRUE(isWholeMesh(frame(at, number, ending)));
+        EXPECT_LT(std::filesystem::file_size(frame(at, 2, ending)), 1500u) << ending;
+        EXPECT_GT(std::filesystem::file_size(frame(at, 0, ending)),
+                  4 * std::filesystem::file_size(frame(at, 2, ending)))
+            << ending;
+    }
+    const nlohmann::json empty = jsonOf(readText(frame(folder.path("of_glb"), 2)));
+    EXPECT_FALSE(empty.contains("meshes"));
+    EXPECT_EQ(empty["nodes"].size(), 1u);
+}
+
+TEST_F(MeshSequence, IsMeasuredFrameByFrame) {
+    test::writeText(graph, kEaten);
+    const std::string report = folder.path("report.json");
+    EXPECT_EQ(exported(frames, {"--to", "0.25"}).status, 0);
+    const CommandResult made =
+        exported(frames, {"--from", "0", "--report", report, "--require", "closed,voids=1"});
+    EXPECT_EQ(made.status, 1) << made.errors;
+    EXPECT_NE(made.errors.find("000001.glb: "), std::string::npos) << made.errors;
+    EXPECT_EQ(made.errors.find("000003.glb: "), std::string::npos) << made.errors;
+    const nlohmann::json measured = nlohmann::json::parse(readText(report));
+    ASSERT_EQ(measured["frames"].size(), 4u);
+    EXPECT_EQ(measured["frames"][3]["file"], "000003.glb");
+    EXPECT_EQ(measured["frames"][3]["time"], 0.75);
+    EXPECT_EQ(measured["frames"][3]["voids"], 1);
+    EXPECT_TRUE(measured["frames"][3]["maxError"].is_number());
+    EXPECT_EQ(measured["frames"][0]["voids"], 1) << "it was there already";
+    EXPECT_TRUE(measured["frames"][0]["maxError"].is_null());
+    EXPECT_EQ(measured["frames"][1]["triangles"], 0);
+}
+
+TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
+    const std::string path = folder.path("moves.glb");
+    const CommandResult made = exported(path, {"--animated"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    const std::string glb = readText(path);
+    const nlohmann::json document = jsonOf(glb);
+    ASSERT_EQ(document["animations"].size(), 1u);
+    const nlohmann::json& animation = document["animations"][0];
+    // The way back is the way there: five places for eight frames.
+    EXPECT_EQ(document["meshes"].size(), 5u);
+    EXPECT_EQ(animation["channels"].size(), 5u);
+    EXPECT_EQ(document["nodes"][0]["children"].size(), 5u);
+    for (int number = 0; number < 8; ++number) {
+        const double seconds = (number + 0.5) / 4.0;
+        std::vector<std::size_t> shown;
+        for (const nlohmann::json& channel : animation["channels"]) {
+            const nlohmann::json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+            EXPECT_EQ(sampler["interpolation"], "STEP");
+            EXPECT_EQ(channel["target"]["path"], "scale");
+            const std::vector<float> times = floatsOf(glb, document, sampler["input"]),
+                                     scales = floatsOf(glb, document, sampler["output"]);
+            ASSERT_EQ(scales.size(), 3 * times.size());
+            EXPECT_TRUE(std::ranges::is_sorted(times));
+            EXPECT_EQ(times.front(), 0.0f);
+            EXPECT_LE(times.back(), 2.0f);
+            const auto after = std::ranges::upper_bound(times, float(seconds)) - times.begin();
+            const float scale = scales[std::size_t(3 * (after - 1))];
+            EXPECT_TRUE(scale == 0.0f || scale == 1.0f);
+            if (scale == 1.0f) shown.push_back(channel["target"]["node"]);
+        }
+        ASSERT_EQ(shown.size(), 1u) << number;
+        const nlohmann::json& mesh =
+            document["meshes"][document["nodes"][shown[0]]["mesh"].get<std::size_t>()];
+        const nlohmann::json& positions =
+            document["accessors"][mesh["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+        EXPECT_NEAR(positions["max"][0].get<double>(), 0.5 + (number <= 4 ? number : 8 - number) / 4.0, 0.01);
+    }
+    // A program that plays nothing shows the first frame.
+    for (std::size_t node = 1; node < document["nodes"].size(); ++node)
+        EXPECT_EQ(document["nodes"][node].contains("scale"), node > 1) << node;
+    EXPECT_EQ(document["accessors"].size(), document["bufferViews"].size());
+    // The same as text with its buffer beside it, and in two runs.
+    EXPECT_EQ(exported(folder.path("moves.gltf"), {"--animated"}).status, 0);
+    EXPECT_TRUE(isWholeMesh(folder.path("moves.gltf")));
+    EXPECT_EQ(exported(folder.path("again.glb"), {"--animated"}).status, 0);
+    EXPECT_EQ(readText(folder.path("again.glb")).size(), glb.size());
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.field.json", "again.glb", "moves.bin", "moves.glb",
+                                                        "moves.gltf"}));
+    // Nothing is there while the solid is empty.
+    test::writeText(graph, kEaten);
+    EXPECT_EQ(exported(path, {"--animated", "--to", "0.75"}).status, 0);
+    const std::string eaten = readText(path);
+    const nlohmann::json gone = jsonOf(eaten);
+    EXPECT_EQ(gone["meshes"].size(), 1u);
+    const std::size_t input = gone["animations"][0]["samplers"][0]["input"];
+    EXPECT_EQ(floatsOf(eaten, gone, input), (std::vector<float>{0.0f, 0.25f}));
+}
+
+TEST_F(MeshSequence, ASweepIsAMeshForEveryValue) {
+    const CommandResult made = exported(frames, {"--sweep", "size=0.2:0.8:4", "--format", "ply"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    EXPECT_EQ(names(frames),
+              (std::vector<std::string>{"size=0.2.ply", "size=0.4.ply", "size=0.6.ply", "size=0.8.ply"}));
+    for (const double radius : {0.2, 0.4, 0.6, 0.8}) {
+        const Result<Report> report =
+            reportOnFile(frames + "/size=" + std::to_string(radius).substr(0, 3) + ".ply");
+        ASSERT_TRUE(report);
+        EXPECT_NEAR(report->boundsMin[0], -std::max(radius, 0.5), 0.02) << radius;
+        EXPECT_NEAR(report->boundsMin[1], -radius, 0.02) << radius;
+    }
+    // A variant does not depend on those before it.
+    const std::string whole = readText(frames + "/size=0.8.ply");
+    std::filesystem::remove(frames + "/size=0.8.ply");
+    const CommandResult more = exported(frames, {"--sweep", "size=0.2:0.8:4", "--format", "ply"});
+    EXPECT_NE(more.errors.find("3 of 4 variants were there already"), std::string::npos) << more.errors;
+    EXPECT_TRUE(readText(frames + "/size=0.8.ply") == whole);
+    // Of a table; what it says of each stands in the report.
+    test::writeText(folder.path("sizes.csv"), "size\n0.3\n0.7\n");
+    const std::string report = folder.path("report.json");
+    EXPECT_EQ(
+        exported(folder.path("table"), {"--sweep", folder.path("sizes.csv"), "--report", report}).status, 0);
+    const nlohmann::json measured = nlohmann::json::parse(readText(report));
+    ASSERT_EQ(measured["variants"].size(), 2u);
+    EXPECT_EQ(measured["variants"][1]["values"]["size"], 0.7);
+    // A value that cannot be is told before any mesh is made.
+    const std::string none = folder.path("none");
+    expectRefusal(exported(none, {"--sweep", "size=0.5:2:3"}), 2, {"size", "--sweep"});
+    expectRefusal(exported(none, {"--sweep", "sise=0.1:0.2:3"}), 2, {"sise", "'size'"});
+    expectRefusal(exported(none, {"--sweep", "size=0.1"}), 2, {"name=from:to:count"});
+    expectRefusal(exported(none, {"--sweep", "size=0.2:0.8:4", "--fps", "4"}), 2, {"--sweep", "--fps"});
+    EXPECT_FALSE(std::filesystem::exists(none));
+}
+
+TEST_F(MeshSequence, RefusesWhatMakesNoSequence) {
+    const auto refuse = [&](const std::string& output, const std::vector<std::string>& words,
+                            const std::string& part) { expectRefusal(exported(output, words), 2, {part}); };
+    refuse(frames, {"--from", "3", "--to", "1"}, "there is no frame from");
+    refuse(frames, {"--to", "1e9"}, "frames are numbered up to 1000000");
+    refuse(frames, {"--range"}, "the timeline has no range");
+    refuse(frames, {"--to", "1", "--time", "1"}, "--time");
+    refuse(frames, {"--to", "1", "--format", "fbx"}, "glb");
+    refuse(frames, {"--to", "1", "--tiles", "2"}, "--tiles");
+    refuse(frames, {"--to", "1", "--format", "vdb", "--report", folder.path("r.json")}, "no triangles");
+    refuse(folder.path("a.glb"), {"--to", "1"}, "give its name, and --format glb");
+    refuse(folder.path("a.glb"), {"--overwrite"}, "--overwrite is for a sequence");
+    refuse(folder.path("a.glb"), {"--format", "ply"}, "--format ply");
+    refuse(folder.path("a.ply"), {"--animated"}, "a .glb or .gltf");
+    refuse(folder.path("a.glb"), {"--animated", "--manifold"}, "is not marked as a solid");
+    refuse(folder.path("a.glb"), {"--animated", "--require", "closed"}, "--require");
+    refuse(graph, {"--to", "1"}, "this is a file");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.field.json"});
+    std::filesystem::create_directories(frames + "/000002.glb");
+    refuse(frames, {"--to", "1"}, "000002.glb is no ordinary file");
+    expectRefusal(exported("/proc/frames", {"--to", "1"}), 3,
+                  {"/proc/frames: error: cannot make the folder"});
+}
+
+TEST_F(MeshSequence, KilledAtAnyTimeGoesOnToTheSameBytes) {
+    EXPECT_EQ(exported(frames, {"--fps", "30"}).status, 0);
+    const std::string other = folder.path("other");
+    std::mt19937 random(7);
+    const int kills = std::getenv("FIELDWRIGHT_LONG") ? 20 : 3;
+    for (int kill = 0; kill < kills; ++kill) {
+        test::CommandOptions options;
+        options.interruptAfterMs = 200 + int(random() % 600);
+        options.signal = kill % 2 == 0 ? SIGKILL : SIGTERM;
+        runCommand({"export", graph, "-o", other, "--fps", "30"}, options);
+        if (!std::filesystem::exists(other)) continue;
+        for (const std::string& name : names(other))
+            EXPECT_TRUE(name.starts_with('.') || isWholeMesh(other + "/" + name)) << name;
+    }
+    EXPECT_EQ(exported(other, {"--fps", "30"}).status, 0);
+    EXPECT_EQ(names(other), names(frames)) << "nothing temporary is left";
+    for (const std::string& name : names(frames))
+        EXPECT_TRUE(readText(other + "/" + name) == readText(frames + "/" + name)) << name;
+}
+
+}  // namespace fw::mesh_sequence_test
