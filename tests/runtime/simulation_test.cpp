@@ -419,6 +419,7 @@ std::vector<glm::vec4> velocitiesOf(const Played& player) {
 }
 
 TEST(Simulation, APistonPushesWaterUpByWhatItDisplaces) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "an experiment of half a minute: FIELDWRIGHT_LONG";
     // From the left wall, a metre in two seconds, once 0.48 m of water lie still: they come to stand a third
     // higher.
     Played player(pushed("[2, 3, 3]", "return p.y - 0.48;",
