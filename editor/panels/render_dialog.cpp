@@ -351,8 +351,7 @@ long framesThere(Editor& editor, const RenderWish& wish, const std::vector<Rende
     for (const RenderItem& item : items) made += item.state.made;
     const double now = ImGui::GetTime();
     const bool old = made != counted.made || (now > counted.seconds + 1.0 && counted.there < kMany);
-    if (asked != counted.asked || (old && !renders(editor)))
-        counted = {asked, made, now, files.countThere()};
+    if (asked != counted.asked || (old && !renders(editor))) counted = {asked, made, now, files.countThere()};
     return counted.there;
 }
 
