@@ -38,8 +38,8 @@ void Thumbnails::keepOnly(Shell& shell, const std::function<bool(const std::stri
 bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph, uint64_t current,
                         const std::vector<FieldVolumePtr>& particles, bool rests) {
     bool fresh = false;
-    if (working.valid() && working.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        const Result<Thumbnail> result = working.get();
+    if (working.isThere()) {
+        const Result<Thumbnail> result = working.take();
         // It may have been taken away meanwhile.
         if (const auto found = shown.find(path); found != shown.end()) {
             Shown& there = found->second;
@@ -53,18 +53,15 @@ bool Thumbnails::follow(Shell& shell, const std::shared_ptr<const Graph>& graph,
             fresh = true;
         }
     }
-    if (working.valid() || !rests) return fresh;
+    if (working.begun() || !rests) return fresh;
     for (const auto& [node, there] : shown) {
         const bool moved = there.moves && !particles.empty() && there.particles != particles;
         if (there.revision == current && !moved) continue;
         path = node, revision = current, given = particles;
-        working = std::async(std::launch::async, [graph, particles, node = node, made = there.made] {
-            Result<Thumbnail> result = Error{};
+        working.begin([graph, particles, node = node, made = there.made]() -> Result<Thumbnail> {
             try {
-                result = thumbnail(*graph, node, particles, made);
-            } catch (const std::exception& error) { result = Error{.message = error.what()}; }
-            Shell::wake();
-            return result;
+                return thumbnail(*graph, node, particles, made);
+            } catch (const std::exception& error) { return Error{.message = error.what()}; }
         });
         break;
     }

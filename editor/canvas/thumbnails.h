@@ -5,13 +5,12 @@
 #pragma once
 
 #include <functional>
-#include <future>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "editor/preview/thumbnail.h"
-#include "editor/shell/shell.h"
+#include "editor/shell/made_aside.h"
 
 namespace fw::editor {
 
@@ -44,7 +43,7 @@ struct Thumbnails {
     std::string path;  ///< of the one under way
     uint64_t revision = 0;
     std::vector<FieldVolumePtr> given;
-    std::future<Result<Thumbnail>> working;
+    MadeAside<Result<Thumbnail>> working;
 };
 
 }  // namespace fw::editor

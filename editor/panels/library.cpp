@@ -47,9 +47,9 @@ Picture pictureOfPart(const std::string& path) {
 /// Takes the picture that was made, and begins that of the first of these that has none.
 void makePictures(Editor& editor, const std::vector<const LibraryPart*>& seen) {
     LibraryPanel& panel = editor.library;
-    if (panel.picture.valid()) {
-        if (panel.picture.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-        const Picture picture = panel.picture.get();
+    if (panel.picture.begun()) {
+        if (!panel.picture.isThere()) return;
+        const Picture picture = panel.picture.take();
         LibraryPanel::Tile& tile = panel.tiles[panel.working];
         tile.stamp = panel.workingStamp, tile.made = true;
         if (!picture.pixels.empty())
@@ -62,11 +62,7 @@ void makePictures(Editor& editor, const std::vector<const LibraryPart*>& seen) {
         const LibraryPanel::Tile& tile = panel.tiles[part->path];
         if (tile.made && tile.stamp == stamp) continue;
         panel.working = part->path, panel.workingStamp = stamp;
-        panel.picture = std::async(std::launch::async, [path = part->path] {
-            Picture picture = pictureOfPart(path);
-            Shell::wake();
-            return picture;
-        });
+        panel.picture.begin([path = part->path] { return pictureOfPart(path); });
         return;
     }
 }
@@ -231,13 +227,13 @@ void lookAtLibrary(Editor& editor) {
         panel.folder = folder, panel.looked = now;
         return take(read(folder));
     }
-    if (panel.reading.valid()) {
-        if (panel.reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-        take(panel.reading.get());
+    if (panel.reading.begun()) {
+        if (!panel.reading.isThere()) return;
+        take(panel.reading.take());
     }
     if (std::chrono::duration<double>(now - panel.looked).count() < kLookSeconds) return;
     panel.looked = now;
-    panel.reading = std::async(std::launch::async, read, folder);
+    panel.reading.begin([read, folder] { return read(folder); });
 }
 
 void keepInLibrary(Editor& editor) {

@@ -9,7 +9,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <future>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "editor/files/browser.h"
 #include "editor/files/parts.h"
 #include "editor/preview/thumbnail.h"
+#include "editor/shell/made_aside.h"
 
 namespace fw::editor {
 
@@ -35,7 +35,7 @@ struct LibraryPanel {
         std::vector<LibraryPart> parts = {};
         std::string problem = {};
     };
-    std::future<Reading> reading = {};  ///< beside the interface, of what others may have changed
+    MadeAside<Reading> reading = {};  ///< beside the interface, of what others may have changed
 
     struct Tile {
         int64_t stamp = 0;  ///< of the file, when the picture was made
@@ -45,7 +45,7 @@ struct LibraryPanel {
     std::map<std::string, Tile> tiles = {};  ///< by path
     std::string working = {};                ///< the path of the picture under way
     int64_t workingStamp = 0;
-    std::future<Picture> picture = {};
+    MadeAside<Picture> picture = {};
 };
 
 /// Reads the folder again if that was not done for a while.

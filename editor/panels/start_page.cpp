@@ -37,16 +37,14 @@ void follow(StartPage& page, Shell& shell) {
                 if (fs::path(sample.path).filename().string() == name + std::string(kGraphEnding))
                     page.samples.push_back(sample);
         page.textures.resize(page.samples.size());
-        page.reading = std::async(std::launch::async, [all = page.samples] {
+        page.reading.begin([all = page.samples] {
             std::vector<Picture> pictures;
             for (const Sample& sample : all) pictures.push_back(pictureOf(sample));
-            Shell::wake();
             return pictures;
         });
     }
-    if (!page.reading.valid() || page.reading.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return;
-    const std::vector<Picture> pictures = page.reading.get();
+    if (!page.reading.isThere()) return;
+    const std::vector<Picture> pictures = page.reading.take();
     for (std::size_t i = 0; i < pictures.size(); ++i)
         if (!pictures[i].pixels.empty()) page.textures[i] = shell.show(nullptr, pictures[i]);
 }

@@ -6,11 +6,11 @@
 
 #include <imgui.h>
 
-#include <future>
 #include <string>
 #include <vector>
 
 #include "editor/files/samples.h"
+#include "editor/shell/made_aside.h"
 
 namespace fw::editor {
 
@@ -21,7 +21,7 @@ struct StartPage {
     bool looked = false;                     ///< for the samples
     std::vector<Sample> samples = {};        ///< the few that are shown
     std::vector<ImTextureID> textures = {};  ///< of each; null as long as it has none
-    std::future<std::vector<Picture>> reading = {};
+    MadeAside<std::vector<Picture>> reading = {};
 };
 
 /// One frame of it, if it is open, over the canvas. After the canvas was shown.

@@ -215,7 +215,7 @@ void interfaceTable(Bench& bench) {
                 bench.fail("the library has " + std::to_string(editor.library.parts.size()) + " parts");
             // Until those that are seen have their pictures.
             do window.shell.waitEvents(0.02), window.frame();
-            while (editor.library.picture.valid());
+            while (editor.library.picture.begun());
             row("a frame, library of " + std::to_string(kParts) + " parts", window.frames(), kMostLibrary);
             editor.library.search = "7";
             row("the same, searched", window.frames(), kMostLibrary);

@@ -331,7 +331,8 @@ TEST(Together, BehindAFactorOfZeroNothingBecomesNoNumber) {
         const auto way = wayToShown(graph, "", node.id, "");
         if (!way) continue;
         for (const Handle& handle : handlesOf(node, placementAlong(graph, "", *way), {}))
-            for (int axis = -1; axis < handle.count; ++axis) {
+            for (int axis = 0; axis <= handle.count; ++axis) {
+                if (axis == handle.count && axis != kAcrossView) break;
                 HandleDrag drag = takeHandle(handle, axis, lens, {300, 300}, 1.0);
                 for (const double step : {0.0, 0.1}) {
                     const Steps steps(step > 0.0);
