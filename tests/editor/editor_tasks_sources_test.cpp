@@ -22,7 +22,7 @@ constexpr const char* kBroken = R"({"fieldwright": 1, "nodes": [
     {"id": "both", "type": "union", "at": [480, 0], "inputs": {"a": {"from": "ball"}, "b": {"from": "solid"}}},
     {"id": "output", "type": "output", "at": [700, 0], "inputs": {"surface": {"from": "both"}, "resolution": 16}}]})";
 
-const Area kInspector{{824, 440}, {1280, 800}};
+const Area kInspector{{700, 440}, {1280, 800}};
 
 TEST(EditorTasks, ACutMesh) {
     count(
