@@ -90,8 +90,8 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
             return Error{.message = free.error().message + " (-o, --format)"};
         return files;
     };
-    WrittenBehind writing;
     MeasuredMeshes measured{options, many};
+    WrittenBehind writing;  // behind what it refers to
     bool empty = false;
     const auto make = [&](Player& player, long number, const std::string& path, std::function<void()> kept) {
         if (const Done shown = many.show(player, number); !shown)
@@ -230,8 +230,8 @@ int exportAnimated(const ExportOptions& options) {
     }
     Result<AnimatedGltf> file = AnimatedGltf::open(options.output, how);
     if (!file) return print(file.error()), kSystemFailure;
-    WrittenBehind writing;
     const double begin = range.time(range.first);
+    WrittenBehind writing;
     SequenceProgress progress("frame", range.count());
     for (long frame = range.first; frame < range.last; ++frame) {
         Result<Mesh> mesh = onceMoreIfLost(

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "runtime/cli/mesh_graph.h"
@@ -63,9 +64,9 @@ int makeFrames(const FrameWork& work, const std::string& folder) {
                      work.mesh.graph.path.c_str());
 
     const bool fresh = !fs::exists(folder, failure);
-    const auto goesOn = [&](long done) {
-        return WhenEnded{.said = "; " + std::to_string(done) + " of " + std::to_string(range.count()) + " " +
-                                 work.one + "s were made: the same command goes on",
+    const auto goesOn = [fresh, folder, of = range.count(), one = work.one](long done) {
+        return WhenEnded{.said = "; " + std::to_string(done) + " of " + std::to_string(of) + " " + one +
+                                 "s were made: the same command goes on",
                          .folder = fresh ? folder : ""};
     };
     whenEnded(goesOn(0));
@@ -77,7 +78,8 @@ int makeFrames(const FrameWork& work, const std::string& folder) {
     }
 
     bool capped = false;
-    std::atomic<long> kept = 0;
+    const auto kept =
+        std::make_shared<std::atomic<long>>(0);  // a file that is written behind may outlive this
     int status = kDone;
     {
         SequenceProgress progress(work.one, range.count());
@@ -85,7 +87,8 @@ int makeFrames(const FrameWork& work, const std::string& folder) {
             const bool there = files.isThere(frame);
             if (!there) {
                 const auto make = [&] {
-                    return work.make(*player, frame, files.path(frame), [&] { whenEnded(goesOn(++kept)); });
+                    return work.make(*player, frame, files.path(frame),
+                                     [goesOn, kept] { whenEnded(goesOn(++*kept)); });
                 };
                 status =
                     onceMoreIfLost(make, [&] { renewDevice(*player, "going on at " + files.name(frame)); });
@@ -97,9 +100,9 @@ int makeFrames(const FrameWork& work, const std::string& folder) {
         if (status == kDone) status = ended;
     }
     if (status != kDone) return status;
-    if (kept < range.count())
+    if (*kept < range.count())
         std::fprintf(stderr, "%s: note: %ld of %ld %ss were there already (--overwrite makes them anew)\n",
-                     folder.c_str(), range.count() - kept, range.count(), work.one);
+                     folder.c_str(), range.count() - *kept, range.count(), work.one);
     if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     if (capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",

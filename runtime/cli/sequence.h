@@ -37,7 +37,7 @@ struct FrameWork {
     /// Says which files there are to be of the graph. Errors: bad usage.
     std::function<Result<FrameFiles>(const Graph&)> files;
     /// Makes the frame into the file, for which `kept` is called once it is there: now, or before end()
-    /// returns. The exit status; what is wrong was said.
+    /// returns, or while what was thrown here ends the command. The exit status; what is wrong was said.
     std::function<int(Player& player, long frame, const std::string& path, std::function<void()> kept)> make;
     std::function<int()> end = [] { return kDone; };
 };

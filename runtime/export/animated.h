@@ -37,8 +37,6 @@ class AnimatedGltf {
     /// disk.
     Result<ExportedFiles> end(double seconds);
 
-    std::size_t meshes() const { return turns.size(); }
-
   private:
     /// The times at which a mesh comes and goes, in turn.
     struct Turns {

@@ -185,25 +185,34 @@ Done writePlyPieces(const MeshPieces& mesh, OutputFile& file) {
     return checkFilled({vertices, faces}, file);
 }
 
+/// The file beside the one asked for, and its name; no file where the format has none.
+struct Beside {
+    std::optional<OutputFile> file = {};
+    std::string name = {};
+
+    OutputFile* orNone() { return file ? &*file : nullptr; }
+};
+
+Result<Beside> openBeside(const std::string& path, const ExportOptions& options) {
+    const std::string besidePath = exportedPaths(path).back();
+    if (besidePath == path) return Beside{};
+    Result<OutputFile> opened = OutputFile::open(besidePath, options.cancel);
+    if (!opened) return opened.error();
+    return Beside{std::move(*opened), std::filesystem::path(besidePath).filename().string()};
+}
+
 /// A file of the format without a triangle.
 Result<ExportedFiles> exportEmpty(const std::string& path, Format format, const ExportOptions& options) {
-    const std::string name = objectName(path, options), besidePath = exportedPaths(path).back();
+    const std::string name = objectName(path, options);
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
     if (!file) return file.error();
-    std::optional<OutputFile> beside;
-    if (besidePath != path) {
-        Result<OutputFile> opened = OutputFile::open(besidePath, options.cancel);
-        if (!opened) return opened.error();
-        beside.emplace(std::move(*opened));
-    }
+    Result<Beside> beside = openBeside(path, options);
+    if (!beside) return beside.error();
     std::string failure;
     switch (format) {
         case Format::glb: writeEmptyGltf(name, true, *file); break;
         case Format::gltf: writeEmptyGltf(name, false, *file); break;
-        case Format::obj:
-            writeObjHead({}, false, name, std::filesystem::path(besidePath).filename().string(), *file,
-                         *beside);
-            break;
+        case Format::obj: writeObjHead({}, false, name, beside->name, *file, *beside->file); break;
         case Format::stl: writeStlHeader(0, *file); break;
         case Format::ply: writePlyHeader(0, 0, true, *file); break;
         case Format::threeMf: failure = write3mf({}, {}, name, options.cancel, *file); break;
@@ -213,7 +222,7 @@ Result<ExportedFiles> exportEmpty(const std::string& path, Format format, const 
             break;
     }
     if (!failure.empty()) return Error{.message = "cannot write: " + failure, .file = path};
-    return commitAll(path, options, *file, beside ? &*beside : nullptr);
+    return commitAll(path, options, *file, beside->orNone());
 }
 
 }  // namespace
@@ -349,19 +358,14 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
     if (!file) return file.error();
 
-    if (format == Format::gltf || format == Format::obj) {
-        const std::string besidePath = exportedPaths(path).back();
-        Result<OutputFile> beside = OutputFile::open(besidePath, options.cancel);
-        if (!beside) return beside.error();
-        const std::string besideName = std::filesystem::path(besidePath).filename().string();
-        if (format == Format::gltf)
-            writeGltf(mesh, *bounds, name, marked, percentEncoded(besideName), *file, *beside);
-        else
-            writeObj(mesh, name, besideName, *file, *beside);
-        return commitAll(path, options, *file, &*beside);
-    }
+    Result<Beside> beside = openBeside(path, options);
+    if (!beside) return beside.error();
     std::string failure;
     switch (format) {
+        case Format::gltf:
+            writeGltf(mesh, *bounds, name, marked, percentEncoded(beside->name), *file, *beside->file);
+            break;
+        case Format::obj: writeObj(mesh, name, beside->name, *file, *beside->file); break;
         case Format::glb:
             if (!writeGlb(mesh, *bounds, name, marked, *file))
                 return refuse("the mesh exceeds the 4 GiB of a GLB; write .gltf or lower the resolution");
@@ -372,10 +376,9 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         case Format::vdb:
             failure = writeVdb(solid, voxelSize(options, *bounds), name, options.cancel, *file);
             break;
-        default: break;
     }
     if (!failure.empty()) return refuse("cannot write: " + failure);
-    return commitAll(path, options, *file, nullptr);
+    return commitAll(path, options, *file, beside->orNone());
 }
 
 Done checkPiecesPath(const std::string& path) {
@@ -410,19 +413,13 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
                             .thickness = mesh.size.meanChord()};
     const Bounds bounds{mesh.least, mesh.greatest};
     Done written = done();
-    std::optional<OutputFile> beside;
-    std::string besideName;
-    if (const std::string besidePath = exportedPaths(path).back(); besidePath != path) {
-        Result<OutputFile> opened = OutputFile::open(besidePath, options.cancel);
-        if (!opened) return opened.error();
-        beside.emplace(std::move(*opened));
-        besideName = std::filesystem::path(besidePath).filename().string();
-    }
+    Result<Beside> beside = openBeside(path, options);
+    if (!beside) return beside.error();
     if (format == Format::gltf) {
-        file->write(gltfJson(mesh.material, layout, bounds, name, percentEncoded(besideName)));
-        written = writeGltfPieces(mesh, layout, *beside);
+        file->write(gltfJson(mesh.material, layout, bounds, name, percentEncoded(beside->name)));
+        written = writeGltfPieces(mesh, layout, *beside->file);
     } else if (format == Format::obj) {
-        writeObjHead(mesh.material, mesh.colors, name, besideName, *file, *beside);
+        writeObjHead(mesh.material, mesh.colors, name, beside->name, *file, *beside->file);
         writeObjMaterial(name, *file);
         written = forPieces(mesh, MeshPieces::numbered, *file, [&](const Mesh& m) {
             writeObjVertices(m, *file);
@@ -443,7 +440,7 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         written = writePlyPieces(mesh, *file);
     }
     if (!written) return written.error();
-    return commitAll(path, options, *file, beside ? &*beside : nullptr);
+    return commitAll(path, options, *file, beside->orNone());
 }
 
 std::string partName(const Mesh& mesh, const std::string& name, std::size_t part) {

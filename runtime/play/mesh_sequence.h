@@ -1,4 +1,4 @@
-// The frames of a timeline as numbered mesh files (frames.h), and as one file that moves.
+// The frames of a timeline as numbered mesh files (frames.h).
 //
 // All frames are made on one grid, that of the player (player.h): so a surface that rests keeps its triangles
 // while others move. A frame is the same bytes in whatever order frames are made. A frame whose solid is
@@ -16,7 +16,8 @@ namespace fw {
 FrameFiles meshFrames(const std::string& folder, const std::string& ending, const FrameRange& frames,
                       bool overwrite);
 
-/// Writes meshes on a thread of its own, so that the next is made meanwhile; one at a time.
+/// Writes meshes on a thread of its own, so that the next is made meanwhile; one at a time. Lifetime: the
+/// destructor waits, so that what is written from must have been there before.
 class WrittenBehind {
   public:
     using Write = std::function<Done()>;

@@ -21,6 +21,7 @@ namespace fw::mesh_sequence_test {
 
 using test::CommandResult;
 using test::expectRefusal;
+using test::namesIn;
 using test::readText;
 using test::runCommand;
 using test::TempDir;
@@ -55,13 +56,6 @@ struct MeshSequence : testing::Test {
         std::vector<std::string> words = {"export", graph, "-o", output};
         words.insert(words.end(), more.begin(), more.end());
         return runCommand(words);
-    }
-    std::vector<std::string> names(const std::string& path) const {
-        std::vector<std::string> list;
-        for (const auto& entry : std::filesystem::directory_iterator(path))
-            list.push_back(entry.path().filename());
-        std::sort(list.begin(), list.end());
-        return list;
     }
     std::string frame(const std::string& path, int number, const std::string& ending = ".glb") const {
         return path + "/00000" + std::to_string(number) + ending;
@@ -105,7 +99,7 @@ TEST_F(MeshSequence, NumbersFramesByTheirTimeOnOneGrid) {
     const CommandResult all = exported(frames, {"--from", "0"});
     EXPECT_EQ(all.status, 0) << all.errors;
     EXPECT_EQ(all.output + all.errors, "");
-    EXPECT_EQ(names(frames),
+    EXPECT_EQ(namesIn(frames),
               (std::vector<std::string>{"000000.glb", "000001.glb", "000002.glb", "000003.glb", "000004.glb",
                                         "000005.glb", "000006.glb", "000007.glb"}));
     const double ball = 4.0 / 3.0 * std::numbers::pi * 0.125;
@@ -155,7 +149,7 @@ TEST_F(MeshSequence, GoesOnWhereItStopped) {
     std::filesystem::remove(frame(at, 0, ".bin"));
     EXPECT_FALSE(isWholeMesh(frame(at, 0, ".gltf")));
     EXPECT_EQ(exported(folder.path("of_vdb"), {"--to", "0.5", "--format", "vdb"}).status, 0);
-    EXPECT_EQ(names(folder.path("of_vdb")), (std::vector<std::string>{"000000.vdb", "000001.vdb"}));
+    EXPECT_EQ(namesIn(folder.path("of_vdb")), (std::vector<std::string>{"000000.vdb", "000001.vdb"}));
 }
 
 TEST_F(MeshSequence, AFrameWithoutASolidIsAnEmptyFile) {
@@ -258,7 +252,7 @@ TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
 TEST_F(MeshSequence, ASweepIsAMeshForEveryValue) {
     const CommandResult made = exported(frames, {"--sweep", "size=0.2:0.8:4", "--format", "ply"});
     EXPECT_EQ(made.status, 0) << made.errors;
-    EXPECT_EQ(names(frames),
+    EXPECT_EQ(namesIn(frames),
               (std::vector<std::string>{"size=0.2.ply", "size=0.4.ply", "size=0.6.ply", "size=0.8.ply"}));
     for (const double radius : {0.2, 0.4, 0.6, 0.8}) {
         const Result<Report> report =
@@ -325,12 +319,12 @@ TEST_F(MeshSequence, KilledAtAnyTimeGoesOnToTheSameBytes) {
         options.signal = kill % 2 == 0 ? SIGKILL : SIGTERM;
         runCommand({"export", graph, "-o", other, "--fps", "30"}, options);
         if (!std::filesystem::exists(other)) continue;
-        for (const std::string& name : names(other))
+        for (const std::string& name : namesIn(other))
             EXPECT_TRUE(name.starts_with('.') || isWholeMesh(other + "/" + name)) << name;
     }
     EXPECT_EQ(exported(other, {"--fps", "30"}).status, 0);
-    EXPECT_EQ(names(other), names(frames)) << "nothing temporary is left";
-    for (const std::string& name : names(frames))
+    EXPECT_EQ(namesIn(other), namesIn(frames)) << "nothing temporary is left";
+    for (const std::string& name : namesIn(frames))
         EXPECT_TRUE(readText(other + "/" + name) == readText(frames + "/" + name)) << name;
 }
 

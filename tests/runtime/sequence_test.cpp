@@ -12,6 +12,7 @@ namespace fw::sequence_test {
 
 using test::CommandResult;
 using test::expectRefusal;
+using test::namesIn;
 using test::readText;
 using test::runCommand;
 using test::TempDir;
@@ -35,13 +36,6 @@ struct Sequence : testing::Test {
             words.insert(words.end(), {"--size", "48x32"});
         return runCommand(words);
     }
-    std::vector<std::string> names(const std::string& path) const {
-        std::vector<std::string> list;
-        for (const auto& entry : std::filesystem::directory_iterator(path))
-            list.push_back(entry.path().filename());
-        std::sort(list.begin(), list.end());
-        return list;
-    }
     std::string frame(const std::string& path, int number) const {
         return readText(path + "/00000" + std::to_string(number) + ".png");
     }
@@ -51,13 +45,13 @@ TEST_F(Sequence, NumbersFramesByTheirTime) {
     const CommandResult all = render(frames, {"--from", "0"});  // the timeline's length and rate
     EXPECT_EQ(all.status, 0) << all.errors;
     EXPECT_EQ(all.output + all.errors, "");
-    EXPECT_EQ(names(frames),
+    EXPECT_EQ(namesIn(frames),
               (std::vector<std::string>{"000000.png", "000001.png", "000002.png", "000003.png", "000004.png",
                                         "000005.png", "000006.png", "000007.png"}));
     EXPECT_NE(frame(frames, 0), frame(frames, 4));
     const std::string part = folder.path("part");
     EXPECT_EQ(render(part, {"--from", "0.3", "--to", "1.25"}).status, 0);
-    EXPECT_EQ(names(part), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
+    EXPECT_EQ(namesIn(part), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
     for (const int number : {2, 3, 4}) EXPECT_EQ(frame(part, number), frame(frames, number));
     // A picture of one moment is that moment's frame, and time beyond the end begins again.
     for (const char* time : {"0.75", "2.75"}) {
@@ -72,9 +66,9 @@ TEST_F(Sequence, IsOfTheRangeOnlyIfAsked) {
     text.replace(text.find("\"fps\": 4"), 8, "\"fps\": 4, \"range\": [0.5, 1.25]");
     test::writeText(graph, text);
     EXPECT_EQ(render(frames, {"--range"}).status, 0);
-    EXPECT_EQ(names(frames), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
+    EXPECT_EQ(namesIn(frames), (std::vector<std::string>{"000002.png", "000003.png", "000004.png"}));
     EXPECT_EQ(render(frames, {"--from", "0"}).status, 0);
-    EXPECT_EQ(names(frames).size(), 8u);
+    EXPECT_EQ(namesIn(frames).size(), 8u);
 }
 
 TEST_F(Sequence, OfATurntableGoesOnceAroundAtOneTime) {
@@ -83,7 +77,7 @@ TEST_F(Sequence, OfATurntableGoesOnceAroundAtOneTime) {
     const auto of6 = [](const std::string& path, int n) {
         return readText(path + "/00000" + std::to_string(n) + "_of_6.png");
     };
-    EXPECT_EQ(names(frames).size(), 6u);
+    EXPECT_EQ(namesIn(frames).size(), 6u);
     EXPECT_NE(of6(frames, 0), of6(frames, 3)) << "the light is behind it";
     const std::string other = folder.path("other");
     EXPECT_EQ(render(other, {"--turntable", "1", "--fps", "6", "--time", "1", "--samples", "1"}).status, 0);
@@ -97,7 +91,7 @@ TEST_F(Sequence, OfATurntableGoesOnceAroundAtOneTime) {
     const CommandResult mixed = render(frames, {"--turntable", "0.5", "--fps", "6", "--samples", "1"});
     EXPECT_EQ(mixed.status, 0);
     EXPECT_EQ(mixed.errors.find("there already"), std::string::npos) << mixed.errors;
-    EXPECT_EQ(names(frames).size(), 9u);
+    EXPECT_EQ(namesIn(frames).size(), 9u);
     const Camera camera = turned({.position = {1, 2, 5}, .target = {1, 1, 1}}, 0.25);
     EXPECT_NEAR(camera.position[0], 5.0, 1e-12) << "from +z towards +x";
     EXPECT_EQ(camera.position[1], 2.0);
@@ -122,7 +116,7 @@ TEST_F(Sequence, GoesOnWhereItStopped) {
     EXPECT_NE(more.errors.find("3 of 6 frames were there already (--overwrite makes them anew)"),
               std::string::npos)
         << more.errors;
-    EXPECT_EQ(names(frames).size(), 6u);
+    EXPECT_EQ(namesIn(frames).size(), 6u);
     EXPECT_EQ(frame(frames, 1), marked);
     EXPECT_EQ(frame(frames, 2), third);
     EXPECT_EQ(render(frames, {"--to", "1.5", "--overwrite"}).status, 0);
@@ -186,7 +180,7 @@ TEST_F(Sequence, CtrlCLeavesWholeFramesAndGoesOn) {
         EXPECT_EQ(result.status, 130) << result.errors;
         if (result.errors.find("the same command goes on") != std::string::npos) ++stopped;
         if (!std::filesystem::exists(frames)) continue;
-        for (const std::string& name : names(frames)) {
+        for (const std::string& name : namesIn(frames)) {
             EXPECT_EQ(name.size(), 10u) << name;  // nothing temporary
             const std::string png = readText(frames + "/" + name);
             EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND") << name;

@@ -23,7 +23,9 @@ TempDir::~TempDir() {
     std::filesystem::remove_all(folder, ignored);
 }
 
-std::vector<std::string> TempDir::names() const {
+std::vector<std::string> TempDir::names() const { return namesIn(folder); }
+
+std::vector<std::string> namesIn(const std::string& folder) {
     std::vector<std::string> list;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         list.push_back(entry.path().filename().string());

@@ -21,6 +21,9 @@ class TempDir {
     std::filesystem::path folder;
 };
 
+/// What a folder holds, by name, in their order.
+std::vector<std::string> namesIn(const std::string& folder);
+
 /// Whole content of a file; fails the test if it cannot be read.
 std::string readText(const std::string& path);
 void writeText(const std::string& path, const std::string& text);
