@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/document/json_tokens.h"
+#include "graph/document/unit.h"
 #include "graph/library/node_type.h"
 
 namespace fw {
@@ -56,8 +57,9 @@ class Reader {
             if (key == "timeline")
                 return keep(value, key, Kind::object, graph.timeline, &graph.timelinePlaces);
             if (key == "frames") return keep(value, key, Kind::array, graph.frames);
+            if (key == "unit") return readUnit(keyAt, value);
             return unknown(keyAt, graph.extra,
-                           {"nodes", "groups", "parameters", "scene", "timeline", "frames"});
+                           {"nodes", "groups", "parameters", "scene", "timeline", "frames", "unit"});
         });
         if (sound && !hasNodes)
             return fail(0, "the key \"nodes\" is missing: add \"nodes\": [...]") || leaveOut();
@@ -131,8 +133,23 @@ class Reader {
             warn(key, "unknown key " + inQuotes(list[key].text) + " is kept but has no effect" +
                           (near.empty() ? "" : "; did you mean '" + near + "'?"));
         }
+        keepExtra(key, extra);
+        return true;
+    }
+
+    void keepExtra(uint32_t key, KeptJson& extra) {
         if (extra->is_null()) extra = Json::object();
         extra->get_ref<Json::object_t&>().emplace_back(std::string(list[key].text), toJson(tokens, key + 1));
+    }
+
+    bool readUnit(uint32_t keyAt, uint32_t value) {
+        std::string name;
+        if (!read(value, "unit", name)) return false;
+        std::vector<std::string> names;
+        for (const LengthUnit& unit : lengthUnits()) names.emplace_back(unit.name);
+        if (!lengthUnit(name))
+            return fail(value, "the unit " + inQuotes(name) + " is none of " + listed(names));
+        keepExtra(keyAt, graph.extra);
         return true;
     }
 

@@ -8,6 +8,7 @@
 #include "graph/document/graph.h"
 #include "graph/document/scene.h"
 #include "graph/document/timeline.h"
+#include "graph/document/unit.h"
 #include "graph/library/node_type.h"
 #include "graph/library/reference.h"
 
@@ -26,6 +27,12 @@ Json object(Json properties, const std::vector<std::string>& required) {
     if (!required.empty()) schema["required"] = required;
     schema["properties"] = std::move(properties);
     return schema;
+}
+
+std::vector<std::string> unitNames() {
+    std::vector<std::string> names;
+    for (const LengthUnit& unit : lengthUnits()) names.emplace_back(unit.name);
+    return names;
 }
 
 Json described(std::string text, Json schema) {
@@ -388,7 +395,8 @@ std::string fileSchema() {
                     {{"type", "array"}, {"maxItems", kMaxEntries}, {"items", refer("parameter")}})},
          {"frames", described("Comment boxes of the canvas.", {{"type", "array"}})},
          {"scene", described("Camera, lights, sky, post.", sceneSchema())},
-         {"timeline", described("Length, and tracks of keys.", timelineSchema())}},
+         {"timeline", described("Length, and tracks of keys.", timelineSchema())},
+         {"unit", described("What a length of 1 is; a metre if absent.", {{"enum", unitNames()}})}},
         {"fieldwright", "nodes"}));
     schema["$defs"] = std::move(definitions);
     return schema.dump(2) + "\n";

@@ -3,20 +3,13 @@
 // Core glTF has no other way to show and hide: the scale of each mesh's node is 1 or 0, and jumps (STEP). A
 // mesh that comes again, byte for byte, is in the file once, and its node has more than one turn. A program
 // that plays nothing shows the first one.
-//
-// The meshes are written as they come, one behind the other, and the JSON in the end; of a GLB, which begins
-// with the JSON, they lie in a temporary file until then.
 #pragma once
 
-#include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "runtime/export/export.h"
-#include "runtime/system/output_file.h"
+#include "runtime/export/gltf_scene.h"
 
 namespace fw {
 
@@ -44,20 +37,10 @@ class AnimatedGltf {
         bool there() const { return seconds.size() % 2 == 1; }
     };
 
-    AnimatedGltf(std::string path, ExportOptions options, OutputFile binary);
-    void join(nlohmann::json part);
-    void addAnimation(float end);
-    std::size_t addFloats(const std::vector<float>& values, const char* type);
-    Result<ExportedFiles> writeGlb();
-    Result<ExportedFiles> writeGltf();
+    AnimatedGltf(GltfScene scene, const std::string& name);
 
-    std::string path;
-    ExportOptions options;
-    OutputFile binary;  ///< the buffer's bytes
-    nlohmann::json document;
-    std::map<std::string, std::size_t> materials;  ///< by their JSON
-    std::map<std::string, std::size_t> known;      ///< meshes by their content
-    std::vector<Turns> turns;                      ///< of each mesh
+    GltfScene scene;
+    std::vector<Turns> turns;  ///< of each mesh
     std::optional<std::size_t> shown;
 };
 

@@ -15,8 +15,10 @@
 #include "graph/assets/image.h"
 #include "graph/document/json_tokens.h"
 #include "runtime/export/formats.h"
+#include "runtime/export/gltf_scene.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "runtime/mesh/corners.h"
+#include "runtime/mesh/separate_parts.h"
 #include "runtime/system/interruption.h"
 
 namespace fw {
@@ -119,7 +121,8 @@ Merges mergesOf(const Mesh& mesh, const WeldedMesh& solid) {
 
 float voxelSize(const ExportOptions& options, const Bounds& bounds) {
     const glm::vec3 size = bounds.max - bounds.min;
-    return options.cellSize > 0.0f ? options.cellSize : std::max({size.x, size.y, size.z}) / 128.0f;
+    return options.cellSize > 0.0f ? options.cellSize * float(options.placement.scale)
+                                   : std::max({size.x, size.y, size.z}) / 128.0f;
 }
 
 /// Hands that part of every piece to `write`, while the next is loaded.
@@ -185,6 +188,23 @@ Done writePlyPieces(const MeshPieces& mesh, OutputFile& file) {
     return checkFilled({vertices, faces}, file);
 }
 
+/// The pieces where they stand in the file.
+MeshPieces placedPieces(const MeshPieces& given, const Placement& placement) {
+    if (placement.isNone()) return given;
+    MeshPieces pieces = given;
+    pieces.material = placed(given.material, placement);
+    const glm::vec3 a = placement.place(given.least), b = placement.place(given.greatest);
+    pieces.least = glm::min(a, b), pieces.greatest = glm::max(a, b);
+    pieces.size.volume *= std::pow(placement.scale, 3.0),
+        pieces.size.area *= placement.scale * placement.scale;
+    pieces.load = [&given, placement](std::size_t piece, MeshPieces::Part part) -> Result<Mesh> {
+        Result<Mesh> mesh = given.load(piece, part);
+        if (!mesh) return mesh;
+        return placed(std::move(*mesh), placement);
+    };
+    return pieces;
+}
+
 /// The file beside the one asked for, and its name; no file where the format has none.
 struct Beside {
     std::optional<OutputFile> file = {};
@@ -212,8 +232,10 @@ Result<ExportedFiles> exportEmpty(const std::string& path, Format format, const 
     switch (format) {
         case Format::glb: writeEmptyGltf(name, true, *file); break;
         case Format::gltf: writeEmptyGltf(name, false, *file); break;
-        case Format::obj: writeObjHead({}, false, name, beside->name, *file, *beside->file); break;
-        case Format::stl: writeStlHeader(0, *file); break;
+        case Format::obj:
+            writeObjHead({}, false, name, beside->name, options.placement, *file, *beside->file);
+            break;
+        case Format::stl: writeStlHeader(0, options.placement, *file); break;
         case Format::ply: writePlyHeader(0, 0, true, *file); break;
         case Format::threeMf: failure = write3mf({}, {}, name, options.cancel, *file); break;
         case Format::vdb:
@@ -302,6 +324,16 @@ Done checkExportPath(const std::string& path, const ExportOptions& options, bool
                 .message =
                     "a mesh is marked as a solid in .glb and .gltf alone: leave that out for " + ending,
                 .file = path};
+        for (const auto& [asked, what] :
+             {std::pair(options.compress, "compressed"), {options.parts, "parted"}})
+            if (asked && ending != ".glb" && ending != ".gltf")
+                return Error{.message = std::string("a mesh is ") + what +
+                                        " in .glb and .gltf alone: leave that out for " + ending,
+                             .file = path};
+        if (options.manifold && (options.compress || options.parts))
+            return Error{
+                .message = "a mesh that is marked as a solid is neither compressed nor parted: choose one",
+                .file = path};
         if (measured && !format->measurable)
             return Error{.message = ending +
                                     " holds distances and no triangles that a report could measure: "
@@ -326,11 +358,35 @@ std::vector<std::string> exportedPaths(const std::string& path) {
     return {path, std::filesystem::path(path).replace_extension(ending).string()};
 }
 
-Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
+namespace {
+
+/// Parts as nodes, or few bits a number: what a scene has.
+Result<ExportedFiles> exportScene(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
+    Result<GltfScene> scene = GltfScene::open(path, options);
+    if (!scene) return scene.error();
+    const std::string name = objectName(path, options);
+    if (!options.parts) {
+        const Result<std::size_t> added = scene->addMesh(mesh, name);
+        if (!added) return added.error();
+        scene->addNode({{"name", name}, {"mesh", *added}});
+        return scene->end();
+    }
+    const std::size_t whole = scene->addNode({{"name", name}});
+    const std::vector<Mesh> parts = separateParts(mesh);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::string one = name + "_" + std::to_string(i + 1);
+        const Result<std::size_t> added = scene->addMesh(parts[i], one);
+        if (!added) return added.error();
+        scene->addNode({{"name", one}, {"mesh", *added}}, whole);
+    }
+    return scene->end();
+}
+
+/// Of a mesh that is where it stands in the file.
+Result<ExportedFiles> exportPlaced(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
     const auto refuse = [&](std::string message) {
         return Error{.message = std::move(message), .file = path};
     };
-    if (Done known = checkExportPath(path, options); !known) return known.error();
     const Format format = *formatOf(path);
     assert(mesh.indices.size() % 3 == 0);
     assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
@@ -342,7 +398,8 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     const Result<Bounds> bounds = checkMesh(mesh, path);
     if (!bounds) return bounds.error();
     if (const std::optional<Mesh> repaired = withUnitNormals(mesh))
-        return exportMesh(*repaired, path, options);
+        return exportPlaced(*repaired, path, options);
+    if (options.compress || options.parts) return exportScene(mesh, path, options);
 
     WeldedMesh solid;
     if (options.manifold || format == Format::threeMf || format == Format::vdb) {
@@ -365,12 +422,12 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
         case Format::gltf:
             writeGltf(mesh, *bounds, name, marked, percentEncoded(beside->name), *file, *beside->file);
             break;
-        case Format::obj: writeObj(mesh, name, beside->name, *file, *beside->file); break;
+        case Format::obj: writeObj(mesh, name, beside->name, options.placement, *file, *beside->file); break;
         case Format::glb:
             if (!writeGlb(mesh, *bounds, name, marked, *file))
                 return refuse("the mesh exceeds the 4 GiB of a GLB; write .gltf or lower the resolution");
             break;
-        case Format::stl: writeStl(mesh, *file); break;
+        case Format::stl: writeStl(mesh, options.placement, *file); break;
         case Format::ply: writePly(mesh, *file); break;
         case Format::threeMf: failure = write3mf(mesh, solid, name, options.cancel, *file); break;
         case Format::vdb:
@@ -379,6 +436,14 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     }
     if (!failure.empty()) return refuse("cannot write: " + failure);
     return commitAll(path, options, *file, beside->orNone());
+}
+
+}  // namespace
+
+Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
+    if (Done known = checkExportPath(path, options); !known) return known.error();
+    if (options.placement.isNone()) return exportPlaced(mesh, path, options);
+    return exportPlaced(placed(mesh, options.placement), path, options);
 }
 
 Done checkPiecesPath(const std::string& path) {
@@ -390,8 +455,9 @@ Done checkPiecesPath(const std::string& path) {
                  .file = path};
 }
 
-Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& path,
+Result<ExportedFiles> exportPieces(const MeshPieces& given, const std::string& path,
                                    const ExportOptions& options) {
+    const MeshPieces mesh = placedPieces(given, options.placement);
     const auto refuse = [&](std::string message) {
         return Error{.message = std::move(message), .file = path};
     };
@@ -419,7 +485,7 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         file->write(gltfJson(mesh.material, layout, bounds, name, percentEncoded(beside->name)));
         written = writeGltfPieces(mesh, layout, *beside->file);
     } else if (format == Format::obj) {
-        writeObjHead(mesh.material, mesh.colors, name, beside->name, *file, *beside->file);
+        writeObjHead(mesh.material, mesh.colors, name, beside->name, options.placement, *file, *beside->file);
         writeObjMaterial(name, *file);
         written = forPieces(mesh, MeshPieces::numbered, *file, [&](const Mesh& m) {
             writeObjVertices(m, *file);
@@ -432,7 +498,7 @@ Result<ExportedFiles> exportPieces(const MeshPieces& mesh, const std::string& pa
         written = writeGltfPieces(mesh, layout, *file);
         writeGlbEnd(layout.bytes(), *file);
     } else if (format == Format::stl) {
-        writeStlHeader(mesh.triangleCount, *file);
+        writeStlHeader(mesh.triangleCount, options.placement, *file);
         written =
             forPieces(mesh, MeshPieces::corners, *file, [&](const Mesh& m) { writeStlFacets(m, *file); });
     } else {

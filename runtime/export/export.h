@@ -8,9 +8,8 @@
 // temporary file is removed and a file that stood there before is as it was. glTF and OBJ have a second file
 // (.bin, .mtl): two renames, that one first.
 //
-// +Y is up in every format, and positions are metres, in 3MF millimetres. Colours: glTF holds them
-// linear, as its specification asks; PLY, OBJ, MTL and 3MF hold them sRGB-encoded, as the programs that read
-// them expect.
+// How lengths and axes stand in a file is told by placement.h. Colours: glTF holds them linear, as its
+// specification asks; PLY, OBJ, MTL and 3MF hold them sRGB-encoded, as the programs that read them expect.
 #pragma once
 
 #include <atomic>
@@ -21,6 +20,7 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "runtime/export/placement.h"
 #include "runtime/measure/read_back.h"
 #include "runtime/mesh/materials.h"
 #include "runtime/mesh/mesh.h"
@@ -33,7 +33,10 @@ struct ExportOptions {
                             ///< large; 0: a 128th of the mesh's longest side
     bool manifold =
         false;  ///< of glTF: say which vertices are one, so that it is a solid (EXT_mesh_manifold)
-    bool mayBeEmpty = false;  ///< a mesh without triangles is a file without any, and no error
+    bool compress = false;     ///< of glTF: few bits a number, in meshoptimizer's code (compress.h)
+    bool parts = false;        ///< of glTF: what touches nowhere is a node of its own
+    Placement placement = {};  ///< of the mesh in the file
+    bool mayBeEmpty = false;   ///< a mesh without triangles is a file without any, and no error
     const std::atomic<bool>* cancel =
         nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
     /// Called with the files, whole, before they replace what has their names; an Error ends the export.

@@ -79,24 +79,24 @@ void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, 
 /// A scene with one node of that name and no mesh; as a GLB, or as text.
 void writeEmptyGltf(const std::string& name, bool binary, OutputFile& file);
 /// `libraryName` is the name of the material file beside the OBJ.
-void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
-              OutputFile& library);
+void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName,
+              const Placement& placement, OutputFile& file, OutputFile& library);
 /// Its parts, for meshes that come in pieces, each of whose faces have vertices of it or of one before: the
 /// material and the head, then what names the material, vertices, and faces, which are numbered in the whole.
 void writeObjHead(const Mesh& material, bool colors, const std::string& name, const std::string& libraryName,
-                  OutputFile& file, OutputFile& library);
+                  const Placement& placement, OutputFile& file, OutputFile& library);
 void writeObjMaterial(const std::string& name, OutputFile& file);
 void writeObjVertices(const Mesh& mesh, OutputFile& file);
 void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t count, OutputFile& file);
 void writePly(const Mesh& mesh, OutputFile& file);
-void writeStl(const Mesh& mesh, OutputFile& file);
+void writeStl(const Mesh& mesh, const Placement& placement, OutputFile& file);
 /// Of a vertex with its normal, and of a face.
 inline constexpr uint64_t kPlyVertexBytes = 27, kPlyFaceBytes = 13;
 /// Their parts, for meshes that come in pieces: the header, then all vertices, then all triangles.
 void writePlyHeader(uint64_t vertices, uint64_t triangles, bool normals, OutputFile& file);
 void writePlyVertices(const Mesh& mesh, OutputFile& file);
 void writePlyFaces(const Mesh& mesh, OutputFile& file);
-void writeStlHeader(uint64_t triangles, OutputFile& file);
+void writeStlHeader(uint64_t triangles, const Placement& placement, OutputFile& file);
 void writeStlFacets(const Mesh& mesh, OutputFile& file);
 /// `solid` is the mesh with equal positions merged. Returns why it failed, if that is not in `file`.
 std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::string& name,

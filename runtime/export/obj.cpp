@@ -72,9 +72,10 @@ void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, Output
 }  // namespace
 
 void writeObjHead(const Mesh& material, bool colors, const std::string& name, const std::string& libraryName,
-                  OutputFile& file, OutputFile& library) {
+                  const Placement& placement, OutputFile& file, OutputFile& library) {
     writeLibrary(material, colors, name, library);
-    file.write("# " + generatorName() + ", metres, +Y up\nmtllib " + libraryName + "\no " + name + "\n");
+    file.write("# " + generatorName() + ", " + placement.words() + "\nmtllib " + libraryName + "\no " + name +
+               "\n");
 }
 
 void writeObjMaterial(const std::string& name, OutputFile& file) { file.write("usemtl " + name + "\n"); }
@@ -127,9 +128,9 @@ void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t coun
         file);
 }
 
-void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName, OutputFile& file,
-              OutputFile& library) {
-    writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, file, library);
+void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName,
+              const Placement& placement, OutputFile& file, OutputFile& library) {
+    writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, placement, file, library);
     writeObjVertices(mesh, file);
     if (mesh.parts.empty()) {
         writeObjMaterial(name, file);

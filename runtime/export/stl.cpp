@@ -12,9 +12,9 @@
 
 namespace fw {
 
-void writeStlHeader(uint64_t triangles, OutputFile& file) {
+void writeStlHeader(uint64_t triangles, const Placement& placement, OutputFile& file) {
     std::array<char, 80> header{};
-    const std::string text = generatorName() + ", binary STL, metres, +Y up";
+    const std::string text = generatorName() + ", binary STL, " + placement.words();
     std::memcpy(header.data(), text.data(), std::min(text.size(), header.size()));
     file.write(header.data(), header.size());
     const auto count = static_cast<uint32_t>(triangles);
@@ -41,8 +41,8 @@ void writeStlFacets(const Mesh& mesh, OutputFile& file) {
     writeBlocks(mesh.triangleCount(), kRecord, format, file);
 }
 
-void writeStl(const Mesh& mesh, OutputFile& file) {
-    writeStlHeader(mesh.triangleCount(), file);
+void writeStl(const Mesh& mesh, const Placement& placement, OutputFile& file) {
+    writeStlHeader(mesh.triangleCount(), placement, file);
     writeStlFacets(mesh, file);
 }
 

@@ -40,6 +40,7 @@ TEST(FlatMemory, OfPlaying) {
 }
 
 TEST(FlatMemory, OfASequence) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "half a minute: with FIELDWRIGHT_LONG";
     const test::TempDir folder;
     expectFlat([&](int frames) {
         return peakOf({"render", "--resolution", "32", "--size", "96x72", "--samples", "1", "--fps", "60",

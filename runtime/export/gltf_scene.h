@@ -1,0 +1,66 @@
+// One glTF of many nodes and meshes: frames that take turns, parts that move, levels of detail.
+//
+// A mesh that comes again, byte for byte, is in the file once, and so is a material; nodes refer to meshes by
+// number. The meshes are written as they come, one behind the other, and the JSON in the end; of a GLB, which
+// begins with the JSON, they lie in a temporary file until then.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/export/export.h"
+#include "runtime/system/output_file.h"
+
+namespace fw {
+
+/// Values of a node's property at times that ascend, seconds.
+struct GltfTrack {
+    std::size_t node = 0;
+    const char* path = "translation";  ///< "rotation" (x, y, z, w), "scale"
+    bool steps = false;                ///< values jump; else they are interpolated
+    std::vector<float> times, values;
+};
+
+class GltfScene {
+  public:
+    /// `path` ends with .glb or .gltf. Errors: an unwritable folder. `options` as of exportMesh, but for
+    /// `manifold`.
+    static Result<GltfScene> open(const std::string& path, const ExportOptions& options = {});
+
+    /// The number of the mesh, which has triangles; `name` is its, if it has not come before. Errors: as of
+    /// exportMesh().
+    Result<std::size_t> addMesh(const Mesh& mesh, const std::string& name);
+    /// The number of the node, which is as the JSON says: a child of `parent`, or at the top.
+    std::size_t addNode(nlohmann::json node, std::optional<std::size_t> parent = {});
+    /// All tracks, of one at least, play together.
+    void addAnimation(const char* name, const std::vector<GltfTrack>& tracks);
+    void setNode(std::size_t node, const char* key, nlohmann::json value);
+    std::size_t meshCount() const { return known.size(); }
+
+    /// The file appears. Errors: a GLB of more than 4 GiB, a full disk.
+    Result<ExportedFiles> end();
+
+  private:
+    GltfScene(std::string path, ExportOptions options, OutputFile binary);
+    void join(nlohmann::json part);
+    std::size_t addFloats(const std::vector<float>& values, std::size_t parts);
+    Done readBinary(const std::function<Done(std::span<const unsigned char>)>& take);
+    Result<ExportedFiles> writeCompressed();
+    Result<ExportedFiles> writeGltf(OutputFile& beside);
+    Result<ExportedFiles> writeGlb(uint64_t bytes, const std::function<Done(OutputFile&)>& write);
+
+    std::string path;
+    ExportOptions options;
+    OutputFile binary;  ///< the buffer's bytes; in a GLB and compressed, before they have their places
+    nlohmann::json document;
+    std::map<std::string, std::size_t> materials;  ///< by their JSON
+    std::map<std::string, std::size_t> known;      ///< meshes by their content
+};
+
+}  // namespace fw

@@ -1,0 +1,86 @@
+#include "runtime/mesh/separate_parts.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace fw {
+
+namespace {
+
+/// Sets of numbers that are joined: each has the least of it as its root (Tarjan 1975, with path halving).
+struct JoinedSets {
+    std::vector<uint32_t> above;
+
+    explicit JoinedSets(std::size_t count) : above(count) { std::iota(above.begin(), above.end(), 0u); }
+    uint32_t root(uint32_t of) {
+        while (above[of] != of) of = above[of] = above[above[of]];
+        return of;
+    }
+    void join(uint32_t a, uint32_t b) {
+        a = root(a), b = root(b);
+        above[std::max(a, b)] = std::min(a, b);
+    }
+};
+
+/// Joins the vertices that lie at one place.
+void joinPlaces(const std::vector<glm::vec3>& positions, JoinedSets& sets) {
+    std::vector<uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto before = [&](uint32_t a, uint32_t b) {
+        const glm::vec3 p = positions[a], q = positions[b];
+        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+    };
+    std::sort(order.begin(), order.end(), before);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (positions[order[i - 1]] == positions[order[i]]) sets.join(order[i - 1], order[i]);
+}
+
+}  // namespace
+
+std::vector<Mesh> separateParts(const Mesh& mesh) {
+    JoinedSets sets(mesh.positions.size());
+    joinPlaces(mesh.positions, sets);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+        for (std::size_t k = 1; k < 3; ++k) sets.join(mesh.indices[i], mesh.indices[i + k]);
+
+    constexpr uint32_t kNone = ~0u;
+    std::vector<Mesh> separate;
+    std::vector<uint32_t> part(mesh.positions.size(), kNone), place(mesh.positions.size(), kNone);
+    const auto partOf = [&](uint32_t vertex) -> Mesh& {
+        uint32_t& number = part[sets.root(vertex)];
+        if (number == kNone) {
+            number = uint32_t(separate.size());
+            separate.emplace_back();
+            separate.back().baseColor = mesh.baseColor;
+            separate.back().material = mesh.material;
+        }
+        return separate[number];
+    };
+    const auto addCorner = [&](Mesh& to, uint32_t vertex) {
+        if (place[vertex] == kNone) {
+            place[vertex] = uint32_t(to.positions.size());
+            to.positions.push_back(mesh.positions[vertex]);
+            if (!mesh.normals.empty()) to.normals.push_back(mesh.normals[vertex]);
+            if (!mesh.colors.empty()) to.colors.push_back(mesh.colors[vertex]);
+        }
+        to.indices.push_back(place[vertex]);
+    };
+    std::size_t triangle = 0;
+    const auto addTriangles = [&](std::size_t end, const Material* material) {
+        for (; triangle < end; ++triangle) {
+            Mesh& to = partOf(mesh.indices[3 * triangle]);
+            for (std::size_t k = 0; k < 3; ++k) addCorner(to, mesh.indices[3 * triangle + k]);
+            if (!material) continue;
+            if (to.parts.empty() || !(to.parts.back().material == *material))
+                to.parts.push_back({*material, 0});
+            ++to.parts.back().triangles;
+        }
+    };
+    if (mesh.parts.empty()) addTriangles(mesh.triangleCount(), nullptr);
+    for (const MeshPart& of : mesh.parts) addTriangles(triangle + of.triangles, &of.material);
+    for (Mesh& one : separate)
+        if (one.parts.size() == 1) one.material = one.parts[0].material, one.parts.clear();
+    return separate;
+}
+
+}  // namespace fw
