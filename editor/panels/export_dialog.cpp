@@ -132,8 +132,12 @@ void showDone(const ExportState& state) {
                     report.totalMs / 1e3));
     wrapped(themeColor(ThemeColor::text),
             grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices" +
-                (state.measured ? ", " + grouped(report.shells) + (report.shells == 1 ? " part" : " parts")
-                                : std::string()));
+                (state.measured ? ", " + grouped(report.bodies()) + (report.bodies() == 1 ? " part" : " parts")
+                                : std::string()) +
+                (state.measured && report.cavities > 0
+                     ? ", " + grouped(report.cavities) +
+                           (report.cavities == 1 ? " hollow that is closed" : " hollows that are closed")
+                     : std::string()));
     if (state.tiled) wrapped(themeColor(ThemeColor::text), "It was meshed in tiles.");
     if (report.capped)
         wrapped(themeColor(ThemeColor::warning),

@@ -104,7 +104,8 @@ struct PlayOptions {
 };
 int runPlay(const PlayOptions& options);
 
-int runParameters(const std::string& path);
+/// `json`: as a list of objects, in place of a line each.
+int runParameters(const std::string& path, bool json);
 
 int runCheck(const std::vector<std::string>& paths);
 

@@ -1,6 +1,7 @@
 // The commands that look at a graph or at the program without meshing: check, compile, nodes, info.
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "graph/base/words.h"
@@ -59,9 +60,29 @@ std::optional<Program> openProgram(const Graph& graph, double seconds, CompileOp
     return std::nullopt;
 }
 
-int runParameters(const std::string& path) {
+namespace {
+
+nlohmann::ordered_json parametersJson(const Graph& graph) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const NamedParameter& parameter : namedParameters(graph)) {
+        nlohmann::ordered_json entry = {{"name", parameter.name}};
+        std::vector<double> numbers;
+        if (const Node* node = graph.node(parameter.node)) numbers = inputNumbers(*node, parameter.input);
+        entry["value"] = numbers.size() == 1 ? nlohmann::ordered_json(numbers[0]) : numbers;
+        if (std::isfinite(parameter.min)) entry["min"] = parameter.min;
+        if (std::isfinite(parameter.max)) entry["max"] = parameter.max;
+        entry["node"] = parameter.node, entry["input"] = parameter.input;
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+}  // namespace
+
+int runParameters(const std::string& path, bool json) {
     const std::optional<Graph> graph = openGraph({path, {}, 0.0});
     if (!graph) return kBadInput;
+    if (json) return std::puts(parametersJson(*graph).dump(2).c_str()), kDone;
     for (const NamedParameter& parameter : namedParameters(*graph)) {
         std::string value, range;
         if (const Node* node = graph->node(parameter.node))

@@ -383,6 +383,8 @@ int run(int count, char** arguments) {
     CLI::App* parametersCommand =
         app.add_subcommand("parameters", "List what --set can change of a graph: name, value, range, input");
     parametersCommand->add_option("GRAPH", parametersPath, "The graph file")->required();
+    bool parametersAsJson = false;
+    parametersCommand->add_flag("--json", parametersAsJson, "As a list of objects");
 
     NodesFormat nodesFormat = NodesFormat::list;
     CLI::App* nodesCommand = app.add_subcommand("nodes", "List the node library");
@@ -432,7 +434,7 @@ int run(int count, char** arguments) {
         if (checkCommand->parsed()) return runCheck(checkPaths);
         if (evalCommand->parsed()) return runEval(evalOptions);
         if (compileCommand->parsed()) return runCompile(compileOptions);
-        if (parametersCommand->parsed()) return runParameters(parametersPath);
+        if (parametersCommand->parsed()) return runParameters(parametersPath, parametersAsJson);
         if (nodesCommand->parsed()) return runNodes(nodesFormat);
         if (infoCommand->parsed()) return runInfo(devicesOnly);
         return kBadUsage;

@@ -229,8 +229,8 @@ std::vector<SurfacePoint> surfacePoints(const Program& program, const Box& regio
 MeasureOptions measureOf(const Program& program, const Box& region, Points wanted) {
     MeasureOptions measure;
     if (!program.exactness.exact())
-        measure.errorNote = "estimates: the field is no distance since node " + inQuotes(program.spoiledBy) +
-                            "; meshToSurfaceMax is measured";
+        measure.errorNote = "left out: the field is no distance since node " + inQuotes(program.spoiledBy) +
+                            "; meshToSurfaceMax is one";
     const Tape tape = makeTape(program.ir, program.distance(), program.parameters());
     const auto at = [tape](std::span<const Point> positions) {
         std::vector<ValueGradient> results(positions.size());

@@ -160,7 +160,7 @@ void measureTopology(const WeldedMesh& mesh, const Corners& corners, Report& rep
         };
         volumes[root] += glm::dot(corner(0), glm::cross(corner(1), corner(2)));
     }
-    report.voids = uint64_t(std::ranges::count_if(volumes, [](double volume) { return volume < 0.0; }));
+    report.cavities = uint64_t(std::ranges::count_if(volumes, [](double volume) { return volume < 0.0; }));
     report.vertices = total.vertices;
     report.boundaryEdges = total.boundary;
     report.nonManifoldEdges = total.nonManifold;
@@ -394,7 +394,8 @@ std::string writeReport(const Report& report) {
     out["vertices"] = report.vertices;
     out["triangles"] = report.triangles;
     out["shells"] = report.shells;
-    out["voids"] = report.voids;
+    out["bodies"] = report.bodies();
+    out["cavities"] = report.cavities;
     out["boundaryEdges"] = report.boundaryEdges;
     out["nonManifoldEdges"] = report.nonManifoldEdges;
     out["nonManifoldVertices"] = report.nonManifoldVertices;
@@ -405,9 +406,10 @@ std::string writeReport(const Report& report) {
     out["area"] = report.area;
     out["boundsMin"] = report.boundsMin;
     out["boundsMax"] = report.boundsMax;
-    out["maxError"] = known(report.maxError);
-    out["meanError"] = known(report.meanError);
-    if (!report.errorNote.empty()) out["errorNote"] = report.errorNote;
+    const bool distances = report.errorNote.empty();
+    out["maxError"] = known(distances ? report.maxError : std::nullopt);
+    out["meanError"] = known(distances ? report.meanError : std::nullopt);
+    if (!distances) out["errorNote"] = report.errorNote;
     out["selfIntersections"] = report.selfIntersections ? nlohmann::ordered_json(*report.selfIntersections)
                                                         : nlohmann::ordered_json();
     out["smallestAngle"] = report.smallestAngle;

@@ -56,7 +56,7 @@ struct Report {
     uint64_t vertices = 0;             ///< welded, used by a triangle that is not collapsed
     uint64_t triangles = 0;            ///< as the file lists them, collapsed ones included
     uint64_t shells = 0;               ///< parts connected across edges
-    uint64_t voids = 0;                ///< those of them that face inwards: hollows that nothing leads out of
+    uint64_t cavities = 0;             ///< those of them that face inwards: hollows that nothing leads out of
     uint64_t boundaryEdges = 0;        ///< edges of one triangle
     uint64_t nonManifoldEdges = 0;     ///< edges of three or more
     uint64_t nonManifoldVertices = 0;  ///< vertices whose triangles form more than one fan
@@ -69,7 +69,7 @@ struct Report {
     std::array<double, 3> boundsMin{}, boundsMax{};
     std::optional<double> maxError,
         meanError;               ///< over vertices and triangle centroids; none without a field
-    std::string errorNote = {};  ///< why these two are no distances; empty if they are
+    std::string errorNote = {};  ///< why these two are no distances and are not told; empty if they are
     std::optional<uint64_t> selfIntersections;   ///< pairs of triangles that cut each other (triangle_tree.h)
     double smallestAngle = 0, largestAngle = 0;  ///< of the triangles that are not degenerate, degrees
     /// From points spread evenly over the mesh's area to the surface; from points of the surface, found
@@ -83,6 +83,8 @@ struct Report {
     uint64_t peakMemoryBytes = 0;
     std::string device;
 
+    /// The shells that are no cavities: pieces that hang together.
+    uint64_t bodies() const { return shells - cavities; }
     bool closedManifold() const {
         return boundaryEdges + nonManifoldEdges + nonManifoldVertices + flippedEdges + degenerateTriangles ==
                0;
@@ -99,8 +101,8 @@ Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options = {}
 Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
                     const MeasureOptions& options = {});
 
-/// One flat JSON object with the keys named as the members of Report; an unknown error is null. Ends with a
-/// newline.
+/// One flat JSON object with the keys named as the members of Report; an unknown error is null, and so is one
+/// that is no distance. Ends with a newline.
 std::string writeReport(const Report& report);
 
 /// Refuses to measure a file of so many triangles with `freeBytes` of memory: what is read of it is held as a

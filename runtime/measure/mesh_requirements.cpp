@@ -40,14 +40,19 @@ Reason nondegenerate(const Report& report, double) {
     return none(report.degenerateTriangles, "triangles without area");
 }
 
-Reason parts(const Report& report, double wanted) {
-    const std::string hollow = report.voids > 0 ? ", " + std::to_string(report.voids) + " of them voids" : "";
-    return double(report.shells) == wanted ? Reason()
-                                           : "it has " + std::to_string(report.shells) + " parts" + hollow;
+Reason count(uint64_t there, double wanted, const char* one, const char* many) {
+    return double(there) == wanted ? Reason()
+                                   : "it has " + std::to_string(there) + " " + (there == 1 ? one : many);
 }
 
-Reason voids(const Report& report, double wanted) {
-    return double(report.voids) == wanted ? Reason() : "it has " + std::to_string(report.voids) + " voids";
+Reason bodies(const Report& report, double wanted) {
+    return count(report.bodies(), wanted, "body (piece that hangs together)",
+                 "bodies (pieces that hang together)");
+}
+
+Reason cavities(const Report& report, double wanted) {
+    return count(report.cavities, wanted, "cavity (hollow that nothing leads out of)",
+                 "cavities (hollows that nothing leads out of)");
 }
 
 Reason triangles(const Report& report, double most) {
@@ -82,8 +87,8 @@ constexpr Rule kRules[] = {{"closed", nullptr, closed},
                            {"manifold", nullptr, manifold},
                            {"uncut", nullptr, uncut},
                            {"nondegenerate", nullptr, nondegenerate},
-                           {"parts", "COUNT", parts, true},
-                           {"voids", "COUNT", voids, true},
+                           {"bodies", "COUNT", bodies, true},
+                           {"cavities", "COUNT", cavities, true},
                            {"triangles", "COUNT", triangles, true},
                            {"angle", "DEGREES", angle},
                            {"error", "METRES", error}};

@@ -27,7 +27,7 @@ Report reportOf(const Mesh& mesh) {
 }
 
 TEST(MeshRequirements, EachIsMetByACube) {
-    EXPECT_EQ(missed("closed,manifold,uncut,nondegenerate,parts=1,triangles=12,angle=44.9,error=0",
+    EXPECT_EQ(missed("closed,manifold,uncut,nondegenerate,bodies=1,cavities=0,triangles=12,angle=44.9,error=0",
                      reportOf(test::cube())),
               "");
 }
@@ -43,16 +43,15 @@ TEST(MeshRequirements, EachIsMissedByWhatItIsAbout) {
               "not manifold: it has 3 edges between triangles that face opposite ways");
     const Mesh touching = test::join(test::cube(), test::moved(test::cube(), glm::vec3(2)));
     EXPECT_EQ(missed("manifold", reportOf(touching)), "not manifold: it has 1 vertices where parts touch");
-    EXPECT_EQ(missed("parts=1", reportOf(touching)), "not parts=1: it has 2 parts");
+    EXPECT_EQ(missed("bodies=1,cavities=0", reportOf(touching)),
+              "not bodies=1: it has 2 bodies (pieces that hang together)");
     Mesh hollow = test::moved(test::cube(), glm::vec3(0));
     for (glm::vec3& p : hollow.positions) p *= 0.5f;
     for (std::size_t i = 0; i < hollow.indices.size(); i += 3)
         std::swap(hollow.indices[i], hollow.indices[i + 1]);
     const Mesh trapped = test::join(test::cube(), hollow);
-    EXPECT_EQ(reportOf(trapped).voids, 1u);
-    EXPECT_EQ(missed("parts=1,voids=0", reportOf(trapped)),
-              "not parts=1: it has 2 parts, 1 of them voids; not voids=0: it has 1 voids");
-    EXPECT_EQ(reportOf(touching).voids, 0u);
+    EXPECT_EQ(missed("bodies=1,cavities=0", reportOf(trapped)),
+              "not cavities=0: it has 1 cavity (hollow that nothing leads out of)");
     const Mesh cut = test::join(test::cube(), test::moved(test::cube(), glm::vec3(0.9f, 0.8f, 0.7f)));
     EXPECT_NE(missed("uncut", reportOf(cut)).find("pairs of triangles that cut each other"),
               std::string::npos);
@@ -76,7 +75,7 @@ TEST(MeshRequirements, WhatIsNoneIsRefusedWithAllThatAre) {
           std::pair("closed,", "\"\" is no requirement"), std::pair("closed=1", "takes no number"),
           std::pair("error", "needs a number"), std::pair("error=", "needs a number that is not negative"),
           std::pair("error=-1", "not negative"), std::pair("error=nan", "not negative"),
-          std::pair("error=1e999", "not negative"), std::pair("parts=1.5", "needs a whole number"),
+          std::pair("error=1e999", "not negative"), std::pair("bodies=1.5", "needs a whole number"),
           std::pair("error=0.1m", "not negative")}) {
         const Result<std::vector<Requirement>> required = parseRequirements(list);
         ASSERT_FALSE(required) << list;
@@ -93,12 +92,12 @@ TEST(MeshRequirements, TheCommandFailsWithTheReasonAndKeepsTheFile) {
     const auto required = [&](const std::string& list) {
         return runCommand({"export", graph, "-o", mesh, "--require", list});
     };
-    const CommandResult met = required("closed,manifold,uncut,parts=1,error=0.01");
+    const CommandResult met = required("closed,manifold,uncut,bodies=1,error=0.01");
     EXPECT_EQ(met.status, 0) << met.errors;
     EXPECT_EQ(met.errors, "");
-    const CommandResult missed = required("closed,parts=2,error=0.0001");
+    const CommandResult missed = required("closed,bodies=2,error=0.0001");
     EXPECT_EQ(missed.status, 1);
-    EXPECT_NE(missed.errors.find("ball.stl: not parts=2: it has 1 parts"), std::string::npos);
+    EXPECT_NE(missed.errors.find("ball.stl: not bodies=2: it has 1 body"), std::string::npos);
     EXPECT_NE(missed.errors.find("ball.stl: not error=0.0001: a point of"), std::string::npos);
     EXPECT_EQ(missed.errors.find("not closed"), std::string::npos);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"ball.field.json", "ball.stl"}));

@@ -176,7 +176,7 @@ TEST_F(MeshSequence, IsMeasuredFrameByFrame) {
     const std::string report = folder.path("report.json");
     EXPECT_EQ(exported(frames, {"--to", "0.25"}).status, 0);
     const CommandResult made =
-        exported(frames, {"--from", "0", "--report", report, "--require", "closed,voids=1"});
+        exported(frames, {"--from", "0", "--report", report, "--require", "closed,cavities=1"});
     EXPECT_EQ(made.status, 1) << made.errors;
     EXPECT_NE(made.errors.find("000001.glb: "), std::string::npos) << made.errors;
     EXPECT_EQ(made.errors.find("000003.glb: "), std::string::npos) << made.errors;
@@ -184,10 +184,10 @@ TEST_F(MeshSequence, IsMeasuredFrameByFrame) {
     ASSERT_EQ(measured["frames"].size(), 4u);
     EXPECT_EQ(measured["frames"][3]["file"], "000003.glb");
     EXPECT_EQ(measured["frames"][3]["time"], 0.75);
-    EXPECT_EQ(measured["frames"][3]["voids"], 1);
-    EXPECT_TRUE(measured["frames"][3]["maxError"].is_number());
-    EXPECT_EQ(measured["frames"][0]["voids"], 1) << "it was there already";
-    EXPECT_TRUE(measured["frames"][0]["maxError"].is_null());
+    EXPECT_EQ(measured["frames"][3]["cavities"], 1);
+    EXPECT_TRUE(measured["frames"][3]["meshToSurfaceMax"].is_number());
+    EXPECT_EQ(measured["frames"][0]["cavities"], 1) << "it was there already";
+    EXPECT_TRUE(measured["frames"][0]["meshToSurfaceMax"].is_null());
     EXPECT_EQ(measured["frames"][1]["triangles"], 0);
 }
 
