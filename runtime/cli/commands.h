@@ -14,6 +14,7 @@
 #include "graph/base/result.h"
 #include "graph/compile/compile.h"
 #include "graph/document/graph.h"
+#include "runtime/export/placement.h"
 #include "runtime/gpu/device.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "runtime/pictures/wish.h"
@@ -73,10 +74,11 @@ struct ExportOptions : MeshOutput {
     bool animated = false;           ///< the same as one file that moves
     std::vector<std::string> sweep;  ///< a mesh for every variant (graph/document/sweep.h)
     std::string format;              ///< of the meshes of a sequence or sweep: "glb"; empty: that
-    bool manifold = false;           ///< as fw::ExportOptions has it
-    int tiles = 0;                   ///< along the longest side; 0: as many as it takes
-    std::string share;               ///< "i/n": only this part of the tiles; empty: all
-    std::string particles;           ///< the node whose particles are written in place of a mesh; empty: none
+    bool manifold = false, compress = false, parts = false;  ///< as fw::ExportOptions has them
+    PlacementWish placement = {};
+    int tiles = 0;          ///< along the longest side; 0: as many as it takes
+    std::string share;      ///< "i/n": only this part of the tiles; empty: all
+    std::string particles;  ///< the node whose particles are written in place of a mesh; empty: none
 };
 int runExport(const ExportOptions& options);
 

@@ -1,6 +1,9 @@
 // `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request; or the
 // particles of a node to a file of points.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
 
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/measured.h"
@@ -88,6 +91,18 @@ void note(const ExportOptions& options, const MesherResult& meshed) {
                      options.output.c_str());
 }
 
+/// Of what is to be printed, or has its lengths in a unit that was asked for.
+void noteUnlikelySize(const ExportOptions& options, const Mesh& mesh, const Placement& placement) {
+    if (lowerExtension(options.output) != ".3mf" && options.placement.unit.empty() &&
+        !options.placement.forPrinting())
+        return;
+    glm::vec3 least(INFINITY), greatest(-INFINITY);
+    for (const glm::vec3& p : mesh.positions) least = glm::min(least, p), greatest = glm::max(greatest, p);
+    const glm::vec3 size = greatest - least;
+    if (const auto words = unlikelySize(std::max({size.x, size.y, size.z}), placement.document))
+        std::fprintf(stderr, "%s: note: %s\n", options.output.c_str(), words->c_str());
+}
+
 int exportParticles(const ExportOptions& options, Progress& progress) {
     if (const Done fine = checkPointsPath(options.output); !fine) return print(fine.error()), kBadUsage;
     const GraphOptions& from = options.mesh.graph;
@@ -124,6 +139,10 @@ int exportParticles(const ExportOptions& options, Progress& progress) {
 
 }  // namespace
 
+fw::ExportOptions fileOptions(const ExportOptions& options) {
+    return {.manifold = options.manifold, .compress = options.compress, .parts = options.parts};
+}
+
 int runExport(const ExportOptions& options) {
     Progress progress;
     if (!options.particles.empty()) return exportParticles(options, progress);
@@ -143,11 +162,14 @@ int runExport(const ExportOptions& options) {
                       .file = options.output}),
                kBadUsage;
     const bool tiled = options.tiles > 0 || !options.share.empty();
-    fw::ExportOptions how{.manifold = options.manifold};
+    fw::ExportOptions how = fileOptions(options);
     if (const Done fine =
             tiled ? checkTiledExport(options) : checkExportPath(options.output, how, options.measured());
         !fine)
         return print(fine.error()), kBadUsage;
+    if (options.share.empty())
+        if (const auto known = placementOf(options.output, *lengthUnit("m"), options.placement); !known)
+            return print(known.error()), kBadUsage;
     MeshOptions wanted = options.mesh;
     wanted.outputs = exportedPaths(options.output);
     if (!options.report.empty()) wanted.outputs.push_back(options.report);
@@ -159,6 +181,7 @@ int runExport(const ExportOptions& options) {
     if (tiled || wantsTiles(options, *graph))
         return tiledExport(options, wanted, std::move(*graph), progress);
     const bool canTile = canBeTiled(options, *graph);
+    how.placement = *placementOf(options.output, graph->unit, options.placement);
     const Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, options.measured());
     if (!whole && canTile && whole.error().code == Error::Code::tooMuchSurface) {
         graph.reset();
@@ -170,13 +193,15 @@ int runExport(const ExportOptions& options) {
     progress.start("write", 70);
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
-    const MeshedFrom from{&meshed.session.program(), meshed.region, meshed.session.device().name()};
+    const MeshedFrom from{&meshed.session.program(), meshed.region, meshed.session.device().name(),
+                          how.placement};
     how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportMesh(whole->mesh, options.output, how);
     if (!written) return print(written.error()), kSystemFailure;
     progress.finish();
     note(options, meshed.mesh);
+    noteUnlikelySize(options, whole->mesh, how.placement);
     report.capped = meshed.mesh.capped;
     for (const StageTime& stage : meshed.mesh.stages)
         report.stages.emplace_back("mesh." + stage.name, stage.milliseconds);

@@ -12,6 +12,7 @@
 #include "runtime/export/animated.h"
 #include "runtime/export/outputs.h"
 #include "runtime/play/mesh_sequence.h"
+#include "runtime/system/interruption.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::cli {
@@ -38,6 +39,7 @@ struct ManyMeshes {
 struct MeasuredMeshes {
     const MeshOutput& options;
     const ManyMeshes& many;
+    Placement placement = {};
     std::map<long, Report> reports = {};
 
     /// Measures the files that were there, and says what is wrong with any; the exit status.
@@ -48,7 +50,7 @@ struct MeasuredMeshes {
         for (long number = files.frames.first; number < files.frames.last; ++number) {
             const std::string path = files.path(number);
             if (!reports.contains(number)) {
-                Result<Report> there = reportOnFile(path, {.selfIntersections = true});
+                Result<Report> there = reportOnThere(path, placement);
                 if (!there) return print(there.error()), kSystemFailure;
                 reports.emplace(number, std::move(*there));
             }
@@ -74,23 +76,28 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         return badExport(options.output + ": each " + many.one +
                          " is a file of its own, in a folder: give its name, and --format " +
                          lowerExtension(options.output).substr(1));
-    const fw::ExportOptions how{.manifold = options.manifold, .mayBeEmpty = true};
+    fw::ExportOptions how = fileOptions(options);
+    how.mayBeEmpty = true;
     if (const Done fine = checkExportPath("a" + ending, how, options.measured()); !fine)
         return badExport(fine.error().message);
+    if (const auto known = placementOf("a" + ending, *lengthUnit("m"), options.placement); !known)
+        return badExport(known.error().message);
     if (!options.report.empty())
         if (const Done distinct = checkDistinct(options.mesh.graph.path, {options.report}); !distinct)
             return print(distinct.error()), kBadUsage;
 
     FrameFiles files;
+    MeasuredMeshes measured{options, many};
     const auto filesOfGraph = [&](const Graph& graph) -> Result<FrameFiles> {
         const Result<FrameFiles> wanted = many.files(graph);
         if (!wanted) return wanted.error();
         files = *wanted;
+        how.placement = *placementOf("a" + ending, unitOf(graph), options.placement);
+        measured.placement = how.placement;
         if (const Done free = checkFrames(files, graph); !free)
             return Error{.message = free.error().message + " (-o, --format)"};
         return files;
     };
-    MeasuredMeshes measured{options, many};
     WrittenBehind writing;  // behind what it refers to
     bool empty = false;
     const auto make = [&](Player& player, long number, const std::string& path, std::function<void()> kept) {
@@ -106,7 +113,7 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         with.kept = std::move(kept);
         std::shared_ptr<const Program> program;
         if (options.measured()) program = std::make_shared<Program>(player.programOnHost());
-        const MeshedFrom from{program.get(), player.region(), player.device().name()};
+        const MeshedFrom from{program.get(), player.region(), player.device().name(), how.placement};
         auto write = [&, path, number, with, program, from, mesh = std::move(*mesh)]() mutable -> Done {
             Report report;
             if (!mesh.indices.empty()) with.examine = measuring(options, from, nullptr, report);
@@ -205,10 +212,12 @@ int exportSweep(const ExportOptions& options) {
 }
 
 int exportAnimated(const ExportOptions& options) {
-    const fw::ExportOptions how{.manifold = options.manifold,
-                                .kept = [] { whenEnded({.said = "; the file was written"}); }};
+    fw::ExportOptions how = fileOptions(options);
+    how.kept = [] { whenEnded({.said = "; the file was written"}); };
     if (const Done fine = checkAnimatedPath(options.output, how); !fine)
         return print(fine.error()), kBadUsage;
+    if (const auto known = placementOf(options.output, *lengthUnit("m"), options.placement); !known)
+        return print(known.error()), kBadUsage;
     if (options.measured())
         return badExport("--report and --require measure one mesh: export the frames into a folder for them");
     MeshOptions wanted = options.mesh;
@@ -230,6 +239,7 @@ int exportAnimated(const ExportOptions& options) {
     }
     Result<AnimatedGltf> file = AnimatedGltf::open(options.output, how);
     if (!file) return print(file.error()), kSystemFailure;
+    const Placement placement = *placementOf(options.output, unitOf(player->graph()), options.placement);
     const double begin = range.time(range.first);
     WrittenBehind writing;
     SequenceProgress progress("frame", range.count());
@@ -241,8 +251,9 @@ int exportAnimated(const ExportOptions& options) {
             },
             [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
         if (!mesh) return badInput(options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
-        auto add = [&, frame, mesh = std::move(*mesh)] {
-            return file->add(mesh, range.time(frame) - begin, "frame_" + std::to_string(frame));
+        auto add = [&, frame, mesh = std::move(*mesh)]() mutable {
+            return file->add(placed(std::move(mesh), placement), range.time(frame) - begin,
+                             "frame_" + std::to_string(frame));
         };
         if (const Done before = writing.begin(std::move(add)); !before)
             return print(before.error()), kSystemFailure;

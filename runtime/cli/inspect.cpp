@@ -68,7 +68,10 @@ nlohmann::ordered_json parametersJson(const Graph& graph) {
         nlohmann::ordered_json entry = {{"name", parameter.name}};
         std::vector<double> numbers;
         if (const Node* node = graph.node(parameter.node)) numbers = inputNumbers(*node, parameter.input);
-        entry["value"] = numbers.size() == 1 ? nlohmann::ordered_json(numbers[0]) : numbers;
+        if (numbers.size() == 1)
+            entry["value"] = numbers[0];
+        else
+            entry["value"] = numbers;
         if (std::isfinite(parameter.min)) entry["min"] = parameter.min;
         if (std::isfinite(parameter.max)) entry["max"] = parameter.max;
         entry["node"] = parameter.node, entry["input"] = parameter.input;

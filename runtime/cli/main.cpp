@@ -174,6 +174,30 @@ int run(int count, char** arguments) {
     exportCommand->add_flag("--manifold", exportOptions.manifold,
                             "Mark the mesh of a .glb or .gltf as a solid (EXT_mesh_manifold), for programs "
                             "that compute with solids; an error if it is none");
+    exportCommand->add_flag(
+        "--compress", exportOptions.compress,
+        "Of a .glb or .gltf: few bits a number and meshoptimizer's code "
+        "(KHR_mesh_quantization, EXT_meshopt_compression), a sixth of the size; three.js, "
+        "Babylon and game engines read it");
+    exportCommand->add_flag("--parts", exportOptions.parts,
+                            "Of a .glb or .gltf: what touches nowhere is a node of its own");
+    std::vector<std::string> units;
+    for (const LengthUnit& unit : lengthUnits()) units.emplace_back(unit.name);
+    exportCommand
+        ->add_option(
+            "--unit", exportOptions.placement.unit,
+            "Of lengths in a .stl, .obj, .ply or .vdb (default: the document's, of which glTF and 3MF "
+            "are scaled to theirs, metres and millimetres)")
+        ->check(oneOf(units));
+    exportCommand
+        ->add_option("--up", exportOptions.placement.up, "The axis that points up in the file (default: y)")
+        ->check(oneOf({"y", "z"}));
+    exportCommand
+        ->add_option("--for", exportOptions.placement.purpose,
+                     "print: millimetres and +Z up, as slicers have it; of a .stl or .3mf")
+        ->check(oneOf({"print"}))
+        ->excludes("--unit")
+        ->excludes("--up");
     CLI::Option* particles =
         exportCommand
             ->add_option(
@@ -222,8 +246,9 @@ int run(int count, char** arguments) {
             "part that was stopped goes on where it was")
         ->check(something());
     for (const char* ofMeshes :
-         {"--resolution", "--region", "--method", "--manifold", "--report", "--require", "--tiles", "--tile",
-          "--from", "--to", "--fps", "--range", "--overwrite", "--format", "--animated", "--sweep"})
+         {"--resolution", "--region", "--method", "--manifold",  "--compress", "--parts",    "--unit",
+          "--up",         "--for",    "--report", "--require",   "--tiles",    "--tile",     "--from",
+          "--to",         "--fps",    "--range",  "--overwrite", "--format",   "--animated", "--sweep"})
         particles->excludes(exportCommand->get_option(ofMeshes));
     for (const char* ofSequences :
          {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep"})

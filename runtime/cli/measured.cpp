@@ -10,6 +10,16 @@ namespace fw::cli {
 
 namespace {
 
+Result<Report> reportOnPlaced(Result<WeldedMesh> read, const Placement& placement, MeasureOptions measured) {
+    if (!read) return read.error();
+    measured.selfIntersections = true;
+    for (glm::vec3& p : read->positions) p = placement.placeBack(p);
+    Report report = reportOnWelded(*read, measured);
+    report.unit = placement.document.name;
+    report.fileLengths = placement.words();
+    return report;
+}
+
 Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const MeshedFrom& from,
                        Progress* progress) {
     const double total = progress ? millisecondsSince(progress->begun) : 0.0;
@@ -21,19 +31,22 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
             return measureOf(*from.program, from.region,
                              needField(options.required) ? Points::all : Points::affordable);
         });
-    const Result<WeldedMesh> read = readWelded(file);
-    MeasureOptions measured = compared.valid() ? compared.get() : MeasureOptions{};
-    if (!read) return read.error();
-    measured.selfIntersections = true;
-    Report report = reportOnWelded(*read, measured);
-    if (progress) progress->finish(), report.stages = progress->stages;
-    report.totalMs = total;
-    report.peakMemoryBytes = peak;
-    report.device = from.device;
+    Result<WeldedMesh> read = readWelded(file);
+    Result<Report> report =
+        reportOnPlaced(std::move(read), from.placement, compared.valid() ? compared.get() : MeasureOptions{});
+    if (!report) return report;
+    if (progress) progress->finish(), report->stages = progress->stages;
+    report->totalMs = total;
+    report->peakMemoryBytes = peak;
+    report->device = from.device;
     return report;
 }
 
 }  // namespace
+
+Result<Report> reportOnThere(const std::string& path, const Placement& placement) {
+    return reportOnPlaced(readWelded({path, path}), placement, {});
+}
 
 std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
                                                  Progress* progress, Report& report) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/export/placement.h"
 #include "runtime/measure/mesh_report.h"
 
 namespace fw::cli {
@@ -13,6 +14,7 @@ struct MeshedFrom {
     const Program* program = nullptr;
     Box region = {};
     std::string device = {};
+    Placement placement = {};
 };
 
 /// What fw::ExportOptions::examine has to be to measure the file into `report`: nothing, unless that is
@@ -20,6 +22,9 @@ struct MeshedFrom {
 /// must outlive it.
 std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
                                                  Progress* progress, Report& report);
+
+/// What a mesh file holds that was written before; its lengths are the graph's.
+Result<Report> reportOnThere(const std::string& path, const Placement& placement);
 
 /// Says in what a mesh is not what it is required to be; the exit status.
 int tellUnmet(const MeshOutput& options, const std::string& file, const Report& report);

@@ -112,7 +112,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     progress.start("device", 15);
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), fail(kBadUsage);
-    return OpenedGraph{std::move(*opened), std::move(*program), request, *box};
+    return OpenedGraph{std::move(*opened), std::move(*program), request, *box, unitOf(*graph)};
 }
 
 Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed) {

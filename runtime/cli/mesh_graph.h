@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/document/unit.h"
 #include "runtime/cli/commands.h"
 #include "runtime/play/mesh_program.h"
 #include "runtime/play/player.h"
@@ -42,6 +43,7 @@ struct OpenedGraph {
     Program program;
     MeshRequest request;  ///< with its resolution and method
     Box region;
+    LengthUnit unit;  ///< the document's
 };
 
 /// Reads and compiles the graph and opens the device; the stages take the first 20 % of the progress. Failure

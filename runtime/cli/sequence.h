@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/cli/commands.h"
+#include "runtime/export/export.h"
 #include "runtime/pictures/sequence.h"
 #include "runtime/system/clock.h"
 
@@ -50,6 +51,9 @@ void noteDraft(Player& player, const PictureWish& wish, const std::string& outpu
 
 /// `render` with --from, --to, --fps, --range or --turntable: `wish` is what each of its pictures is to be.
 int renderSequence(const RenderCommandOptions& options, const PictureWish& wish);
+
+/// What is asked of each mesh file, but for its placement.
+fw::ExportOptions fileOptions(const ExportOptions& options);
 
 /// `export` with --from, --to, --fps or --range; the same into one file, with --animated; with --sweep.
 int exportSequence(const ExportOptions& options);

@@ -116,10 +116,10 @@ int notMeshed(const ExportOptions& options, const Error& error) {
     return print(error), error.file.empty() ? kBadInput : kSystemFailure;
 }
 
-/// Writes the mesh, and measures it where that is asked, against the program that was meshed in `region` if
-/// there is one; the exit status. Of the progress it takes what is behind `begin` %.
-int writePieces(const MeshOutput& options, MeshPieces& mesh, const Session* session, const Box& region,
-                bool capped, int begin, Progress& progress) {
+/// Writes the mesh, and measures it where that is asked; the exit status. Of the progress it takes what is
+/// behind `begin` %.
+int writePieces(const MeshOutput& options, MeshPieces& mesh, const MeshedFrom& from, bool capped, int begin,
+                Progress& progress) {
     if (options.measured())
         if (const Done fits = checkMeasurable(mesh.triangleCount, freeMemoryBytes()); !fits) {
             Error error = fits.error();
@@ -129,9 +129,7 @@ int writePieces(const MeshOutput& options, MeshPieces& mesh, const Session* sess
     progress.start("write", begin);
     showLoading(mesh, progress, begin);
     Report report;
-    fw::ExportOptions how;
-    MeshedFrom from{.region = region};
-    if (session) from.program = &session->program(), from.device = session->device().name();
+    fw::ExportOptions how{.placement = from.placement};
     how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportPieces(mesh, options.output, how);
@@ -143,7 +141,7 @@ int writePieces(const MeshOutput& options, MeshPieces& mesh, const Session* sess
 
 /// All tiles straight into the mesh file.
 int exportWhole(const ExportOptions& options, Session& session, const MeshRequest& request,
-                const TilePlan& plan, bool givenRegion, Progress& progress) {
+                const TilePlan& plan, const Placement& placement, bool givenRegion, Progress& progress) {
     // A tile's arrays go back to the system with the tile: by itself the allocator would keep some of each
     // thread.
     ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
@@ -157,8 +155,8 @@ int exportWhole(const ExportOptions& options, Session& session, const MeshReques
     if (!tiles) return progress.finish(), notMeshed(options, tiles.error());
     if (tiles->mesh.triangleCount == 0)
         return badInput(options.mesh, nothingToSee(givenRegion, *request.region, request.resolution));
-    const int status =
-        writePieces(options, tiles->mesh, &session, *request.region, tiles->capped, 50, progress);
+    const MeshedFrom from{&session.program(), *request.region, session.device().name(), placement};
+    const int status = writePieces(options, tiles->mesh, from, tiles->capped, 50, progress);
     if (tiles->capped && status != kSystemFailure) noteCapped(options);
     return status;
 }
@@ -205,7 +203,13 @@ Done checkTiledExport(const ExportOptions& options) {
     if (options.manifold)
         return refuse(
             "--manifold holds the whole mesh in memory, which tiles are there to avoid: leave it out");
+    if (options.compress || options.parts)
+        return refuse(
+            "--compress and --parts hold the whole mesh in memory, which tiles are there to avoid: leave "
+            "them out");
     if (options.share.empty()) return checkPiecesPath(options.output);
+    if (!options.placement.isNone())
+        return refuse("a part is in the document's unit and +Y up: leave out --unit, --up and --for");
     if (options.measured())
         return refuse("a part is no mesh to measure: give --report and --require to fieldwright merge");
     if (!readShare(options.share))
@@ -228,6 +232,17 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     if (const Done fine = checkTiles(opened.program); !fine)
         return badInput(options.mesh,
                         {.message = fine.error().message + ", or leave out --tiles and --tile"});
+    Placement placement;
+    if (options.share.empty()) {
+        const Result<Placement> wanted = placementOf(options.output, opened.unit, options.placement);
+        if (!wanted) return print(wanted.error()), kBadUsage;
+        placement = *wanted;
+    } else if (opened.unit.metres != 1.0) {
+        return print({.message = "a part does not hold the document's unit, " +
+                                 std::string(opened.unit.words) + ": export without --tile",
+                      .file = options.output}),
+               kBadUsage;
+    }
     const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);
     if (!grid) return badInput(options.mesh, grid.error());
     const bool given = opened.request.region || opened.program.region;
@@ -246,7 +261,8 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
                                  "tile has 64 cells a side, or more)",
                       .file = options.output}),
                kBadUsage;
-    if (options.share.empty()) return exportWhole(options, session, opened.request, plan, given, progress);
+    if (options.share.empty())
+        return exportWhole(options, session, opened.request, plan, placement, given, progress);
     return exportPart(options, session, opened.request, plan, share, progress);
 }
 
@@ -275,7 +291,7 @@ int runMerge(const MergeOptions& options) {
         return print({.message = "the parts hold no triangle: the surface does not pass through the region",
                       .file = options.parts[0]}),
                kBadInput;
-    return writePieces(options, *mesh, nullptr, {}, capped, 80, progress);
+    return writePieces(options, *mesh, {}, capped, 80, progress);
 }
 
 }  // namespace fw::cli

@@ -26,11 +26,11 @@ Result<Placement> placementOf(const std::string& path, const LengthUnit& documen
         return Error{.message = std::move(message), .file = path};
     };
     const bool gltf = ending == ".glb" || ending == ".gltf", threeMf = ending == ".3mf";
-    if (wish.forPrinting && ending != ".stl" && !threeMf)
+    if (wish.forPrinting() && ending != ".stl" && !threeMf)
         return refuse(ending + " is not what is printed: write .stl or .3mf, or give --unit and --up");
-    if (wish.forPrinting && !(wish.unit.empty() && wish.up.empty()))
+    if (wish.forPrinting() && !(wish.unit.empty() && wish.up.empty()))
         return refuse("for printing is millimetres and +Z up: leave out --unit and --up");
-    const std::string named = wish.forPrinting ? "mm" : wish.unit;
+    const std::string named = wish.forPrinting() ? "mm" : wish.unit;
     const LengthUnit* unit = named.empty() ? &document : lengthUnit(named);
     if (!unit) {
         std::vector<std::string> names;
@@ -39,8 +39,10 @@ Result<Placement> placementOf(const std::string& path, const LengthUnit& documen
     }
     if (!wish.up.empty() && wish.up != "y" && wish.up != "z")
         return refuse("the axis '" + wish.up + "' is none of y, z");
-    Placement placement{
-        .scale = document.metres / unit->metres, .zUp = wish.forPrinting || wish.up == "z", .unit = *unit};
+    Placement placement{.scale = document.metres / unit->metres,
+                        .zUp = wish.forPrinting() || wish.up == "z",
+                        .unit = *unit,
+                        .document = document};
     if (gltf) {
         if (placement.zUp)
             return refuse("glTF has +Y up by its specification, and programs turn it as they like");

@@ -19,16 +19,20 @@ namespace fw {
 struct PlacementWish {
     std::string unit = {};     ///< of its lengths: "mm"; empty: the format's own, or the document's
     std::string up = {};       ///< the axis that points up: "y" or "z"; empty: y
-    bool forPrinting = false;  ///< in millimetres, +Z up
+    std::string purpose = {};  ///< "print": in millimetres, +Z up; empty: none
+
+    bool forPrinting() const { return purpose == "print"; }
+    bool isNone() const { return unit.empty() && up.empty() && purpose.empty(); }
 };
 
 struct Placement {
     double scale = 1.0;  ///< a length of 1 becomes so much, of what the file's writer takes: of 3MF metres
     bool zUp = false;    ///< +Y becomes +Z, and +Z becomes -Y
-    LengthUnit unit = {"m", "metres", 1.0};  ///< of the file
+    LengthUnit unit = {"m", "metres", 1.0}, document = unit;  ///< of the file, and of the graph
 
     bool isNone() const { return scale == 1.0 && !zUp; }
     glm::vec3 place(glm::vec3 p) const { return turned(p) * float(scale); }
+    /// Where the graph has what a program reads at `p`, which has brought 3MF to metres.
     glm::vec3 placeBack(glm::vec3 p) const;
     glm::vec3 turned(glm::vec3 v) const { return zUp ? glm::vec3(v.x, -v.z, v.y) : v; }
     /// "millimetres, +Z up"

@@ -402,6 +402,8 @@ std::string writeReport(const Report& report) {
     out["flippedEdges"] = report.flippedEdges;
     out["degenerateTriangles"] = report.degenerateTriangles;
     out["eulerCharacteristic"] = report.eulerCharacteristic;
+    out["unit"] = report.unit;
+    if (!report.fileLengths.empty()) out["fileLengths"] = report.fileLengths;
     out["volume"] = report.volume;
     out["area"] = report.area;
     out["boundsMin"] = report.boundsMin;

@@ -77,6 +77,7 @@ struct Report {
     std::optional<SampledDistance> meshToSurface, surfaceToMesh;
 
     // The run that made the file: the caller fills these in.
+    std::string unit = "m", fileLengths = {};            ///< of the lengths here; of those in the file
     bool capped = false;                                 ///< the surface left the region and was closed there
     std::vector<std::pair<std::string, double>> stages;  ///< name, ms
     double totalMs = 0;

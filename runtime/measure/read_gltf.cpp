@@ -1,7 +1,14 @@
 #include "runtime/measure/readers.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -57,7 +64,48 @@ struct Elements {
     Bytes bytes;
     uint64_t count = 0, stride = 0;
     uint64_t componentType = 0;
+    bool normalized = false;
+
+    /// The vector at a place of `count`; whole numbers as the core specification and KHR_mesh_quantization
+    /// have them.
+    glm::vec3 vector(uint64_t i) const {
+        if (componentType == kFloat) return load<glm::vec3>(bytes, i * stride);
+        glm::vec3 v;
+        for (uint64_t k = 0; k < 3; ++k) v[int(k)] = component(i * stride, k);
+        return v;
+    }
+    static constexpr uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
+                              kUnsignedInt = 5125, kFloat = 5126;
+    static uint64_t bytesOf(uint64_t componentType) {
+        switch (componentType) {
+            case kByte:
+            case kUnsignedByte: return 1;
+            case kShort:
+            case kUnsignedShort: return 2;
+            case kUnsignedInt:
+            case kFloat: return 4;
+            default: return 0;
+        }
+    }
+
+  private:
+    float component(uint64_t at, uint64_t k) const {
+        const auto signedShare = [&](float value, float most) {
+            return normalized ? std::max(value / most, -1.0f) : value;
+        };
+        switch (componentType) {
+            case kByte: return signedShare(load<int8_t>(bytes, at + k), 127.0f);
+            case kUnsignedByte: return signedShare(load<uint8_t>(bytes, at + k), 255.0f);
+            case kShort: return signedShare(load<int16_t>(bytes, at + 2 * k), 32767.0f);
+            case kUnsignedShort: return signedShare(load<uint16_t>(bytes, at + 2 * k), 65535.0f);
+            default: return float(load<uint32_t>(bytes, at + 4 * k));
+        }
+    }
 };
+
+constexpr const char* kMeshCode = "EXT_meshopt_compression";
+/// Its coder makes at most so many bytes of one: 2 bits for 16 bytes that are all the same.
+constexpr uint64_t kMostOfACode = 64;
 
 struct GltfReader {
     const json& document;
@@ -66,18 +114,45 @@ struct GltfReader {
     /// Of the vertices of the accessor that was read last: the parts of a mesh mostly share theirs.
     std::optional<uint64_t> numbered = {};
     std::vector<uint32_t> numbers = {};
+    glm::mat4 transform{1.0f};                                    ///< of the node that is read
+    std::map<uint64_t, std::vector<unsigned char>> decoded = {};  ///< views, by their number
 
-    Result<Elements> elements(uint64_t index, const std::string& type) const {
+    /// What a view holds in meshoptimizer's code.
+    Result<Bytes> decode(uint64_t number, const json& code) {
+        if (const auto there = decoded.find(number); there != decoded.end()) return Bytes(there->second);
+        const auto buffer = whole(code, "buffer"), start = whole(code, "byteOffset", 0),
+                   length = whole(code, "byteLength"), stride = whole(code, "byteStride"),
+                   count = whole(code, "count");
+        if (!buffer || *buffer >= buffers.size() || !start || !length || !stride || !count || *stride == 0 ||
+            *stride > 256)
+            return fault("compressed data is malformed");
+        const Bytes& bytes = buffers[*buffer];
+        if (*start > bytes.size() || *length > bytes.size() - *start)
+            return fault("compressed data leaves its buffer");
+        const Bytes from = bytes.subspan(*start, *length);
+        if (*count > (kMostOfACode * from.size() + 4096) / *stride)
+            return fault("compressed data is too short for what it is said to hold");
+        const json mode = code.value("mode", json());
+        const bool triangles = mode == "TRIANGLES";
+        std::vector<unsigned char> to(*count * *stride);
+        int failed = 1;
+        if (triangles && *count % 3 == 0 && (*stride == 2 || *stride == 4))
+            failed = meshopt_decodeIndexBuffer(to.data(), *count, *stride, from.data(), from.size());
+        else if (mode == "ATTRIBUTES" && *stride % 4 == 0 && !code.contains("filter"))
+            failed = meshopt_decodeVertexBuffer(to.data(), *count, *stride, from.data(), from.size());
+        if (failed) return fault("compressed data cannot be decoded");
+        return Bytes(decoded.emplace(number, std::move(to)).first->second);
+    }
+
+    Result<Elements> elements(uint64_t index, const std::string& type) {
         const json* accessor = entry(document, "accessors", index);
         if (!accessor) return fault("an accessor is missing");
         if (accessor->contains("sparse")) return fault("sparse accessors are not read back");
         if (accessor->value("type", json()) != json(type)) return fault("an accessor is not of type " + type);
         Elements found;
         found.componentType = whole(*accessor, "componentType").value_or(0);
-        const uint64_t componentBytes = found.componentType == 5121                                  ? 1
-                                        : found.componentType == 5123                                ? 2
-                                        : found.componentType == 5125 || found.componentType == 5126 ? 4
-                                                                                                     : 0;
+        found.normalized = accessor->value("normalized", json()) == json(true);
+        const uint64_t componentBytes = Elements::bytesOf(found.componentType);
         if (componentBytes == 0) return fault("an accessor has an unknown component type");
         const uint64_t elementBytes = componentBytes * (type == "VEC3" ? 3 : 1);
         const auto viewIndex = whole(*accessor, "bufferView");
@@ -86,14 +161,20 @@ struct GltfReader {
         const json* view = viewIndex ? entry(document, "bufferViews", *viewIndex) : nullptr;
         if (!view || !count || !offset || *count == 0)
             return fault("an accessor lacks its view or its count");
-        const auto buffer = whole(*view, "buffer");
-        const auto start = whole(*view, "byteOffset", 0);
+        const auto extensions = view->find("extensions");
+        const json* code = nullptr;
+        if (extensions != view->end() && extensions->is_object() && extensions->contains(kMeshCode))
+            code = &(*extensions)[kMeshCode];
+        const auto buffer = code ? std::optional<uint64_t>(0) : whole(*view, "buffer");
+        const auto start = code ? std::optional<uint64_t>(0) : whole(*view, "byteOffset", 0);
         const auto length = whole(*view, "byteLength");
         const auto stride = whole(*view, "byteStride", elementBytes);
-        if (!buffer || *buffer >= buffers.size() || !start || !length || !stride || *stride < elementBytes ||
-            *stride > 252)
+        if (!buffer || (!code && *buffer >= buffers.size()) || !start || !length || !stride ||
+            *stride < elementBytes || *stride > 252)
             return fault("a buffer view is malformed");
-        const Bytes& bytes = buffers[*buffer];
+        const Result<Bytes> stored = code ? decode(*viewIndex, *code) : Result<Bytes>(buffers[*buffer]);
+        if (!stored) return stored.error();
+        const Bytes& bytes = *stored;
         if (*start > bytes.size() || *length > bytes.size() - *start)
             return fault("a buffer view leaves its buffer");
         if (*offset > *length || elementBytes > *length - *offset ||
@@ -109,12 +190,11 @@ struct GltfReader {
         if (numbered == position) return done();
         const Result<Elements> points = elements(position, "VEC3");
         if (!points) return points.error();
-        if (points->componentType != 5126) return fault("positions are not floats");
         numbered.reset();
         numbers.resize(points->count);
         welder.expect(points->count);
         for (uint64_t i = 0; i < points->count; ++i) {
-            const auto p = load<glm::vec3>(points->bytes, i * points->stride);
+            const auto p = glm::vec3(transform * glm::vec4(points->vector(i), 1.0f));
             if (!finite(p)) return fault("vertex " + std::to_string(i) + " is not finite");
             numbers[i] = welder.add(p);
         }
@@ -138,14 +218,17 @@ struct GltfReader {
         if (!accessor) return fault("a primitive's indices are malformed");
         const Result<Elements> list = elements(*accessor, "SCALAR");
         if (!list) return list.error();
-        if (list->componentType == 5126) return fault("indices are not whole numbers");
+        if (list->componentType != Elements::kUnsignedByte &&
+            list->componentType != Elements::kUnsignedShort && list->componentType != Elements::kUnsignedInt)
+            return fault("indices are not whole numbers");
         if (list->count % 3 != 0) return fault("the number of indices is no multiple of three");
         indices.reserve(indices.size() + list->count);
         for (uint64_t i = 0; i < list->count; ++i) {
             const std::size_t at = i * list->stride;
-            const uint32_t index = list->componentType == 5121   ? load<uint8_t>(list->bytes, at)
-                                   : list->componentType == 5123 ? load<uint16_t>(list->bytes, at)
-                                                                 : load<uint32_t>(list->bytes, at);
+            const uint32_t index =
+                list->componentType == Elements::kUnsignedByte    ? load<uint8_t>(list->bytes, at)
+                : list->componentType == Elements::kUnsignedShort ? load<uint16_t>(list->bytes, at)
+                                                                  : load<uint32_t>(list->bytes, at);
             if (index >= numbers.size())
                 return fault("index " + std::to_string(i) + " names a vertex that is not there");
             indices.push_back(numbers[index]);
@@ -163,32 +246,94 @@ Result<json> parseDocument(const Bytes& bytes, const Fault& fault) {
     const json* asset = document.contains("asset") ? &document["asset"] : nullptr;
     if (!asset || !asset->is_object() || asset->value("version", json()) != json("2.0"))
         return fault("it is not of glTF version 2.0");
-    if (document.contains("extensionsRequired")) return fault("it requires extensions");
+    for (const json& extension : document.value("extensionsRequired", json::array()))
+        if (extension != kMeshCode && extension != "KHR_mesh_quantization")
+            return fault("it requires an extension that is not read back");
     return document;
 }
 
-Result<WeldedMesh> readMeshes(const json& document, const std::vector<Bytes>& buffers, const Fault& fault) {
-    const auto nodes = document.find("nodes");
-    if (nodes != document.end() && nodes->is_array())
-        for (const json& node : *nodes)
-            for (const char* key : {"matrix", "translation", "rotation", "scale"})
-                if (node.is_object() && node.contains(key))
-                    return fault("nodes with transforms are not read back");
-    const auto meshes = document.find("meshes");
-    WeldedMesh welded;
-    Welder welder(1024);
-    GltfReader reader{document, buffers, fault};
-    if (meshes == document.end() || !meshes->is_array()) return fault("it holds no mesh");
-    for (const json& mesh : *meshes) {
-        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array())
-            return fault("a mesh has no primitives");
-        for (const json& part : mesh["primitives"]) {
-            if (!part.is_object()) return fault("a primitive is malformed");
-            if (Done read = reader.primitive(part, welder, welded.indices); !read) return read.error();
-        }
+/// The member as so many numbers; nothing if it is malformed.
+template <std::size_t N>
+std::optional<std::array<float, N>> numbersOf(const json& node, const char* key,
+                                              std::array<float, N> fallback) {
+    const auto member = node.find(key);
+    if (member == node.end()) return fallback;
+    if (!member->is_array() || member->size() != N) return std::nullopt;
+    for (std::size_t i = 0; i < N; ++i) {
+        if (!(*member)[i].is_number()) return std::nullopt;
+        fallback[i] = (*member)[i].get<float>();
     }
-    welded.positions = welder.take();
-    return welded;
+    return fallback;
+}
+
+/// The nodes of the scene, and what of meshes they show.
+struct SceneReader {
+    GltfReader reader;
+    Welder welder{1024};
+    WeldedMesh welded = {};
+    uint64_t visited = 0;
+
+    Done mesh(const json& of, const glm::mat4& transform) {
+        if (!of.is_object() || !of.contains("primitives") || !of["primitives"].is_array())
+            return reader.fault("a mesh has no primitives");
+        reader.transform = transform;
+        reader.numbered.reset();
+        for (const json& part : of["primitives"]) {
+            if (!part.is_object()) return reader.fault("a primitive is malformed");
+            if (Done read = reader.primitive(part, welder, welded.indices); !read) return read;
+        }
+        return done();
+    }
+
+    Done node(uint64_t number, const glm::mat4& parent, int depth) {
+        const json* of = entry(reader.document, "nodes", number);
+        if (!of) return reader.fault("a node is missing");
+        if (depth > kMaxJsonDepth || ++visited > reader.document["nodes"].size())
+            return reader.fault("its nodes are no tree, or a deep one");
+        if (of->contains("matrix")) return reader.fault("nodes with matrices are not read back");
+        const auto move = numbersOf<3>(*of, "translation", {0, 0, 0}),
+                   size = numbersOf<3>(*of, "scale", {1, 1, 1});
+        const auto turn = numbersOf<4>(*of, "rotation", {0, 0, 0, 1});
+        if (!move || !size || !turn) return reader.fault("a node's transform is malformed");
+        glm::mat4 transform = parent;
+        transform *=
+            glm::mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {(*move)[0], (*move)[1], (*move)[2], 1});
+        transform *= glm::mat4_cast(glm::quat((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]));
+        for (int axis = 0; axis < 3; ++axis) transform[axis] *= (*size)[std::size_t(axis)];
+        if (const auto shown = of->find("mesh"); shown != of->end()) {
+            const json* named =
+                shown->is_number_unsigned() ? entry(reader.document, "meshes", *shown) : nullptr;
+            if (!named) return reader.fault("a node's mesh is missing");
+            if (Done read = mesh(*named, transform); !read) return read;
+        }
+        return nodes(*of, "children", transform, depth + 1);
+    }
+
+    Done nodes(const json& holder, const char* key, const glm::mat4& parent, int depth) {
+        const auto list = holder.find(key);
+        if (list == holder.end()) return done();
+        if (!list->is_array()) return reader.fault("a list of nodes is malformed");
+        for (const json& number : *list) {
+            if (!number.is_number_unsigned()) return reader.fault("a list of nodes is malformed");
+            if (Done read = node(number, parent, depth); !read) return read;
+        }
+        return done();
+    }
+};
+
+Result<WeldedMesh> readMeshes(const json& document, const std::vector<Bytes>& buffers, const Fault& fault) {
+    const auto meshes = document.find("meshes");
+    if (meshes == document.end() || !meshes->is_array()) return fault("it holds no mesh");
+    SceneReader scene{{document, buffers, fault}};
+    const json* shown = entry(document, "scenes", whole(document, "scene", 0).value_or(0));
+    if (shown) {
+        if (Done read = scene.nodes(*shown, "nodes", glm::mat4(1.0f), 0); !read) return read.error();
+    } else {
+        for (const json& mesh : *meshes)
+            if (Done read = scene.mesh(mesh, glm::mat4(1.0f)); !read) return read.error();
+    }
+    scene.welded.positions = scene.welder.take();
+    return std::move(scene.welded);
 }
 
 }  // namespace
@@ -217,7 +362,9 @@ Result<WeldedMesh> readGltf(const Bytes& bytes, const StoredMesh& mesh, const Fa
     const Result<json> document = parseDocument(bytes, fault);
     if (!document) return document.error();
     const json* buffer = entry(*document, "buffers", 0);
-    if (!buffer || (*document)["buffers"].size() != 1) return fault("it does not have exactly one buffer");
+    const bool coded = document->contains("extensionsRequired");  // then there is one that a decoder fills
+    if (!buffer || (*document)["buffers"].size() != (coded ? 2 : 1))
+        return fault("it does not have exactly one buffer");
     const auto uri = buffer->find("uri");
     if (uri == buffer->end() || !uri->is_string()) return fault("its buffer names no file");
     std::string name;

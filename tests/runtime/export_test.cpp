@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -19,50 +18,14 @@
 #include "runtime/measure/mesh_report.h"
 #include "runtime/measure/read_back.h"
 #include "runtime/mesh/creases.h"
+#include "tests/support/gltf_validator.h"
 #include "tests/support/graph/temp_dir.h"
 #include "tests/support/meshes.h"
 
 namespace fw::export_test {
 
+using test::expectValidGltf;
 using test::TempDir;
-
-/// Folder of the npm package gltf-validator, installed beside the build on first use.
-std::string validatorModules() {
-    const std::filesystem::path home = std::filesystem::path(FIELDWRIGHT_BINARY_DIR) / "gltf-validator";
-    const std::filesystem::path modules = home / "node_modules";
-    if (!std::filesystem::exists(modules / "gltf-validator")) {
-        // Under another name first: two test programs may get here at once.
-        const std::filesystem::path fresh = home.string() + "." + std::to_string(::getpid());
-        std::filesystem::create_directories(fresh);
-        const auto result = test::runProgram("npm install --silent --no-audit --no-fund --prefix '" +
-                                             fresh.string() + "' gltf-validator@2.0.0-dev.3.10");
-        EXPECT_EQ(result.status, 0) << "npm could not install gltf-validator:\n" << result.output;
-        std::error_code taken;
-        std::filesystem::rename(fresh, home, taken);
-        if (taken) std::filesystem::remove_all(fresh);
-    }
-    return modules.string();
-}
-
-/// Expects Khronos' validator to find nothing at all in the files, not even a hint; of an extension that it
-/// does not know, only that, and that it does not see what the accessors are for.
-void expectValid(const std::vector<std::string>& files, bool knownAlone = true) {
-    std::string command =
-        "node '" FIELDWRIGHT_SOURCE_DIR "/tests/support/validate_gltf.js' '" + validatorModules() + "'";
-    for (const std::string& file : files) command += " '" + file + "'";
-    const auto result = test::runProgram(command);
-    ASSERT_EQ(result.status, 0) << result.output;
-    std::istringstream lines(result.output);
-    std::size_t clean = 0;
-    for (std::string line; std::getline(lines, line);) {
-        clean += line.starts_with(knownAlone ? "0 0 0 0 " : "0 0 ");
-        if (!knownAlone && line.starts_with("  ")) {
-            EXPECT_TRUE(line.starts_with("  UNSUPPORTED_EXTENSION ") || line.starts_with("  UNUSED_OBJECT "))
-                << line;
-        }
-    }
-    EXPECT_EQ(clean, files.size()) << result.output;
-}
 
 void mustExport(const Mesh& mesh, const std::string& path, const ExportOptions& options = {}) {
     const Result<ExportedFiles> written = exportMesh(mesh, path, options);
@@ -138,7 +101,7 @@ TEST(Export, GltfHasNothingForTheValidatorToSay) {
             mustExport(*mesh, files.back());
         }
     }
-    expectValid(files);
+    expectValidGltf(files);
 }
 
 TEST(Export, GltfHoldsTheMeshExactly) {
@@ -265,7 +228,7 @@ TEST(Export, GltfSaysThatAMeshIsASolid) {
     expectSolid("wide.glb", test::unshared(test::torus(160, 80)), true);  // 76,800 vertices: 32-bit indices
     expectSolid("parts.glb", inParts(40, 18), false);
     expectSolid("doubled parts.gltf", withParts(test::unshared(test::torus(40, 18))), true);
-    expectValid(files, false);
+    expectValidGltf(files, false);
 }
 
 double numberIn(const tinygltf::Material& material, const char* extension, const char* key) {
@@ -327,7 +290,7 @@ TEST(Export, GltfSaysWhatLightPassesThrough) {
             for (int i = 0; i < 3; ++i)
                 EXPECT_NEAR(leftAfter(length, material)[i], std::exp(-wanted.absorption[i] * length), 1e-6);
     }
-    expectValid(files);
+    expectValidGltf(files);
 }
 
 TEST(Export, WhatNoLightPassesThroughNeedsNoWordOfIt) {
@@ -385,7 +348,7 @@ TEST(Export, GltfHasAPrimitiveForEachPart) {
         EXPECT_EQ(writeReport(*reportOnFile(files.back())),
                   writeReport(*reportOnFile(folder.path("whole.glb"))));
     }
-    expectValid(files);
+    expectValidGltf(files);
 }
 
 TEST(Export, ObjNamesTheMaterialOfEachPart) {
@@ -435,7 +398,7 @@ TEST(Export, GltfIndicesAreAsShortAsTheVerticesAllow) {
         EXPECT_EQ(model.accessors[static_cast<std::size_t>(indices)].componentType,
                   vertices == 65535 ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
                                     : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
-        expectValid({folder.path("mesh.glb")});
+        expectValidGltf({folder.path("mesh.glb")});
     }
 }
 
@@ -447,7 +410,7 @@ TEST(Export, NormalsThatTheFieldCouldNotGiveComeFromTheTriangles) {
     mesh.normals[6] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
     mesh.normals[7] *= 3.0f;
     mustExport(mesh, folder.path("mesh.glb"));
-    expectValid({folder.path("mesh.glb")});
+    expectValidGltf({folder.path("mesh.glb")});
     const tinygltf::Model model = loadModel(folder.path("mesh.glb"));
     std::vector<glm::vec3> written(mesh.normals.size());
     std::memcpy(written.data(), dataOf(model, model.meshes[0].primitives[0].attributes.at("NORMAL")),

@@ -218,6 +218,7 @@ TEST(MeshReport, JsonHasTheDocumentedKeysInOrder) {
                                               "flippedEdges",
                                               "degenerateTriangles",
                                               "eulerCharacteristic",
+                                              "unit",
                                               "volume",
                                               "area",
                                               "boundsMin",
