@@ -142,12 +142,6 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
     return status == kDone ? measured.end(files) : status;
 }
 
-Result<FrameRange> framesAsked(const Graph& graph, const ExportOptions& options) {
-    Result<FrameRange> frames = framesOf(*readTimeline(graph), options.sequence.frames);
-    if (!frames) return Error{.message = frames.error().message + " (--from, --to, --fps)"};
-    return frames;
-}
-
 std::string endingOf(const ExportOptions& options) {
     return "." + (options.format.empty() ? "glb" : options.format);
 }
@@ -165,6 +159,12 @@ Result<NamedNumbers> numbersOf(Graph graph, const Variant& variant) {
 }
 
 }  // namespace
+
+Result<FrameRange> framesAsked(const Graph& graph, const ExportOptions& options) {
+    Result<FrameRange> frames = framesOf(*readTimeline(graph), options.sequence.frames);
+    if (!frames) return Error{.message = frames.error().message + " (--from, --to, --fps)"};
+    return frames;
+}
 
 int exportSequence(const ExportOptions& options) {
     FrameRange range;
@@ -209,63 +209,6 @@ int exportSweep(const ExportOptions& options) {
     };
     many.player.liveParameters = true;
     return exportMany(options, many, endingOf(options));
-}
-
-int exportAnimated(const ExportOptions& options) {
-    fw::ExportOptions how = fileOptions(options);
-    how.kept = [] { whenEnded({.said = "; the file was written"}); };
-    if (const Done fine = checkAnimatedPath(options.output, how); !fine)
-        return print(fine.error()), kBadUsage;
-    if (const auto known = placementOf(options.output, *lengthUnit("m"), options.placement); !known)
-        return print(known.error()), kBadUsage;
-    if (options.measured())
-        return badExport("--report and --require measure one mesh: export the frames into a folder for them");
-    MeshOptions wanted = options.mesh;
-    wanted.outputs = exportedPaths(options.output);
-    if (const Done distinct = checkDistinct(wanted.graph.path, wanted.outputs); !distinct)
-        return print(distinct.error()), kBadUsage;
-    FrameRange range;
-    std::optional<Player> player;
-    {
-        Progress progress;
-        int status = kDone;
-        player = openPlayer(wanted, progress, {.liveParameters = false}, status, [&](const Graph& graph) {
-            const Result<FrameRange> frames = framesAsked(graph, options);
-            if (!frames) return badExport(frames.error().message);
-            range = *frames;
-            return kDone;
-        });
-        if (!player) return status;
-    }
-    Result<AnimatedGltf> file = AnimatedGltf::open(options.output, how);
-    if (!file) return print(file.error()), kSystemFailure;
-    const Placement placement = *placementOf(options.output, unitOf(player->graph()), options.placement);
-    const double begin = range.time(range.first);
-    WrittenBehind writing;
-    SequenceProgress progress("frame", range.count());
-    for (long frame = range.first; frame < range.last; ++frame) {
-        Result<Mesh> mesh = onceMoreIfLost(
-            [&] {
-                player->seek(range.time(frame));
-                return player->mesh(true);
-            },
-            [&] { renewDevice(*player, "going on at frame " + std::to_string(frame)); });
-        if (!mesh) return badInput(options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
-        auto add = [&, frame, mesh = std::move(*mesh)]() mutable {
-            return file->add(placed(std::move(mesh), placement), range.time(frame) - begin,
-                             "frame_" + std::to_string(frame));
-        };
-        if (const Done before = writing.begin(std::move(add)); !before)
-            return print(before.error()), kSystemFailure;
-        progress.next(true);
-    }
-    Done written = writing.end();
-    if (written)
-        if (const Result<ExportedFiles> files = file->end(range.time(range.last) - begin); !files)
-            written = files.error();
-    if (!written) return print(written.error()), kSystemFailure;
-    if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
-    return kDone;
 }
 
 }  // namespace fw::cli

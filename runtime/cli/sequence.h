@@ -52,6 +52,9 @@ void noteDraft(Player& player, const PictureWish& wish, const std::string& outpu
 /// `render` with --from, --to, --fps, --range or --turntable: `wish` is what each of its pictures is to be.
 int renderSequence(const RenderCommandOptions& options, const PictureWish& wish);
 
+/// The frames that are asked for of the graph's timeline.
+Result<FrameRange> framesAsked(const Graph& graph, const ExportOptions& options);
+
 /// What is asked of each mesh file, but for its placement.
 fw::ExportOptions fileOptions(const ExportOptions& options);
 

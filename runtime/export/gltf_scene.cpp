@@ -65,7 +65,7 @@ void GltfScene::join(nlohmann::json part) {
     for (nlohmann::json& material : part["materials"]) {
         const auto [found, fresh] = materials.emplace(material.dump(), count("materials"));
         if (fresh) {
-            material["name"] = objectName(path, options) + "_" + std::to_string(found->second + 1);
+            material["name"] = name() + "_" + std::to_string(found->second + 1);
             document["materials"].push_back(std::move(material));
         }
         numbers.push_back(found->second);
@@ -111,6 +111,8 @@ std::size_t GltfScene::addNode(nlohmann::json node, std::optional<std::size_t> p
     (parent ? document["nodes"][*parent]["children"] : document["scenes"][0]["nodes"]).push_back(number);
     return number;
 }
+
+std::string GltfScene::name() const { return objectName(path, options); }
 
 void GltfScene::setNode(std::size_t node, const char* key, nlohmann::json value) {
     document["nodes"][node][key] = std::move(value);

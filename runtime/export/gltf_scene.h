@@ -41,7 +41,8 @@ class GltfScene {
     /// All tracks, of one at least, play together.
     void addAnimation(const char* name, const std::vector<GltfTrack>& tracks);
     void setNode(std::size_t node, const char* key, nlohmann::json value);
-    std::size_t meshCount() const { return known.size(); }
+    /// What the object in the file is called.
+    std::string name() const;
 
     /// The file appears. Errors: a GLB of more than 4 GiB, a full disk.
     Result<ExportedFiles> end();

@@ -165,7 +165,7 @@ TEST_F(MeshForm, CompressedFilesThatAreBrokenAreRefused) {
     };
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string changed = whole;
-        const std::size_t at = changed.find(from);
+        const std::size_t at = changed.rfind(from);
         EXPECT_NE(at, std::string::npos) << from;
         EXPECT_EQ(from.size(), to.size());
         return changed.replace(at, to.size(), to);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
@@ -15,6 +16,7 @@
 #include "runtime/export/whole.h"
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/command.h"
+#include "tests/support/gltf_validator.h"
 #include "tests/support/graph/temp_dir.h"
 
 namespace fw::mesh_sequence_test {
@@ -74,7 +76,7 @@ std::vector<float> floatsOf(const std::string& glb, const nlohmann::json& docume
     std::memcpy(&length, glb.data() + 12, 4);
     const nlohmann::json& of = document["accessors"][accessor];
     const nlohmann::json& view = document["bufferViews"][of["bufferView"].get<std::size_t>()];
-    const std::size_t parts = of["type"] == "VEC3" ? 3 : 1;
+    const std::size_t parts = of["type"] == "VEC4" ? 4 : of["type"] == "VEC3" ? 3 : 1;
     std::vector<float> values(parts * of["count"].get<std::size_t>());
     std::memcpy(values.data(),
                 glb.data() + 28 + length + view.value("byteOffset", 0u) + of.value("byteOffset", 0u),
@@ -192,6 +194,11 @@ TEST_F(MeshSequence, IsMeasuredFrameByFrame) {
 }
 
 TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
+    // A blend of the two is no part that moves, though they are too far apart for it to be seen.
+    std::string blended = kGraph;
+    const std::string link = R"("b": {"from": "lift"})";
+    blended.replace(blended.find(link), link.size(), link + R"(, "radius": 0.3)");
+    test::writeText(graph, blended);
     const std::string path = folder.path("moves.glb");
     const CommandResult made = exported(path, {"--animated"});
     EXPECT_EQ(made.status, 0) << made.errors;
@@ -247,6 +254,73 @@ TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
     EXPECT_EQ(gone["meshes"].size(), 1u);
     const std::size_t input = gone["animations"][0]["samplers"][0]["input"];
     EXPECT_EQ(floatsOf(eaten, gone, input), (std::vector<float>{0.0f, 0.25f}));
+}
+
+/// A post, and a gate that turns on its hinge and has a bead which slides along it and grows.
+const std::string kGate = R"({"fieldwright": 1, "unit": "cm", "nodes": [
+  {"id": "post", "type": "box", "label": "the post", "inputs": {"half_extents": [0.1, 1, 0.1]}},
+  {"id": "leaf", "type": "box", "inputs": {"half_extents": [0.8, 0.6, 0.05]}},
+  {"id": "bead", "type": "sphere", "inputs": {"radius": 0.1}},
+  {"id": "grow", "type": "scale", "inputs": {"surface": {"from": "bead"}, "factor": 1}},
+  {"id": "slide", "type": "translate", "inputs": {"surface": {"from": "grow"}, "offset": [-0.5, 0, 0.3]}},
+  {"id": "wing", "type": "union", "inputs": {"a": {"from": "leaf"}, "b": {"from": "slide"}}},
+  {"id": "out_of_post", "type": "translate", "inputs": {"surface": {"from": "wing"}, "offset": [1, 0, 0]}},
+  {"id": "hinge", "type": "rotate", "inputs": {"surface": {"from": "out_of_post"}, "angles": [0, 0, 0]}},
+  {"id": "all", "type": "union", "inputs": {"a": {"from": "post"}, "b": {"from": "hinge"}}},
+  {"id": "paint", "type": "material", "inputs": {"surface": {"from": "all"}, "roughness": 0.3}},
+  {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}, "resolution": 64}}],
+ "timeline": {"length": 1, "fps": 8, "tracks": [
+   {"node": "hinge", "input": "angles", "keys": [{"time": 0, "value": [0, 0, 0]}, {"time": 1, "value": [0, 90, 0]}]},
+   {"node": "slide", "input": "offset", "keys": [{"time": 0, "value": [-0.5, 0, 0.3]}, {"time": 1, "value": [0.5, 0, 0.3]}]},
+   {"node": "grow", "input": "factor", "keys": [{"time": 0, "value": 1}, {"time": 1, "value": 2}]}]}})";
+
+TEST_F(MeshSequence, PartsThatMoveAsWholesAreNodesThatMove) {
+    test::writeText(graph, kGate);
+    const std::string path = folder.path("gate.glb");
+    const CommandResult made = exported(path, {"--animated"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    const std::string glb = readText(path);
+    const nlohmann::json document = jsonOf(glb);
+    // Named as in the graph, each behind what carries it; what carries nothing else is one with its part.
+    std::map<std::string, nlohmann::json> nodes;
+    for (const nlohmann::json& node : document["nodes"]) nodes[node["name"]] = node;
+    std::vector<std::string> names;
+    for (const auto& [name, node] : nodes) names.push_back(name);
+    EXPECT_EQ(names, (std::vector<std::string>{"bead", "gate", "grow", "hinge", "leaf", "out_of_post",
+                                               "slide", "the post"}));
+    EXPECT_EQ(document["meshes"].size(), 3u);
+    for (const char* part : {"bead", "leaf", "the post"}) EXPECT_TRUE(nodes[part].contains("mesh")) << part;
+    EXPECT_NEAR(nodes["out_of_post"]["translation"][0].get<double>(), 0.01, 1e-9) << "in metres";
+    for (const nlohmann::json& material : document["materials"])
+        EXPECT_NEAR(material["pbrMetallicRoughness"]["roughnessFactor"].get<double>(), 0.3, 1e-6);
+    std::map<std::string, std::vector<float>> values;
+    const nlohmann::json& animation = document["animations"][0];
+    for (const nlohmann::json& channel : animation["channels"]) {
+        const nlohmann::json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+        const nlohmann::json& node = document["nodes"][channel["target"]["node"].get<std::size_t>()];
+        values[node["name"].get<std::string>() + "." + channel["target"]["path"].get<std::string>()] =
+            floatsOf(glb, document, sampler["output"]);
+        EXPECT_EQ(floatsOf(glb, document, sampler["input"]).size(), 8u);
+    }
+    ASSERT_EQ(values.size(), 3u);
+    EXPECT_NEAR(values["slide.translation"][3 * 4], 0.0f, 1e-6f);
+    EXPECT_NEAR(values["grow.scale"][3 * 4], 1.5f, 1e-6f);
+    // 45 degrees about y, counter-clockwise from its tip.
+    EXPECT_NEAR(values["hinge.rotation"][4 * 4 + 1], std::sin(std::numbers::pi / 8), 1e-6);
+    EXPECT_NEAR(values["hinge.rotation"][4 * 4 + 3], std::cos(std::numbers::pi / 8), 1e-6);
+    test::expectValidGltf({path});
+    // Where parts meet on their way, and where one changes, frames take turns.
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>{"\"offset\": [1, 0, 0]", "\"offset\": [0.5, 0, 0]"},
+          {R"("node": "grow", "input": "factor")", R"("node": "bead", "input": "radius")"}}) {
+        std::string other = kGate;
+        other.replace(other.find(from), from.size(), to);
+        test::writeText(graph, other);
+        EXPECT_EQ(exported(path, {"--animated", "--to", "0.5"}).status, 0);
+        const nlohmann::json turns = jsonOf(readText(path));
+        EXPECT_EQ(turns["meshes"].size(), 4u) << to;
+        EXPECT_EQ(turns["animations"][0]["samplers"][0]["interpolation"], "STEP") << to;
+    }
 }
 
 TEST_F(MeshSequence, ASweepIsAMeshForEveryValue) {
