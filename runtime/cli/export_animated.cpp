@@ -81,7 +81,7 @@ void addTracks(GltfScene& scene, std::vector<GltfTrack>& tracks, const std::vect
     std::vector<std::vector<float>> moves, turns, sizes;
     for (const Pose& pose : poses) {
         auto& move = moves.emplace_back();
-        for (const double along : pose.move) move.push_back(float(along * scale));
+        for (const double along : pose.move) move.push_back(float(along * scale) + 0.0f);  // -0 is 0
         turns.emplace_back(pose.turn.begin(), pose.turn.end());
         sizes.emplace_back(3, float(pose.size));
     }
