@@ -123,7 +123,8 @@ Result<ExportState> ExportJob::Shared::atOnce(Opened opened) {
                     [this](const char* stage) { return start(stage); });
     if (!meshed) return meshed.error();
     if (!start("download")) return kStopped;
-    const Mesh mesh = meshed->session.download(meshed->mesh, exportFormat(wish.path)->parts);
+    const Mesh mesh = meshed->session.download(
+        meshed->mesh, exportFormat(wish.path)->parts ? MaterialParts::whole : MaterialParts::none);
     if (!start("report")) return kStopped;
     ExportState made{.phase = Phase::done, .stage = "done", .part = 1.0f};
     made.report = reportOnMesh(mesh.positions, mesh.indices);

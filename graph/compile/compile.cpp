@@ -141,6 +141,7 @@ Result<Program> compileGraph(const Graph& graph, const CompileOptions& options) 
     std::copy_n(roots.begin() + kSurfaceComponents, kSurfaceComponents, program.opaque.begin());
     program.live = std::move(lowering.live);
     program.origins = std::move(lowering.origins);
+    program.painters = std::move(lowering.painters);
     if (auto problem = fieldProblem(graph, *output, program.ir, program.distance())) return *problem;
     program.structureHash = program.ir.hash(roots);
     program.families = findFamilies(program.ir, program.distance());

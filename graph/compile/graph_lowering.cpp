@@ -91,12 +91,16 @@ Lowered GraphLowering::lower(const NodeAt& at) {
     const auto [origin, first] = originOf.try_emplace(at.path(), uint32_t(origins.size()));
     if (first) origins.push_back(at.path());
     const uint32_t outer = state.ir.setOrigin(origin->second);
+    const auto [painter, unknown] = painterOf.try_emplace(&at.node, uint32_t(painters.size()));
+    if (unknown) painters.push_back(at.node.label.empty() ? at.node.id : at.node.label);
+    const uint32_t outerPainter = std::exchange(state.painter, painter->second);
     Lowered made = at.node.muted && !at.type.open && !at.type.outputs.empty() ? passOn(at, &at.type.outputs)
                    : at.type.lower                                            ? at.type.lower(*this, at)
                                                                               : lowerBody(at);
     if (state.opaquePart && state.transmissions != transmissions)
         for (NodeOutput& output : made.outputs) language::leaveOpaquePart(state, output.value);
     state.ir.setOrigin(outer);
+    state.painter = outerPainter;
     // Particles are what they are, whatever they were put into.
     const bool simulated = std::ranges::any_of(
         made.outputs, [](const NodeOutput& output) { return output.type == Type::particles; });

@@ -108,6 +108,7 @@ class GraphLowering {
     std::vector<LiveParameter> live;
     std::map<std::string, NodeExactness, std::less<>> exactness;
     std::vector<std::string> origins = {""};        ///< Program::origins
+    std::vector<std::string> painters = {""};       ///< Program::painters
     std::vector<std::string>* canBeLive = nullptr;  ///< gets the name of every input that can be, if not null
     /// Of a node's code and the types of its inputs (-1: unknown), for groups have it in each instance.
     std::map<std::pair<const Node*, std::vector<int>>, language::Resolved> resolved;
@@ -116,7 +117,8 @@ class GraphLowering {
   private:
     /// Those of each group's instance, by its prefix; and, while the opaque part is made, those of the whole.
     std::map<std::string, LoweredNodes> lowered, whole;
-    std::unordered_map<std::string, uint32_t> originOf;  ///< its number among `origins`
+    std::unordered_map<std::string, uint32_t> originOf;   ///< its number among `origins`
+    std::unordered_map<const Node*, uint32_t> painterOf;  ///< its number among `painters`
 
     Lowered lower(const NodeAt& at);
 

@@ -11,7 +11,7 @@ std::array<IrId, 2 * kSurfaceComponents> Program::roots() const {
 }
 
 bool Program::hasMaterial() const {
-    for (std::size_t i = 0; i < kDefaultMaterial.size(); ++i)
+    for (std::size_t i = 0; i + 1 < painterComponent; ++i)
         if (!ir.isConstant(surface[i + 1], kDefaultMaterial[i])) return true;
     return false;
 }

@@ -49,6 +49,10 @@ struct Program {
     /// from. The first stands for none.
     std::vector<std::string> origins = {""};
 
+    /// Names of nodes, their labels where they have some: a surface's painter is the place of the one that
+    /// gave it its material, in every instance of a group the same. The first stands for none.
+    std::vector<std::string> painters = {""};
+
     int resolution = 128;  ///< cells along the longest side
     MeshMethod method = MeshMethod::marchingCubes;
     std::optional<Box> region;      ///< given by a polygonize node

@@ -232,7 +232,7 @@ class Emitter : GlslStatements {
 
     void material(std::string_view section, std::string_view name,
                   const std::array<IrId, kSurfaceComponents>& surface) {
-        const std::span<const IrId> roots(surface.data() + 1, kSurfaceComponents - 1);
+        const std::span<const IrId> roots(surface.data() + 1, painterComponent - 1);
         text += "#ifdef " + std::string(section) + "\nFieldMaterial " + std::string(name) + "(vec3 p) {\n";
         valueStatements(neededBy(roots));
         const auto scalar = [&](int component) { return value(surface[std::size_t(component)]); };

@@ -231,8 +231,15 @@ IrId mixed(Lowering& s, IrId a, IrId b, IrId t) {
 Result<Value> mix(Lowering& s, Arguments a) {
     if (a[0].type == Type::surface && a[1].type == Type::surface) {
         Value result{Type::surface};
-        for (int i = 0; i < kSurfaceComponents; ++i)
+        for (int i = 0; i < painterComponent; ++i)
             result.ids[i] = mixed(s, a[0].ids[i], a[1].ids[i], a[2].ids[0]);
+        // There is nobody between two painters: it is whose share is larger.
+        const auto painter = [&](const Value& v) { return v.ids[painterComponent]; };
+        result.ids[painterComponent] =
+            painter(a[0]) == painter(a[1])
+                ? painter(a[0])
+                : s.ir.add(Op::select, s.ir.add(Op::less, a[2].ids[0], number(s, 0.5)), painter(a[0]),
+                           painter(a[1]));
         return result;
     }
     return componentwise(a, [&](const auto& x) { return mixed(s, x[0], x[1], x[2]); });
@@ -371,6 +378,7 @@ Result<Value> withMaterial(Lowering& s, Arguments a) {
     if (a.size() > 7)
         std::ranges::copy_n(convert(s, a[7], Type::vec3)->ids.begin(), 3,
                             result.ids.begin() + absorptionComponent);
+    result.ids[painterComponent] = number(s, s.painter);
     s.transmissions += !s.ir.isConstant(result.ids[transmissionComponent], 0.0);
     return result;
 }

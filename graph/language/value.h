@@ -45,6 +45,7 @@ struct Lowering {
     std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
     /// Surfaces through which light passes are nothing: what is made is the opaque part of the whole.
     bool opaquePart = false;
+    uint32_t painter = 0;           ///< what is painted from here on is so by this one, Program::painters
     std::size_t transmissions = 0;  ///< surfaces that were given a transmission other than 0
 };
 

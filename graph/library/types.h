@@ -16,7 +16,7 @@ enum class Type : unsigned char {
     scalar,  ///< "float" in files and code
     vec2,
     vec3,
-    surface,    ///< distance and material: fourteen scalars, in the order of `SurfaceComponent`
+    surface,    ///< distance and material: fifteen scalars, in the order of `SurfaceComponent`
     string,     ///< an enum choice, a path or a text; known when the graph is compiled
     points,     ///< a list of vec2, known when the graph is compiled
     stops,      ///< a list of positions with a colour each, likewise
@@ -27,7 +27,7 @@ enum class Type : unsigned char {
 inline constexpr int kTypes = int(Type::particles) + 1;
 
 /// Scalars of a surface.
-inline constexpr int kSurfaceComponents = 14;
+inline constexpr int kSurfaceComponents = 15;
 
 /// Number of scalars that represent a value of this type in the IR; 0 for all that is no function of
 /// position.
@@ -71,13 +71,14 @@ enum SurfaceComponent {
     emissionComponent = 6,
     transmissionComponent = 9,
     iorComponent = 10,
-    absorptionComponent = 11
+    absorptionComponent = 11,
+    painterComponent = 14  ///< number among Program::painters of the node that gave the material; 0: none did
 };
 
 /// The material of a surface that no material node touched: base colour, roughness, metallic, emission,
-/// transmission, index of refraction, absorption (1/m).
+/// transmission, index of refraction, absorption (1/m); and no painter.
 inline constexpr std::array<double, kSurfaceComponents - 1> kDefaultMaterial = {
-    0.8, 0.8, 0.8, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0};
+    0.8, 0.8, 0.8, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0, 0.0};
 
 /// How a field's value relates to the distance to its zero set (definitions: sdf.md's "exact", "bound",
 /// "distorted").

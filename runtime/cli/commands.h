@@ -75,12 +75,15 @@ struct ExportOptions : MeshOutput {
     std::vector<std::string> sweep;  ///< a mesh for every variant (graph/document/sweep.h)
     std::string format;              ///< of the meshes of a sequence or sweep: "glb"; empty: that
     bool manifold = false, compress = false, parts = false;  ///< as fw::ExportOptions has them
+    bool splitMaterials = false;                             ///< faces are cut where materials meet
     PlacementWish placement = {};
     int tiles = 0;          ///< along the longest side; 0: as many as it takes
     std::string share;      ///< "i/n": only this part of the tiles; empty: all
     std::string particles;  ///< the node whose particles are written in place of a mesh; empty: none
 };
 int runExport(const ExportOptions& options);
+/// What parts a file of that name has of its mesh.
+MaterialParts partsOf(const ExportOptions& options, const std::string& path);
 
 struct MergeOptions : MeshOutput {
     std::vector<std::string> parts;

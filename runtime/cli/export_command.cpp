@@ -45,7 +45,7 @@ Result<WholeMesh> meshWhole(const ExportOptions& options, OpenedGraph graph, Pro
         Result<MeshedProgram> meshed = meshOpened(std::move(graph), progress, timed);
         if (!meshed) return meshed.error();
         progress.start("download", 60);
-        Mesh mesh = meshed->session.download(meshed->mesh, exportFormat(options.output)->parts);
+        Mesh mesh = meshed->session.download(meshed->mesh, partsOf(options, options.output));
         return WholeMesh{std::move(*meshed), std::move(mesh)};
     } catch (const DeviceTooSmall& full) {
         if (!canTile) throw DeviceTooSmall(full.what() + std::string(kOrTiles));
@@ -140,7 +140,15 @@ int exportParticles(const ExportOptions& options, Progress& progress) {
 }  // namespace
 
 fw::ExportOptions fileOptions(const ExportOptions& options) {
-    return {.manifold = options.manifold, .compress = options.compress, .parts = options.parts};
+    return {.manifold = options.manifold,
+            .compress = options.compress,
+            .parts = options.parts,
+            .splitMaterials = options.splitMaterials};
+}
+
+MaterialParts partsOf(const ExportOptions& options, const std::string& path) {
+    if (!exportFormat(path)->parts) return MaterialParts::none;
+    return options.splitMaterials ? MaterialParts::cut : MaterialParts::whole;
 }
 
 int runExport(const ExportOptions& options) {

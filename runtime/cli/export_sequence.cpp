@@ -103,7 +103,7 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
     const auto make = [&](Player& player, long number, const std::string& path, std::function<void()> kept) {
         if (const Done shown = many.show(player, number); !shown)
             return badInput(options.mesh, shown.error());
-        Result<Mesh> mesh = player.mesh(exportFormat(path)->parts);
+        Result<Mesh> mesh = player.mesh(partsOf(options, path));
         if (!mesh) return badInput(options.mesh, in(mesh.error(), many.one + (' ' + files.name(number))));
         if (mesh->indices.empty() && !std::exchange(empty, true))
             std::fprintf(stderr, "%s: note: the solid is empty there, and the file has no triangles\n",

@@ -179,6 +179,10 @@ int run(int count, char** arguments) {
         "Of a .glb or .gltf: few bits a number and meshoptimizer's code "
         "(KHR_mesh_quantization, EXT_meshopt_compression), a sixth of the size; three.js, "
         "Babylon and game engines read it");
+    exportCommand->add_flag(
+        "--split-materials", exportOptions.splitMaterials,
+        "Cut the faces of a .glb, .gltf or .obj where the materials of two nodes meet, so "
+        "that each is of one");
     exportCommand->add_flag("--parts", exportOptions.parts,
                             "Of a .glb or .gltf: what touches nowhere is a node of its own");
     std::vector<std::string> units;
@@ -245,10 +249,11 @@ int run(int count, char** arguments) {
             "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge; a "
             "part that was stopped goes on where it was")
         ->check(something());
-    for (const char* ofMeshes :
-         {"--resolution", "--region", "--method", "--manifold",  "--compress", "--parts",    "--unit",
-          "--up",         "--for",    "--report", "--require",   "--tiles",    "--tile",     "--from",
-          "--to",         "--fps",    "--range",  "--overwrite", "--format",   "--animated", "--sweep"})
+    for (const char* ofMeshes : {"--resolution", "--region",  "--method", "--manifold",  "--split-materials",
+                                 "--compress",   "--parts",   "--unit",   "--up",        "--for",
+                                 "--report",     "--require", "--tiles",  "--tile",      "--from",
+                                 "--to",         "--fps",     "--range",  "--overwrite", "--format",
+                                 "--animated",   "--sweep"})
         particles->excludes(exportCommand->get_option(ofMeshes));
     for (const char* ofSequences :
          {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep"})

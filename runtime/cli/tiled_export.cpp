@@ -207,6 +207,10 @@ Done checkTiledExport(const ExportOptions& options) {
         return refuse(
             "--compress and --parts hold the whole mesh in memory, which tiles are there to avoid: leave "
             "them out");
+    if (options.splitMaterials)
+        return refuse(
+            "--split-materials is for a mesh that is made as a whole: leave it out, or --tiles and "
+            "--tile");
     if (options.share.empty()) return checkPiecesPath(options.output);
     if (!options.placement.isNone())
         return refuse("a part is in the document's unit and +Y up: leave out --unit, --up and --for");

@@ -81,15 +81,6 @@ std::vector<glm::vec3> repairedNormals(const Mesh& mesh) {
     return normals;
 }
 
-/// Names stand on a line of their own in OBJ, and in JSON and XML: spaces, control characters and broken
-/// UTF-8 must not reach them.
-std::string printable(std::string name) {
-    for (std::size_t bad; (bad = firstBadByte(name)) != std::string::npos;) name[bad] = '_';
-    for (char& c : name)
-        if ((c > 0 && c <= ' ') || c == 127) c = '_';
-    return name.empty() ? "mesh" : name;
-}
-
 /// What keeps the mesh from being a solid for the format; empty if nothing does. A level set needs an inside.
 /// 3MF and EXT_mesh_manifold need two triangles at each edge, which run along it in opposite directions;
 /// parts may touch at a vertex. Triangles that collapsed are left out of 3MF, but glTF has to show them.
@@ -272,6 +263,13 @@ std::optional<Mesh> withUnitNormals(const Mesh& mesh) {
     return repaired;
 }
 
+std::string printable(std::string name) {
+    for (std::size_t bad; (bad = firstBadByte(name)) != std::string::npos;) name[bad] = '_';
+    for (char& c : name)
+        if ((c > 0 && c <= ' ') || c == 127) c = '_';
+    return name.empty() ? "mesh" : name;
+}
+
 std::string objectName(const std::string& path, const ExportOptions& options) {
     return printable(options.name.empty() ? std::filesystem::path(path).stem().string() : options.name);
 }
@@ -334,6 +332,12 @@ Done checkExportPath(const std::string& path, const ExportOptions& options, bool
             return Error{
                 .message = "a mesh that is marked as a solid is neither compressed nor parted: choose one",
                 .file = path};
+        if (options.splitMaterials && !format->parts)
+            return Error{.message =
+                             "faces are cut where materials meet in .glb, .gltf and .obj alone: leave "
+                             "--split-materials out for " +
+                             ending,
+                         .file = path};
         if (measured && !format->measurable)
             return Error{.message = ending +
                                     " holds distances and no triangles that a report could measure: "
@@ -510,6 +514,8 @@ Result<ExportedFiles> exportPieces(const MeshPieces& given, const std::string& p
 }
 
 std::string partName(const Mesh& mesh, const std::string& name, std::size_t part) {
+    const std::string& own = mesh.parts.empty() ? mesh.materialName : mesh.parts[part].name;
+    if (!own.empty()) return own;
     return mesh.parts.empty() ? name : name + "_" + std::to_string(part + 1);
 }
 

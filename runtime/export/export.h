@@ -36,7 +36,9 @@ struct ExportOptions {
     bool compress = false;     ///< of glTF: few bits a number, in meshoptimizer's code (compress.h)
     bool parts = false;        ///< of glTF: what touches nowhere is a node of its own
     Placement placement = {};  ///< of the mesh in the file
-    bool mayBeEmpty = false;   ///< a mesh without triangles is a file without any, and no error
+    bool splitMaterials =
+        false;  ///< the mesh was cut where materials meet; of formats that have a material for each part
+    bool mayBeEmpty = false;  ///< a mesh without triangles is a file without any, and no error
     const std::atomic<bool>* cancel =
         nullptr;  ///< read between chunks of at most 4 MiB; true ends the export
     /// Called with the files, whole, before they replace what has their names; an Error ends the export.

@@ -27,6 +27,8 @@ Result<Bounds> checkMesh(const Mesh& mesh, const std::string& path);
 std::optional<Mesh> withUnitNormals(const Mesh& mesh);
 /// What the object in a file is called.
 std::string objectName(const std::string& path, const ExportOptions& options);
+/// The name without blanks, control characters and broken UTF-8: names stand on a line of their own in OBJ.
+std::string printable(std::string name);
 /// A file's name as a URI.
 std::string percentEncoded(const std::string& name);
 /// Gives the files their names, if options.examine() finds nothing wrong: `file`, and the one beside it.
@@ -105,7 +107,8 @@ std::string write3mf(const Mesh& mesh, const WeldedMesh& solid, const std::strin
 std::string writeVdb(const WeldedMesh& solid, float voxel, const std::string& name,
                      const std::atomic<bool>* cancel, OutputFile& file);
 
-/// What a part's material is called: as the mesh, and where there are several with its number from 1.
+/// What a part's material is called: by its own name; else as the mesh, and where there are several with its
+/// number from 1.
 std::string partName(const Mesh& mesh, const std::string& name, std::size_t part);
 
 /// "Fieldwright 0.1.0"

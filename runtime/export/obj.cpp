@@ -44,6 +44,10 @@ char* putColor(char* out, glm::vec3 color) {
     return out;
 }
 
+std::string materialName(const Mesh& mesh, const std::string& name, std::size_t part) {
+    return printable(partName(mesh, name, part));
+}
+
 void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, OutputFile& library) {
     const auto linear = [](glm::vec3 v) {
         std::array<char, kLongestLine> text{};
@@ -64,9 +68,9 @@ void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, Output
             library.write("Tf" + encoded(base * material.transmission) + "\nNi " +
                           std::to_string(material.ior) + "\nillum 7\n");
     };
-    if (mesh.parts.empty()) write(mesh.material, name);
+    if (mesh.parts.empty()) write(mesh.material, materialName(mesh, name, 0));
     for (std::size_t i = 0; i < mesh.parts.size(); ++i)
-        write(mesh.parts[i].material, partName(mesh, name, i));
+        write(mesh.parts[i].material, materialName(mesh, name, i));
 }
 
 }  // namespace
@@ -133,12 +137,12 @@ void writeObj(const Mesh& mesh, const std::string& name, const std::string& libr
     writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, placement, file, library);
     writeObjVertices(mesh, file);
     if (mesh.parts.empty()) {
-        writeObjMaterial(name, file);
+        writeObjMaterial(materialName(mesh, name, 0), file);
         writeObjFaces(mesh, 0, mesh.triangleCount(), file);
     }
     std::size_t first = 0;
     for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
-        writeObjMaterial(partName(mesh, name, i), file);
+        writeObjMaterial(materialName(mesh, name, i), file);
         writeObjFaces(mesh, first, mesh.parts[i].triangles, file);
         first += mesh.parts[i].triangles;
     }

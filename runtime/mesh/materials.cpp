@@ -10,16 +10,16 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 
-#include "graph/base/parallel.h"
-#include "graph/evaluate/tape.h"
+#include "runtime/mesh/field_values.h"
 
 namespace fw {
 namespace {
 
 /// A material as its numbers, which stand in the order of SurfaceComponent.
-constexpr std::size_t kNumbers = kSurfaceComponents - roughnessComponent;
+constexpr std::size_t kNumbers = painterComponent - roughnessComponent;
 using Numbers = std::array<float, kNumbers>;
 static_assert(sizeof(Material) == sizeof(Numbers));
 
@@ -55,77 +55,43 @@ Steps stepsOf(const Material& m, float chord, float levels) {
 }
 
 struct Groups {
-    std::vector<uint32_t> of;  ///< each material
+    std::vector<uint32_t> of;  ///< each triangle
     std::size_t count = 0;
 };
 
-/// Nothing if they are more than kMostMaterials.
-std::optional<Groups> groupsOf(std::span<const Material> materials, float chord, float levels) {
-    std::map<Steps, uint32_t> known;
+/// Nothing if materials of one painter are more than kMostMaterials.
+std::optional<Groups> groupsOf(std::span<const PaintedBy> triangles, float chord, float levels) {
+    std::map<std::pair<uint32_t, Steps>, uint32_t> known;
+    std::map<uint32_t, std::size_t> ofPainter;
     Groups groups;
-    groups.of.reserve(materials.size());
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        if (i > 0 && materials[i] == materials[i - 1]) {
+    groups.of.reserve(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (i > 0 && triangles[i] == triangles[i - 1]) {
             groups.of.push_back(groups.of.back());
             continue;
         }
-        const auto next = uint32_t(known.size());
-        groups.of.push_back(known.try_emplace(stepsOf(materials[i], chord, levels), next).first->second);
-        if (known.size() > kMostMaterials) return std::nullopt;
+        const auto [painter, material] = triangles[i];
+        const auto [group, isNew] =
+            known.try_emplace({painter, stepsOf(material, chord, levels)}, uint32_t(known.size()));
+        if (isNew && ++ofPainter[painter] > kMostMaterials) return std::nullopt;
+        groups.of.push_back(group->second);
     }
     groups.count = known.size();
     return groups;
 }
 
-using Machine = TapeMachine<float>;
-constexpr std::size_t kBatch = Machine::kPoints;
-
-glm::vec3 middleOf(const Mesh& mesh, std::size_t triangle) {
-    const uint32_t* corner = &mesh.indices[3 * triangle];
-    return (mesh.positions[corner[0]] + mesh.positions[corner[1]] + mesh.positions[corner[2]]) / 3.0f;
-}
-
-/// Of the field, for the middles of the triangles from first to before last. Neighbours mostly follow each
-/// other, so that their box is small and its tape short.
-Tape tapeAt(Machine& machine, const Tape& field, const Mesh& mesh, std::size_t first, std::size_t last) {
-    glm::vec3 low = middleOf(mesh, first), high = low;
-    for (std::size_t t = first + 1; t < last; ++t) {
-        const glm::vec3 middle = middleOf(mesh, t);
-        low = glm::min(low, middle);
-        high = glm::max(high, middle);
-    }
-    machine.interval(field, {{low.x, low.y, low.z}, {high.x, high.y, high.z}});
-    return machine.shortens() ? machine.shortened(field) : field;
-}
-
-/// Of a batch of triangles, from `first` on.
-void evaluate(Machine& machine, const Tape& tape, const Mesh& mesh, std::size_t first,
-              std::span<Material> materials) {
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        const glm::vec3 middle = middleOf(mesh, first + i);
-        for (int axis = 0; axis < 3; ++axis) machine.position(axis)[i] = middle[axis];
-    }
-    machine.value(tape, materials.size());
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        Numbers numbers;
-        for (std::size_t k = 0; k < kNumbers; ++k) numbers[k] = machine.root(tape, k)[i];
-        materials[i] = std::bit_cast<Material>(numbers);
-    }
-}
-
-std::vector<Material> materialsAt(const Mesh& mesh, const Program& program) {
-    const Tape field =
-        makeTape(program.ir, std::span(program.surface).subspan(roughnessComponent), program.parameters());
-    std::vector<Material> materials(mesh.triangleCount());
-    forBlocks(materials.size(), 32 * kBatch, [&](std::size_t, std::size_t first, std::size_t last) {
-        Machine machine;
-        for (std::size_t at = first; at < last; at += kBatch) {
-            const std::size_t end = std::min(at + kBatch, last);
-            evaluate(machine, tapeAt(machine, field, mesh, at, end), mesh, at,
-                     std::span(materials).subspan(at, end - at));
-        }
-    });
-    return materials;
+/// The name, or with a number behind it, so that it differs from all in `taken`, where it is put; also for
+/// who takes blanks for underscores, as OBJ has to.
+std::string uniqueName(const std::string& name, std::set<std::string>& taken) {
+    const auto isNew = [&](std::string candidate) {
+        std::ranges::replace_if(
+            candidate, [](char c) { return c > 0 && c <= ' '; }, '_');
+        return taken.insert(candidate).second;
+    };
+    std::string unique = name;
+    for (int number = 2; !name.empty() && !isNew(unique); ++number)
+        unique = name + "_" + std::to_string(number);
+    return unique;
 }
 
 }  // namespace
@@ -160,39 +126,65 @@ bool hasManyMaterials(const Program& program) {
     return !std::ranges::all_of(roots, [&](IrId id) { return program.ir.isConstant(id); });
 }
 
-void partByMaterial(Mesh& mesh, std::vector<Material> ofTriangles) {
-    for (Material& material : ofTriangles) material = limited(material);
+std::vector<glm::vec3> middlesOf(const Mesh& mesh) {
+    std::vector<glm::vec3> middles(mesh.triangleCount());
+    for (std::size_t t = 0; t < middles.size(); ++t) {
+        const uint32_t* corner = &mesh.indices[3 * t];
+        middles[t] =
+            (mesh.positions[corner[0]] + mesh.positions[corner[1]] + mesh.positions[corner[2]]) / 3.0f;
+    }
+    return middles;
+}
+
+void partByMaterial(Mesh& mesh, std::vector<PaintedBy> triangles, std::span<const std::string> painters) {
+    for (PaintedBy& triangle : triangles) triangle.material = limited(triangle.material);
     const float chord = sizeOf(mesh).meanChord();
     std::optional<Groups> found;
-    for (int levels = 256; !found; levels /= 2) found = groupsOf(ofTriangles, chord, float(levels));
+    for (int levels = 256; !found; levels /= 2) found = groupsOf(triangles, chord, float(levels));
     const auto& [groups, count] = *found;
 
     std::vector<std::array<double, kNumbers>> sums(count);
+    std::vector<uint32_t> painterOf(count);
     std::vector<std::size_t> ends(count + 1);  // of the triangles of each group; first, of those before it
-    for (std::size_t t = 0; t < ofTriangles.size(); ++t) {
-        const auto numbers = std::bit_cast<Numbers>(ofTriangles[t]);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const auto numbers = std::bit_cast<Numbers>(triangles[t].material);
         for (std::size_t k = 0; k < kNumbers; ++k) sums[groups[t]][k] += numbers[k];
+        painterOf[groups[t]] = triangles[t].painter;
         ++ends[groups[t] + 1];
     }
     mesh.parts.resize(count);
+    std::set<std::string> taken;
     for (std::size_t i = 0; i < count; ++i) {
         Numbers mean;
         for (std::size_t k = 0; k < kNumbers; ++k)
             mean[k] = static_cast<float>(sums[i][k] / double(ends[i + 1]));
-        mesh.parts[i] = {std::bit_cast<Material>(mean), ends[i + 1]};
+        const std::string name = painterOf[i] < painters.size() ? painters[painterOf[i]] : "";
+        mesh.parts[i] = {std::bit_cast<Material>(mean), ends[i + 1], uniqueName(name, taken)};
     }
     if (count == 1) {
         mesh.material = mesh.parts[0].material;
+        mesh.materialName = mesh.parts[0].name;
         mesh.parts.clear();
         return;
     }
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     std::vector<uint32_t> indices(mesh.indices.size());
-    for (std::size_t t = 0; t < ofTriangles.size(); ++t)
+    for (std::size_t t = 0; t < triangles.size(); ++t)
         std::copy_n(&mesh.indices[3 * t], 3, &indices[3 * ends[groups[t]]++]);
     mesh.indices = std::move(indices);
 }
 
-void partByMaterial(Mesh& mesh, const Program& program) { partByMaterial(mesh, materialsAt(mesh, program)); }
+void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places) {
+    const Tape field =
+        makeTape(program.ir, std::span(program.surface).subspan(roughnessComponent), program.parameters());
+    const std::vector<float> values = fieldValues(field, places);
+    std::vector<PaintedBy> triangles(places.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        Numbers numbers;
+        std::copy_n(&values[t * (kNumbers + 1)], kNumbers, numbers.begin());
+        triangles[t] = {uint32_t(values[t * (kNumbers + 1) + kNumbers]), std::bit_cast<Material>(numbers)};
+    }
+    partByMaterial(mesh, std::move(triangles), program.painters);
+}
 
 }  // namespace fw

@@ -2,11 +2,15 @@
 //
 // Such formats know a base colour for each vertex, and all else once for a group of triangles. A triangle has
 // the material that the field has at its middle: there a solid of two parts has that of one of them, where
-// vertices on the seam may have either's. What differs by less than a 256th is taken for one; of materials
-// that vary from place to place so finely that they are too many, what differs by less than twice that, and
-// so on. A group has the mean of its triangles' materials: parts that are uniform keep their numbers.
+// vertices on the seam may have either's; split_materials.h cuts along the seam first. Each node that gave a
+// material has groups of its own, which are called after it. What differs by less than a 256th is taken for
+// one; of materials of one node that vary from place to place so finely that they are too many, what differs
+// by less than twice that, and so on. A group has the mean of its triangles' materials: parts that are
+// uniform keep their numbers.
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "graph/compile/program.h"
@@ -29,16 +33,31 @@ SolidSize sizeOf(const Mesh& mesh);
 /// Light passes through some triangles.
 bool transmits(const Mesh& mesh);
 
-/// Whether something of the program's material, beside its base colour, is not the same everywhere.
+/// Whether something of the program's material, beside its base colour, is not the same everywhere, or not
+/// from one node.
 bool hasManyMaterials(const Program& program);
 
-inline constexpr std::size_t kMostMaterials = 64;
+inline constexpr std::size_t kMostMaterials = 64;  ///< of one node
 
-/// Gives the mesh parts, at most kMostMaterials, in the order in which they first appear; one material alone
-/// becomes the mesh's. Triangles of a part keep their order. `ofTriangles` are limited to what they may be,
-/// and what is not a number becomes the least of that.
-void partByMaterial(Mesh& mesh, std::vector<Material> ofTriangles);
-/// The same with those of the program's field.
-void partByMaterial(Mesh& mesh, const Program& program);
+/// Whether a mesh has a part for each of its materials: none, of whole triangles, or cut where two meet.
+enum class MaterialParts { none, whole, cut };
+
+/// A triangle's material, and who gave it: the place of a name.
+struct PaintedBy {
+    uint32_t painter = 0;
+    Material material;
+    bool operator==(const PaintedBy&) const = default;
+};
+
+/// The middle of each triangle.
+std::vector<glm::vec3> middlesOf(const Mesh& mesh);
+
+/// Gives the mesh parts, at most kMostMaterials a painter, in the order in which they first appear; one
+/// material alone becomes the mesh's. Triangles of a part keep their order. `triangles` are limited to what
+/// they may be, and what is not a number becomes the least of that. Parts have the names of their painters,
+/// of which none is in use twice: further ones end in a number.
+void partByMaterial(Mesh& mesh, std::vector<PaintedBy> triangles, std::span<const std::string> painters);
+/// The same with those of the program's field, of each triangle at a place.
+void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places);
 
 }  // namespace fw

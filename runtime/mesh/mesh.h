@@ -25,6 +25,7 @@ struct Material {
 struct MeshPart {
     Material material;
     std::size_t triangles = 0;
+    std::string name = {};  ///< of the material, which no other part has; empty: none
 };
 
 /// A triangle mesh. Right-handed, +Y up, metres; triangles wind counter-clockwise seen from outside.
@@ -37,6 +38,7 @@ struct Mesh {
 
     glm::vec3 baseColor{0.8f};  ///< where `colors` is empty
     Material material;          ///< of the whole mesh, if it has no parts
+    std::string materialName;   ///< its name; empty: none
     /// Empty, or two at least: all triangles in order, those of one part behind those of the part before.
     std::vector<MeshPart> parts;
 

@@ -83,7 +83,7 @@ Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNod
         options.resolution =
             std::clamp(int(std::ceil(longestSide(region) / cellSize)), kFewestCells, kMostCells);
         if (const Done set = player.reload(nodes[i].part, options); !set) return named(set.error());
-        Result<Mesh> mesh = player.mesh(true);
+        Result<Mesh> mesh = player.mesh(MaterialParts::whole);
         if (!mesh) return named(mesh.error());
         if (mesh->indices.empty()) return named({.message = "it is empty, or smaller than a cell"});
         meshes[i] = {std::move(*mesh), player.programOnHost()};

@@ -357,7 +357,7 @@ Result<MesherResult> Player::makeMesh(bool stages, uint32_t show) {
     return result;
 }
 
-Result<Mesh> Player::mesh(bool parts) {
+Result<Mesh> Player::mesh(MaterialParts parts) {
     return halvedIfFull([&]() -> Result<Mesh> {
         const Result<MesherResult> result = makeMesh(true);
         if (!result) return result.error();

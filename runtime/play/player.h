@@ -104,7 +104,7 @@ class Player {
 
     /// The mesh now, copied to the host; without triangles where the solid is empty. Errors as
     /// Session::polygonise. With `parts`, where the material varies, each part has its own (partByMaterial).
-    Result<Mesh> mesh(bool parts = false);
+    Result<Mesh> mesh(MaterialParts parts = MaterialParts::none);
     /// The same where the mesher left it on the device: in deviceMesh(), until the next call of anything.
     /// That of a picture that showsParticles() lacks their surfaces.
     Result<MesherResult> meshOnDevice(uint32_t show = RENDER_PICTURE);

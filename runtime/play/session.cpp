@@ -11,6 +11,7 @@
 #include "runtime/measure/field_measure.h"
 #include "runtime/mesh/creases.h"
 #include "runtime/mesh/materials.h"
+#include "runtime/mesh/split_materials.h"
 #include "runtime/mesher/host.h"
 #include "runtime/stages/decimate.h"
 #include "runtime/stages/project_host.h"
@@ -406,12 +407,23 @@ void Session::dropMesh() {
     stageBuffers = MeshStageBuffers();
 }
 
-Mesh Session::download(const MesherResult& result, bool parts) const {
+std::string Session::materialName() const {
+    const IrId id = current.surface[painterComponent];
+    return current.ir.isConstant(id) ? current.painters[std::size_t(current.ir.number(id))] : "";
+}
+
+Mesh Session::download(const MesherResult& result, MaterialParts wanted) const {
     Mesh mesh = downloadMesh(*gpu, buffers, result);
-    if (result.creases) splitCreases(mesh);
     mesh.baseColor = baseColor();
     mesh.material = material();
-    if (parts && hasManyMaterials(current)) partByMaterial(mesh, onHost());
+    mesh.materialName = materialName();
+    const bool parts = wanted != MaterialParts::none && hasManyMaterials(current);
+    const Program program = parts ? onHost() : Program();
+    std::vector<glm::vec3> places;
+    if (parts && wanted == MaterialParts::cut) places = splitMaterials(mesh, program);
+    if (result.creases) splitCreases(mesh);
+    if (parts && places.empty()) places = middlesOf(mesh);
+    if (parts) partByMaterial(mesh, program, places);
     return mesh;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "graph/compile/compile.h"
+#include "runtime/mesh/materials.h"
 #include "runtime/mesher/mesher.h"
 #include "runtime/particles/particle_fields.h"
 #include "runtime/render/renderer.h"
@@ -115,7 +116,7 @@ class Session {
 
     /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
     /// With `parts`, where the material varies, each part of the mesh has its own (partByMaterial).
-    Mesh download(const MesherResult& result, bool parts = false) const;
+    Mesh download(const MesherResult& result, MaterialParts parts = MaterialParts::none) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
     /// Another number if mesh or field differ from what they were at another.
     uint64_t contentNumber() const { return content; }
@@ -149,6 +150,8 @@ class Session {
         return {
             .parameters = &parameters, .images = &images, .volumes = &volumes, .before = &parametersBefore};
     }
+    /// Of the node that gave the whole surface its material; empty if that is not one.
+    std::string materialName() const;
     /// As those of the frame before the next one.
     void rememberParameters();
     bool hasMesherKernels() const { return built && builtHash == current.structureHash; }

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "graph/document/json.h"
+#include "runtime/measure/mesh_report.h"
+#include "runtime/measure/read_back.h"
 #include "runtime/play/tiled_mesh.h"
 #include "tests/support/gpu.h"
 #include "tests/support/graph/temp_dir.h"
@@ -37,10 +40,17 @@ Session sessionOf(const std::string& nodes) {
     return session;
 }
 
-Mesh meshOf(Session& session, int resolution, bool parts) {
+Mesh meshOf(Session& session, int resolution, MaterialParts parts) {
     const Result<MesherResult> result = session.polygonise({std::nullopt, resolution});
     if (!result) throw SystemError(format(result.error()));
     return session.download(*result, parts);
+}
+
+/// All by one painter without a name.
+void part(Mesh& mesh, const std::vector<Material>& ofTriangles) {
+    std::vector<PaintedBy> triangles;
+    for (const Material& material : ofTriangles) triangles.push_back({0, material});
+    partByMaterial(mesh, triangles, {});
 }
 
 glm::vec3 middleOf(const Mesh& mesh, std::size_t triangle) {
@@ -77,7 +87,7 @@ TEST(Materials, EqualOnesAreAPartAndKeepTheirNumbers) {
     std::vector<Material> ofTriangles;
     for (std::size_t t = 0; t < whole.triangleCount(); ++t) ofTriangles.push_back(cycle[t % 4]);
     Mesh mesh = whole;
-    partByMaterial(mesh, ofTriangles);
+    part(mesh, ofTriangles);
     ASSERT_EQ(mesh.parts.size(), 3u);
     const Material expected[] = {brass, glass, lamp};
     std::vector<uint32_t> indices;
@@ -94,7 +104,7 @@ TEST(Materials, EqualOnesAreAPartAndKeepTheirNumbers) {
     EXPECT_EQ(mesh.indices, indices);
 
     mesh = whole;
-    partByMaterial(mesh, std::vector<Material>(whole.triangleCount(), glass));
+    part(mesh, std::vector<Material>(whole.triangleCount(), glass));
     EXPECT_TRUE(mesh.parts.empty());
     EXPECT_EQ(mesh.material, glass);
     EXPECT_EQ(mesh.indices, whole.indices);
@@ -110,7 +120,7 @@ TEST(Materials, OnesThatVaryFinelyAreFewAndNear) {
             ofTriangles.back().roughness;
     }
     const auto before = sortedTriangles(mesh);
-    partByMaterial(mesh, ofTriangles);
+    part(mesh, ofTriangles);
     EXPECT_EQ(sortedTriangles(mesh), before);
     EXPECT_GT(mesh.parts.size(), kMostMaterials / 4);
     EXPECT_LE(mesh.parts.size(), kMostMaterials);
@@ -129,7 +139,7 @@ TEST(Materials, OnesThatVaryFinelyAreFewAndNear) {
         ofTriangles[i] = {wave(1), wave(2),     {wave(3), wave(4), wave(5)},
                           wave(6), 1 + wave(7), {wave(8), 9 * wave(9), 99 * wave(10)}};
     }
-    partByMaterial(mesh, ofTriangles);
+    part(mesh, ofTriangles);
     EXPECT_LE(mesh.parts.size(), kMostMaterials);
     EXPECT_EQ(sortedTriangles(mesh), before);
 }
@@ -138,10 +148,10 @@ TEST(Materials, NumbersOutOfRangeAreLimited) {
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN(),
                     kEndless = std::numeric_limits<float>::infinity();
     Mesh mesh = test::tetrahedron();
-    partByMaterial(mesh, {{.roughness = kNone, .metallic = -1, .emission = {kNone, -1, kEndless}},
-                          {.roughness = 7, .transmission = kNone, .ior = kNone},
-                          {.transmission = 1, .ior = kNone, .absorption = {kNone, 1e9f, kEndless}},
-                          {.transmission = 1, .ior = kEndless}});
+    part(mesh, {{.roughness = kNone, .metallic = -1, .emission = {kNone, -1, kEndless}},
+                {.roughness = 7, .transmission = kNone, .ior = kNone},
+                {.transmission = 1, .ior = kNone, .absorption = {kNone, 1e9f, kEndless}},
+                {.transmission = 1, .ior = kEndless}});
     ASSERT_EQ(mesh.parts.size(), 4u);
     constexpr float kMost = std::numeric_limits<float>::max();
     EXPECT_EQ(mesh.parts[0].material, (Material{.roughness = 0, .emission = {0, 0, kMost}}));
@@ -164,7 +174,8 @@ const std::string kTwoBalls = R"(
 
 TEST(Materials, EachTriangleHasThatOfTheFieldAtIt) {
     Session session = sessionOf(kTwoBalls);
-    const Mesh whole = meshOf(session, 64, false), mesh = meshOf(session, 64, true);
+    const Mesh whole = meshOf(session, 64, MaterialParts::none),
+               mesh = meshOf(session, 64, MaterialParts::whole);
     EXPECT_TRUE(whole.parts.empty());
     EXPECT_EQ(sortedTriangles(mesh), sortedTriangles(whole));
     ASSERT_EQ(mesh.parts.size(), 2u);
@@ -178,6 +189,119 @@ TEST(Materials, EachTriangleHasThatOfTheFieldAtIt) {
     EXPECT_NEAR(double(mesh.parts[0].triangles), double(t) / 2, double(t) / 50);
 }
 
+std::vector<std::string> namesOf(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const MeshPart& part : mesh.parts) names.push_back(part.name);
+    std::ranges::sort(names);
+    return names;
+}
+
+TEST(Materials, AreCalledAsTheirNodes) {
+    Session session = sessionOf(kTwoBalls);
+    EXPECT_EQ(namesOf(meshOf(session, 32, MaterialParts::whole)),
+              (std::vector<std::string>{"brass", "glass"}));
+    session = sessionOf(R"({"id": "ball", "type": "sphere"},
+        {"id": "paint", "type": "material", "label": "Blue enamel", "inputs": {"surface": {"from": "ball"}}},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}}})");
+    EXPECT_EQ(meshOf(session, 32, MaterialParts::whole).materialName, "Blue enamel");
+    session = sessionOf(R"({"id": "ball", "type": "sphere"},
+        {"id": "out", "type": "output", "inputs": {"surface": {"from": "ball"}}})");
+    EXPECT_EQ(meshOf(session, 32, MaterialParts::whole).materialName, "");
+}
+
+// Of two nodes with the same numbers each has a material; of one node in two instances of a group there is
+// one, or as many as it has numbers; and no name is given twice.
+TEST(Materials, AreAsManyAsTheGraphHas) {
+    const auto names = [](const std::string& roughness, const std::string& more) {
+        const Result<Graph> graph = parseGraph(
+            R"({"fieldwright": 1, "groups": [{"id": "knob", "inputs": [{"name": "shine", "type": "float"}],
+                "outputs": [{"name": "surface", "type": "surface"}], "nodes": [
+                {"id": "in", "type": "group_input"}, {"id": "ball", "type": "sphere"},
+                {"id": "tin", "type": "material", "inputs": {"surface": {"from": "ball"},
+                 "roughness": {"from": "in", "output": "shine"}}},
+                {"id": "end", "type": "group_output", "inputs": {"surface": {"from": "tin"}}}]}],
+            "nodes": [{"id": "a", "type": "group", "group": "knob", "inputs": {"shine": 0.25}},
+                {"id": "b", "type": "group", "group": "knob", "inputs": {"shine": )" +
+                roughness + R"(}},
+                {"id": "ball", "type": "sphere"},
+                {"id": "plain", "type": "material", "label": "tin", "inputs": {"surface": {"from": "ball"}}},
+                {"id": "a1", "type": "translate", "inputs": {"surface": {"from": "a"}, "offset": [3, 0, 0]}},
+                {"id": "b1", "type": "translate", "inputs": {"surface": {"from": "b"}, "offset": [-3, 0, 0]}},
+                {"id": "ab", "type": "union", "inputs": {"a": {"from": "a1"}, "b": {"from": "b1"}}},
+                {"id": "abc", "type": "union", "inputs": {"a": {"from": "ab"}, "b": {"from": ")" +
+                more + R"("}}},
+                {"id": "out", "type": "output", "inputs": {"surface": {"from": "abc"}}}]})",
+            "m.field.json", nullptr);
+        if (!graph) throw SystemError(format(graph.error()));
+        Result<Device> device = createDevice({});
+        Session session(std::move(*device));
+        session.setProgram(*compile(*graph));
+        const Mesh mesh = meshOf(session, 48, MaterialParts::whole);
+        return mesh.parts.empty() ? std::vector<std::string>{mesh.materialName} : namesOf(mesh);
+    };
+    EXPECT_EQ(names("0.25", "ab"), (std::vector<std::string>{"tin"}));
+    EXPECT_EQ(names("0.75", "ab"), (std::vector<std::string>{"tin", "tin_2"}));
+    EXPECT_EQ(names("0.5", "plain"), (std::vector<std::string>{"tin", "tin_2", "tin_3"}));
+}
+
+const std::string kThreeColors = R"(
+    {"id": "ball", "type": "sphere", "inputs": {"radius": 1}},
+    {"id": "l", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [-0.5, 0.1, 0]}},
+    {"id": "r", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0.5, 0, 0.1]}},
+    {"id": "t", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0.1, 0.8, 0]}},
+    {"id": "red", "type": "material", "inputs": {"surface": {"from": "l"}, "base_color": [1, 0, 0]}},
+    {"id": "green", "type": "material", "inputs": {"surface": {"from": "r"}, "base_color": [0, 1, 0]}},
+    {"id": "blue", "type": "material", "inputs": {"surface": {"from": "t"}, "base_color": [0, 0, 1]}},
+    {"id": "two", "type": "union", "inputs": {"a": {"from": "red"}, "b": {"from": "green"}}},
+    {"id": "all", "type": "union", "inputs": {"a": {"from": "two"}, "b": {"from": "blue"}}},
+    {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}}})";
+
+TEST(Materials, FacesAreCutWhereTwoMeet) {
+    Session session = sessionOf(kThreeColors);
+    const std::map<std::string, glm::vec3> colors{
+        {"red", {1, 0, 0}}, {"green", {0, 1, 0}}, {"blue", {0, 0, 1}}},
+        middles{{"red", {-0.5, 0.1, 0}}, {"green", {0.5, 0, 0.1}}, {"blue", {0.1, 0.8, 0}}};
+    for (const MeshMethod method : {MeshMethod::marchingCubes, MeshMethod::dualContouring}) {
+        const Result<MesherResult> result = session.polygonise({std::nullopt, 40, method});
+        ASSERT_TRUE(result);
+        const Mesh whole = session.download(*result), mesh = session.download(*result, MaterialParts::cut);
+        const WeldedMesh welded = weld(mesh.positions, mesh.indices);
+        const Report report = reportOnMesh(welded.positions, welded.indices);
+        EXPECT_EQ(report.boundaryEdges + report.nonManifoldEdges + report.nonManifoldVertices +
+                      report.flippedEdges + report.degenerateTriangles,
+                  0u);
+        EXPECT_EQ(report.shells, 1u);
+        EXPECT_NEAR(sizeOf(mesh).volume, sizeOf(whole).volume, 1e-5);
+        EXPECT_NEAR(sizeOf(mesh).area, sizeOf(whole).area, 1e-4);
+        EXPECT_EQ(namesOf(mesh), (std::vector<std::string>{"blue", "green", "red"}));
+        std::size_t t = 0, crossed = 0;
+        for (const MeshPart& part : mesh.parts)
+            for (const std::size_t end = t + part.triangles; t < end; ++t)
+                for (int k = 0; k < 3; ++k) {
+                    const uint32_t v = mesh.indices[3 * t + std::size_t(k)];
+                    ASSERT_EQ(mesh.colors[v], colors.at(part.name));
+                    for (const auto& [name, middle] : middles) {
+                        const float nearer = glm::distance(mesh.positions[v], middles.at(part.name)) -
+                                             glm::distance(mesh.positions[v], middle);
+                        crossed += nearer > 1e-3f;
+                        EXPECT_LT(nearer, 0.03f);  // half a cell
+                    }
+                }
+        EXPECT_EQ(t, mesh.triangleCount());
+        EXPECT_LT(crossed, 30u);  // where three meet within a triangle
+        EXPECT_GT(t, whole.triangleCount());
+        EXPECT_LT(t, whole.triangleCount() + whole.triangleCount() / 3);
+    }
+}
+
+TEST(Materials, WhereNothingMeetsNothingIsCut) {
+    Session session = sessionOf(kTwoBalls);
+    const Mesh whole = meshOf(session, 64, MaterialParts::whole),
+               mesh = meshOf(session, 64, MaterialParts::cut);
+    EXPECT_EQ(mesh.positions, whole.positions);
+    EXPECT_EQ(mesh.indices, whole.indices);
+}
+
 TEST(Materials, WhereTheFieldHasNoNumberItIsTheLeast) {
     // Left of the middle the number is infinity less infinity.
     Session session = sessionOf(R"nodes({"id": "ball", "type": "sphere"},
@@ -185,7 +309,7 @@ TEST(Materials, WhereTheFieldHasNoNumberItIsTheLeast) {
          "float a = max(-p.x, 0.0) * 1e30; float b = a * a; return sqrt(p.x) + (a * b - b);"},
         {"id": "paint", "type": "material", "inputs": {"surface": {"from": "ball"}, "roughness": {"from": "root"}}},
         {"id": "out", "type": "output", "inputs": {"surface": {"from": "paint"}}})nodes");
-    const Mesh mesh = meshOf(session, 64, true);
+    const Mesh mesh = meshOf(session, 64, MaterialParts::whole);
     EXPECT_GT(mesh.parts.size(), kMostMaterials / 4);
     EXPECT_LE(mesh.parts.size(), kMostMaterials);
     std::size_t t = 0;
@@ -228,7 +352,8 @@ TEST(Materials, TilesOfGlassAreAsThickAsTheWhole) {
             };
             nlohmann::json inTiles = materials("tiles.gltf"), atOnce = materials("whole.gltf");
             for (nlohmann::json* one : {&inTiles, &atOnce})
-                (*one)[0]["extensions"]["KHR_materials_volume"].erase("thicknessFactor");
+                (*one)[0]["extensions"]["KHR_materials_volume"].erase("thicknessFactor"),
+                    (*one)[0].erase("name");
             EXPECT_EQ(inTiles, atOnce);
         }
     }
