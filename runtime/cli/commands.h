@@ -76,6 +76,7 @@ struct ExportOptions : MeshOutput {
     std::string format;              ///< of the meshes of a sequence or sweep: "glb"; empty: that
     bool manifold = false, compress = false, parts = false;  ///< as fw::ExportOptions has them
     bool splitMaterials = false;                             ///< faces are cut where materials meet
+    std::optional<int> textures;  ///< texels along a side of those that are baked; none: no textures
     PlacementWish placement = {};
     int tiles = 0;          ///< along the longest side; 0: as many as it takes
     std::string share;      ///< "i/n": only this part of the tiles; empty: all

@@ -43,7 +43,7 @@ int writeTurns(const Animation& of) {
         Result<Mesh> mesh = onceMoreIfLost(
             [&] {
                 player.seek(range.time(frame));
-                return player.mesh(partsOf(options, options.output));
+                return player.mesh(partsOf(of.options, of.options.output));
             },
             [&] { renewDevice(player, "going on at frame " + std::to_string(frame)); });
         if (!mesh) return badInput(options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <iterator>
 
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/measured.h"
@@ -12,10 +13,12 @@
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
 #include "runtime/export/points.h"
+#include "runtime/export/texture_files.h"
 #include "runtime/play/particles_at.h"
 #include "runtime/play/tiled_mesh.h"
 #include "runtime/system/interruption.h"
 #include "runtime/system/output_file.h"
+#include "runtime/textures/textured.h"
 
 namespace fw::cli {
 
@@ -137,6 +140,21 @@ int exportParticles(const ExportOptions& options, Progress& progress) {
     return kDone;
 }
 
+Done checkTextures(const ExportOptions& options) {
+    if (!options.textures) return done();
+    const auto refuse = [&](std::string message) {
+        return Error{.message = std::move(message), .file = options.output};
+    };
+    if (!hasTextures(options.output))
+        return refuse("textures are in .glb, .gltf and .obj alone: leave --textures out for " +
+                      lowerExtension(options.output) + ", or choose one of them");
+    const int size = *options.textures;
+    if (size < kLeastTexture || size > kMostTexture || (size & (size - 1)) != 0)
+        return refuse("--textures " + std::to_string(size) + ": a texture's side is a power of two from " +
+                      std::to_string(kLeastTexture) + " to " + std::to_string(kMostTexture) + " texels");
+    return done();
+}
+
 }  // namespace
 
 fw::ExportOptions fileOptions(const ExportOptions& options) {
@@ -148,6 +166,7 @@ fw::ExportOptions fileOptions(const ExportOptions& options) {
 
 MaterialParts partsOf(const ExportOptions& options, const std::string& path) {
     if (!exportFormat(path)->parts) return MaterialParts::none;
+    if (options.textures) return MaterialParts::besideTextures;
     return options.splitMaterials ? MaterialParts::cut : MaterialParts::whole;
 }
 
@@ -178,8 +197,10 @@ int runExport(const ExportOptions& options) {
     if (options.share.empty())
         if (const auto known = placementOf(options.output, *lengthUnit("m"), options.placement); !known)
             return print(known.error()), kBadUsage;
+    if (const Done fine = checkTextures(options); !fine) return print(fine.error()), kBadUsage;
     MeshOptions wanted = options.mesh;
     wanted.outputs = exportedPaths(options.output);
+    if (options.textures) std::ranges::copy(texturePaths(options.output), std::back_inserter(wanted.outputs));
     if (!options.report.empty()) wanted.outputs.push_back(options.report);
     if (const Done distinct = checkDistinct(options.mesh.graph.path, wanted.outputs); !distinct)
         return print(distinct.error()), kBadUsage;
@@ -190,7 +211,7 @@ int runExport(const ExportOptions& options) {
         return tiledExport(options, wanted, std::move(*graph), progress);
     const bool canTile = canBeTiled(options, *graph);
     how.placement = *placementOf(options.output, graph->unit, options.placement);
-    const Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, options.measured());
+    Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, options.measured());
     if (!whole && canTile && whole.error().code == Error::Code::tooMuchSurface) {
         graph.reset();
         graph = openForMesh(wanted, progress, status);
@@ -198,6 +219,13 @@ int runExport(const ExportOptions& options) {
     }
     if (!whole) return notWritten(options, whole.error());
     const MeshedProgram& meshed = whole->program;
+    if (options.textures) {
+        Result<Mesh> made = textured(
+            std::move(whole->mesh), meshed.session.onHost(), *options.textures,
+            [&](const char* stage) { progress.start(stage, std::string_view(stage) == "unwrap" ? 62 : 65); });
+        if (!made) return badInput(options.mesh, made.error());
+        whole->mesh = std::move(*made);
+    }
     progress.start("write", 70);
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;

@@ -183,6 +183,12 @@ int run(int count, char** arguments) {
         "--split-materials", exportOptions.splitMaterials,
         "Cut the faces of a .glb, .gltf or .obj where the materials of two nodes meet, so "
         "that each is of one");
+    CLI::Option* textures =
+        exportCommand->add_option("--textures", exportOptions.textures,
+                                  "Unwrap the mesh of a .glb, .gltf or .obj, and bake its colours, finish, "
+                                  "light, occlusion and normals "
+                                  "from the field into textures of so many texels a side: 64, 128, ... 8192");
+    textures->type_name("TEXELS");
     exportCommand->add_flag("--parts", exportOptions.parts,
                             "Of a .glb or .gltf: what touches nowhere is a node of its own");
     std::vector<std::string> units;
@@ -259,6 +265,10 @@ int run(int count, char** arguments) {
          {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep"})
         for (const char* ofOne : {"--tiles", "--tile"})
             exportCommand->get_option(ofSequences)->excludes(exportCommand->get_option(ofOne));
+
+    for (const char* without : {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep",
+                                "--split-materials", "--particles"})
+        textures->excludes(exportCommand->get_option(without));
 
     MergeOptions mergeOptions;
     CLI::App* mergeCommand =

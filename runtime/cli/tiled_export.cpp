@@ -211,6 +211,9 @@ Done checkTiledExport(const ExportOptions& options) {
         return refuse(
             "--split-materials is for a mesh that is made as a whole: leave it out, or --tiles and "
             "--tile");
+    if (options.textures)
+        return refuse(
+            "--textures is for a mesh that is made as a whole: leave it out, or --tiles and --tile");
     if (options.share.empty()) return checkPiecesPath(options.output);
     if (!options.placement.isNone())
         return refuse("a part is in the document's unit and +Y up: leave out --unit, --up and --for");

@@ -212,6 +212,21 @@ Result<Beside> openBeside(const std::string& path, const ExportOptions& options)
     return Beside{std::move(*opened), std::filesystem::path(besidePath).filename().string()};
 }
 
+/// Files of a mesh's textures beside it, with all that goes into them.
+Result<std::vector<OutputFile>> openImages(const std::string& path, const std::vector<TextureImage>& images,
+                                           const ExportOptions& options) {
+    std::vector<OutputFile> files;
+    if (lowerExtension(path) == ".glb") return files;
+    for (const TextureImage& image : images) {
+        const std::filesystem::path file = std::filesystem::path(path).parent_path() / image.file;
+        Result<OutputFile> opened = OutputFile::open(file.string(), options.cancel);
+        if (!opened) return opened.error();
+        opened->write(image.png);
+        files.push_back(std::move(*opened));
+    }
+    return files;
+}
+
 /// A file of the format without a triangle.
 Result<ExportedFiles> exportEmpty(const std::string& path, Format format, const ExportOptions& options) {
     const std::string name = objectName(path, options);
@@ -293,8 +308,12 @@ std::string percentEncoded(const std::string& name) {
 }
 
 Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
-                                OutputFile* beside) {
+                                OutputFile* beside, std::span<OutputFile> images) {
     ExportedFiles files{exportedPaths(path), file.size() + (beside ? beside->size() : 0)};
+    for (OutputFile& image : images) {
+        files.bytes += image.size();
+        if (Done finished = image.finish(); !finished) return finished.error();
+    }
     if (Done finished = file.finish(); !finished) return finished.error();
     if (Done finished = beside ? beside->finish() : done(); !finished) return finished.error();
     if (options.examine)
@@ -302,6 +321,8 @@ Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& op
             return fine.error();
     // The file asked for goes last: when it is there, all of the export is.
     const Uninterrupted now;
+    for (OutputFile& image : images)
+        if (Done committed = image.commit(); !committed) return committed.error();
     if (Done committed = beside ? beside->commit() : done(); !committed) return committed.error();
     if (Done committed = file.commit(options.kept); !committed) return committed.error();
     return files;
@@ -403,7 +424,11 @@ Result<ExportedFiles> exportPlaced(const Mesh& mesh, const std::string& path, co
     if (!bounds) return bounds.error();
     if (const std::optional<Mesh> repaired = withUnitNormals(mesh))
         return exportPlaced(*repaired, path, options);
+    if (mesh.textures && (options.compress || options.parts))
+        return refuse("a mesh with textures is neither compressed nor parted: leave one of them out");
     if (options.compress || options.parts) return exportScene(mesh, path, options);
+    assert(!mesh.textures || (hasTextures(path) && mesh.uvs.size() == mesh.positions.size() &&
+                              mesh.tangents.size() == mesh.positions.size()));
 
     WeldedMesh solid;
     if (options.manifold || format == Format::threeMf || format == Format::vdb) {
@@ -421,14 +446,21 @@ Result<ExportedFiles> exportPlaced(const Mesh& mesh, const std::string& path, co
 
     Result<Beside> beside = openBeside(path, options);
     if (!beside) return beside.error();
+    const std::vector<TextureImage> images =
+        mesh.textures ? textureImages(*mesh.textures, path) : std::vector<TextureImage>();
+    Result<std::vector<OutputFile>> imageFiles = openImages(path, images, options);
+    if (!imageFiles) return imageFiles.error();
     std::string failure;
     switch (format) {
         case Format::gltf:
-            writeGltf(mesh, *bounds, name, marked, percentEncoded(beside->name), *file, *beside->file);
+            writeGltf(mesh, *bounds, name, marked, percentEncoded(beside->name), images, *file,
+                      *beside->file);
             break;
-        case Format::obj: writeObj(mesh, name, beside->name, options.placement, *file, *beside->file); break;
+        case Format::obj:
+            writeObj(mesh, name, beside->name, options.placement, images, *file, *beside->file);
+            break;
         case Format::glb:
-            if (!writeGlb(mesh, *bounds, name, marked, *file))
+            if (!writeGlb(mesh, *bounds, name, marked, images, *file))
                 return refuse("the mesh exceeds the 4 GiB of a GLB; write .gltf or lower the resolution");
             break;
         case Format::stl: writeStl(mesh, options.placement, *file); break;
@@ -439,7 +471,11 @@ Result<ExportedFiles> exportPlaced(const Mesh& mesh, const std::string& path, co
             break;
     }
     if (!failure.empty()) return refuse("cannot write: " + failure);
-    return commitAll(path, options, *file, beside->orNone());
+    Result<ExportedFiles> files = commitAll(path, options, *file, beside->orNone(), *imageFiles);
+    if (files && !imageFiles->empty())
+        for (const TextureImage& image : images)
+            files->paths.push_back((std::filesystem::path(path).parent_path() / image.file).string());
+    return files;
 }
 
 }  // namespace

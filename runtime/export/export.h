@@ -6,7 +6,7 @@
 //
 // What is guaranteed: the file appears under its name whole or not at all (output_file.h). On any failure the
 // temporary file is removed and a file that stood there before is as it was. glTF and OBJ have a second file
-// (.bin, .mtl): two renames, that one first.
+// (.bin, .mtl), and with textures some more: a rename for each, the file asked for last.
 //
 // How lengths and axes stand in a file is told by placement.h. Colours: glTF holds them linear, as its
 // specification asks; PLY, OBJ, MTL and 3MF hold them sRGB-encoded, as the programs that read them expect.
@@ -49,7 +49,8 @@ struct ExportOptions {
 
 /// What an export left on disk.
 struct ExportedFiles {
-    std::vector<std::string> paths;  ///< the file asked for, then the one beside it if the format has one
+    std::vector<std::string> paths;  ///< the file asked for, then the one beside it if the format has one,
+                                     ///< then those of its textures
     uint64_t bytes = 0;              ///< of all of them
 };
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "runtime/export/export.h"
+#include "runtime/export/texture_files.h"
 #include "runtime/system/output_file.h"
 
 namespace fw {
@@ -32,8 +33,9 @@ std::string printable(std::string name);
 /// A file's name as a URI.
 std::string percentEncoded(const std::string& name);
 /// Gives the files their names, if options.examine() finds nothing wrong: `file`, and the one beside it.
+/// `images` get theirs before; their bytes count, and their names are for the caller to add.
 Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
-                                OutputFile* beside);
+                                OutputFile* beside, std::span<OutputFile> images = {});
 
 /// Where the triangles of a solid have another vertex than those of its mesh: entry `entries[i]` of the
 /// indices is `vertices[i]`, which lies at the same place. Entries ascend.
@@ -45,22 +47,24 @@ struct Merges {
 struct GltfLayout {
     uint64_t vertices = 0, indices = 0;
     bool normals = false, colors = false;
-    bool solid = false;   ///< said to be one
-    uint64_t merges = 0;  ///< then: vertices that the solid has in place of others
-    float thickness = 0;  ///< of what light passes through, metres
+    bool textured = false;  ///< with uvs and tangents
+    bool solid = false;     ///< said to be one
+    uint64_t merges = 0;    ///< then: vertices that the solid has in place of others
+    float thickness = 0;    ///< of what light passes through, metres
     /// 65535 is the restart value and may not be an index.
     bool shortIndices() const { return vertices <= 65535; }
     uint64_t indexSize() const { return shortIndices() ? 2 : 4; }
     uint64_t bytes() const {
-        return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0)) + indices * indexSize() +
-               merges * (4 + indexSize());
+        return vertices * (12 + (normals ? 12 : 0) + (colors ? 8 : 0) + (textured ? 24 : 0)) +
+               indices * indexSize() + merges * (4 + indexSize());
     }
 };
 /// The JSON with the materials of `mesh`, whose other arrays are not looked at. Its one buffer has the given
-/// uri, or none where the binary part follows in the same file: all positions, normals, colours, then
-/// indices.
+/// uri, or none where the binary part follows in the same file: all positions, normals, colours, uvs,
+/// tangents, then indices. `images` are the mesh's textures.
 std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
-                     const std::string& name, const std::string& uri);
+                     const std::string& name, const std::string& uri,
+                     const std::vector<TextureImage>& images = {});
 GltfLayout gltfLayout(const Mesh& mesh, const Merges* merges = nullptr);
 /// The binary part.
 void writeGltfBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* merges, OutputFile& file);
@@ -72,21 +76,24 @@ void writeGltfColors(const Mesh& mesh, OutputFile& file);
 void writeGltfIndices(std::span<const uint32_t> indices, bool asShorts, OutputFile& file);
 
 /// With `merges`, glTF says that the mesh is a solid. Both writers return false if the parts exceed what the
-/// format can count (4 GiB in a GLB).
+/// format can count (4 GiB in a GLB). `images` are those of textureImages().
 bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
-              OutputFile& file);
+              const std::vector<TextureImage>& images, OutputFile& file);
 /// `binaryUri` is the name of the binary file beside the glTF, as it stands in the JSON.
 void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
-               const std::string& binaryUri, OutputFile& file, OutputFile& binary);
+               const std::string& binaryUri, const std::vector<TextureImage>& images, OutputFile& file,
+               OutputFile& binary);
 /// A scene with one node of that name and no mesh; as a GLB, or as text.
 void writeEmptyGltf(const std::string& name, bool binary, OutputFile& file);
 /// `libraryName` is the name of the material file beside the OBJ.
 void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName,
-              const Placement& placement, OutputFile& file, OutputFile& library);
+              const Placement& placement, const std::vector<TextureImage>& images, OutputFile& file,
+              OutputFile& library);
 /// Its parts, for meshes that come in pieces, each of whose faces have vertices of it or of one before: the
 /// material and the head, then what names the material, vertices, and faces, which are numbered in the whole.
 void writeObjHead(const Mesh& material, bool colors, const std::string& name, const std::string& libraryName,
-                  const Placement& placement, OutputFile& file, OutputFile& library);
+                  const Placement& placement, OutputFile& file, OutputFile& library,
+                  const std::vector<TextureImage>& images = {});
 void writeObjMaterial(const std::string& name, OutputFile& file);
 void writeObjVertices(const Mesh& mesh, OutputFile& file);
 void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t count, OutputFile& file);

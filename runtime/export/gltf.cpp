@@ -144,6 +144,7 @@ GltfLayout gltfLayout(const Mesh& mesh, const Merges* merges) {
             .indices = mesh.indices.size(),
             .normals = !mesh.normals.empty(),
             .colors = !mesh.colors.empty(),
+            .textured = mesh.textures != nullptr,
             .solid = merges != nullptr,
             .merges = merges ? merges->entries.size() : 0,
             .thickness = transmits(mesh) ? sizeOf(mesh).meanChord() : 0.0f};
@@ -154,6 +155,10 @@ void writeGltfBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* m
     file.write(std::span(mesh.positions));
     file.write(std::span(mesh.normals));
     writeGltfColors(mesh, file);
+    if (layout.textured) {
+        file.write(std::span(mesh.uvs));
+        file.write(std::span(mesh.tangents));
+    }
     writeGltfIndices(mesh.indices, asShorts, file);
     if (!merges) return;
     assert(mesh.indices.size() % 2 == 0);  // of a solid; so the entries lie at a multiple of 4
@@ -162,7 +167,8 @@ void writeGltfBinary(const Mesh& mesh, const GltfLayout& layout, const Merges* m
 }
 
 std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
-                     const std::string& name, const std::string& uri) {
+                     const std::string& name, const std::string& uri,
+                     const std::vector<TextureImage>& images) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = generatorName();
@@ -209,6 +215,14 @@ std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& b
             .normalized = true;
         primitive.attributes["COLOR_0"] = lastAccessor();
     }
+    if (layout.textured) {
+        addAccessor(addView(layout.vertices * 8, TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_FLOAT,
+                    TINYGLTF_TYPE_VEC2, layout.vertices);
+        primitive.attributes["TEXCOORD_0"] = lastAccessor();
+        addAccessor(addView(layout.vertices * 16, TINYGLTF_TARGET_ARRAY_BUFFER),
+                    TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, layout.vertices);
+        primitive.attributes["TANGENT"] = lastAccessor();
+    }
     const int indexView = addView(layout.indices * layout.indexSize(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     std::set<std::string> extensions;
     tinygltf::Mesh object;
@@ -251,6 +265,7 @@ std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& b
     auto document = nlohmann::json::parse(text.str());
     document["buffers"][0]["byteLength"] = layout.bytes();
     if (layout.solid) addManifold(document, layout);
+    if (mesh.textures) addTextures(document, *mesh.textures, images, uri.empty());
     if (!uri.empty()) document["buffers"][0]["uri"] = uri;
     return uri.empty() ? document.dump() : document.dump(2) + "\n";
 }
@@ -300,18 +315,22 @@ bool writeGlbHead(std::string json, uint64_t bytes, OutputFile& file) {
 void writeGlbEnd(uint64_t bytes, OutputFile& file) { file.write("\0\0\0", (4 - bytes % 4) % 4); }
 
 bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
-              OutputFile& file) {
+              const std::vector<TextureImage>& images, OutputFile& file) {
     const GltfLayout layout = gltfLayout(mesh, merges);
-    if (!writeGlbHead(gltfJson(mesh, layout, bounds, name, {}), layout.bytes(), file)) return false;
+    uint64_t bytes = layout.bytes();
+    for (const TextureImage& image : images) bytes += image.png.size();
+    if (!writeGlbHead(gltfJson(mesh, layout, bounds, name, {}, images), bytes, file)) return false;
     writeGltfBinary(mesh, layout, merges, file);
-    writeGlbEnd(layout.bytes(), file);
+    for (const TextureImage& image : images) file.write(image.png);
+    writeGlbEnd(bytes, file);
     return true;
 }
 
 void writeGltf(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
-               const std::string& binaryUri, OutputFile& file, OutputFile& binary) {
+               const std::string& binaryUri, const std::vector<TextureImage>& images, OutputFile& file,
+               OutputFile& binary) {
     const GltfLayout layout = gltfLayout(mesh, merges);
-    file.write(gltfJson(mesh, layout, bounds, name, binaryUri));
+    file.write(gltfJson(mesh, layout, bounds, name, binaryUri, images));
     writeGltfBinary(mesh, layout, merges, binary);
 }
 

@@ -48,7 +48,8 @@ std::string materialName(const Mesh& mesh, const std::string& name, std::size_t 
     return printable(partName(mesh, name, part));
 }
 
-void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, OutputFile& library) {
+void writeLibrary(const Mesh& mesh, bool colors, const std::string& name,
+                  const std::vector<TextureImage>& images, OutputFile& library) {
     const auto linear = [](glm::vec3 v) {
         std::array<char, kLongestLine> text{};
         return std::string(text.data(), putVector(text.data(), "", v));
@@ -60,10 +61,14 @@ void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, Output
     const glm::vec3 base = colors ? glm::vec3(1.0f) : mesh.baseColor;
     library.write("# " + generatorName() + "\n");
     const auto write = [&](const Material& material, const std::string& called) {
-        library.write("newmtl " + called + "\nKd" + encoded(base) + "\nPr " +
-                      std::to_string(material.roughness) + "\nPm " + std::to_string(material.metallic) +
-                      "\n");
-        if (material.emission != glm::vec3(0.0f)) library.write("Ke" + linear(material.emission) + "\n");
+        library.write("newmtl " + called + "\n");
+        if (mesh.textures) {
+            library.write(textureLines(*mesh.textures, images));
+        } else {
+            library.write("Kd" + encoded(base) + "\nPr " + std::to_string(material.roughness) + "\nPm " +
+                          std::to_string(material.metallic) + "\n");
+            if (material.emission != glm::vec3(0.0f)) library.write("Ke" + linear(material.emission) + "\n");
+        }
         if (material.transmission > 0.0f)
             library.write("Tf" + encoded(base * material.transmission) + "\nNi " +
                           std::to_string(material.ior) + "\nillum 7\n");
@@ -76,8 +81,9 @@ void writeLibrary(const Mesh& mesh, bool colors, const std::string& name, Output
 }  // namespace
 
 void writeObjHead(const Mesh& material, bool colors, const std::string& name, const std::string& libraryName,
-                  const Placement& placement, OutputFile& file, OutputFile& library) {
-    writeLibrary(material, colors, name, library);
+                  const Placement& placement, OutputFile& file, OutputFile& library,
+                  const std::vector<TextureImage>& images) {
+    writeLibrary(material, colors, name, images, library);
     file.write("# " + generatorName() + ", " + placement.words() + "\nmtllib " + libraryName + "\no " + name +
                "\n");
 }
@@ -97,6 +103,21 @@ void writeObjVertices(const Mesh& mesh, OutputFile& file) {
         },
         file);
     writeBlocks(
+        mesh.uvs.size(), kLongestLine,
+        [&](char* out, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                *out++ = 'v';
+                *out++ = 't';
+                *out++ = ' ';
+                out = put(out, mesh.uvs[i].x);
+                *out++ = ' ';
+                out = put(out, 1.0f - mesh.uvs[i].y);  // upwards
+                *out++ = '\n';
+            }
+            return out;
+        },
+        file);
+    writeBlocks(
         mesh.normals.size(), kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
@@ -109,7 +130,7 @@ void writeObjVertices(const Mesh& mesh, OutputFile& file) {
 }
 
 void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t count, OutputFile& file) {
-    const bool normals = !mesh.normals.empty();
+    const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty();
     writeBlocks(
         count, kLongestLine,
         [&](char* out, std::size_t first, std::size_t last) {
@@ -118,13 +139,14 @@ void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t coun
                 *out++ = ' ';
                 const char* index = out;
                 out = put(out, mesh.indices[i] + 1);
-                if (normals) {  // "7//7"
-                    const auto digits = static_cast<std::size_t>(out - index);
-                    *out++ = '/';
-                    *out++ = '/';
+                const auto digits = static_cast<std::size_t>(out - index);
+                const auto again = [&] {
                     std::memcpy(out, index, digits);
                     out += digits;
-                }
+                };
+                if (normals || uvs) *out++ = '/';  // "7//7", "7/7/7", "7/7"
+                if (uvs) again();
+                if (normals) *out++ = '/', again();
                 if (i % 3 == 2) *out++ = '\n';
             }
             return out;
@@ -133,8 +155,9 @@ void writeObjFaces(const Mesh& mesh, std::size_t firstTriangle, std::size_t coun
 }
 
 void writeObj(const Mesh& mesh, const std::string& name, const std::string& libraryName,
-              const Placement& placement, OutputFile& file, OutputFile& library) {
-    writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, placement, file, library);
+              const Placement& placement, const std::vector<TextureImage>& images, OutputFile& file,
+              OutputFile& library) {
+    writeObjHead(mesh, !mesh.colors.empty(), name, libraryName, placement, file, library, images);
     writeObjVertices(mesh, file);
     if (mesh.parts.empty()) {
         writeObjMaterial(materialName(mesh, name, 0), file);

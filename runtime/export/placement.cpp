@@ -60,6 +60,7 @@ Mesh placed(Mesh mesh, const Placement& placement) {
     if (placement.isNone()) return mesh;
     for (glm::vec3& p : mesh.positions) p = placement.place(p);
     for (glm::vec3& n : mesh.normals) n = placement.turned(n);
+    for (glm::vec4& t : mesh.tangents) t = glm::vec4(placement.turned(glm::vec3(t)), t.w);
     const auto scale = float(placement.scale);
     mesh.material.absorption /= scale;
     for (MeshPart& part : mesh.parts) part.material.absorption /= scale;

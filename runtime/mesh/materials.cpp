@@ -174,7 +174,8 @@ void partByMaterial(Mesh& mesh, std::vector<PaintedBy> triangles, std::span<cons
     mesh.indices = std::move(indices);
 }
 
-void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places) {
+void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places,
+                    bool besideTextures) {
     const Tape field =
         makeTape(program.ir, std::span(program.surface).subspan(roughnessComponent), program.parameters());
     const std::vector<float> values = fieldValues(field, places);
@@ -182,7 +183,10 @@ void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         Numbers numbers;
         std::copy_n(&values[t * (kNumbers + 1)], kNumbers, numbers.begin());
-        triangles[t] = {uint32_t(values[t * (kNumbers + 1) + kNumbers]), std::bit_cast<Material>(numbers)};
+        Material material = std::bit_cast<Material>(numbers);
+        if (besideTextures)
+            material.roughness = Material().roughness, material.metallic = 0, material.emission = {};
+        triangles[t] = {uint32_t(values[t * (kNumbers + 1) + kNumbers]), material};
     }
     partByMaterial(mesh, std::move(triangles), program.painters);
 }

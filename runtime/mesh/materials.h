@@ -39,8 +39,9 @@ bool hasManyMaterials(const Program& program);
 
 inline constexpr std::size_t kMostMaterials = 64;  ///< of one node
 
-/// Whether a mesh has a part for each of its materials: none, of whole triangles, or cut where two meet.
-enum class MaterialParts { none, whole, cut };
+/// Whether a mesh has a part for each of its materials: none, of whole triangles, or cut where two meet; or,
+/// of one that gets textures, of whole triangles by what those do not say.
+enum class MaterialParts { none, whole, cut, besideTextures };
 
 /// A triangle's material, and who gave it: the place of a name.
 struct PaintedBy {
@@ -57,7 +58,9 @@ std::vector<glm::vec3> middlesOf(const Mesh& mesh);
 /// they may be, and what is not a number becomes the least of that. Parts have the names of their painters,
 /// of which none is in use twice: further ones end in a number.
 void partByMaterial(Mesh& mesh, std::vector<PaintedBy> triangles, std::span<const std::string> painters);
-/// The same with those of the program's field, of each triangle at a place.
-void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places);
+/// The same with those of the program's field, of each triangle at a place; `besideTextures`: roughness,
+/// metallic and emission are those of no material.
+void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places,
+                    bool besideTextures = false);
 
 }  // namespace fw

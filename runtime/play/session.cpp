@@ -423,7 +423,7 @@ Mesh Session::download(const MesherResult& result, MaterialParts wanted) const {
     if (parts && wanted == MaterialParts::cut) places = splitMaterials(mesh, program);
     if (result.creases) splitCreases(mesh);
     if (parts && places.empty()) places = middlesOf(mesh);
-    if (parts) partByMaterial(mesh, program, places);
+    if (parts) partByMaterial(mesh, program, places, wanted == MaterialParts::besideTextures);
     return mesh;
 }
 

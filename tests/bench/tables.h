@@ -31,6 +31,7 @@ void pruneTable(Bench& bench);      ///< a thousand shapes
 void meshFieldTable(Bench& bench);  ///< triangle meshes to fields
 void particlesTable(Bench& bench);  ///< particles to fields, and then the next
 void fluidTable(Bench& bench);      ///< steps of a fluid
+void texturesTable(Bench& bench);   ///< meshes unwrapped, and baked
 void talkTable(Bench& bench);       ///< the slide's table
 void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
 void tapesTable(Bench& bench);      ///< fields on the host

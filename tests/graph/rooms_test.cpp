@@ -37,11 +37,12 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/stages", "graph system gpu mesh measure mesher"},
     {"runtime/particles", "graph gpu bake"},
     {"runtime/render", "graph system gpu mesh mesher particles"},
+    {"runtime/textures", "graph mesh"},
     {"runtime/export", "graph system mesh measure mesher"},
     {"runtime/play", "graph system gpu mesh measure bake mesher stages particles render export"},
     {"runtime/pictures", "graph system render export play"},
     {"runtime/window", "graph gpu render"},
-    {"runtime/cli", "graph system gpu measure bake render export play pictures window"},
+    {"runtime/cli", "graph system gpu measure bake textures render export play pictures window"},
 
     {"editor", "graph runtime"},
 };

@@ -1,0 +1,140 @@
+#include "runtime/export/texture_files.h"
+
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "graph/base/parallel.h"
+#include "runtime/export/formats.h"
+
+namespace fw {
+namespace {
+
+constexpr char kBaseColor[] = "base_color", kSurface[] = "occlusion_roughness_metallic", kNormal[] = "normal",
+               kEmission[] = "emission", kRoughness[] = "roughness", kMetallic[] = "metallic";
+
+bool isObj(const std::string& path) { return lowerExtension(path) == ".obj"; }
+
+std::vector<const char*> rolesOf(const std::string& path) {
+    if (isObj(path)) return {kBaseColor, kRoughness, kMetallic, kNormal, kEmission};
+    return {kBaseColor, kSurface, kNormal, kEmission};
+}
+
+std::string fileOf(const std::string& path, const char* role) {
+    return std::filesystem::path(path).stem().string() + "_" + lowerExtension(path).substr(1) + "_" + role +
+           ".png";
+}
+
+std::string pngOf(const std::vector<uint8_t>& pixels, int size, int channels) {
+    std::string png;
+    const auto append = [](void* to, void* data, int bytes) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(bytes));
+    };
+    // The encoder's only failure: it has no memory left.
+    if (!stbi_write_png_to_func(append, &png, size, size, channels, pixels.data(), channels * size))
+        throw std::bad_alloc();
+    return png;
+}
+
+std::vector<uint8_t> channelOf(const std::vector<uint8_t>& pixels, std::size_t channel) {
+    std::vector<uint8_t> one(pixels.size() / 3);
+    for (std::size_t i = 0; i < one.size(); ++i) one[i] = pixels[3 * i + channel];
+    return one;
+}
+
+}  // namespace
+
+bool hasTextures(const std::string& path) {
+    const ExportFormat* format = exportFormat(path);
+    return format && format->parts;
+}
+
+std::vector<TextureImage> textureImages(const MeshTextures& textures, const std::string& path) {
+    std::vector<TextureImage> images;
+    for (const char* role : rolesOf(path))
+        if (role != kEmission || !textures.emission.empty()) images.push_back({role, fileOf(path, role), {}});
+    forBlocks(images.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
+        const std::string_view role = images[i].role;
+        const bool one = role == kRoughness || role == kMetallic;
+        images[i].png = one ? pngOf(channelOf(textures.surface, role == kRoughness ? 1 : 2), textures.size, 1)
+                            : pngOf(role == kBaseColor  ? textures.baseColor
+                                    : role == kNormal   ? textures.normal
+                                    : role == kEmission ? textures.emission
+                                                        : textures.surface,
+                                    textures.size, 3);
+    });
+    return images;
+}
+
+std::vector<std::string> texturePaths(const std::string& path) {
+    std::vector<std::string> paths;
+    if (!hasTextures(path) || lowerExtension(path) == ".glb") return paths;
+    for (const char* role : rolesOf(path))
+        paths.push_back((std::filesystem::path(path).parent_path() / fileOf(path, role)).string());
+    return paths;
+}
+
+void addTextures(nlohmann::json& document, const MeshTextures& textures,
+                 const std::vector<TextureImage>& images, bool inBuffer) {
+    using nlohmann::json;
+    auto& bytes = document["buffers"][0]["byteLength"];
+    std::map<std::string_view, json> textureOf;  // as a material refers to it
+    document["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}};
+    for (const TextureImage& image : images) {
+        json entry = {{"name", image.role}};
+        if (inBuffer) {
+            document["bufferViews"].push_back(
+                {{"buffer", 0}, {"byteOffset", bytes}, {"byteLength", image.png.size()}});
+            bytes = bytes.get<uint64_t>() + image.png.size();
+            entry["bufferView"] = document["bufferViews"].size() - 1;
+            entry["mimeType"] = "image/png";
+        } else {
+            entry["uri"] = percentEncoded(image.file);
+        }
+        textureOf[image.role] = {{"index", textureOf.size()}};
+        document["images"].push_back(entry);
+        document["textures"].push_back({{"sampler", 0}, {"source", document["images"].size() - 1}});
+    }
+    const float strength = textures.emissionStrength;
+    for (json& material : document["materials"]) {
+        json& surface = material["pbrMetallicRoughness"];
+        surface = {{"baseColorTexture", textureOf[kBaseColor]},
+                   {"metallicRoughnessTexture", textureOf[kSurface]}};
+        material["occlusionTexture"] = textureOf[kSurface];
+        material["normalTexture"] = textureOf[kNormal];
+        if (textures.emission.empty()) continue;
+        material["emissiveTexture"] = textureOf[kEmission];
+        const double factor = std::min(strength, 1.0f);
+        material["emissiveFactor"] = {factor, factor, factor};
+        if (strength <= 1.0f) continue;
+        material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+        json& used = document["extensionsUsed"];
+        if (std::ranges::find(used, "KHR_materials_emissive_strength") == used.end())
+            used.push_back("KHR_materials_emissive_strength");
+    }
+}
+
+std::string textureLines(const MeshTextures& textures, const std::vector<TextureImage>& images) {
+    std::string lines = "Kd 1 1 1\nPr 1\nPm 1\n";
+    if (!textures.emission.empty()) {
+        const std::string strength = std::to_string(textures.emissionStrength);
+        lines += "Ke " + strength + " " + strength + " " + strength + "\n";
+    }
+    for (const TextureImage& image : images) {
+        const std::string_view role = image.role;
+        const char* key = role == kBaseColor   ? "map_Kd "
+                          : role == kRoughness ? "map_Pr "
+                          : role == kMetallic  ? "map_Pm "
+                          : role == kEmission  ? "map_Ke "
+                                               : "norm ";
+        lines += key + image.file + "\n";
+    }
+    return lines;
+}
+
+}  // namespace fw
