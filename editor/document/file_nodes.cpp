@@ -56,7 +56,7 @@ Graph shownAtFreeOutput(const Graph& graph, const Plug& surface) {
 std::optional<FileInput> fileInputFor(std::string_view path) {
     for (const NodeType& type : nodeTypes())
         for (const InputSpec& input : type.inputs)
-            if (input.file && endsAs(*input.file, path) && !type.outputs.empty())
+            if (input.file && !input.file->apart && endsAs(*input.file, path) && !type.outputs.empty())
                 return FileInput{&type, &input};
     return {};
 }
@@ -65,7 +65,7 @@ std::vector<const FileKind*> fileKindsOfNodes() {
     std::vector<const FileKind*> kinds;
     for (const NodeType& type : nodeTypes())
         for (const InputSpec& input : type.inputs)
-            if (input.file && std::ranges::find(kinds, input.file) == kinds.end())
+            if (input.file && !input.file->apart && std::ranges::find(kinds, input.file) == kinds.end())
                 kinds.push_back(input.file);
     return kinds;
 }

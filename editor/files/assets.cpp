@@ -105,6 +105,7 @@ Graph bringFiles(Graph graph, const std::string& from, const std::string& to,
                  std::vector<std::string>& told) {
     std::map<std::string, std::string> others;  // paths that change
     for (const auto& [path, kind] : namedFiles(graph)) {
+        if (kind->apart) continue;
         const fs::path file = fs::path(from) / path;
         const std::string wanted = fs::path(path).lexically_normal().generic_string();
         std::error_code error;

@@ -70,6 +70,10 @@ Result<std::string> bringToDocument(const Editor& editor, const std::string& fil
     if (fs::file_size(file, error) > kind.mostBytes)
         return Error{.message = name + " has more than " + std::to_string(kind.mostBytes >> 20) +
                                 " MiB: take a smaller " + std::string(kind.noun)};
+    if (kind.apart) {
+        const std::string within = fs::path(file).lexically_relative(workFolder(editor)).generic_string();
+        return within.empty() || within.starts_with("..") ? file : within;
+    }
     const Result<BroughtFile> brought = bringFile(workFolder(editor), file, name, kind);
     if (!brought) return brought.error();
     if (brought->how == BroughtFile::How::copied)

@@ -24,6 +24,7 @@ Result<std::string> locate(const std::string& owner, const std::string& path, co
     if (failure) return problem("cannot be looked up: " + failure.message());
     const fs::path target = fs::weakly_canonical(root / path, failure);
     if (failure) return problem("cannot be looked up: " + failure.message());
+    if (kind.apart) return target.string();
     const fs::path inside = target.lexically_relative(root);
     if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..")
         return problem(

@@ -1,7 +1,7 @@
 // Files that another file refers to: pictures and meshes of a graph, buffers of a glTF file.
 //
 // They must lie in the folder of the file that names them, or in one below it: a graph that was got from
-// somewhere reads nothing else of its user's.
+// somewhere reads nothing else of its user's. But for kinds that lie apart (FileKind::apart).
 #pragma once
 
 #include <array>

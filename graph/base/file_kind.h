@@ -19,6 +19,9 @@ struct FileKind {
     std::span<const std::string_view> endings = {};  ///< of such files' names, in small letters; none: any
     std::size_t mostBytes = 0;                       ///< of one file
     bool byContent = false;  ///< what it holds tells the format, so that it may end otherwise
+    /// It is made from a document and can be made again: it lies wherever there is room, and is not brought
+    /// along.
+    bool apart = false;
 };
 
 inline constexpr std::string_view kPictureEndings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga"};
@@ -31,6 +34,10 @@ inline constexpr FileKind kPictureFile = {
 inline constexpr FileKind kMeshFile = {.noun = "mesh", .endings = kMeshEndings, .mostBytes = 512u << 20};
 inline constexpr FileKind kParticleFile = {
     .noun = "particle file", .endings = kParticleEndings, .mostBytes = 512u << 20};
+
+inline constexpr std::string_view kParticleCacheEndings[] = {".cache"};
+inline constexpr FileKind kParticleCacheFile = {
+    .noun = "particle cache", .endings = kParticleCacheEndings, .mostBytes = 64u << 20, .apart = true};
 
 inline constexpr FileKind kEnvironmentFile = {
     .noun = "environment map", .endings = kEnvironmentEndings, .mostBytes = 512u << 20, .byContent = true};

@@ -25,6 +25,7 @@ struct Error {
         wrongFile,       ///< an input names a file of another kind than it takes
         divisionByZero,  ///< by a constant, in a node's code
         tooMuchSurface,  ///< more than one mesh can have: in tiles there is room for it
+        uselessCache,    ///< a particle cache is not there, or of another simulation: one simulates anew
     };
 
     std::string message = {};  ///< what is wrong and what to do, one sentence, no full stop needed

@@ -31,23 +31,36 @@ struct Program;
 
 inline constexpr double kSimulationStep = 1.0 / 60.0;  ///< seconds
 
+/// Where the states of a simulation are kept (graph/assets/particle_cache.h).
+struct CachedStates {
+    std::string folder;
+    uint64_t key = 0;
+    bool operator==(const CachedStates&) const = default;
+};
+
 /// One node of the chain.
 struct ParticleStage {
     enum class Kind : unsigned char { emitter, file, dynamics, fluid, foam } kind = Kind::emitter;
     std::string node = {};  ///< its id, with those of the groups that it is in
     /// By the input's name: its components in the recipe's `ir`.
     std::map<std::string, std::array<IrId, 3>, std::less<>> numbers = {};
-    std::map<std::string, std::string, std::less<>> words = {};  ///< choices
+    std::map<std::string, std::string, std::less<>> words = {};  ///< choices, and a file's path
     /// By the input's name: those that are connected. Their live slots are the first ones of the graph's
     /// program.
     std::map<std::string, std::shared_ptr<const Program>, std::less<>> fields = {};
     ParticlePlacesPtr places = {};  ///< of a file
+    std::optional<CachedStates> cached =
+        {};  ///< of what comes out of it, if there are any; not of the recipe
 };
 
 /// Behind a fluid there may be foam, which does nothing to it.
 struct ParticleRecipe {
     std::vector<ParticleStage> stages;
+    std::string cache = {};  ///< the path that the last node which names one has
     bool endsInFoam() const { return stages.back().kind == ParticleStage::Kind::foam; }
+    /// The last stage before foam: what comes out of it is simulated.
+    ParticleStage& simulated() { return stages[stages.size() - (endsInFoam() ? 2 : 1)]; }
+    const ParticleStage& simulated() const { return stages[stages.size() - (endsInFoam() ? 2 : 1)]; }
 };
 
 enum class DensityMethod : unsigned char { blur, exact, proxies };

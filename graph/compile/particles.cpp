@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "graph/base/words.h"
+#include "graph/compile/cached_particles.h"
 #include "graph/compile/graph_lowering.h"
 #include "graph/compile/particle_recipe.h"
 #include "graph/evaluate/region.h"
@@ -83,6 +84,14 @@ std::optional<ParticleStage> stageOf(GraphLowering& lowering, const NodeAt& at, 
     auto stage = inputs ? particleStage(lowering, at, *inputs) : std::nullopt;
     if (stage) stage->kind = kind;
     return stage;
+}
+
+/// The recipe with one more stage.
+ParticleRecipe goingOn(ParticleRecipe recipe, ParticleStage stage) {
+    if (auto cache = stage.words.extract("cache"); !cache.empty() && !cache.mapped().empty())
+        recipe.cache = cache.mapped();
+    recipe.stages.push_back(std::move(stage));
+    return recipe;
 }
 
 Lowered particlesOf(const NodeAt& at, ParticleRecipe recipe) {
@@ -167,7 +176,7 @@ void warnOfDryInflow(GraphLowering& lowering, const NodeAt& at, const ParticleSt
 
 Lowered lowerEmitter(GraphLowering& lowering, const NodeAt& at) {
     std::optional<ParticleStage> stage = stageOf(lowering, at, ParticleStage::Kind::emitter);
-    return stage ? particlesOf(at, {{std::move(*stage)}}) : lowering.failure(at.type.outputs);
+    return stage ? particlesOf(at, goingOn({}, std::move(*stage))) : lowering.failure(at.type.outputs);
 }
 
 Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at) {
@@ -181,7 +190,7 @@ Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at) {
         return lowering.failure(at.type.outputs);
     }
     stage->places = *places;
-    return particlesOf(at, {{std::move(*stage)}});
+    return particlesOf(at, goingOn({}, std::move(*stage)));
 }
 
 Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at) {
@@ -199,8 +208,7 @@ Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at) {
                         std::string(": give the sph_fluid its gravity and what it collides with")});
         return lowering.failure(at.type.outputs);
     }
-    recipe.stages.push_back(std::move(*stage));
-    return particlesOf(at, std::move(recipe));
+    return particlesOf(at, goingOn(std::move(recipe), std::move(*stage)));
 }
 
 Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at) {
@@ -222,7 +230,7 @@ Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at) {
             return lowering.failure(at.type.outputs);
         }
     warnOfDryInflow(lowering, at, *stage);
-    return particlesOf(at, {{std::move(*stage)}});
+    return particlesOf(at, goingOn({}, std::move(*stage)));
 }
 
 Lowered lowerFoam(GraphLowering& lowering, const NodeAt& at) {
@@ -239,8 +247,7 @@ Lowered lowerFoam(GraphLowering& lowering, const NodeAt& at) {
                                     "' is none: link the sph_fluid itself"});
         return lowering.failure(at.type.outputs);
     }
-    recipe.stages.push_back(std::move(*stage));
-    return particlesOf(at, std::move(recipe));
+    return particlesOf(at, goingOn(std::move(recipe), std::move(*stage)));
 }
 
 Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
@@ -279,8 +286,15 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
                                         double(kLeastParticleResolution), double(kMostParticleResolution));
     if (found && blobs)
         resolution = std::min(*resolution, std::floor(kManyRadiusCells * longestSide(region) / reach.most));
+    ParticleRecipe recipe = *from.particles;
+    if (!recipe.cache.empty())
+        if (const Done cached = findCached(lowering.graph, recipe); !cached) {
+            Error warning = cached.error();
+            warning.severity = Error::Severity::warning;
+            lowering.report(at, "particles", std::move(warning));
+        }
     const auto volumeOf = [&](double cells) {
-        return particleVolume(lowering.state.ir, *from.particles, *own, region, static_cast<int>(cells));
+        return particleVolume(lowering.state.ir, recipe, *own, region, static_cast<int>(cells));
     };
     Result<FieldVolumePtr> volume = volumeOf(*resolution);
     bool coarser = false;

@@ -29,6 +29,14 @@ std::vector<NodeType> particleNodes() {
                              "What is in the way: any surface, which may move with the time "
                              "and then pushes a fluid. A fluid leaks "
                              "through walls much thinner than its spacing."));
+    const InputSpec cache = [] {
+        InputSpec input = fileInput("cache", kParticleCacheFile);
+        input.doc =
+            "A particle cache that fieldwright simulate wrote, read in place of simulating as long as it is "
+            "of "
+            "this simulation: the path of its particles.cache, from the folder of the graph's file.";
+        return input;
+    }();
     const InputSpec seed = integer("seed", 0, 0, 1'000'000, "Another number gives other chances.");
     return {
         {.id = "emitter",
@@ -48,7 +56,7 @@ std::vector<NodeType> particleNodes() {
                     measured(positiveLength("lifetime", 2, "How long a particle lives."), "s"),
                     measured(vector("velocity", {0, 2, 0}, "How particles set off."), "m/s"),
                     amount("spread", 0.5, "m/s", "How much the velocity varies, at most, in any direction."),
-                    seed},
+                    seed, cache},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerEmitter,
          .aliases = {"fountain", "particle_system"}},
@@ -79,7 +87,7 @@ std::vector<NodeType> particleNodes() {
                     collide,
                     length("radius", 0.0, "How near a particle's centre may come to what it collides with."),
                     share("bounce", 0.3, "How much of the speed against a surface comes back."),
-                    share("friction", 0.1, "How much of the speed along a surface is lost.")},
+                    share("friction", 0.1, "How much of the speed along a surface is lost."), cache},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerParticleDynamics,
          .aliases = {"forces"}},
@@ -132,7 +140,8 @@ std::vector<NodeType> particleNodes() {
               measured(vector("inflow_velocity", {0, -1, 0}, "How what flows in moves."), "m/s"),
               asWhole(surfaceInput("outflow", "Where fluid leaves: particles in it are taken away.")),
               integer("most", 200'000, 1, 4'000'000,
-                      "Particles at a time, at most: beyond it, nothing flows in.")},
+                      "Particles at a time, at most: beyond it, nothing flows in."),
+              cache},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerFluid,
          .aliases = {"water", "liquid", "fluid"}},

@@ -33,7 +33,11 @@ struct GraphOptions {
     std::string path;
     std::vector<std::string> assignments;  ///< "name=value", each with its '='
     double time = 0.0;
+    std::string cache = {};  ///< of particles: its folder or header; empty: as the graph names them
 };
+
+/// The graph as its options have it. Errors: of the assignments; a cache that is none, or not of this graph.
+Done applyOptions(Graph& graph, const GraphOptions& options);
 
 /// Reads and checks the graph, applies the assignments; warnings and errors go to standard error.
 std::optional<Graph> openGraph(const GraphOptions& options);
@@ -109,6 +113,14 @@ struct PlayOptions {
     std::optional<int> frames;  ///< after which it ends
 };
 int runPlay(const PlayOptions& options);
+
+struct SimulateOptions {
+    GraphOptions graph;
+    std::string output, device;
+    std::string node;  ///< whose particles are kept; empty: all that the graph shows
+    SequenceOptions sequence;
+};
+int runSimulate(const SimulateOptions& options);
 
 /// `json`: as a list of objects, in place of a line each.
 int runParameters(const std::string& path, bool json);

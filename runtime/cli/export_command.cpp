@@ -1,20 +1,16 @@
-// `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request; or the
-// particles of a node to a file of points.
+// `fieldwright export`: graph file to mesh file, with progress on a terminal and a report on request.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
 #include <iterator>
 
-#include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/measured.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/cli/tiled_export.h"
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
-#include "runtime/export/points.h"
 #include "runtime/export/texture_files.h"
-#include "runtime/play/particles_at.h"
 #include "runtime/play/tiled_mesh.h"
 #include "runtime/system/interruption.h"
 #include "runtime/system/output_file.h"
@@ -106,40 +102,6 @@ void noteUnlikelySize(const ExportOptions& options, const Mesh& mesh, const Plac
         std::fprintf(stderr, "%s: note: %s\n", options.output.c_str(), words->c_str());
 }
 
-int exportParticles(const ExportOptions& options, Progress& progress) {
-    if (const Done fine = checkPointsPath(options.output); !fine) return print(fine.error()), kBadUsage;
-    const GraphOptions& from = options.mesh.graph;
-    if (const Done distinct = checkDistinct(from.path, {options.output}); !distinct)
-        return print(distinct.error()), kBadUsage;
-    OpeningDevice device(std::launch::async, {.pick = options.mesh.device});
-    progress.start("read", 0);
-    const std::optional<Graph> graph = openGraph(from);
-    if (!graph) return kBadInput;
-    if (const Done kept = checkReplacesNone(filesRead(*graph), {options.output}); !kept)
-        return print(kept.error()), kBadUsage;
-    const Result<Link> link = linkToParticles(*graph, options.particles);
-    if (!link) return badInput(options.mesh, link.error());
-    Result<Device>& opened = device.get();
-    if (!opened) return print(opened.error()), kBadUsage;
-    progress.start("simulate", 10);
-    CompileOptions compiling;
-    compiling.bake = meshFieldBaker([&] { return &*opened; });
-    const Result<ParticlePoints> points =
-        particlesAt(*graph, *link, from.time, compiling, *opened, [&](int done, int all) {
-            progress.show(10 + 80 * done / all);
-            return true;
-        });
-    if (!points) return badInput(options.mesh, points.error());
-    progress.start("write", 90);
-    if (const Done written = exportPoints(*points, options.output); !written)
-        return print(written.error()), kSystemFailure;
-    progress.finish();
-    if (points->places.empty())
-        std::fprintf(stderr, "%s: note: node '%s' has no particles then: the file is empty\n",
-                     options.output.c_str(), options.particles.c_str());
-    return kDone;
-}
-
 Done checkTextures(const ExportOptions& options) {
     if (!options.textures) return done();
     const auto refuse = [&](std::string message) {
@@ -172,7 +134,7 @@ MaterialParts partsOf(const ExportOptions& options, const std::string& path) {
 
 int runExport(const ExportOptions& options) {
     Progress progress;
-    if (!options.particles.empty()) return exportParticles(options, progress);
+    if (!options.particles.empty()) return exportParticles(options);
     if (options.animated) return exportAnimated(options);
     if (!options.sweep.empty()) return exportSweep(options);
     if (options.sequence.frames.asked()) return exportSequence(options);

@@ -1,11 +1,13 @@
 // The commands that look at a graph or at the program without meshing: check, compile, nodes, info.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "graph/base/words.h"
 #include "graph/check/check.h"
+#include "graph/compile/cached_particles.h"
 #include "graph/compile/effort.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
@@ -23,6 +25,27 @@ namespace fw::cli {
 
 void print(const Error& error) { std::fprintf(stderr, "%s\n", format(error).c_str()); }
 
+Done applyOptions(Graph& graph, const GraphOptions& options) {
+    for (const std::string& assignment : options.assignments) {
+        const std::size_t equals = assignment.find('=');
+        if (Done set = setParameter(graph, assignment.substr(0, equals), assignment.substr(equals + 1)); !set)
+            return set;
+    }
+    if (options.cache.empty()) return done();
+    std::filesystem::path header = std::filesystem::absolute(options.cache);
+    if (header.extension() != std::filesystem::path(kParticleCacheName).extension())
+        header /= kParticleCacheName;
+    const Result<ParticleCachePtr> cache = readParticleCache(graph.path, header.string());
+    const Done fits = cache ? checkCache(graph, **cache) : cache.error();
+    if (!fits) {
+        Error error = fits.error();
+        error.message += " (--cache)", error.file = graph.path;
+        return error;
+    }
+    useCache(graph, header.string());
+    return done();
+}
+
 std::optional<Graph> openGraph(const GraphOptions& options) {
     std::vector<Error> warnings;
     Result<Graph> graph = readGraph(options.path, &warnings);
@@ -31,14 +54,8 @@ std::optional<Graph> openGraph(const GraphOptions& options) {
         print(graph.error());
         return std::nullopt;
     }
-    for (const std::string& assignment : options.assignments) {
-        const std::size_t equals = assignment.find('=');
-        const Done set = setParameter(*graph, assignment.substr(0, equals), assignment.substr(equals + 1));
-        if (!set) {
-            print(set.error());
-            return std::nullopt;
-        }
-    }
+    if (const Done applied = applyOptions(*graph, options); !applied)
+        return print(applied.error()), std::nullopt;
     bool sound = true;
     for (const Error& finding : check(*graph)) {
         print(finding);

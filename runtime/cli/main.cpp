@@ -45,13 +45,23 @@ void addGraph(CLI::App* command, GraphOptions& graph) {
         ->take_all()
         ->allow_extra_args(false)
         ->check(assignment());
+}
+
+void addMoment(CLI::App* command, GraphOptions& graph) {
+    addGraph(command, graph);
     command->add_option("--time", graph.time, "Seconds at which the graph and its timeline are evaluated")
         ->default_val(0.0)
         ->check(finite());
+    command
+        ->add_option("--cache", graph.cache,
+                     "A particle cache that fieldwright simulate wrote of this graph, read in place of "
+                     "simulating (default: those that the graph's nodes name)")
+        ->type_name("FOLDER")
+        ->check(something());
 }
 
 void addMesh(CLI::App* command, MeshOptions& mesh) {
-    addGraph(command, mesh.graph);
+    addMoment(command, mesh.graph);
     command
         ->add_option("--resolution", mesh.resolution,
                      "Cells along the region's longest side (default: the output node's, else 128)")
@@ -73,24 +83,21 @@ void addMesh(CLI::App* command, MeshOptions& mesh) {
 
 /// What a command takes that makes a file for every frame.
 void addSequence(CLI::App* command, SequenceOptions& sequence) {
-    CLI::Option* moment = command->get_option("--time");
     command->add_option("--from", sequence.frames.from, "Seconds of the first frame (default: 0)")
-        ->check(finite())
-        ->excludes(moment);
+        ->check(finite());
     command
         ->add_option("--to", sequence.frames.to,
                      "Seconds that the frames stay below (default: the timeline's length)")
-        ->check(finite())
-        ->excludes(moment);
+        ->check(finite());
     command
         ->add_option("--fps", sequence.frames.framesPerSecond,
                      "Frames a second (default: the timeline's, else 30); frame n shows the time n / fps")
         ->check(finite())
         ->check(CLI::Range(0.001, kMostFramesPerSecond));
-    command
-        ->add_flag("--range", sequence.frames.range,
-                   "The frames of the timeline's range (default: of all of it)")
-        ->excludes(moment);
+    command->add_flag("--range", sequence.frames.range,
+                      "The frames of the timeline's range (default: of all of it)");
+    if (CLI::Option* moment = command->get_option_no_throw("--time"))
+        for (const char* many : {"--from", "--to", "--range"}) command->get_option(many)->excludes(moment);
     command->add_flag("--overwrite", sequence.overwrite,
                       "Make frames anew that are there already (default: skip them)");
 }
@@ -212,9 +219,9 @@ int run(int count, char** arguments) {
         exportCommand
             ->add_option(
                 "--particles", exportOptions.particles,
-                "Write the particles that this node of the document itself gives at the time, in place "
-                "of a mesh: their places and velocities, as points that a particle_file reads; "
-                "NODE.OUTPUT of a group that has several outputs")
+                "Write the particles that this node of the document itself gives at the time, or at every "
+                "frame, in place of a mesh: their places, velocities and numbers, as points that a "
+                "particle_file reads; NODE.OUTPUT of a group that has several outputs")
             ->type_name("NODE")
             ->check(something());
     addMeasures(exportCommand, exportOptions);
@@ -222,9 +229,12 @@ int run(int count, char** arguments) {
     exportCommand->parse_complete_callback([exportCommand] { oneMomentOrMany(exportCommand); });
     std::vector<std::string> formats;
     for (const ExportFormat& format : exportFormats()) formats.emplace_back(format.ending + 1);
+    for (const char* ending : kPointEndings)
+        if (!exportFormat(std::string("a") + ending)) formats.emplace_back(ending + 1);
     exportCommand
-        ->add_option("--format", exportOptions.format,
-                     "Of a sequence or a sweep: what each of its meshes is (default: glb)")
+        ->add_option(
+            "--format", exportOptions.format,
+            "Of a sequence or a sweep: what each of its meshes is (default: glb), or its particles (ply)")
         ->check(oneOf(formats));
     CLI::Option* animated = exportCommand->add_flag(
         "--animated", exportOptions.animated,
@@ -255,11 +265,9 @@ int run(int count, char** arguments) {
             "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge; a "
             "part that was stopped goes on where it was")
         ->check(something());
-    for (const char* ofMeshes : {"--resolution", "--region",  "--method", "--manifold",  "--split-materials",
-                                 "--compress",   "--parts",   "--unit",   "--up",        "--for",
-                                 "--report",     "--require", "--tiles",  "--tile",      "--from",
-                                 "--to",         "--fps",     "--range",  "--overwrite", "--format",
-                                 "--animated",   "--sweep"})
+    for (const char* ofMeshes :
+         {"--resolution", "--region", "--method", "--manifold", "--split-materials", "--compress", "--parts",
+          "--unit", "--up", "--for", "--report", "--require", "--tiles", "--tile", "--animated", "--sweep"})
         particles->excludes(exportCommand->get_option(ofMeshes));
     for (const char* ofSequences :
          {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep"})
@@ -361,6 +369,26 @@ int run(int count, char** arguments) {
                      "End after as many frames (default: with --headless once through the timeline)")
         ->check(whole(1, 1'000'000));
 
+    SimulateOptions simulateOptions;
+    CLI::App* simulateCommand = app.add_subcommand("simulate",
+                                                   "Run a graph's fluids and particles once, into a cache "
+                                                   "that render, export, play and the editor read");
+    addGraph(simulateCommand, simulateOptions.graph);
+    simulateCommand
+        ->add_option("-o,--output", simulateOptions.output,
+                     "The cache, a folder. One of the same simulation goes on where it was stopped; its "
+                     "particles.cache is what a node's cache names")
+        ->required()
+        ->check(something());
+    simulateCommand
+        ->add_option("--node", simulateOptions.node,
+                     "Only the particles that this node of the document itself gives (default: all that the "
+                     "graph shows)")
+        ->check(something());
+    addSequence(simulateCommand, simulateOptions.sequence);
+    simulateCommand->add_option("--device", simulateOptions.device,
+                                "Index or part of the name of the device (see fieldwright info)");
+
     std::vector<std::string> checkPaths;
     CLI::App* checkCommand =
         app.add_subcommand("check", "List every problem of graph files, with file:line:column");
@@ -369,7 +397,7 @@ int run(int count, char** arguments) {
     EvalOptions evalOptions;
     CLI::App* evalCommand =
         app.add_subcommand("eval", "Evaluate a graph's field on the CPU, in double precision");
-    addGraph(evalCommand, evalOptions.graph);
+    addMoment(evalCommand, evalOptions.graph);
     CLI::Option* at =
         evalCommand
             ->add_option("--at", evalOptions.at, "The point: x y z. Prints the distance (negative inside)")
@@ -403,7 +431,7 @@ int run(int count, char** arguments) {
 
     CompileCommandOptions compileOptions;
     CLI::App* compileCommand = app.add_subcommand("compile", "Show what a graph compiles to");
-    addGraph(compileCommand, compileOptions.graph);
+    addMoment(compileCommand, compileOptions.graph);
     compileCommand->add_option("--emit", compileOptions.emit, "What to print: glsl, ir, or spirv (binary)")
         ->check(oneOf({"glsl", "ir", "spirv"}))
         ->default_str("glsl");
@@ -459,7 +487,8 @@ int run(int count, char** arguments) {
         app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
-    const bool writes = exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed();
+    const bool writes = exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed() ||
+                        simulateCommand->parsed();
     if (!checkCommand->parsed() && !nodesCommand->parsed() && !parametersCommand->parsed()) {
         makeRoomForDriverCache();
         passOverDriversWithoutCards();
@@ -471,6 +500,7 @@ int run(int count, char** arguments) {
         if (mergeCommand->parsed()) return runMerge(mergeOptions);
         if (renderCommand->parsed()) return runRender(renderOptions);
         if (playCommand->parsed()) return runPlay(playOptions);
+        if (simulateCommand->parsed()) return runSimulate(simulateOptions);
         if (checkCommand->parsed()) return runCheck(checkPaths);
         if (evalCommand->parsed()) return runEval(evalOptions);
         if (compileCommand->parsed()) return runCompile(compileOptions);

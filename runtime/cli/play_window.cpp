@@ -83,12 +83,7 @@ class Stage {
     Done readAgain() {
         Result<Graph> graph = readGraph(options.mesh.graph.path, nullptr);
         if (!graph) return graph.error();
-        for (const std::string& assignment : options.mesh.graph.assignments) {
-            const std::size_t equals = assignment.find('=');
-            const Done set =
-                setParameter(*graph, assignment.substr(0, equals), assignment.substr(equals + 1));
-            if (!set) return set.error();
-        }
+        if (Done applied = applyOptions(*graph, options.mesh.graph); !applied) return applied;
         return player.reload(std::move(*graph));
     }
 

@@ -62,5 +62,7 @@ fw::ExportOptions fileOptions(const ExportOptions& options);
 int exportSequence(const ExportOptions& options);
 int exportAnimated(const ExportOptions& options);
 int exportSweep(const ExportOptions& options);
+/// `export --particles`: a file of points, or one for every frame.
+int exportParticles(const ExportOptions& options);
 
 }  // namespace fw::cli

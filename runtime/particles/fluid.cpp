@@ -1,6 +1,7 @@
 #include "runtime/particles/fluid.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -159,9 +160,9 @@ void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm
 }
 
 void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
-                const std::vector<glm::vec3>& velocities) {
+                const std::vector<glm::vec3>& velocities, uint32_t firstId) {
     const uint32_t old = std::exchange(fluid.count, fluid.count + uint32_t(places.size()));
-    const auto add = [&](Buffer& buffer, const std::vector<glm::vec3>& from) {
+    const auto add = [&](Buffer& buffer, const std::vector<glm::vec4>& from) {
         if (buffer.size < 16 * roomFor(fluid.count)) {
             Buffer larger = createBuffer(device, 16 * roomFor(fluid.count + fluid.count / 4));
             Commands commands(device);
@@ -169,12 +170,19 @@ void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<g
             submit(commands);
             buffer = std::move(larger);
         }
-        std::vector<glm::vec4> added;
-        for (const glm::vec3& each : from) added.emplace_back(each, 0.0f);
-        uploadBytes(device, buffer, added.data(), 16 * added.size(), 16ull * old);
+        uploadBytes(device, buffer, from.data(), 16 * from.size(), 16ull * old);
     };
-    add(fluid.places, places);
-    add(fluid.velocities, velocities);
+    std::vector<glm::vec4> at;
+    for (const glm::vec3& each : places) at.emplace_back(each, 0.0f);
+    add(fluid.places, at);
+    add(fluid.velocities, numbered(velocities, firstId));
+}
+
+std::vector<glm::vec4> numbered(const std::vector<glm::vec3>& velocities, uint32_t firstId) {
+    std::vector<glm::vec4> all;
+    all.reserve(velocities.size());
+    for (const glm::vec3& each : velocities) all.emplace_back(each, std::bit_cast<float>(firstId++));
+    return all;
 }
 
 void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles& b,
@@ -199,7 +207,7 @@ void drainFluid(Commands& commands, const FluidKernels& kernels, FluidParticles&
     run(kernels.reorder,
         std::array{Descriptor{0, b.order}, Descriptor{1, b.places}, Descriptor{2, b.velocities},
                    Descriptor{3, b.velocities}, Descriptor{4, b.sortedPlaces}, Descriptor{5, b.sortedGuesses},
-                   Descriptor{6, b.sortedPlanes}});
+                   Descriptor{6, b.sortedPlanes}, Descriptor{7, b.velocities}});
     submit(commands);
     std::swap(b.places, b.sortedPlaces);
     std::swap(b.velocities, b.sortedGuesses);
@@ -277,9 +285,10 @@ Done recordFluidStep(Commands& commands, const FluidKernels& kernels, FluidParti
     beginStage(commands, "sort");
     sortByKey(commands, kernels.sort, b.cells, b.keys, b.order, b.count,
               uint32_t(push.cells.x * push.cells.y * push.cells.z));
-    run(kernels.reorder, std::array{Descriptor{0, b.order}, Descriptor{1, b.places}, Descriptor{2, b.guesses},
-                                    Descriptor{3, b.planes}, Descriptor{4, b.sortedPlaces},
-                                    Descriptor{5, b.sortedGuesses}, Descriptor{6, b.sortedPlanes}});
+    run(kernels.reorder,
+        std::array{Descriptor{0, b.order}, Descriptor{1, b.places}, Descriptor{2, b.guesses},
+                   Descriptor{3, b.planes}, Descriptor{4, b.sortedPlaces}, Descriptor{5, b.sortedGuesses},
+                   Descriptor{6, b.sortedPlanes}, Descriptor{7, b.velocities}});
     sendIfMany();
     beginStage(commands, "neighbours");
     // Written as words, of which not all may be bound at once; read as texels, which may.

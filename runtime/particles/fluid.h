@@ -70,6 +70,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <string_view>
 
@@ -108,7 +109,8 @@ struct FluidConfig {
 
 struct FluidParticles {
     uint32_t count = 0;
-    /// Four floats each, in the order of cells after a step; the fourth of a place has no meaning then.
+    /// Four floats each, in the order of cells after a step. The fourth of a place has no meaning then; that
+    /// of a velocity is the bits of the particle's number, which stays its own.
     Buffer places, velocities;
     Buffer densities;  ///< one each, as they were before the last turn of the step
     Buffer guesses, planes, sortedPlaces, sortedGuesses, sortedPlanes, weighed;
@@ -156,13 +158,15 @@ std::vector<glm::vec3> fluidBlock(const glm::vec3& lo, const glm::vec3& hi, floa
 void reserveFluid(const Device& device, FluidParticles& fluid, uint32_t count);
 
 /// Sets all there is of the state: what was read from `places` and `velocities` goes on to the same bytes. No
-/// velocities: all at rest. The device must not be using it.
+/// velocities: all at rest. All numbers are 0. The device must not be using it.
 void setFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
               const std::vector<glm::vec3>& velocities);
 
-/// Adds particles behind all others. The device must not be using the fluid.
+/// Adds particles behind all others, numbered from `firstId` on. The device must not be using the fluid.
 void addToFluid(const Device& device, FluidParticles& fluid, const std::vector<glm::vec3>& places,
-                const std::vector<glm::vec3>& velocities);
+                const std::vector<glm::vec3>& velocities, uint32_t firstId);
+/// Velocities as the device has them, each with the next number.
+std::vector<glm::vec4> numbered(const std::vector<glm::vec3>& velocities, uint32_t firstId);
 
 /// Takes away what is in the outflow that the kernels were made with, which reads `outflow`; the others keep
 /// their order. Ends the recording and waits for it.

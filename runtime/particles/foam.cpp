@@ -31,12 +31,14 @@ FoamKernels createFoamKernels(const Device& device, std::string_view obstacle) {
 void reserveFoam(const Device& device, FoamParticles& foam, uint32_t slots) {
     foam.slots = slots;
     for (Buffer* each : {&foam.places, &foam.velocities}) reserve(device, *each, 16ull * slots);
+    reserve(device, foam.ids, foamIdBytes(slots));
 }
 
 void clearFoam(const Device& device, FoamParticles& foam, uint32_t slots) {
     reserveFoam(device, foam, slots);
     upload(device, foam.places, std::vector(slots, glm::vec4(std::numeric_limits<float>::quiet_NaN())));
     upload(device, foam.velocities, std::vector(slots, glm::vec4(0.0f, 0.0f, 0.0f, -1.0f)));
+    upload(device, foam.ids, std::vector<uint32_t>(slots + 2));
 }
 
 namespace {
@@ -90,8 +92,10 @@ void recordFoamStep(Commands& commands, const FoamKernels& kernels, FoamParticle
             std::array{Descriptor{0, foam.numbers}, Descriptor{1, fluid.places},
                        Descriptor{2, fluid.velocities}, Descriptor{3, foam.before},
                        Descriptor{4, foam.vacantBefore}, Descriptor{5, foam.free}, Descriptor{6, foam.places},
-                       Descriptor{7, foam.velocities}});
-    } else {  // no cell has any
+                       Descriptor{7, foam.velocities}, Descriptor{8, foam.ids}});
+    } else {  // no cell has any, and nothing is born
+        const VkDeviceSize counts = 4ull * foam.slots, now = 4ull * (config.step & 1);
+        copy(commands, foam.ids, counts + now, foam.ids, counts + 4 - now, 4);
         reserve(device, fluid.cells.starts, 4ull * uint32_t(push.cells.x * push.cells.y * push.cells.z));
         fill(commands, fluid.cells.starts, 0);
         barrier(commands);

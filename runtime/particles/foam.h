@@ -46,13 +46,17 @@ struct FoamConfig {
     uint32_t step = 0;  ///< its number: what else chances follow from
 };
 
-/// The state is `places`, each followed by the seconds as foam, and `velocities`, by the kind and a chance.
+/// The state is `places`, each followed by the seconds as foam, `velocities`, by the kind and a chance, and
+/// `ids`, of foamIdBytes().
 struct FoamParticles {
     uint32_t slots = 0;
     Buffer places, velocities;
+    Buffer ids;  ///< the number of each slot's particle; behind them how many there were, by a step's parity
     Buffer shown;  ///< places of one kind
     Buffer numbers, normals, given, before, sums, vacant, vacantBefore, vacantSums, free;
 };
+
+inline uint64_t foamIdBytes(uint32_t slots) { return 4ull * (slots + 2ull); }
 
 /// Makes so many slots, all of them empty: as many as there may be particles at a time. The device must not
 /// be using it.

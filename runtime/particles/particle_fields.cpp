@@ -85,12 +85,20 @@ void ParticleFields::setProgram(const Program& program) {
             return std::ranges::equal(before.simulation->recipes(), together, {}, &ParticleField::stagesHash,
                                       &ParticleField::stagesHash);
         });
+        if (known != parts.end()) known->simulation->takeAgain(together);
         const auto simulation =
             known != parts.end() ? known->simulation : std::make_shared<Simulation>(*device, together);
         for (Part& other : next)
             if (other.field->sourceHash == part.field->sourceHash) other.simulation = simulation;
     }
     parts = std::move(next);
+}
+
+std::vector<std::shared_ptr<Simulation>> ParticleFields::simulations() const {
+    std::vector<std::shared_ptr<Simulation>> list;
+    for (const Part& part : parts)
+        if (std::ranges::find(list, part.simulation) == list.end()) list.push_back(part.simulation);
+    return list;
 }
 
 void ParticleFields::valuesChanged() {

@@ -30,6 +30,8 @@ class ParticleFields {
 
     /// The program whose particles are meant from now on.
     void setProgram(const Program& program);
+    /// All simulations, each once.
+    std::vector<std::shared_ptr<Simulation>> simulations() const;
     /// Of live values that were changed by hand: Simulation::valuesChanged().
     void valuesChanged();
     /// Brings all particles to a time and writes their samples into `volumes`, the texels of all volumes of

@@ -1,6 +1,7 @@
 #include "runtime/particles/simulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -72,6 +73,7 @@ Simulation::Simulation(const Device& device_, std::vector<ParticleFieldPtr> reci
     std::vector<Pipeline> made = createComputePipelines(*device, shaders);
     births = std::move(made[0]), flight = std::move(made[1]);
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i].kernel = std::move(made[i + 2]);
+    takeAgain(fields);
     if (source().kind != Kind::fluid) return;
     Fluid& flowing = fluid.emplace();
     std::string obstacle;
@@ -92,6 +94,26 @@ Simulation::Simulation(const Device& device_, std::vector<ParticleFieldPtr> reci
         foams.push_back({.field = each, .shown = int(kind - kFoamKinds) - 1, .particles = {}});
     }
     if (!foams.empty()) foamKernels = createFoamKernels(*device, obstacle);
+}
+
+void Simulation::takeAgain(const std::vector<ParticleFieldPtr>& recipes) {
+    std::vector<CachedStates> found;
+    bool all = true;
+    const auto add = [&](const ParticleStage& stage) {
+        all = all && stage.cached;
+        if (all) found.push_back(*stage.cached);
+    };
+    add(recipes.front()->particles.simulated());
+    for (const ParticleFieldPtr& each : recipes)
+        if (each->particles.endsInFoam()) add(each->particles.stages.back());
+    if (!all) found.clear();
+    const bool held = std::exchange(cacheHolds, true);
+    if (found == cached && held) return;
+    cached = std::move(found);
+    if (cached.empty()) return;
+    forget();  // what may be of other values than the cache's
+    born.clear();
+    state.steps = -1;
 }
 
 const Simulation::Foam* Simulation::foamOf(std::size_t recipe) const {
@@ -176,7 +198,21 @@ Result<std::vector<glm::vec3>> placesIn(const Program& source, const Program* ob
 
 }  // namespace
 
+namespace {
+
+/// Of an emitter, how many there were at the start, and after one more step.
+double bornFirst(const StageNumbers& emitter) { return std::floor(std::max(emitter.scalar("burst"), 0.0)); }
+double bornAfter(double before, const StageNumbers& emitter) {
+    return before + std::max(emitter.scalar("rate"), 0.0) * kSimulationStep;
+}
+
+}  // namespace
+
 bool Simulation::rests() const { return source().kind == Kind::file && moves.empty(); }
+
+int Simulation::stepAt(double seconds) {
+    return int(std::floor(std::max(seconds, 0.0) / kSimulationStep + 1e-6));
+}
 
 Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
                               const std::function<bool(int done, int all)>& progress) {
@@ -184,7 +220,7 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
         return Error{.message = "particles are simulated for " +
                                 std::to_string(int(kMostSimulated / 3600.0)) +
                                 " hours at most: choose an earlier time"};
-    const int wanted = rests() ? 0 : int(std::floor(std::max(seconds, 0.0) / kSimulationStep + 1e-6));
+    const int wanted = rests() ? 0 : stepAt(seconds);
     if (wanted == state.steps) return false;
     const Result<bool> gone = stepTo(wanted, values, progress);
     showFoam();
@@ -199,6 +235,8 @@ Result<bool> Simulation::stepTo(int wanted, const ValuesAt& values,
         if (wanted < state.steps || last.steps > state.steps) restore(last);
     }
     if (wanted < state.steps) state.steps = -1;
+    if (const int step = lastCached(wanted); step > state.steps)
+        if (const Done loaded = load(step, values); !loaded) return loaded.error();
     const int first = std::max(state.steps, 0);
     while (state.steps < wanted) {
         const double time = (state.steps + 1) * kSimulationStep;
@@ -215,6 +253,7 @@ Result<bool> Simulation::stepTo(int wanted, const ValuesAt& values,
 }
 
 void Simulation::valuesChanged() {
+    cacheHolds = false;
     forget();
     born.resize(std::min(born.size(), std::size_t(state.steps + 1)));
     if (state.steps == 0) state.steps = -1;
@@ -238,7 +277,7 @@ Done Simulation::start(const std::vector<double>& values) {
         return taken(commands);
     }
     state.slots = 0;
-    born = {std::floor(std::max(numbers.scalar("burst"), 0.0))};
+    born = {bornFirst(numbers)};
     if (const Done room = makeRoom(numbers, born[0]); !room) return room.error();
     Commands commands(*device);
     emit(commands, numbers, 0.0, born[0]);
@@ -264,8 +303,7 @@ Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
         return taken(commands);
     }
     const StageNumbers numbers(field().ir, source(), now);
-    const double before = born[std::size_t(state.steps)],
-                 after = before + std::max(numbers.scalar("rate"), 0.0) * kSimulationStep;
+    const double before = born[std::size_t(state.steps)], after = bornAfter(before, numbers);
     born.resize(std::max(born.size(), std::size_t(state.steps) + 2));
     born[std::size_t(state.steps) + 1] = after;
     if (const Done room = makeRoom(numbers, after); !room) return room.error();
@@ -297,6 +335,7 @@ Done Simulation::fill(const std::vector<double>& values) {
                          .node = foam.stage().node};
         clearFoam(*device, foam.particles, slots);
     }
+    born.assign(1, double(places->size()));
     drifts.assign(1, kDriftAside * std::max(numbers.scalar("spacing"), kLeastSpacing));
     setFluid(*device, fluid->particles, *places, {});
     Commands commands(*device);
@@ -305,9 +344,9 @@ Done Simulation::fill(const std::vector<double>& values) {
         !settled)
         return Error{.message = settled.error().message, .node = source().node};
     submit(commands);
-    upload(*device, fluid->particles.velocities,
-           std::vector(std::max<std::size_t>(places->size(), 1),
-                       glm::vec4(glm::vec3(numbers.vector("velocity")), 0.0f)));
+    if (!places->empty())
+        upload(*device, fluid->particles.velocities,
+               numbered(std::vector(places->size(), glm::vec3(numbers.vector("velocity"))), 0));
     Commands first(*device);
     return taken(first);
 }
@@ -422,7 +461,7 @@ Done Simulation::flow(Commands& commands, const std::vector<double>& now, const 
 }
 
 /// Adds what has flown in at the end of a step.
-Done Simulation::inflow(const std::vector<double>& before, const std::vector<double>& now) {
+Done Simulation::inflow(const std::vector<double>& earlier, const std::vector<double>& now) {
     const auto found = source().fields.find("inflow");
     if (found == source().fields.end()) return done();
     const StageNumbers numbers(field().ir, source(), now);
@@ -442,7 +481,7 @@ Done Simulation::inflow(const std::vector<double>& before, const std::vector<dou
     }
     std::vector<double> distances(origins.size()), within(origins.size());
     TapeMachine<double> machine;
-    machine.evaluate(distanceTape(*found->second, before), origins, distances);
+    machine.evaluate(distanceTape(*found->second, earlier), origins, distances);
     machine.evaluate(distanceTape(*found->second, now), ends, within);
     std::vector<glm::vec3> entered, fast;
     const glm::dvec3 gravity = numbers.vector("gravity");
@@ -453,7 +492,10 @@ Done Simulation::inflow(const std::vector<double>& before, const std::vector<dou
             entered.emplace_back(glm::dvec3((*places)[i]) + 0.5 * age * age * gravity);
             fast.emplace_back(velocity + age * gravity);
         }
-    if (!entered.empty()) addToFluid(*device, fluid->particles, entered, fast);
+    const double before = born[std::size_t(state.steps)];
+    born.resize(std::max(born.size(), std::size_t(state.steps) + 2));
+    born[std::size_t(state.steps) + 1] = before + double(entered.size());
+    if (!entered.empty()) addToFluid(*device, fluid->particles, entered, fast, uint32_t(uint64_t(before)));
     state.slots = fluid->particles.count;
     return done();
 }
@@ -572,12 +614,6 @@ Done Simulation::taken(Commands& commands) {
     return done();
 }
 
-VkDeviceSize Simulation::Checkpoint::bytes() const {
-    VkDeviceSize sum = 0;
-    for (const uint32_t each : slots) sum += 32ull * each;
-    return sum;
-}
-
 std::vector<uint32_t> Simulation::allSlots() const {
     std::vector<uint32_t> all{state.slots};
     for (const Foam& foam : foams) all.push_back(foam.particles.slots);
@@ -591,27 +627,38 @@ Simulation::Checkpoint Simulation::roomFor(std::vector<uint32_t> slots) {
         return room;
     }
     dropped.clear();
+    const VkDeviceSize bytes = bytesOf(slots);
     Checkpoint room{.steps = 0, .slots = std::move(slots), .kept = open, .at = openFrom};
-    if (!open || openFrom + room.bytes() > open->size) {
-        open = std::make_shared<const Buffer>(
-            createBuffer(*device, std::max(room.bytes(), kCheckpointBufferBytes)));
+    if (!open || openFrom + bytes > open->size) {
+        open = std::make_shared<const Buffer>(createBuffer(*device, std::max(bytes, kCheckpointBufferBytes)));
         room.kept = open, room.at = 0;
     }
-    openFrom = room.at + room.bytes();
+    openFrom = room.at + bytes;
     return room;
+}
+
+std::vector<Simulation::StatePart> Simulation::stateParts(std::size_t i, uint32_t slots) const {
+    if (i == 0) return {{&sourcePlaces(), 16ull * slots}, {&motion(), 16ull * slots}};
+    const FoamParticles& foam = foams[i - 1].particles;
+    return {
+        {&foam.places, 16ull * slots}, {&foam.velocities, 16ull * slots}, {&foam.ids, foamIdBytes(slots)}};
+}
+
+VkDeviceSize Simulation::bytesOf(const std::vector<uint32_t>& slots) const {
+    VkDeviceSize sum = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+        for (const StatePart& each : stateParts(i, slots[i])) sum += each.bytes;
+    return sum;
 }
 
 template <class Call>
 void Simulation::forParts(const Checkpoint& of, Call call) const {
     VkDeviceSize at = of.at;
-    for (std::size_t i = 0; i < of.slots.size(); ++i) {
-        const VkDeviceSize size = 16ull * of.slots[i];
-        for (const Buffer* each : {i == 0 ? &sourcePlaces() : &foams[i - 1].particles.places,
-                                   i == 0 ? &motion() : &foams[i - 1].particles.velocities}) {
-            if (size > 0) call(*each, at, size);
-            at += size;
+    for (std::size_t i = 0; i < of.slots.size(); ++i)
+        for (const StatePart& each : stateParts(i, of.slots[i])) {
+            if (each.bytes > 0) call(*each.buffer, at, each.bytes);
+            at += each.bytes;
         }
-    }
 }
 
 void Simulation::keep(Commands& commands) {
@@ -624,7 +671,7 @@ void Simulation::keep(Commands& commands) {
     });
     checkpoints.insert(place, std::move(made));
     VkDeviceSize bytes = 0;
-    for (const Checkpoint& each : checkpoints) bytes += each.bytes();
+    for (const Checkpoint& each : checkpoints) bytes += bytesOf(each.slots);
     if (bytes <= kMostCheckpointBytes || checkpoints.size() < 3) return;
     apart *= 2;
     const auto away = std::stable_partition(checkpoints.begin(), checkpoints.end(),
@@ -638,22 +685,115 @@ void Simulation::forget() {
     checkpoints.clear();
 }
 
-void Simulation::restore(const Checkpoint& from) {
-    state.steps = from.steps;
-    state.slots = from.slots.front();
+void Simulation::reserveState(const std::vector<uint32_t>& slots) {
+    state.slots = slots.front();
     if (fluid) {
         reserveFluid(*device, fluid->particles, state.slots);
     } else {
         reserve(*device, state.places, 16ull * state.slots);
         reserve(*device, state.velocities, 16ull * state.slots);
     }
-    for (std::size_t i = 0; i < foams.size(); ++i)
-        reserveFoam(*device, foams[i].particles, from.slots[i + 1]);
+    for (std::size_t i = 0; i < foams.size(); ++i) reserveFoam(*device, foams[i].particles, slots[i + 1]);
+}
+
+void Simulation::restore(const Checkpoint& from) {
+    state.steps = from.steps;
+    reserveState(from.slots);
     Commands commands(*device);
     forParts(from, [&](const Buffer& buffer, VkDeviceSize at, VkDeviceSize size) {
         copy(commands, *from.kept, at, buffer, 0, size);
     });
     send(commands);
+}
+
+int Simulation::lastCached(int step) const {
+    if (cached.empty() || !cacheHolds || rests()) return -1;
+    const auto has = [&](int at) {
+        return std::ranges::all_of(cached, [&](const CachedStates& each) { return stateIsThere(each, at); });
+    };
+    if (has(step)) return step;
+    for (const int each : statesUpTo(cached.front(), step))
+        if (each <= state.steps || has(each)) return each;
+    return -1;
+}
+
+std::vector<ParticleState> Simulation::states() const {
+    std::vector<ParticleState> made;
+    const std::vector<uint32_t> slots = allSlots();
+    const auto at = std::size_t(std::max(state.steps, 0));
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        ParticleState& each = made.emplace_back(ParticleState{.step = uint32_t(at), .slots = slots[i]});
+        if (i == 0 && at < born.size()) each.born = born[at];
+        if (i == 0 && at < drifts.size())
+            for (int axis = 0; axis < 3; ++axis) each.drift[axis] = drifts[at][axis];
+        for (const StatePart& part : stateParts(i, slots[i])) {
+            const std::size_t from = each.bytes.size();
+            each.bytes.resize(from + part.bytes);
+            if (part.bytes > 0) downloadBytes(*device, *part.buffer, &each.bytes[from], part.bytes);
+        }
+    }
+    return made;
+}
+
+void Simulation::countBirths(const ValuesAt& values) {
+    while (born.size() <= std::size_t(state.steps)) {
+        const StageNumbers numbers(field().ir, source(), values(double(born.size()) * kSimulationStep));
+        born.push_back(born.empty() ? bornFirst(numbers) : bornAfter(born.back(), numbers));
+    }
+}
+
+Done Simulation::load(int step, const ValuesAt& values) {
+    std::vector<ParticleState> loaded;
+    std::vector<uint32_t> slots;
+    for (std::size_t i = 0; i < cached.size(); ++i) {
+        Result<ParticleState> each = readState(cached[i], step);
+        if (!each) return each.error();
+        slots.push_back(each->slots);
+        VkDeviceSize bytes = 0;
+        for (const StatePart& part : stateParts(i, each->slots)) bytes += part.bytes;
+        if (bytes != each->bytes.size() || each->slots > kMostParticles)
+            return Error{.message = "the state of particles " + inQuotes(statePath(cached[i], step)) +
+                                    " was damaged: remove it, and simulate again"};
+        loaded.push_back(std::move(*each));
+    }
+    reserveState(slots);
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+        std::size_t from = 0;
+        for (const StatePart& part : stateParts(i, slots[i])) {
+            if (part.bytes > 0) uploadBytes(*device, *part.buffer, &loaded[i].bytes[from], part.bytes);
+            from += part.bytes;
+        }
+    }
+    state.steps = step;
+    const auto at = std::size_t(step);
+    if (source().kind == Kind::emitter) {
+        countBirths(values);
+    } else if (fluid) {
+        born.resize(std::max(born.size(), at + 1));
+        born[at] = loaded.front().born;
+        drifts.resize(std::max(drifts.size(), at + 1));
+        drifts[at] = {loaded.front().drift[0], loaded.front().drift[1], loaded.front().drift[2]};
+    }
+    return done();
+}
+
+std::vector<uint32_t> Simulation::ids(std::size_t recipe) const {
+    std::vector<uint32_t> list(slots(recipe));
+    if (list.empty()) return list;
+    if (const Foam* const foam = foamOf(recipe))
+        return download<uint32_t>(*device, foam->particles.ids, list.size());
+    if (fluid) {
+        const auto velocities = download<glm::vec4>(*device, motion(), list.size());
+        for (std::size_t i = 0; i < list.size(); ++i) list[i] = std::bit_cast<uint32_t>(velocities[i].w);
+        return list;
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = uint32_t(i);
+    if (source().kind == Kind::emitter) {  // the last with this slot
+        const auto all = uint64_t(born[std::size_t(state.steps)]);
+        for (uint64_t n = all > list.size() ? all - list.size() : 0; n < all; ++n)
+            list[n % list.size()] = uint32_t(n);
+    }
+    return list;
 }
 
 }  // namespace fw

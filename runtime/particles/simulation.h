@@ -19,6 +19,15 @@
 // last ones that were born are there. A slot whose particle has died, or that never had one, has a place that
 // is not a number.
 //
+// Where a cache keeps states of the simulation (runtime/particles/state_file.h), a step that it has is read
+// from there, and one that it lacks starts from the last that is before, if none nearer is known. All numbers
+// but the states' own follow from the live values anew, so that what goes on from a state goes on to the same
+// bytes. A live value that was changed by hand leaves the cache aside until recipes come that know of the
+// change.
+//
+// Every particle has a number that stays its own: of a file its place there, else that of its birth, from 0,
+// modulo 2^32.
+//
 // Recipes that differ in their foam alone, or of which some have none, are simulated as one: the fluid flows
 // once, and each foam goes along.
 //
@@ -32,6 +41,7 @@
 #include "graph/compile/particle_recipe.h"
 #include "runtime/gpu/field_buffers.h"
 #include "runtime/particles/foam.h"
+#include "runtime/particles/state_file.h"
 
 namespace fw {
 
@@ -62,13 +72,24 @@ class Simulation {
                       const std::function<bool(int done, int all)>& progress = {});
     /// Of live values that changed otherwise than with the time: what was kept is out of date.
     void valuesChanged();
+    /// Takes the same recipes again, whose caches may be others.
+    void takeAgain(const std::vector<ParticleFieldPtr>& recipes);
 
     /// Where those of a recipe are: four floats each, the place and, of those that are born, the age.
     const Buffer& places(std::size_t recipe = 0) const;
     /// How fast they are, likewise, metres per second; null if nothing moves them.
     const Buffer* velocities(std::size_t recipe = 0) const;
     uint32_t slots(std::size_t recipe = 0) const;
+    /// The number of each slot's particle, on the host; of a slot without one any.
+    std::vector<uint32_t> ids(std::size_t recipe = 0) const;
     const std::vector<ParticleFieldPtr>& recipes() const { return fields; }
+
+    /// The step that goTo() takes it to.
+    static int stepAt(double seconds);
+    /// Where a cache keeps its states, those of the source and then of each foam; none without a cache.
+    const std::vector<CachedStates>& caches() const { return cached; }
+    /// The state of each, after the step that it is at.
+    std::vector<ParticleState> states() const;
 
   private:
     struct State {
@@ -83,7 +104,10 @@ class Simulation {
         std::vector<uint32_t> slots;
         std::shared_ptr<const Buffer> kept;
         VkDeviceSize at;
-        VkDeviceSize bytes() const;
+    };
+    struct StatePart {
+        const Buffer* buffer;
+        VkDeviceSize bytes;
     };
 
     struct Fluid {
@@ -128,11 +152,19 @@ class Simulation {
     void keep(Commands& commands);
     std::vector<uint32_t> allSlots() const;
     Checkpoint roomFor(std::vector<uint32_t> slots);
+    /// What a state consists of, of the source (0) and each foam behind it, with so many slots.
+    std::vector<StatePart> stateParts(std::size_t i, uint32_t slots) const;
+    VkDeviceSize bytesOf(const std::vector<uint32_t>& slots) const;
     /// Calls with what a checkpoint holds: a buffer, its first byte there, and its size.
     template <class Call>
     void forParts(const Checkpoint& of, Call call) const;
     void forget();
+    void reserveState(const std::vector<uint32_t>& slots);
     void restore(const Checkpoint& from);
+    /// The last step up to that one which the cache has; -1: none.
+    int lastCached(int step) const;
+    Done load(int step, const ValuesAt& values);
+    void countBirths(const ValuesAt& values);
 
     const Device* device;
     const ParticleField& field() const { return *fields.front(); }
@@ -147,7 +179,9 @@ class Simulation {
     std::optional<FoamKernels> foamKernels;  ///< where there is foam
     std::vector<Foam> foams;
     State state;
-    std::vector<double> born;            ///< how many were, after each step
+    std::vector<CachedStates> cached = {};
+    bool cacheHolds = true;    ///< its states are of the live values
+    std::vector<double> born;  ///< how many were, after each step; of a fluid into which more flows, too
     std::vector<glm::dvec3> drifts;      ///< of what flows in, after each step, metres
     std::deque<Checkpoint> checkpoints;  ///< by their steps
     std::vector<Checkpoint> dropped;     ///< whose room is free

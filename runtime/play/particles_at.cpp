@@ -5,9 +5,7 @@
 #include <glm/vec4.hpp>
 
 #include "graph/base/words.h"
-#include "graph/compile/live_program.h"
 #include "graph/library/node_type.h"
-#include "runtime/particles/simulation.h"
 
 namespace fw {
 
@@ -36,19 +34,6 @@ std::vector<std::string> namesOf(const std::vector<Link>& giving) {
     return names;
 }
 
-/// The graph with the node's particles as all that it shows, in a grid that nobody fills.
-Graph showingParticles(Graph graph, const Link& from, const std::string& field) {
-    Node shown;
-    shown.id = field, shown.type = "particles_to_field";
-    shown.set("particles", {from});
-    shown.set("region_min", {std::vector{0.0, 0.0, 0.0}});
-    shown.set("region_max", {std::vector{1.0, 1.0, 1.0}});
-    for (Node& each : graph.nodes)
-        if (each.type == "output") each.set("surface", {Link{field, ""}});
-    graph.nodes.push_back(std::move(shown));
-    return graph;
-}
-
 }  // namespace
 
 Result<Link> linkToParticles(const Graph& graph, const std::string& asked) {
@@ -75,21 +60,40 @@ Result<Link> linkToParticles(const Graph& graph, const std::string& asked) {
                             (near.empty() ? known : ": did you mean '" + near + "'?")};
 }
 
-Result<ParticlePoints> particlesAt(const Graph& graph, const Link& from, double seconds,
-                                   const CompileOptions& options, const Device& device,
-                                   const std::function<bool(int, int)>& progress) {
-    std::string field = "particles";
-    while (graph.node(field)) field += "_";
-    const Result<LiveProgram> live = compileLive(showingParticles(graph, from, field), options);
+Graph showingParticles(Graph graph, const Link& from) {
+    Node shown;
+    shown.id = "particles";
+    while (graph.node(shown.id)) shown.id += "_";
+    shown.type = "particles_to_field";
+    shown.set("particles", {from});
+    shown.set("region_min", {std::vector{0.0, 0.0, 0.0}});
+    shown.set("region_max", {std::vector{1.0, 1.0, 1.0}});
+    for (Node& each : graph.nodes)
+        if (each.type == "output") each.set("surface", {Link{shown.id, ""}});
+    graph.nodes.push_back(std::move(shown));
+    return graph;
+}
+
+Result<NodeParticles> NodeParticles::open(const Graph& graph, const Link& from, const CompileOptions& options,
+                                          const Device& device) {
+    Result<LiveProgram> live = compileLive(showingParticles(graph, from), options);
     if (!live) return live.error();
-    const auto& volumes = live->program.ir.volumes();
-    const auto made = std::ranges::find_if(volumes, [&](const FieldVolumePtr& volume) {
-        return volume->particles && volume->particles->node == field;
-    });
-    if (made == volumes.end()) return Error{.message = "gives no particles", .node = from.node};
-    Simulation simulation(device, (*made)->particles);
+    for (const FieldVolumePtr& volume : live->program.ir.volumes())
+        if (const ParticleFieldPtr recipe = volume->particles)
+            return NodeParticles(std::move(*live), recipe, from, device);
+    return Error{.message = "gives no particles", .node = from.node};
+}
+
+std::vector<Error> NodeParticles::notes() const {
+    std::vector<Error> list;
+    for (const Error& note : live.program.notes)
+        if (note.code == Error::Code::uselessCache) list.push_back(note), list.back().node = from.node;
+    return list;
+}
+
+Result<ParticlePoints> NodeParticles::at(double seconds, const std::function<bool(int, int)>& progress) {
     const Result<bool> moved = simulation.goTo(
-        timelineTime(live->timeline, seconds), [&](double at) { return live->valuesAt(at); }, progress);
+        timelineTime(live.timeline, seconds), [&](double time) { return live.valuesAt(time); }, progress);
     if (!moved) {
         Error error = moved.error();
         if (error.node.empty()) error.node = from.node;
@@ -98,14 +102,16 @@ Result<ParticlePoints> particlesAt(const Graph& graph, const Link& from, double 
     ParticlePoints points;
     const uint32_t slots = simulation.slots();
     if (slots == 0) return points;
-    const auto places = download<glm::vec4>(device, simulation.places(), slots);
+    const auto places = download<glm::vec4>(*device, simulation.places(), slots);
     const Buffer* const fast = simulation.velocities();
     const auto velocities =
-        fast ? download<glm::vec4>(device, *fast, slots) : std::vector<glm::vec4>(slots, glm::vec4(0.0f));
+        fast ? download<glm::vec4>(*device, *fast, slots) : std::vector<glm::vec4>(slots, glm::vec4(0.0f));
+    const std::vector<uint32_t> ids = simulation.ids();
     for (uint32_t i = 0; i < slots; ++i) {
         if (std::isnan(places[i].x)) continue;
         points.places.emplace_back(places[i]);
         points.velocities.emplace_back(velocities[i]);
+        points.ids.push_back(ids[i]);
     }
     return points;
 }

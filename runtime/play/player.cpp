@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -173,8 +174,8 @@ void Player::adopt(Prepared prepared) {
     const bool moved = prepared.fieldMoves || now.fieldMoves;
     const bool other = !moveAlike(now.timeline, prepared.timeline) || now.inputs != prepared.inputs;
     now = std::move(prepared);
+    if (other) session.valuesChanged();  // before others are given, which know of it
     give();
-    if (other) session.valuesChanged();
     if (same && !moved) return;
     meshed.reset();
     points.clear();
@@ -208,6 +209,8 @@ std::vector<std::string> Player::files() const {
     for (const FieldVolumePtr& volume : session.program().ir.volumes()) {
         if (volume->mesh) list.push_back(volume->mesh->file);
         if (!volume->particles) continue;
+        if (const std::string& cache = volume->particles->particles.cache; !cache.empty())
+            list.push_back((std::filesystem::path(now.graph.path).parent_path() / cache).string());
         for (const ParticleStage& stage : volume->particles->particles.stages)
             if (stage.places) list.push_back(stage.places->file);
     }

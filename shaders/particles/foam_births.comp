@@ -11,6 +11,7 @@ layout(binding = 4, scalar) readonly buffer FreeBefore { uint freeBefore[]; };  
 layout(binding = 5, scalar) readonly buffer Free { uint free[]; };
 layout(binding = 6, scalar) writeonly buffer Places { vec4 places[]; };
 layout(binding = 7, scalar) writeonly buffer Velocities { vec4 velocities[]; };
+layout(binding = 8, scalar) buffer Ids { uint ids[]; };  // of the slots; then how many births there were, by the step's parity
 
 const float kSpread = 0.25;  // of the speed, at most, across it
 
@@ -22,6 +23,8 @@ void main() {
     vec3 way = v / max(fast, 1e-9);
     vec3 side = normalize(cross(way, abs(way.y) < 0.8 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0))), up = cross(side, way);
     uint births = before[push.particles], room = freeBefore[foam.slots];
+    uint born = ids[foam.slots + (foam.step & 1)];
+    if (index == 0) ids[foam.slots + (~foam.step & 1)] = born + births;
     float share = min(float(room) / float(max(births, 1)), 1.0);
     uint number = before[index], end = before[index + 1];
     uint state = randomStart(index, randomStart(foam.step, foam.seed));
@@ -31,6 +34,7 @@ void main() {
         uint place = uint(float(number) * share);
         if (uint(float(number + 1) * share) == place || place >= room) continue;
         uint slot = free[place];
+        ids[slot] = born + number;
         places[slot] = vec4(inTank(p + radius * aside - (1.0 + since) * push.step * v), 0.0);
         velocities[slot] = vec4(v + kSpread * fast * aside, float(FOAM_FOAM) + 0.999 * luck);
     }

@@ -1,4 +1,4 @@
-// All that is known of the particles, in the order of their cells.
+// All that is known of the particles, in the order of their cells. Behind each place goes the particle's number.
 #include "particles/fluid.glsl"
 
 layout(local_size_x = FLUID_GROUP) in;
@@ -9,12 +9,13 @@ layout(binding = 3, rgba32ui) restrict readonly uniform uimageBuffer planes;
 layout(binding = 4, scalar) writeonly buffer SortedPlaces { uvec4 sortedPlaces[]; };
 layout(binding = 5, scalar) writeonly buffer SortedGuesses { uvec4 sortedGuesses[]; };
 layout(binding = 6, scalar) writeonly buffer SortedPlanes { uvec4 sortedPlanes[]; };
+layout(binding = 7, rgba32ui) restrict readonly uniform uimageBuffer velocities;  // and numbers
 
 void main() {
     uint index = item();
     if (index >= push.particles) return;
     int from = int(order[index]);
-    sortedPlaces[index] = imageLoad(places, from);
+    sortedPlaces[index] = uvec4(imageLoad(places, from).xyz, imageLoad(velocities, from).w);
     sortedGuesses[index] = imageLoad(guesses, from);
     sortedPlanes[index] = imageLoad(planes, from);
 }

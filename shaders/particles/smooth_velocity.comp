@@ -9,7 +9,7 @@ layout(binding = 0, rgba32ui) restrict readonly uniform uimageBuffer guesses;
 layout(binding = 1, rgba32ui) restrict readonly uniform uimageBuffer velocities;
 layout(binding = 2, rgba32ui) restrict readonly uniform uimageBuffer lists;
 layout(binding = 3, scalar) readonly buffer Counts { uint counts[]; };
-layout(binding = 4, scalar) writeonly buffer Smoothed { vec4 smoothed[]; };
+layout(binding = 4, scalar) writeonly buffer Smoothed { uvec4 smoothed[]; };  // floats, and the number
 #ifdef TENSION
 layout(binding = 5, rgba32ui) restrict readonly uniform uimageBuffer planes;
 layout(binding = 6, rgba32ui) restrict readonly uniform uimageBuffer gradients;
@@ -32,7 +32,8 @@ void main() {
     if (index >= push.particles) return;
     vec4 own = uintBitsToFloat(imageLoad(guesses, int(index)));
     float most = own.w;  // energy
-    vec3 p = own.xyz, v = uintBitsToFloat(imageLoad(velocities, int(index)).xyz);
+    uvec4 fast = imageLoad(velocities, int(index));
+    vec3 p = own.xyz, v = uintBitsToFloat(fast.xyz);
     vec3 change = vec3(0.0);
 #ifdef TENSION
     vec3 gradient = uintBitsToFloat(imageLoad(gradients, int(index)).xyz), pull = vec3(0.0), level = vec3(0.0);
@@ -64,5 +65,5 @@ void main() {
     level = push.slope * level + wallsBent(p, uintBitsToFloat(imageLoad(planes, int(index))), gradient);
     v -= push.tension * (pull + FLUID_LEVELLING * push.support * push.support * push.support * level);
 #endif
-    smoothed[index] = vec4(v, 0.0);
+    smoothed[index] = uvec4(floatBitsToUint(v), fast.w);
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "graph/assets/image.h"
+#include "graph/assets/particle_cache.h"
 #include "graph/assets/particle_file.h"
 #include "graph/assets/triangle_mesh.h"
 #include "graph/check/check.h"
@@ -39,7 +40,8 @@ Refusal refusal(Read read) {
 }
 const std::map<const FileKind*, Refusal> kReaders = {{&kPictureFile, refusal(readImage)},
                                                      {&kMeshFile, refusal(readTriangleMesh)},
-                                                     {&kParticleFile, refusal(readParticlePlaces)}};
+                                                     {&kParticleFile, refusal(readParticlePlaces)},
+                                                     {&kParticleCacheFile, refusal(readParticleCache)}};
 
 TEST(FileKinds, EveryInputOfTheLibraryHasOneWithAReader) {
     std::size_t inputs = 0;

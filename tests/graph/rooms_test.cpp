@@ -35,7 +35,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/bake", "graph system gpu"},
     {"runtime/mesher", "graph system gpu mesh"},
     {"runtime/stages", "graph system gpu mesh measure mesher"},
-    {"runtime/particles", "graph gpu bake"},
+    {"runtime/particles", "graph system gpu bake"},
     {"runtime/render", "graph system gpu mesh mesher particles"},
     {"runtime/textures", "graph mesh"},
     {"runtime/export", "graph system mesh measure mesher"},

@@ -562,14 +562,15 @@ TEST_F(PointsOfParticles, NoneAreANote) {
     const test::CommandResult result = exported("white", "none.csv", "0");
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.errors.find("node 'white' has no particles then"), std::string::npos) << result.errors;
-    EXPECT_EQ(test::readText(folder.path("none.csv")), "x,y,z,vx,vy,vz\n");
+    EXPECT_EQ(test::readText(folder.path("none.csv")), "x,y,z,vx,vy,vz,id\n");
 }
 
 TEST_F(PointsOfParticles, WhatCannotBeIsRefused) {
     expectRefusal(exported("whit", "a.ply"), 1, {"there is no node 'whit'", "did you mean 'white'?"});
     expectRefusal(exported("full", "a.ply"), 1, {"'full'", "gives no particles", "white"});
     expectRefusal(exported("white.foam", "a.ply"), 1, {"'white'", "ask for white"});
-    expectRefusal(exported("white", "a.glb"), 2, {"'.glb' holds none", ".ply, .csv, .xyz, .txt"});
+    expectRefusal(exported("white", "a.glb"), 2,
+                  {"'.glb' holds none", ".ply, .vtk, .bgeo, .csv, .xyz, .txt"});
     expectRefusal(exported("white", "a"), 2, {"needs an ending"});
     expectRefusal(test::runCommand({"export", graph, "--particles", "white", "-o", folder.path("a.ply"),
                                     "--resolution", "8"}),
