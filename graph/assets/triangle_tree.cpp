@@ -60,6 +60,42 @@ bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& tri
     return (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
 }
 
+/// A triangle by the numbers of its corners, with what tells whether others cut it.
+struct Facet {
+    Facet(std::span<const glm::vec3> positions, const uint32_t* numbers)
+        : index(numbers),
+          corners{glm::dvec3(positions[index[0]]), glm::dvec3(positions[index[1]]),
+                  glm::dvec3(positions[index[2]])},
+          plane(corners) {}
+    const uint32_t* index;
+    Triangle corners;
+    Plane plane;
+};
+
+bool cut(const Facet& a, const Facet& b) {
+    int shared = 0;
+    std::size_t atA = 0, atB = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            if (a.index[i] == b.index[j]) ++shared, atA = i, atB = j;
+    if (shared > 1) return false;
+    // Of those with a corner in common only the side across from it.
+    const auto pierces = [shared](const Facet& one, const glm::dvec3& sides, std::size_t common,
+                                  const Facet& other) {
+        for (std::size_t k = shared == 1 ? 1 : 0; k < (shared == 1 ? 2 : 3); ++k) {
+            const std::size_t p = (common + k) % 3, q = (p + 1) % 3;
+            if (sides[int(p)] * sides[int(q)] < 0.0 &&
+                passesThrough(one.corners[p], one.corners[q], other.corners))
+                return true;
+        }
+        return false;
+    };
+    const glm::dvec3 sides = b.plane.sides(a.corners);
+    if (std::min({sides.x, sides.y, sides.z}) > 0.0 || std::max({sides.x, sides.y, sides.z}) < 0.0)
+        return false;
+    return pierces(a, sides, atA, b) || pierces(b, a.plane.sides(b.corners), atB, a);
+}
+
 double squaredDistance(const glm::dvec3& p, const glm::vec3& lo, const glm::vec3& hi) {
     const glm::dvec3 off = glm::max(glm::max(glm::dvec3(lo) - p, p - glm::dvec3(hi)), glm::dvec3(0.0));
     return glm::dot(off, off);
@@ -85,6 +121,10 @@ uint32_t nodesOf(uint32_t triangles) {
 constexpr double kFar = 3.0;
 
 }  // namespace
+
+bool trianglesCut(std::span<const glm::vec3> positions, const uint32_t* one, const uint32_t* other) {
+    return cut(Facet(positions, one), Facet(positions, other));
+}
 
 double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
@@ -268,38 +308,6 @@ double TriangleTree::windingNumber(const glm::dvec3& point) const {
     return sum;
 }
 
-struct TriangleTree::Facet {
-    Facet(const TriangleTree& tree, uint32_t triangle)
-        : index(&tree.indices[3 * std::size_t(triangle)]), corners(tree.corners(triangle)), plane(corners) {}
-    const uint32_t* index;
-    Triangle corners;
-    Plane plane;
-};
-
-bool TriangleTree::cut(const Facet& a, const Facet& b) {
-    int shared = 0;
-    std::size_t atA = 0, atB = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            if (a.index[i] == b.index[j]) ++shared, atA = i, atB = j;
-    if (shared > 1) return false;
-    // Of those with a corner in common only the side across from it.
-    const auto pierces = [shared](const Facet& one, const glm::dvec3& sides, std::size_t common,
-                                  const Facet& other) {
-        for (std::size_t k = shared == 1 ? 1 : 0; k < (shared == 1 ? 2 : 3); ++k) {
-            const std::size_t p = (common + k) % 3, q = (p + 1) % 3;
-            if (sides[int(p)] * sides[int(q)] < 0.0 &&
-                passesThrough(one.corners[p], one.corners[q], other.corners))
-                return true;
-        }
-        return false;
-    };
-    const glm::dvec3 sides = b.plane.sides(a.corners);
-    if (std::min({sides.x, sides.y, sides.z}) > 0.0 || std::max({sides.x, sides.y, sides.z}) < 0.0)
-        return false;
-    return pierces(a, sides, atA, b) || pierces(b, a.plane.sides(b.corners), atB, a);
-}
-
 uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) const {
     uint64_t found = 0;
     std::vector<uint32_t> open;
@@ -320,7 +328,7 @@ uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) con
         facets.reserve(kTogether);
         for (std::size_t place = from; place < to; ++place) {
             own[place - from] = boxOf(place);
-            facets.emplace_back(*this, order[place]);
+            facets.emplace_back(positions, &indices[3 * std::size_t(order[place])]);
         }
         Box all = own[0];
         for (std::size_t k = 1; k < to - from; ++k)
@@ -342,7 +350,7 @@ uint64_t TriangleTree::selfIntersections(std::size_t begin, std::size_t end) con
                 std::optional<Facet> facet;
                 for (std::size_t k = 0; k < std::min(to, i) - from; ++k) {
                     if (apart(own[k], other)) continue;
-                    if (!facet) facet.emplace(*this, order[i]);
+                    if (!facet) facet.emplace(positions, &indices[3 * std::size_t(order[i])]);
                     found += cut(facets[k], *facet);
                 }
             }

@@ -39,6 +39,10 @@ NearestPoint nearestOnTriangle(const glm::dvec3& p, const std::array<glm::dvec3,
 /// winds clockwise from there, as a closed mesh's faces do from inside (van Oosterom and Strackee 1983).
 double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
+/// Whether two triangles of a mesh cut each other, given their three corners in `positions`: those with one
+/// in common do if they meet elsewhere too, those with two do not.
+bool trianglesCut(std::span<const glm::vec3> positions, const uint32_t* one, const uint32_t* other);
+
 class TriangleTree {
   public:
     /// Only a tree that was made for them tells winding numbers.
@@ -59,8 +63,7 @@ class TriangleTree {
     /// The generalized winding number, to some 0.02.
     double windingNumber(const glm::dvec3& point) const;
     /// Pairs of triangles that cut each other, of which the first is one of those from `begin` to `end` in
-    /// the tree's order: for all pairs from 0 to size(). Each pair counts once. Triangles with a corner in
-    /// common do so if they meet elsewhere too; those with two do not.
+    /// the tree's order: for all pairs from 0 to size(). Each pair counts once (trianglesCut).
     uint64_t selfIntersections(std::size_t begin, std::size_t end) const;
     std::size_t size() const { return order.size(); }
 
@@ -89,8 +92,6 @@ class TriangleTree {
     void build(uint32_t index, uint32_t first, std::span<Item> items);
     void findDipoles();
     std::array<glm::dvec3, 3> corners(uint32_t triangle) const;
-    struct Facet;
-    static bool cut(const Facet& a, const Facet& b);
 
     std::span<const glm::vec3> positions;
     std::span<const uint32_t> indices;

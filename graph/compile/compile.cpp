@@ -152,6 +152,8 @@ Result<Program> compileGraph(const Graph& graph, const CompileOptions& options) 
     if (auto note = overflow(graph, program.ir, program.surface, program.live, program.origins))
         program.notes.push_back(std::move(*note));
     readSettings(*output, result.value.mesh ? *result.value.mesh : MeshRecipe{}, program);
+    if (options.triangles > 0)
+        program.stages.push_back({.kind = MeshStage::Kind::decimate, .triangles = options.triangles});
     return program;
 }
 

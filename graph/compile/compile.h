@@ -31,6 +31,7 @@ struct CompileOptions {
     /// at all of them, as the grids of particles, is made so. None: as they are now.
     std::vector<std::map<std::string, std::vector<double>>> moments = {};
     double time = 0.0;                 ///< seconds, folded unless live
+    int triangles = 0;                 ///< decimates what the graph shows to so many at most; 0: does not
     MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
     /// Every node that has part in an operation is known, for effortByNode(); takes longer.
     bool costByNode = false;

@@ -178,8 +178,15 @@ Lowered lowerSubdivide(GraphLowering& lowering, const NodeAt& at) {
 Lowered lowerDecimate(GraphLowering& lowering, const NodeAt& at) {
     return lowerStage(lowering, at, [&](const std::vector<NodeInput>& inputs) -> std::optional<MeshStage> {
         const auto error = lowering.knownNumber(at, inputs, "error");
-        if (!error) return std::nullopt;
-        return MeshStage{.kind = MeshStage::Kind::decimate, .error = *error};
+        const auto triangles = lowering.knownNumber(at, inputs, "triangles");
+        if (!error || !triangles) return std::nullopt;
+        if (*error <= 0.0 && *triangles <= 0.0) {
+            lowering.report(at, "error",
+                            {.message = "is 0, which bounds nothing, and so is triangles: give one of them"});
+            return std::nullopt;
+        }
+        return MeshStage{
+            .kind = MeshStage::Kind::decimate, .error = *error, .triangles = static_cast<int>(*triangles)};
     });
 }
 

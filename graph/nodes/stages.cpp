@@ -62,9 +62,19 @@ std::vector<NodeType> stageNodes() {
         {.id = "decimate",
          .label = "Decimate",
          .category = Category::mesh,
-         .doc = "Leaves out triangles while the mesh stays near the field. What is measured is the result, "
-                "against the field, so a mesh that is farther away from it already is left as it is.",
-         .inputs = {mesh, positiveLength("error", 0.01, "The farthest that mesh and surface may be apart.")},
+         .doc =
+             "Leaves out triangles while the mesh stays near the field, or down to a number of them. "
+             "Creases stay, and borders between colours and materials are moved no farther than the error. "
+             "Where the mesh is farther away from the field already it gets no farther.",
+         .inputs = {mesh,
+                    length(
+                        "error", 0.01,
+                        "The farthest that mesh and surface may be apart, as measured; 0: any, for a number "
+                        "of triangles alone."),
+                    integer(
+                        "triangles", 0, 0, 1 << 24,
+                        "End at so many triangles, unless the error ends it before; 0: leave as few as the "
+                        "error allows.")},
          .outputs = {{"mesh", Type::mesh}},
          .lower = lowerDecimate},
         {.id = "output",

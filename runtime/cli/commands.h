@@ -56,6 +56,7 @@ struct MeshOptions {
     std::optional<int> resolution;
     std::vector<double> region;  ///< empty, or x0 y0 z0 x1 y1 z1
     std::optional<MeshMethod> method;
+    int triangles = 0;                      ///< at most; 0: as many as there are
     std::vector<std::string> outputs = {};  ///< files that the command will write
 };
 

@@ -85,9 +85,9 @@ void note(const ExportOptions& options, const MesherResult& meshed) {
                      options.output.c_str());
     if (meshed.undecimated)
         std::fprintf(stderr,
-                     "%s: note: decimate left out nothing: the mesh is as far from the surface as its error "
-                     "allows, or farther; raise the error, or the resolution\n",
-                     options.output.c_str());
+                     "%s: note: decimate ended at %u triangles: no more could go within its error, and with "
+                     "every part left a solid; raise the error\n",
+                     options.output.c_str(), meshed.triangles);
 }
 
 /// Of what is to be printed, or has its lengths in a unit that was asked for.

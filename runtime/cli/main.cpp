@@ -254,6 +254,10 @@ int run(int count, char** arguments) {
     for (const char* ofSequences : {"--from", "--to", "--fps", "--range", "--animated"})
         sweep->excludes(exportCommand->get_option(ofSequences));
     exportCommand
+        ->add_option("--triangles", exportOptions.mesh.triangles,
+                     "Decimate each mesh to at most so many triangles, behind whatever the graph does to it")
+        ->check(whole(1, 1 << 24));
+    exportCommand
         ->add_option("--tiles", exportOptions.tiles,
                      "Mesh in tiles, about this many along the longest side, each by itself: memory is "
                      "bounded by a few (default: above 1,024 cells and where the surface is too much at "
@@ -265,14 +269,14 @@ int run(int count, char** arguments) {
             "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge; a "
             "part that was stopped goes on where it was")
         ->check(something());
-    for (const char* ofMeshes :
-         {"--resolution", "--region", "--method", "--manifold", "--split-materials", "--compress", "--parts",
-          "--unit", "--up", "--for", "--report", "--require", "--tiles", "--tile", "--animated", "--sweep"})
+    for (const char* ofMeshes : {"--resolution", "--region", "--method", "--manifold", "--split-materials",
+                                 "--compress", "--parts", "--unit", "--up", "--for", "--report", "--require",
+                                 "--triangles", "--tiles", "--tile", "--animated", "--sweep"})
         particles->excludes(exportCommand->get_option(ofMeshes));
-    for (const char* ofSequences :
-         {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep"})
+    for (const char* ofWholes :
+         {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep", "--triangles"})
         for (const char* ofOne : {"--tiles", "--tile"})
-            exportCommand->get_option(ofSequences)->excludes(exportCommand->get_option(ofOne));
+            exportCommand->get_option(ofWholes)->excludes(exportCommand->get_option(ofOne));
 
     for (const char* without : {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep",
                                 "--split-materials", "--particles"})

@@ -88,6 +88,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     if (!graph) return std::nullopt;
     progress.start("compile", 5);
     CompileOptions compileOptions;
+    compileOptions.triangles = options.triangles;
     compileOptions.bake =
         meshFieldBaker([&] { return device.orNone(); },
                        {.progress = [&](double share) { progress.show(5 + int(5 * share)); }});
@@ -145,6 +146,7 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     playerOptions.device = playerOptions.deviceOptions.pick = options.device;
     playerOptions.resolution = options.resolution.value_or(0);
     playerOptions.method = options.method;
+    playerOptions.triangles = options.triangles;
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
     OpeningDevice opening(std::launch::async, playerOptions.deviceOptions);
     progress.start("read", 0);

@@ -65,7 +65,8 @@ void GltfScene::join(nlohmann::json part) {
     for (nlohmann::json& material : part["materials"]) {
         const auto [found, fresh] = materials.emplace(material.dump(), count("materials"));
         if (fresh) {
-            material["name"] = name() + "_" + std::to_string(found->second + 1);
+            if (!material.contains("name"))
+                material["name"] = name() + "_" + std::to_string(found->second + 1);
             document["materials"].push_back(std::move(material));
         }
         numbers.push_back(found->second);
@@ -92,8 +93,9 @@ Result<std::size_t> GltfScene::addMesh(const Mesh& given, const std::string& nam
     const Mesh& mesh = repaired ? *repaired : given;
     const GltfLayout layout = gltfLayout(mesh);
     nlohmann::json part = nlohmann::json::parse(gltfJson(mesh, layout, *bounds, name, {}));
-    for (nlohmann::json& material : part["materials"])
-        material.erase("name");  // the mesh's, whichever that is
+    for (std::size_t i = 0; i < part["materials"].size(); ++i)
+        if ((mesh.parts.empty() ? mesh.materialName : mesh.parts[i].name).empty())
+            part["materials"][i].erase("name");  // the mesh's, whichever that is
     const auto [found, fresh] = known.emplace(contentOf(mesh, part), known.size());
     if (fresh) {
         join(std::move(part));

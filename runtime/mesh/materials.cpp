@@ -94,6 +94,20 @@ std::string uniqueName(const std::string& name, std::set<std::string>& taken) {
     return unique;
 }
 
+std::vector<PaintedBy> paintedAt(std::span<const glm::vec3> places, const Program& program) {
+    const Tape field =
+        makeTape(program.ir, std::span(program.surface).subspan(roughnessComponent), program.parameters());
+    const std::vector<float> values = fieldValues(field, places);
+    std::vector<PaintedBy> painted(places.size());
+    for (std::size_t i = 0; i < painted.size(); ++i) {
+        const float* of = &values[i * (kNumbers + 1)];
+        Numbers numbers;
+        std::copy_n(of, kNumbers, numbers.begin());
+        painted[i] = {uint32_t(of[kNumbers]), std::bit_cast<Material>(numbers)};
+    }
+    return painted;
+}
+
 }  // namespace
 
 void SolidSize::add(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
@@ -176,19 +190,19 @@ void partByMaterial(Mesh& mesh, std::vector<PaintedBy> triangles, std::span<cons
 
 void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places,
                     bool besideTextures) {
-    const Tape field =
-        makeTape(program.ir, std::span(program.surface).subspan(roughnessComponent), program.parameters());
-    const std::vector<float> values = fieldValues(field, places);
-    std::vector<PaintedBy> triangles(places.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        Numbers numbers;
-        std::copy_n(&values[t * (kNumbers + 1)], kNumbers, numbers.begin());
-        Material material = std::bit_cast<Material>(numbers);
-        if (besideTextures)
+    std::vector<PaintedBy> triangles = paintedAt(places, program);
+    if (besideTextures)
+        for (auto& [painter, material] : triangles)
             material.roughness = Material().roughness, material.metallic = 0, material.emission = {};
-        triangles[t] = {uint32_t(values[t * (kNumbers + 1) + kNumbers]), material};
-    }
     partByMaterial(mesh, std::move(triangles), program.painters);
+}
+
+std::vector<uint32_t> materialsOfVertices(const Mesh& mesh, const Program& program) {
+    if (!hasManyMaterials(program)) return {};
+    std::vector<PaintedBy> vertices = paintedAt(mesh.positions, program);
+    for (PaintedBy& vertex : vertices) vertex.material = limited(vertex.material);
+    std::optional<Groups> groups = groupsOf(vertices, sizeOf(mesh).meanChord(), 256);
+    return groups ? std::move(groups->of) : std::vector<uint32_t>();
 }
 
 }  // namespace fw

@@ -63,4 +63,8 @@ void partByMaterial(Mesh& mesh, std::vector<PaintedBy> triangles, std::span<cons
 void partByMaterial(Mesh& mesh, const Program& program, std::span<const glm::vec3> places,
                     bool besideTextures = false);
 
+/// Of each vertex which of the program's materials it has: another number for another one. Empty if it has
+/// only one, or more than kMostMaterials, which then go over into each other.
+std::vector<uint32_t> materialsOfVertices(const Mesh& mesh, const Program& program);
+
 }  // namespace fw

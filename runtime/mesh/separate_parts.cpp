@@ -53,6 +53,7 @@ std::vector<Mesh> separateParts(const Mesh& mesh) {
             separate.emplace_back();
             separate.back().baseColor = mesh.baseColor;
             separate.back().material = mesh.material;
+            separate.back().materialName = mesh.materialName;
         }
         return separate[number];
     };
@@ -62,24 +63,31 @@ std::vector<Mesh> separateParts(const Mesh& mesh) {
             to.positions.push_back(mesh.positions[vertex]);
             if (!mesh.normals.empty()) to.normals.push_back(mesh.normals[vertex]);
             if (!mesh.colors.empty()) to.colors.push_back(mesh.colors[vertex]);
+            if (!mesh.uvs.empty()) to.uvs.push_back(mesh.uvs[vertex]);
+            if (!mesh.tangents.empty()) to.tangents.push_back(mesh.tangents[vertex]);
         }
         to.indices.push_back(place[vertex]);
     };
     std::size_t triangle = 0;
-    const auto addTriangles = [&](std::size_t end, const Material* material) {
+    const auto addTriangles = [&](std::size_t end, const MeshPart* of) {
         for (; triangle < end; ++triangle) {
             Mesh& to = partOf(mesh.indices[3 * triangle]);
             for (std::size_t k = 0; k < 3; ++k) addCorner(to, mesh.indices[3 * triangle + k]);
-            if (!material) continue;
-            if (to.parts.empty() || !(to.parts.back().material == *material))
-                to.parts.push_back({*material, 0});
+            if (!of) continue;
+            if (to.parts.empty() || to.parts.back().name != of->name ||
+                !(to.parts.back().material == of->material))
+                to.parts.push_back({of->material, 0, of->name});
             ++to.parts.back().triangles;
         }
     };
     if (mesh.parts.empty()) addTriangles(mesh.triangleCount(), nullptr);
-    for (const MeshPart& of : mesh.parts) addTriangles(triangle + of.triangles, &of.material);
+    for (const MeshPart& of : mesh.parts) addTriangles(triangle + of.triangles, &of);
     for (Mesh& one : separate)
-        if (one.parts.size() == 1) one.material = one.parts[0].material, one.parts.clear();
+        if (one.parts.size() == 1) {
+            one.material = one.parts[0].material;
+            one.materialName = one.parts[0].name;
+            one.parts.clear();
+        }
     return separate;
 }
 

@@ -125,7 +125,7 @@ struct MesherResult {
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;       ///< there is one at each vertex
     bool creases = false;      ///< vertices on creases are to be doubled (creases.h)
-    bool undecimated = false;  ///< a decimation left the mesh as it was
+    bool undecimated = false;  ///< a decimation left all triangles, or more than it was to
     int runs = 1;              ///< of the kernels; more than one if buffers had to grow
     std::vector<StageTime> stages;
 };

@@ -98,6 +98,7 @@ Player::Player(Device device, PlayerOptions options_)
 Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishes) const {
     CompileOptions compileOptions;
     compileOptions.bake = bake;
+    compileOptions.triangles = wishes.triangles;
     std::set<std::string> exposed = wishes.live;
     if (wishes.liveParameters)
         for (const NamedParameter& parameter : namedParameters(graph))

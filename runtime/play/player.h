@@ -46,6 +46,7 @@ struct PlayerOptions {
     std::optional<Box> region = {};         ///< metres; none: found
     int resolution = 0;                     ///< cells along the region's longest side; 0: the graph's
     std::optional<MeshMethod> method = {};  ///< none: the graph's
+    int triangles = 0;                      ///< as CompileOptions has it
     bool liveParameters = true;             ///< set() uploads; otherwise it compiles, and the field is faster
     std::set<std::string> live = {};        ///< further inputs, "node.input", that reload() uploads
     /// Nothing waits for kernels to be compiled: until they are there, meshes are made on the host and

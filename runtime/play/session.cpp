@@ -374,9 +374,11 @@ Done Session::runStages(MesherResult& result, const Box& region, const Program* 
     }
     std::optional<Program> measured;
     std::optional<MeasureOptions> measure;  // made by the first decimation
-    config.decimate = [&](Mesh& mesh, double error) {
-        if (!measure) measure = measureOf(measured.emplace(onHost()), region);
-        return decimate(mesh, error, *measure);
+    config.decimate = [&](Mesh& mesh, const MeshStage& stage) {
+        if (!measured) measured = onHost();
+        if (stage.error > 0.0 && !measure) measure = measureOf(*measured, region);
+        return decimate(mesh, {stage.error, std::size_t(stage.triangles)}, measure.value_or(MeasureOptions{}),
+                        materialsOfVertices(mesh, *measured));
     };
     return runMeshStages(*gpu, stageBuffers, buffers, result, current.stages, config);
 }

@@ -1,17 +1,21 @@
 #include "runtime/stages/decimate.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
+
+#include "graph/assets/triangle_tree.h"
+#include "graph/base/parallel.h"
+#include "runtime/stages/collapse.h"
 
 namespace fw {
 
 namespace {
 
-constexpr int kMostDoublings = 8, kMostHalvings = 12, kTriesBetween = 4;
+constexpr int kTries = 4;
+constexpr double kLess = 0.9;   // of the bound, when it is tried again
+constexpr float kLeast = 0.1f;  // of the bound: what each place of the mesh may move
+constexpr std::size_t kPoints = 2048;
 
 /// Drops vertices that no triangle uses; the others keep their order.
 void dropUnused(Mesh& mesh) {
@@ -21,87 +25,92 @@ void dropUnused(Mesh& mesh) {
     for (std::size_t v = 0; v < place.size(); ++v) {
         if (place[v] == 0) continue;
         mesh.positions[kept] = mesh.positions[v];
-        mesh.normals[kept] = mesh.normals[v];
+        if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[v];
         if (!mesh.colors.empty()) mesh.colors[kept] = mesh.colors[v];
         place[v] = kept++;
     }
     mesh.positions.resize(kept);
-    mesh.normals.resize(kept);
+    if (!mesh.normals.empty()) mesh.normals.resize(kept);
     if (!mesh.colors.empty()) mesh.colors.resize(kept);
     for (uint32_t& index : mesh.indices) index = place[index];
 }
 
-/// Drops triangles that have the same corners as another: what is left of a part that has become flat.
-void dropFlat(std::vector<uint32_t>& indices) {
-    using Corners = std::array<uint32_t, 3>;
-    const auto cornersAt = [&](std::size_t i) {
-        Corners corners{indices[i], indices[i + 1], indices[i + 2]};
-        std::ranges::sort(corners);
-        return corners;
-    };
-    std::vector<Corners> all;
-    for (std::size_t i = 0; i < indices.size(); i += 3) all.push_back(cornersAt(i));
-    std::ranges::sort(all);
-    if (std::ranges::adjacent_find(all) == all.end()) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const auto [first, last] = std::equal_range(all.begin(), all.end(), cornersAt(i));
-        if (last - first > 1) continue;
-        std::copy_n(&indices[i], 3, &indices[kept]);
-        kept += 3;
-    }
-    indices.resize(kept);
+/// How far each vertex is away from the surface.
+std::vector<float> distancesOf(const Mesh& mesh, const FieldError& fromSurface) {
+    std::vector<float> distances(mesh.positions.size());
+    if (!fromSurface) return distances;
+    forBlocks(distances.size(), kPoints, [&](std::size_t, std::size_t first, std::size_t last) {
+        std::vector<glm::dvec3> points;
+        for (std::size_t v = first; v < last; ++v) points.emplace_back(mesh.positions[v]);
+        std::vector<double> found(points.size());
+        fromSurface(points, found);
+        std::ranges::copy(found, distances.begin() + std::ptrdiff_t(first));
+    });
+    return distances;
+}
+
+/// Points of the surface by their nearest triangles.
+std::vector<CollapseLimits::Further> pointsOnSurface(const Mesh& mesh,
+                                                     const std::vector<SurfacePoint>& surface, double error) {
+    std::vector<CollapseLimits::Further> points(surface.size());
+    if (points.empty()) return points;
+    const TriangleTree tree(mesh.positions, mesh.indices, TriangleTree::Purpose::distances);
+    if (tree.empty()) return {};
+    forBlocks(points.size(), 256, [&](std::size_t, std::size_t first, std::size_t last) {
+        uint32_t near = TriangleTree::kNoGuess;
+        for (std::size_t i = first; i < last; ++i) {
+            NearestPoint on;
+            near = tree.nearest(surface[i].position, near, on);
+            points[i] = {glm::vec3(surface[i].position),
+                         float(std::max(error, 1.000001 * std::sqrt(on.squared))), near};
+        }
+    });
+    return points;
 }
 
 }  // namespace
 
 double farthest(const Report& report) {
-    double most = report.maxError.value_or(0.0);
+    double most = report.errorNote.empty() ? report.maxError.value_or(0.0) : 0.0;
     for (const std::optional<SampledDistance>& sampled : {report.meshToSurface, report.surfaceToMesh})
         if (sampled) most = std::max(most, sampled->max);
     return most;
 }
 
-bool decimate(Mesh& mesh, double error, const MeasureOptions& measure) {
-    const std::size_t corners = mesh.indices.size();
-    if (corners == 0) return false;
-    const float* const positions = &mesh.positions[0].x;
-    const double scale = meshopt_simplifyScale(positions, mesh.positions.size(), sizeof mesh.positions[0]);
-    const bool sound = reportOnMesh(mesh.positions, mesh.indices).closedManifold();
-    std::vector<uint32_t> best;
-    // Whether the result of a collapse within `bound` metres holds; the least that does is kept.
-    const auto holds = [&](double bound) {
-        std::vector<uint32_t> indices(corners);
-        indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), corners, positions,
-                                        mesh.positions.size(), sizeof mesh.positions[0], 0,
-                                        float(bound / scale)));
-        dropFlat(indices);
-        if (indices.empty()) return false;
-        const Report report = reportOnMesh(mesh.positions, indices, measure);
-        if (!(farthest(report) <= error) || (sound && !report.closedManifold())) return false;
-        if (indices.size() < (best.empty() ? corners : best.size())) best = std::move(indices);
-        return true;
-    };
-    double good = 0.0, bad = 0.0, bound = std::min(error, scale);
-    if (holds(bound)) {
-        for (int i = 0; i < kMostDoublings && bad == 0.0; ++i) {
-            good = bound;
-            bound *= 2.0;
-            if (!holds(bound)) bad = bound;
-        }
-    } else {
-        for (int i = 0; i < kMostHalvings && good == 0.0; ++i) {
-            bad = bound;
-            bound *= 0.5;
-            if (holds(bound)) good = bound;
-        }
+bool decimate(Mesh& mesh, const DecimateWish& wish, const MeasureOptions& measure,
+              std::span<const uint32_t> labels) {
+    if (mesh.indices.empty() || (wish.error <= 0.0 && wish.triangles == 0)) return false;
+    CollapseLimits limits{.triangles = wish.triangles, .labels = labels};
+    std::vector<float> away;
+    std::vector<CollapseLimits::Further> further;
+    if (wish.error > 0.0) {
+        limits.fromSurface = measure.errorNote.empty() ? measure.error : measure.distance;
+        away = distancesOf(mesh, limits.fromSurface);
+        further = pointsOnSurface(mesh, measure.surface, wish.error);
     }
-    for (int i = 0; i < kTriesBetween && good > 0.0 && bad > 0.0; ++i) {
-        const double middle = std::sqrt(good * bad);
-        (holds(middle) ? good : bad) = middle;
+    std::vector<uint32_t> indices;
+    std::optional<double> before;  // how far away the mesh was
+    for (double bound = wish.error, tries = 0; tries < kTries; bound *= kLess, ++tries) {
+        std::vector<float> allowances;
+        if (bound > 0.0) {
+            limits.distance = bound;
+            for (const float one : away)
+                allowances.push_back(std::max(float(bound) - one, kLeast * float(bound)));
+            for (CollapseLimits::Further& point : further)
+                if (point.allowance <= float(wish.error)) point.allowance = float(bound);
+            limits.allowances = allowances;
+            limits.further = further;
+        }
+        indices = collapse(mesh, limits);
+        if (indices.size() == mesh.indices.size()) return false;
+        if (bound <= 0.0 || !measure.error) break;
+        const double after = farthest(reportOnMesh(mesh.positions, indices, measure));
+        if (after <= wish.error) break;
+        if (!before) before = farthest(reportOnMesh(mesh.positions, mesh.indices, measure));
+        if (after <= 1.0001 * *before) break;
+        if (tries + 1 == kTries) return false;
     }
-    if (best.empty()) return false;
-    mesh.indices = std::move(best);
+    mesh.indices = std::move(indices);
     dropUnused(mesh);
     return true;
 }

@@ -1,11 +1,12 @@
-// Fewer triangles for the same surface: edges collapse where their quadric error (Garland and Heckbert 1997)
-// is least, by meshoptimizer, as long as the measured distance from the field stays within a bound.
+// Fewer triangles for the same surface (collapse.h), as long as the measured distance from the field stays
+// within a bound, or down to a number of them.
 //
-// The collapse bounds only its own estimate, so the bound that it is given is searched for: from that wished
-// for up by doubling or down by halving, then between the last that held and the first that did not. What
-// holds is measured as `fieldwright export --report` measures it, from the mesh to the field and from the
-// field to the mesh, and counts only if the result is closed and manifold where the mesh was. Each try begins
-// with the whole mesh. The same input gives the same bytes.
+// The bound is kept twice. While vertices go, points of the mesh and of the field's surface may be no farther
+// from the triangles, and points of the triangles no farther from the field. What is left is then measured as
+// `fieldwright export --report` measures it, from the mesh to the field and from the field to the mesh; if
+// some place is beyond the bound after all, it is done again from the start within nine tenths of that. Where
+// the mesh was farther away already it gets no farther, and the rest goes on. The same input gives the same
+// bytes.
 #pragma once
 
 #include "runtime/measure/mesh_report.h"
@@ -13,11 +14,19 @@
 
 namespace fw {
 
-/// Leaves out what can be, and the vertices that are then not used; those that stay keep their place, normal
-/// and colour. False if nothing could go, `error` metres being less than the mesh's own distance for one.
-bool decimate(Mesh& mesh, double error, const MeasureOptions& measure);
+struct DecimateWish {
+    double error = 0;           ///< metres that mesh and surface may be apart; 0: any
+    std::size_t triangles = 0;  ///< at most so many are enough; 0: as few as the error allows
+};
 
-/// The largest of a report's distances from the field, metres.
+/// Leaves out what can be, until one of the wishes is met, and the vertices that are then not used; those
+/// that stay keep their place, normal and colour. `measure` is asked if there is an error. `labels` are as
+/// CollapseLimits has them. False if nothing could go. Not for a mesh that has parts.
+bool decimate(Mesh& mesh, const DecimateWish& wish, const MeasureOptions& measure,
+              std::span<const uint32_t> labels = {});
+
+/// The largest of a report's distances from the field, metres: those that are measured, where the field is no
+/// distance.
 double farthest(const Report& report);
 
 }  // namespace fw

@@ -239,16 +239,18 @@ void runNow(Run& run, int times, Record&& record) {
 
 /// On the host. At the end of the chain, creases are doubled as they are for a file: of few, large triangles
 /// each side must be shaded by itself.
-void decimate(Run& run, double error, bool last) {
+void decimate(Run& run, const MeshStage& stage, bool last) {
     const auto start = Clock::now();
+    const auto wanted = uint64_t(stage.triangles);
+    if (wanted > 0 && run.result.triangles <= wanted && stage.error <= 0.0) return;
     Mesh mesh = downloadMesh(run.device, run.mesh, run.result);
-    if (run.config.decimate(mesh, error)) {
+    const bool changed = run.config.decimate(mesh, stage);
+    run.result.undecimated = wanted > 0 ? mesh.triangleCount() > wanted : !changed;
+    if (changed) {
         if (last && !run.smoothed) splitCreases(mesh);
         uploadMesh(run.device, run.mesh, mesh, run.result);
         run.result.creases = !last && !run.smoothed;
         run.sorted = false;
-    } else {
-        run.result.undecimated = true;
     }
     if (run.config.timed) run.result.stages.push_back({"decimate", millisecondsSince(start)});
 }
@@ -329,7 +331,7 @@ Done runMeshStages(const Device& device, MeshStageBuffers& buffers, MesherBuffer
         Done fit = done();
         if (stage.kind == MeshStage::Kind::decimate) {
             if (run.stale) fit = refreshNormals();
-            if (fit) decimate(run, stage.error, i + 1 == stages.size());
+            if (fit) decimate(run, stage, i + 1 == stages.size());
         }
         if (stage.kind == MeshStage::Kind::smooth && stage.times > 0) {
             fit = fits(run, "smooth", result.vertices, result.triangles);

@@ -60,8 +60,8 @@ struct MeshStageConfig {
     FieldBuffers field = {};        ///< as MesherConfig's
     /// In place of the field's kernel, where the host evaluates the field (project_host.h).
     std::function<void(const gpu::MeshPush& push, std::span<gpu::MeshVertex> vertices)> projectOnHost = {};
-    /// Does decimation on the host: whether it changed the mesh, which lies closer than that many metres.
-    std::function<bool(Mesh& mesh, double error)> decimate = {};
+    /// Does a stage of decimation on the host: whether it changed the mesh.
+    std::function<bool(Mesh& mesh, const MeshStage& stage)> decimate = {};
     bool timed = false;
 };
 

@@ -137,6 +137,27 @@ TEST(MeshRecipe, NumbersAreFoldedAndMayComeFromConstants) {
     EXPECT_NE(varying.error().message.find("one number"), std::string::npos) << varying.error().message;
 }
 
+TEST(MeshRecipe, DecimationTakesAnErrorANumberOrBoth) {
+    const auto fewer = [](const std::string& wish) {
+        return graphOf(R"({"id": "fewer", "type": "decimate", "inputs": {"mesh": {"from": "poly"}, )" + wish +
+                       "}}," + output("fewer"));
+    };
+    const std::vector<MeshStage> both = {{.kind = Kind::decimate, .error = 0.25, .triangles = 300}};
+    EXPECT_EQ(programOf(fewer(R"("error": 0.25, "triangles": 300)")).stages, both);
+    EXPECT_EQ(programOf(fewer(R"("error": 0, "triangles": 300)")).stages[0].error, 0.0);
+    EXPECT_EQ(programOf(fewer(R"("error": 0.25)")).stages[0].triangles, 0);
+    const Result<Program> neither = compile(fewer(R"("error": 0, "triangles": 0)"));
+    ASSERT_FALSE(neither);
+    EXPECT_EQ(neither.error().node, "fewer");
+    EXPECT_EQ(neither.error().input, "error");
+
+    // What is asked for from outside comes behind all.
+    const Program program = programOf(fewer(R"("error": 0.25)"), {.triangles = 50});
+    const std::vector<MeshStage> two = {{.kind = Kind::decimate, .error = 0.25},
+                                        {.kind = Kind::decimate, .triangles = 50}};
+    EXPECT_EQ(program.stages, two);
+}
+
 TEST(MeshRecipe, AStageWithoutAMeshIsFound) {
     const auto finding = [](const std::string& inputs) {
         const std::vector<Error> found = check(

@@ -104,7 +104,7 @@ const std::map<std::string, std::vector<std::string>>& promised() {
         {"polygonize", {"surface", "region_min", "region_max", "resolution", "method"}},
         {"smooth", {"mesh", "iterations"}},
         {"subdivide", {"mesh", "levels", "project"}},
-        {"decimate", {"mesh", "error"}},
+        {"decimate", {"mesh", "error", "triangles"}},
         {"output", {"surface", "mesh", "resolution", "method"}},
         {"reroute", {}},
         {"frame", {}},

@@ -83,35 +83,79 @@ TEST_P(EachSolid, StaysWithinTheError) {
     EXPECT_EQ(session.device().validationMessages(), std::vector<std::string>());
 }
 
-TEST(Decimate, LeavesAMeshThatIsFartherAwayThanThat) {
-    Mesh mesh = test::torus(30, 20);
-    const Mesh before = mesh;
-    MeasureOptions far;
-    far.error = [](std::span<const glm::dvec3>, std::span<double> errors) {
-        for (double& error : errors) error = 0.5;
+TEST(Decimate, WhereAMeshIsFartherAwayAlreadyItGetsNoFarther) {
+    // A torus of flat quads whose surface is said to be farther away on one side.
+    Mesh mesh = test::torus(60, 40);
+    const std::size_t before = mesh.triangleCount();
+    MeasureOptions measure;
+    measure.error = [](std::span<const glm::dvec3> points, std::span<double> errors) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            errors[i] =
+                points[i].x > 0.5
+                    ? 0.2
+                    : std::abs(std::hypot(std::hypot(points[i].x, points[i].z) - 1.0, points[i].y) - 0.25);
     };
-    EXPECT_FALSE(decimate(mesh, 0.4, far));
-    EXPECT_EQ(mesh.positions, before.positions);
-    EXPECT_EQ(mesh.indices, before.indices);
-    EXPECT_TRUE(decimate(mesh, 0.6, far));
-    EXPECT_LT(mesh.triangleCount(), before.triangleCount());
-    EXPECT_TRUE(reportOnMesh(mesh.positions, mesh.indices).closedManifold());
+    ASSERT_TRUE(decimate(mesh, {.error = 0.02}, measure));
+    EXPECT_LT(mesh.triangleCount(), before / 3);
+    const Report report = reportOnMesh(mesh.positions, mesh.indices, measure);
+    EXPECT_TRUE(report.closedManifold());
+    EXPECT_LE(*report.maxError, 0.2);
+    std::vector<glm::dvec3> places;
+    for (const uint32_t index : mesh.indices) places.emplace_back(mesh.positions[index]);
+    std::vector<double> errors(places.size());
+    measure.error(places, errors);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (places[i].x <= 0.5) ASSERT_LE(errors[i], 0.02);
 }
 
 TEST(Decimate, ASolidStaysASolidWhateverTheError) {
     for (const double error : {0.5, 2.0, 10.0, 1000.0}) {
         Mesh mesh = test::torus(30, 20);
-        ASSERT_TRUE(decimate(mesh, error, {})) << error;
+        ASSERT_TRUE(decimate(mesh, {.error = error}, {})) << error;
         const Report report = reportOnMesh(mesh.positions, mesh.indices);
         EXPECT_TRUE(report.closedManifold());
         EXPECT_GE(report.triangles, 4u);
+        EXPECT_EQ(report.eulerCharacteristic, 0) << "a torus stays one";
         EXPECT_GT(report.volume, 0.0);
     }
 }
 
 TEST(Decimate, AnEmptyMeshStaysEmpty) {
     Mesh mesh;
-    EXPECT_FALSE(decimate(mesh, 1.0, {}));
+    EXPECT_FALSE(decimate(mesh, {.error = 1.0}, {}));
+    EXPECT_FALSE(decimate(mesh, {.triangles = 10}, {}));
+    EXPECT_TRUE(mesh.indices.empty());
+}
+
+TEST(Decimate, WithoutAWishNothingGoes) {
+    Mesh mesh = test::torus(30, 20);
+    EXPECT_FALSE(decimate(mesh, {}, {}));
+    EXPECT_EQ(mesh.triangleCount(), 1200u);
+}
+
+TEST(Decimate, EndsAtTheNumberUnlessTheErrorEndsItBefore) {
+    const Mesh torus = test::torus(60, 40);
+    for (const std::size_t wanted : {4799u, 4000u, 1001u, 200u, 60u}) {
+        Mesh mesh = torus;
+        ASSERT_TRUE(decimate(mesh, {.triangles = wanted}, {})) << wanted;
+        EXPECT_LE(mesh.triangleCount(), wanted);
+        EXPECT_GE(mesh.triangleCount() + 1, wanted) << "two triangles go at a time";
+        EXPECT_EQ(reportOnMesh(mesh.positions, mesh.indices).eulerCharacteristic, 0);
+    }
+    Mesh mesh = torus;
+    EXPECT_FALSE(decimate(mesh, {.triangles = 4800}, {})) << "as many as there are";
+    EXPECT_FALSE(decimate(mesh, {.triangles = 100'000}, {}));
+    ASSERT_TRUE(decimate(mesh, {.triangles = 4}, {})) << "as few as a torus can have";
+    EXPECT_GE(mesh.triangleCount(), 14u);
+    EXPECT_TRUE(reportOnMesh(mesh.positions, mesh.indices).closedManifold());
+
+    Mesh within = torus, both = torus;
+    ASSERT_TRUE(decimate(within, {.error = 0.01}, {}));
+    ASSERT_TRUE(decimate(both, {.error = 0.01, .triangles = 4}, {}));
+    EXPECT_GT(within.triangleCount(), 100u);
+    EXPECT_GT(both.triangleCount(), 100u);
+    ASSERT_TRUE(decimate(both = torus, {.error = 0.5, .triangles = 1000}, {}));
+    EXPECT_EQ(both.triangleCount(), 1000u);
 }
 
 }  // namespace fw::decimate_test
