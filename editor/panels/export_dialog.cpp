@@ -130,14 +130,15 @@ void showDone(const ExportState& state) {
     wrapped(themeColor(ThemeColor::text),
             printed("%s: %.2f MB in %.2f s", name.c_str(), double(state.files.bytes) / kMegabyte,
                     report.totalMs / 1e3));
-    wrapped(themeColor(ThemeColor::text),
-            grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices" +
-                (state.measured ? ", " + grouped(report.bodies()) + (report.bodies() == 1 ? " part" : " parts")
-                                : std::string()) +
-                (state.measured && report.cavities > 0
-                     ? ", " + grouped(report.cavities) +
-                           (report.cavities == 1 ? " hollow that is closed" : " hollows that are closed")
-                     : std::string()));
+    wrapped(
+        themeColor(ThemeColor::text),
+        grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices" +
+            (state.measured ? ", " + grouped(report.bodies()) + (report.bodies() == 1 ? " part" : " parts")
+                            : std::string()) +
+            (state.measured && report.cavities > 0
+                 ? ", " + grouped(report.cavities) +
+                       (report.cavities == 1 ? " hollow that is closed" : " hollows that are closed")
+                 : std::string()));
     if (state.tiled) wrapped(themeColor(ThemeColor::text), "It was meshed in tiles.");
     if (report.capped)
         wrapped(themeColor(ThemeColor::warning),

@@ -16,6 +16,7 @@
 #include "graph/document/graph.h"
 #include "runtime/export/placement.h"
 #include "runtime/gpu/device.h"
+#include "runtime/jobs/plan.h"
 #include "runtime/measure/mesh_requirements.h"
 #include "runtime/pictures/wish.h"
 #include "runtime/play/frames.h"
@@ -58,6 +59,8 @@ struct MeshOptions {
     std::optional<MeshMethod> method;
     int triangles = 0;                      ///< at most; 0: as many as there are
     std::vector<std::string> outputs = {};  ///< files that the command will write
+    JobWork* planned =
+        nullptr;  ///< if not null: all is checked, what there is to make told here, and nothing made
 };
 
 /// A mesh file that is written, and what is asked of it.
@@ -105,6 +108,16 @@ struct RenderCommandOptions {
     std::optional<double> turntable;      ///< the same, of a camera that goes around in so many seconds
 };
 int runRender(const RenderCommandOptions& options);
+
+struct JobOptions {
+    std::string engine;  ///< one of jobEngines()
+    std::string folder;
+    std::string program;  ///< `fieldwright` as the machines call it; empty: this one
+    JobSharing sharing;
+};
+std::vector<std::string> jobEngines();
+/// Writes what the engine takes of the command, which makes this.
+int runJob(const JobOptions& options, const TypedCommand& command, const JobWork& work);
 
 struct PlayOptions {
     MeshOptions mesh;

@@ -169,6 +169,7 @@ int runExport(const ExportOptions& options) {
     int status = kDone;
     std::optional<OpenedGraph> graph = openForMesh(wanted, progress, status);
     if (!graph) return status;
+    if (options.mesh.planned) return checkShares(options, *graph, uint32_t(options.mesh.planned->parts));
     if (tiled || wantsTiles(options, *graph))
         return tiledExport(options, wanted, std::move(*graph), progress);
     const bool canTile = canBeTiled(options, *graph);

@@ -109,7 +109,7 @@ int exportParticles(const ExportOptions& options) {
     if (const Done distinct = checkDistinct(from.path, {options.output}); !distinct)
         return print(distinct.error()), kBadUsage;
     std::optional<Progress> progress(std::in_place);
-    OpeningDevice device(std::launch::async, {.pick = options.mesh.device});
+    OpeningDevice device(startOf(options.mesh), {.pick = options.mesh.device});
     progress->start("read", 0);
     const std::optional<Graph> graph = openGraph(from);
     if (!graph) return kBadInput;
@@ -123,6 +123,7 @@ int exportParticles(const ExportOptions& options) {
         if (!wanted) return badParticles(wanted.error().message);
         files = std::move(*wanted);
     }
+    if (options.mesh.planned) return many ? noteWork(*options.mesh.planned, "frame", files.frames) : kDone;
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), kBadUsage;
     CompileOptions compiling;

@@ -94,6 +94,9 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         files = *wanted;
         how.placement = *placementOf("a" + ending, unitOf(graph), options.placement);
         measured.placement = how.placement;
+        const Result<FrameRange> part = partOf(files.frames, options.sequence.frames.part);
+        if (!part) return part.error();
+        files.frames = *part;
         if (const Done free = checkFrames(files, graph); !free)
             return Error{.message = free.error().message + " (-o, --format)"};
         return files;
@@ -139,7 +142,7 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
                                    .make = make,
                                    .end = end},
                                   options.output);
-    return status == kDone ? measured.end(files) : status;
+    return status == kDone && !options.mesh.planned ? measured.end(files) : status;
 }
 
 std::string endingOf(const ExportOptions& options) {

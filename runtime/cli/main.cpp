@@ -18,6 +18,7 @@
 #include "graph/library/node_type.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/option_words.h"
+#include "runtime/cli/progress_lines.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
 #include "runtime/export/points.h"
@@ -98,6 +99,16 @@ void addSequence(CLI::App* command, SequenceOptions& sequence) {
                       "The frames of the timeline's range (default: of all of it)");
     if (CLI::Option* moment = command->get_option_no_throw("--time"))
         for (const char* many : {"--from", "--to", "--range"}) command->get_option(many)->excludes(moment);
+    command
+        ->add_option_function<std::string>(
+            "--frames",
+            [&sequence](const std::string& text) {
+                sequence.frames.part = readFramePart(text);
+                if (!sequence.frames.part)
+                    throw CLI::ValidationError("--frames", inQuotes(text) + ": write FIRST-LAST, as 0-9");
+            },
+            "Only those of all the files, by their numbers: FIRST-LAST, both among them")
+        ->type_name("FIRST-LAST");
     command->add_flag("--overwrite", sequence.overwrite,
                       "Make frames anew that are there already (default: skip them)");
 }
@@ -125,6 +136,11 @@ void addMeasures(CLI::App* command, MeshOutput& output) {
         ->type_name("LIST");
 }
 
+void addOpenJd(CLI::App* command) {
+    command->add_flag_callback("--openjd", showProgressToOpenJd,
+                               "Say how far it is in lines that sessions of the Open Job Description read");
+}
+
 void addQuality(CLI::App* command, FieldBy& quality) {
     static const std::map<std::string, FieldBy> names = {
         {"auto", FieldBy::sooner}, {"full", FieldBy::kernels}, {"draft", FieldBy::tapes}};
@@ -150,8 +166,8 @@ int becomeBench(char** arguments) {
     return kSystemFailure;
 }
 
-int run(int count, char** arguments) {
-    if (count > 1 && std::string_view(arguments[1]) == "bench") return becomeBench(arguments + 1);
+/// `job`: of a command that is not run but shared out.
+int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields", "fieldwright"};
     app.set_version_flag("--version", "fieldwright " FIELDWRIGHT_VERSION);
     app.require_subcommand(1);
@@ -225,6 +241,7 @@ int run(int count, char** arguments) {
             ->type_name("NODE")
             ->check(something());
     addMeasures(exportCommand, exportOptions);
+    addOpenJd(exportCommand);
     addSequence(exportCommand, exportOptions.sequence);
     exportCommand->parse_complete_callback([exportCommand] { oneMomentOrMany(exportCommand); });
     std::vector<std::string> formats;
@@ -239,7 +256,7 @@ int run(int count, char** arguments) {
     CLI::Option* animated = exportCommand->add_flag(
         "--animated", exportOptions.animated,
         "Write all frames into one .glb or .gltf, in which they take turns (default: of the whole timeline)");
-    for (const char* ofOne : {"--time", "--overwrite", "--format"})
+    for (const char* ofOne : {"--time", "--overwrite", "--format", "--frames"})
         animated->excludes(exportCommand->get_option(ofOne));
     CLI::Option* sweep =
         exportCommand
@@ -273,8 +290,8 @@ int run(int count, char** arguments) {
                                  "--compress", "--parts", "--unit", "--up", "--for", "--report", "--require",
                                  "--triangles", "--tiles", "--tile", "--animated", "--sweep"})
         particles->excludes(exportCommand->get_option(ofMeshes));
-    for (const char* ofWholes :
-         {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep", "--triangles"})
+    for (const char* ofWholes : {"--from", "--to", "--fps", "--range", "--frames", "--overwrite",
+                                 "--animated", "--sweep", "--triangles"})
         for (const char* ofOne : {"--tiles", "--tile"})
             exportCommand->get_option(ofWholes)->excludes(exportCommand->get_option(ofOne));
 
@@ -292,6 +309,7 @@ int run(int count, char** arguments) {
                      "The mesh file; its ending says the format: .glb .gltf .stl .ply .obj")
         ->required();
     addMeasures(mergeCommand, mergeOptions);
+    addOpenJd(mergeCommand);
 
     RenderCommandOptions renderOptions;
     CLI::App* renderCommand = app.add_subcommand(
@@ -302,6 +320,7 @@ int run(int count, char** arguments) {
         ->add_option("-o,--output", renderOptions.output,
                      "The picture, a .png or .exr file; of a sequence the folder, for 000000.png and so on")
         ->required();
+    addOpenJd(renderCommand);
     addSequence(renderCommand, renderOptions.sequence);
     renderCommand
         ->add_option("--turntable", renderOptions.turntable,
@@ -352,6 +371,36 @@ int run(int count, char** arguments) {
         ->add_option("--bounces", renderOptions.picture.bounces,
                      "Of --reference: paths of light that are reflected by up to so many opaque surfaces")
         ->check(CLI::Range(1, kMostBounces));
+
+    JobOptions jobOptions;
+    CLI::App* jobCommand = app.add_subcommand("job",
+                                              "Share an export or render out among machines: write what an "
+                                              "engine that runs jobs takes, and a program "
+                                              "`submit` that hands it in");
+    jobCommand->footer(
+        "Behind -- comes the command, as you would type it. A job waits in DIR until DIR/submit is run.\n"
+        "Try:  fieldwright job --for slurm -o job -- render moving.field.json -o frames --from 0");
+    jobCommand->add_option("--for", jobOptions.engine, "Slurm, OpenJobDescription or GNU parallel")
+        ->required()
+        ->check(oneOf(jobEngines()));
+    jobCommand
+        ->add_option("-o,--output", jobOptions.folder,
+                     "The folder for the job, where all machines see it by the same name")
+        ->required()
+        ->check(something());
+    CLI::Option* chunk = jobCommand
+                             ->add_option("--chunk", jobOptions.sharing.chunk,
+                                          "Frames or variants a task (default: 10 frames, 100 variants)")
+                             ->check(whole(1, kMostFrames));
+    jobCommand
+        ->add_option("--tasks", jobOptions.sharing.tasks,
+                     "So many tasks: of one mesh parts of its tiles, which are merged in the end")
+        ->check(whole(1, kMostJobTasks))
+        ->excludes(chunk);
+    jobCommand
+        ->add_option("--program", jobOptions.program,
+                     "fieldwright as the machines call it (default: this one)")
+        ->check(something());
 
     PlayOptions playOptions;
     CLI::App* playCommand = app.add_subcommand(
@@ -474,7 +523,12 @@ int run(int count, char** arguments) {
     infoCommand->add_flag("--devices", devicesOnly,
                           "What each device can do, what it lacks, and what follows");
 
-    std::vector<std::string> words = readableNumbers(count, arguments);
+    std::vector<std::string> shared;  // behind "--": the command that is a job's
+    if (const auto dashes = std::find(words.begin(), words.end(), "--");
+        !job && !words.empty() && words[0] == "job" && dashes != words.end()) {
+        shared.assign(dashes + 1, words.end());
+        words.erase(dashes, words.end());
+    }
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     const bool isOption = !words.empty() && words[0].starts_with('-');
@@ -490,6 +544,16 @@ int run(int count, char** arguments) {
         std::reverse(words.begin(), words.end());  // the parser takes them from the back
         app.parse(words);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
+
+    if (jobCommand->parsed()) {
+        if (!shared.empty() && (shared[0] == "export" || shared[0] == "render"))
+            return run(std::move(shared), &jobOptions);
+        std::fprintf(
+            stderr,
+            "fieldwright job: it shares out an export or a render: write that behind --, as you would "
+            "type it\nTry: fieldwright job --help\n");
+        return kBadUsage;
+    }
 
     const bool writes = exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed() ||
                         simulateCommand->parsed();
@@ -513,6 +577,13 @@ int run(int count, char** arguments) {
         if (infoCommand->parsed()) return runInfo(devicesOnly);
         return kBadUsage;
     };
+    if (job) {
+        JobWork work;
+        if (exportCommand->parsed() && particles->count() == 0) work.parts = job->sharing.tasks.value_or(1);
+        exportOptions.mesh.planned = renderOptions.mesh.planned = &work;
+        const int checked = command();
+        return checked == kDone ? runJob(*job, typedCommand(*app.get_subcommands().front()), work) : checked;
+    }
     return onceMoreIfLost(command, [&] {
         noteLost("beginning again");
         whenEnded(nothingYet);
@@ -536,7 +607,9 @@ int afterOutput(int status) {
 int main(int count, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);  // a full quota is a write that fails, which has a message
     try {
-        return fw::cli::afterOutput(fw::cli::run(count, arguments));
+        if (count > 1 && std::string_view(arguments[1]) == "bench")
+            return fw::cli::becomeBench(arguments + 1);
+        return fw::cli::afterOutput(fw::cli::run(fw::cli::readableNumbers(count, arguments)));
     } catch (const fw::SystemError& error) {
         std::fprintf(stderr, "fieldwright: %s\n", error.what());
     } catch (const std::bad_alloc&) {

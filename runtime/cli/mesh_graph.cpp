@@ -7,14 +7,15 @@
 #include <cstdio>
 
 #include "runtime/bake/mesh_field_baker.h"
+#include "runtime/cli/progress_lines.h"
 #include "runtime/export/outputs.h"
 
 namespace fw::cli {
 
-Progress::Progress() : shown(isatty(STDERR_FILENO)) {}
+Progress::Progress() : shown(progressIsShown()) {}
 
 Progress::~Progress() {
-    if (shown) std::fprintf(stderr, "\r\033[K");
+    if (shown) hideProgress();
 }
 
 void Progress::start(const char* name, int percent, const char* shownAs) {
@@ -26,7 +27,7 @@ void Progress::start(const char* name, int percent, const char* shownAs) {
 }
 
 void Progress::show(int percent) const {
-    if (shown) std::fprintf(stderr, "\r\033[K%3d %%  %s", percent, words.c_str()), std::fflush(stderr);
+    if (shown) showProgress(percent, words);
 }
 
 void Progress::finish() {
@@ -74,6 +75,10 @@ std::optional<Graph> openKept(const MeshOptions& options, int& status) {
 
 }  // namespace
 
+std::launch startOf(const MeshOptions& options) {
+    return options.planned ? std::launch::deferred : std::launch::async;
+}
+
 std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status) {
     const auto fail = [&status](int with) {
         status = with;
@@ -82,10 +87,11 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     std::optional<Box> region;
     if (!readRegion(options, region)) return fail(kBadUsage);
     // The device starts while the graph is read: on software Vulkan that takes longer than reading.
-    OpeningDevice device(std::launch::async, {.pick = options.device});
+    OpeningDevice device(startOf(options), {.pick = options.device});
     progress.start("read", 0);
     const std::optional<Graph> graph = openKept(options, status);
     if (!graph) return std::nullopt;
+    if (options.planned && options.planned->parts == 1) return fail(kDone);
     progress.start("compile", 5);
     CompileOptions compileOptions;
     compileOptions.triangles = options.triangles;
@@ -148,12 +154,13 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     playerOptions.method = options.method;
     playerOptions.triangles = options.triangles;
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
-    OpeningDevice opening(std::launch::async, playerOptions.deviceOptions);
+    OpeningDevice opening(startOf(options), playerOptions.deviceOptions);
     progress.start("read", 0);
     std::optional<Graph> graph = openKept(options, status);
     if (!graph) return std::nullopt;
     if (accept)
         if (const int refused = accept(*graph); refused != kDone) return fail(refused);
+    if (options.planned) return fail(kDone);
     progress.start("device", 10);
     Result<Device>& device = opening.get();
     if (!device) return print(device.error()), fail(kBadUsage);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,8 +47,11 @@ struct OpenedGraph {
     LengthUnit unit;  ///< the document's
 };
 
+/// When the device is opened: a plan needs none.
+std::launch startOf(const MeshOptions& options);
+
 /// Reads and compiles the graph and opens the device; the stages take the first 20 % of the progress. Failure
-/// is told as by meshGraph.
+/// is told as by meshGraph; so is the end of a plan, with the status kDone.
 std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status);
 
 /// Meshes what openForMesh gave.
@@ -62,7 +66,8 @@ std::optional<MeshedProgram> meshGraph(const MeshOptions& options, Progress& pro
                                        int& status);
 
 /// Reads the graph and makes a player of it, at the options' time; the same of progress and failure. `accept`
-/// looks at the graph before anything takes long, and may give an exit status other than kDone.
+/// looks at the graph before anything takes long, and may give an exit status other than kDone. A plan ends
+/// there.
 std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress, const PlayerOptions& player,
                                  int& status, const std::function<int(const Graph&)>& accept = {});
 

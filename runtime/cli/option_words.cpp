@@ -74,6 +74,19 @@ std::string extraMessage(const CLI::App* command) {
 
 }  // namespace
 
+TypedCommand typedCommand(const CLI::App& command) {
+    TypedCommand typed{.name = command.get_name(), .options = {}};
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0) continue;
+        TypedOption& given = typed.options.emplace_back();
+        if (!option->get_positional()) given.name = "--" + option->get_lnames().front();
+        if (option->get_expected_min() == 0) continue;  // a flag
+        given.values = option->results();
+        given.each = !option->get_allow_extra_args() && given.values.size() > 1;
+    }
+    return typed;
+}
+
 std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
     std::string command = "fieldwright";
     const CLI::App* inner = app;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/jobs/plan.h"
+
 namespace fw::cli {
 
 /// Accepts a number that is neither infinite nor a NaN.
@@ -17,6 +19,9 @@ CLI::Validator something();
 CLI::Validator assignment();
 /// Accepts one of these words.
 CLI::Validator oneOf(std::vector<std::string> words);
+
+/// What was typed of a command that has been read.
+TypedCommand typedCommand(const CLI::App& command);
 
 /// What is wrong with the command line, and where more is said.
 std::string usageMessage(const CLI::App* app, const CLI::Error& error);

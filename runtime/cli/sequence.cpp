@@ -1,7 +1,5 @@
 #include "runtime/cli/sequence.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "runtime/cli/mesh_graph.h"
+#include "runtime/cli/progress_lines.h"
 #include "runtime/system/interruption.h"
 #include "runtime/system/output_file.h"
 
@@ -18,10 +17,10 @@ namespace fw::cli {
 namespace fs = std::filesystem;
 
 SequenceProgress::SequenceProgress(const char* one_, long count_)
-    : one(one_), count(count_), shown(isatty(STDERR_FILENO)) {}
+    : one(one_), count(count_), shown(progressIsShown()) {}
 
 SequenceProgress::~SequenceProgress() {
-    if (shown) std::fprintf(stderr, "\r\033[K");
+    if (shown) hideProgress();
 }
 
 double SequenceProgress::seconds() const { return secondsSince(begin); }
@@ -32,9 +31,15 @@ void SequenceProgress::next(bool work) {
     if (!shown) return;
     const double rate = static_cast<double>(made) / std::max(seconds(), 1e-6);
     const long left = rate > 0.0 ? std::lround(static_cast<double>(count - done) / rate) : 0;
-    std::fprintf(stderr, "\r\033[K%3ld %%  %s %ld of %ld, %.2f a second, %ld:%02ld left", 100 * done / count,
-                 one, done, count, rate, left / 60, left % 60);
-    std::fflush(stderr);
+    char rest[64];
+    std::snprintf(rest, sizeof rest, ", %.2f a second, %ld:%02ld left", rate, left / 60, left % 60);
+    showProgress(100.0 * double(done) / double(count),
+                 one + (" " + std::to_string(done) + " of " + std::to_string(count)), rest);
+}
+
+int noteWork(JobWork& work, const char* one, const FrameRange& frames) {
+    work.one = one, work.first = frames.first, work.last = frames.last;
+    return kDone;
 }
 
 int makeFrames(const FrameWork& work, const std::string& folder) {
@@ -54,6 +59,7 @@ int makeFrames(const FrameWork& work, const std::string& folder) {
             Result<FrameFiles> wanted = work.files(graph);
             if (!wanted) return badUsage(wanted.error().message);
             files = std::move(*wanted);
+            if (work.mesh.planned) return noteWork(*work.mesh.planned, work.one, files.frames);
             return kDone;
         });
         if (!player) return status;
@@ -131,7 +137,11 @@ int renderSequence(const RenderCommandOptions& options, const PictureWish& pictu
         wish.frames = *frames;
         if (const Done free = checkFrames(wish, graph); !free)
             return Error{.message = free.error().message + " (--size, -o, --overwrite)"};
-        return filesOf(wish);
+        FrameFiles files = filesOf(wish);
+        const Result<FrameRange> part = partOf(files.frames, times.part);
+        if (!part) return part.error();
+        files.frames = *part;
+        return files;
     };
     LightPicture light;
     bool first = true;

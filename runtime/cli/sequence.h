@@ -55,6 +55,9 @@ int renderSequence(const RenderCommandOptions& options, const PictureWish& wish)
 /// The frames that are asked for of the graph's timeline.
 Result<FrameRange> framesAsked(const Graph& graph, const ExportOptions& options);
 
+/// Says of a command that a job is to share out what there is many of; kDone.
+int noteWork(JobWork& work, const char* one, const FrameRange& frames);
+
 /// What is asked of each mesh file, but for its placement.
 fw::ExportOptions fileOptions(const ExportOptions& options);
 

@@ -188,6 +188,38 @@ int exportPart(const ExportOptions& options, Session& session, const MeshRequest
     return kDone;
 }
 
+int noField(const std::string& output) {
+    print({.message = "error= is measured against the field, which parts do not hold: give it to fieldwright "
+                      "export of the whole mesh",
+           .file = output});
+    return kBadUsage;
+}
+
+TilePlan tilesOf(const ExportOptions& options, const CellGrid& grid) {
+    const int longest = std::max({grid.cells.x, grid.cells.y, grid.cells.z});
+    return planTiles(grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
+}
+
+int tooFewTiles(const ExportOptions& options, const TilePlan& plan, uint32_t shares) {
+    print({.message =
+               "too few tiles, " + std::to_string(plan.tiles.size()) + ", for " + std::to_string(shares) +
+               " parts: ask for fewer parts, more --tiles, or a higher --resolution (a tile has 64 cells a "
+               "side, or more)",
+           .file = options.output});
+    return kBadUsage;
+}
+
+int otherUnit(const ExportOptions& options, const OpenedGraph& opened, const char* leaveOut) {
+    print({.message = "a part does not hold the document's unit, " + std::string(opened.unit.words) +
+                      ": export without " + leaveOut,
+           .file = options.output});
+    return kBadUsage;
+}
+
+int notTiled(const ExportOptions& options, const Error& why, const char* leaveOut) {
+    return badInput(options.mesh, {.message = why.message + ", or leave out " + leaveOut});
+}
+
 }  // namespace
 
 void sayWhatIsKept(const std::string& folder) {
@@ -234,21 +266,33 @@ bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened) {
     return opened.request.resolution > kMostUntiled && canBeTiled(options, opened);
 }
 
+int checkShares(const ExportOptions& options, const OpenedGraph& opened, uint32_t shares) {
+    ExportOptions part = options;
+    part.share = "1/" + std::to_string(shares), part.output += kPartEnding;
+    part.report.clear(), part.required.clear();  // the merge's
+    for (const Done& fine : {checkTiledExport(part), checkPiecesPath(options.output)})
+        if (!fine) return print(fine.error()), kBadUsage;
+    if (needField(options.required)) return noField(options.output);
+    if (opened.unit.metres != 1.0) return otherUnit(options, opened, "--tasks");
+    if (const Done fine = checkTiles(opened.program); !fine)
+        return notTiled(options, fine.error(), "--tasks");
+    const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);
+    if (!grid) return badInput(options.mesh, grid.error());
+    const TilePlan plan = tilesOf(options, *grid);
+    return shares > plan.tiles.size() ? tooFewTiles(options, plan, shares) : kDone;
+}
+
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress) {
     if (const Done fine = checkTiledExport(options); !fine) return print(fine.error()), kBadUsage;
     if (const Done fine = checkTiles(opened.program); !fine)
-        return badInput(options.mesh,
-                        {.message = fine.error().message + ", or leave out --tiles and --tile"});
+        return notTiled(options, fine.error(), "--tiles and --tile");
     Placement placement;
     if (options.share.empty()) {
         const Result<Placement> wanted = placementOf(options.output, opened.unit, options.placement);
         if (!wanted) return print(wanted.error()), kBadUsage;
         placement = *wanted;
     } else if (opened.unit.metres != 1.0) {
-        return print({.message = "a part does not hold the document's unit, " +
-                                 std::string(opened.unit.words) + ": export without --tile",
-                      .file = options.output}),
-               kBadUsage;
+        return otherUnit(options, opened, "--tile");
     }
     const Result<CellGrid> grid = cellGrid(opened.region, opened.request.resolution);
     if (!grid) return badInput(options.mesh, grid.error());
@@ -259,15 +303,8 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     progress.start("pipelines", 15, kCompiling);
     Session session(std::move(opened.device));
     session.setProgram(std::move(opened.program));
-    const int longest = std::max({grid->cells.x, grid->cells.y, grid->cells.z});
-    const TilePlan plan = planTiles(*grid, options.tiles > 0 ? longest / options.tiles : kTileCells);
-    if (share.shares > plan.tiles.size())
-        return print({.message = "too few tiles, " + std::to_string(plan.tiles.size()) + ", for " +
-                                 std::to_string(share.shares) +
-                                 " parts: ask for fewer parts, more --tiles, or a higher --resolution (a "
-                                 "tile has 64 cells a side, or more)",
-                      .file = options.output}),
-               kBadUsage;
+    const TilePlan plan = tilesOf(options, *grid);
+    if (share.shares > plan.tiles.size()) return tooFewTiles(options, plan, share.shares);
     if (options.share.empty())
         return exportWhole(options, session, opened.request, plan, placement, given, progress);
     return exportPart(options, session, opened.request, plan, share, progress);
@@ -275,11 +312,7 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
 
 int runMerge(const MergeOptions& options) {
     if (const Done known = checkPiecesPath(options.output); !known) return print(known.error()), kBadUsage;
-    if (needField(options.required))
-        return print({.message = "error= is measured against the field, which parts do not hold: give it to "
-                                 "fieldwright export",
-                      .file = options.output}),
-               kBadUsage;
+    if (needField(options.required)) return noField(options.output);
     std::vector<std::string> outputs = exportedPaths(options.output);
     if (!options.report.empty()) outputs.push_back(options.report);
     if (const Done kept = checkReplacesNone(options.parts, outputs); !kept)

@@ -21,6 +21,9 @@ bool canBeTiled(const ExportOptions& options, const OpenedGraph& opened);
 /// Whether they do, and so many cells are wanted that tiles are the way.
 bool wantsTiles(const ExportOptions& options, const OpenedGraph& opened);
 
+/// Whether the mesh can be made in so many shares; if not, says why. The exit status.
+int checkShares(const ExportOptions& options, const OpenedGraph& opened, uint32_t shares);
+
 /// The export from there on; the exit status.
 int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& progress);
 

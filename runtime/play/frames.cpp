@@ -30,6 +30,27 @@ Result<FrameRange> framesBetween(double from, double to, double framesPerSecond)
     return error;
 }
 
+std::optional<FramePart> readFramePart(std::string_view text) {
+    FramePart part;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, part.first);
+    if (first.ec != std::errc() || part.first < 0) return std::nullopt;
+    part.last = part.first;
+    if (first.ptr == end) return part;
+    const auto last = std::from_chars(first.ptr + 1, end, part.last);
+    const bool fine = *first.ptr == '-' && last.ec == std::errc() && last.ptr == end;
+    return fine && part.first <= part.last ? std::optional(part) : std::nullopt;
+}
+
+Result<FrameRange> partOf(const FrameRange& all, const std::optional<FramePart>& part) {
+    if (!part) return all;
+    if (part->first < all.first || part->last >= all.last)
+        return Error{.message = "--frames " + std::to_string(part->first) + "-" + std::to_string(part->last) +
+                                " reaches beyond what there is: " + std::to_string(all.first) + " to " +
+                                std::to_string(all.last - 1)};
+    return FrameRange{part->first, part->last + 1, all.framesPerSecond};
+}
+
 Result<FrameRange> framesOf(const Timeline& timeline, const FrameTimes& times) {
     if (times.range && !timeline.range)
         return Error{.message = "the timeline has no range: give --from and --to"};

@@ -28,13 +28,23 @@ inline constexpr long kMostFrames = 1'000'000;
 /// The frames with from <= time < to. Errors: times below zero, no frame between them, more than kMostFrames.
 Result<FrameRange> framesBetween(double from, double to, double framesPerSecond);
 
+/// Frames first to last, both among them: what one of several machines makes of a sequence.
+struct FramePart {
+    long first = 0, last = 0;
+};
+/// "first-last", or one number.
+std::optional<FramePart> readFramePart(std::string_view text);
+/// That part of all the frames; all if there is none. Error: it reaches beyond them.
+Result<FrameRange> partOf(const FrameRange& all, const std::optional<FramePart>& part);
+
 /// What of a timeline is asked for; what is left open is as the timeline has it.
 struct FrameTimes {
     std::optional<double> from = {}, to = {};  ///< seconds
     std::optional<double> framesPerSecond = {};
-    bool range = false;  ///< from and to are the timeline's range
+    bool range = false;                  ///< from and to are the timeline's range
+    std::optional<FramePart> part = {};  ///< of those; framesOf() does not mind it
 
-    bool asked() const { return from || to || framesPerSecond || range; }
+    bool asked() const { return from || to || framesPerSecond || range || part; }
 };
 /// Errors: as framesBetween(), and a timeline without the range that is asked for.
 Result<FrameRange> framesOf(const Timeline& timeline, const FrameTimes& times);

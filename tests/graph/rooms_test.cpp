@@ -42,7 +42,8 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/play", "graph system gpu mesh measure bake mesher stages particles render export"},
     {"runtime/pictures", "graph system render export play"},
     {"runtime/window", "graph gpu render"},
-    {"runtime/cli", "graph system gpu measure bake textures render export play pictures window"},
+    {"runtime/jobs", "graph system"},
+    {"runtime/cli", "graph system gpu measure bake textures render export play pictures window jobs"},
 
     {"editor", "graph runtime"},
 };
