@@ -23,6 +23,7 @@ constexpr double kStart = 0.25;     // of an edge: the distance with which it be
 constexpr double kRough = 8;        // edges: if it grows beyond them, only the number matters
 constexpr double kSamples = 65536;  // points at which all of the surface would be asked
 constexpr int kMostSamples = 256;   // of a triangle
+constexpr float kFaces = 0.01f;     // the least cosine to a direction that a triangle faces along
 constexpr std::size_t kAtOnce = 2048;
 
 /// Edges that are new in a round.
@@ -44,6 +45,10 @@ class NewEdges {
     std::vector<uint64_t> keys;
 };
 
+NormalCone coneOf(const CollapseFace& face) {
+    return face.area > 0.0f ? NormalCone{face.normal, 0.0f} : NormalCone{};
+}
+
 /// A new triangle.
 struct Made {
     Made(std::span<const glm::vec3> positions, const std::array<uint32_t, 3>& corners_)
@@ -52,20 +57,33 @@ struct Made {
         normal = glm::cross(glm::dvec3(positions[corners[1]]) - origin,
                             glm::dvec3(positions[corners[2]]) - origin);
     }
-    /// False where one look at the other's corners tells that they do not: two are common, or all are on one
-    /// side.
+    /// False where a look at either plane tells that they do not cut: two corners are common, or all of one's
+    /// are on one side of the other.
     bool mayCut(std::span<const glm::vec3> positions, const std::array<uint32_t, 3>& other) const {
-        int shared = 0, above = 0, below = 0;
+        const auto isCorner = [&](uint32_t corner) {
+            return corner == corners[0] || corner == corners[1] || corner == corners[2];
+        };
+        const int shared = isCorner(other[0]) + isCorner(other[1]) + isCorner(other[2]);
+        if (shared > 1) return false;
+        int above = shared, below = shared;
         for (const uint32_t corner : other) {
-            if (corner == corners[0] || corner == corners[1] || corner == corners[2]) {
-                ++shared;
-                continue;
-            }
+            if (isCorner(corner)) continue;
             const double side = glm::dot(normal, glm::dvec3(positions[corner]) - origin);
             above += side > 0.0;
             below += side < 0.0;
         }
-        return shared < 2 && above + shared < 3 && below + shared < 3;
+        if (above == 3 || below == 3) return false;
+        const glm::dvec3 from(positions[other[0]]);
+        const glm::dvec3 across =
+            glm::cross(glm::dvec3(positions[other[1]]) - from, glm::dvec3(positions[other[2]]) - from);
+        above = below = shared;
+        for (const uint32_t corner : corners) {
+            if (corner == other[0] || corner == other[1] || corner == other[2]) continue;
+            const double side = glm::dot(across, glm::dvec3(positions[corner]) - from);
+            above += side > 0.0;
+            below += side < 0.0;
+        }
+        return above < 3 && below < 3;
     }
 
     std::array<uint32_t, 3> corners;
@@ -230,14 +248,22 @@ bool Rounds::cutsNone(uint32_t number, std::vector<Made>& made) const {
         made.emplace_back(state.positions, std::array{to, spoke.next, spoke.previous});
         all.add(made.back().box);
     });
+    glm::dvec3 sum(0.0);
+    for (const Made& one : made) sum += glm::normalize(one.normal);
+    const glm::vec3 along(glm::normalize(sum));
+    const auto faces = [&](const Made& one) {
+        return glm::dot(glm::vec3(glm::normalize(one.normal)), along) > kFaces;
+    };
+    if (state.closed && std::ranges::all_of(made, faces) && near.allFace(all, along)) return true;
     bool cuts = false;
     near.at(all, [&](uint32_t t) {
         const uint32_t owner = owners[t];
         if (cuts || owner == number) return;
         std::array<uint32_t, 3> other;
         std::copy_n(&state.indices[3 * std::size_t(t)], 3, other.begin());
+        const NearBox box = near.boxOf(t);
         const auto cutsIt = [&](const Made& one) {
-            return one.box.meets(near.boxOf(t)) && one.mayCut(state.positions, other) &&
+            return one.box.meets(box) && one.mayCut(state.positions, other) &&
                    trianglesCut(state.positions, one.corners.data(), other.data());
         };
         cuts = std::ranges::any_of(made, cutsIt);
@@ -297,10 +323,19 @@ void Rounds::ask(std::size_t first, std::size_t last) {
 
 void Rounds::verify() {
     near.build(state.triangles(), [&](std::size_t t) {
-        NearBox box;
-        for (std::size_t k = 0; k < 3; ++k) box.add(state.positions[state.indices[3 * t + k]]);
-        if (owners[t] != kNoOne) box.add(state.positions[chosen[owners[t]].to]);
-        return box;
+        const uint32_t* const corner = &state.indices[3 * t];
+        NearTriangle triangle{.box = {}, .normals = coneOf(state.faces[t])};
+        for (std::size_t k = 0; k < 3; ++k) triangle.box.add(state.positions[corner[k]]);
+        if (owners[t] == kNoOne) return triangle;
+        const Collapse& owner = chosen[owners[t]];
+        triangle.box.add(state.positions[owner.to]);
+        std::array<uint32_t, 3> then{corner[0], corner[1], corner[2]};
+        std::ranges::replace(then, owner.from, owner.to);
+        if (!collapsed(then.data()))
+            triangle.normals = NormalCone::around(
+                std::array{triangle.normals, coneOf(faceOf(state.positions[then[0]], state.positions[then[1]],
+                                                           state.positions[then[2]]))});
+        return triangle;
     });
     const std::vector<char> before = refused;
     if (limits.fromSurface) distances.resize(std::max(distances.size(), chosen.size()));
@@ -398,7 +433,7 @@ std::vector<uint32_t> Rounds::run() {
             if (gone > 0) state.findAround();
         }
         const bool few = double(gone) < kFew * double(chosen.size()) || chosen.empty();
-        if (few && all && distance < enough) {
+        if (few && (all || chosen.empty()) && distance < enough) {
             distance = std::min(2.0 * distance, enough);
             state.features = std::isfinite(limits.distance) || distance < kRough * state.edge;
             std::ranges::fill(tried, -1.0f);

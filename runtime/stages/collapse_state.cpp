@@ -109,7 +109,10 @@ CollapseState::CollapseState(const Mesh& mesh, const CollapseLimits& limits) {
     edge = sum / double(std::max<std::size_t>(indices.size(), 1));
     faces.resize(triangles());
     findAround();
-    for (std::size_t v = 0; v < positions.size(); ++v) stays[v] = stays[v] || !stars.closed(v);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        closed = closed && stars.closed(v);
+        stays[v] = stays[v] || !stars.closed(v);
+    }
     findBorders();
     findQuadrics();
     carryPoints(limits);

@@ -46,6 +46,7 @@ struct CollapseState {
     CarriedPoints carried{0};
     glm::dvec3 middle{0.0};
     double edge = 0.0;     ///< mean length of the mesh's edges as it was
+    bool closed = true;    ///< the stars of all vertices are
     bool features = true;  ///< creases and borders are kept
 
     glm::dvec3 placeOf(uint32_t vertex) const { return glm::dvec3(positions[vertex]) - middle; }

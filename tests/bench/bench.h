@@ -19,7 +19,7 @@ struct BenchOptions {
     std::string rows = {};        ///< of the interface's table those parts alone that have these words
 };
 
-/// The tables there are, in the order of the page: "process", "mesher", "prune", "mesh-to-field",
+/// The tables there are, in the order of the page: "process", "mesher", "prune", "decimate", "mesh-to-field",
 /// "particles", "talk", "live", "compile", "editor", "interface", "light", "peaks".
 std::span<const std::string> benchNames();
 

@@ -28,6 +28,7 @@ struct Bench {
 
 void mesherTable(Bench& bench);     ///< ours against the baseline, four fields
 void pruneTable(Bench& bench);      ///< a thousand shapes
+void decimateTable(Bench& bench);   ///< a million triangles to a tenth, beside meshoptimizer
 void meshFieldTable(Bench& bench);  ///< triangle meshes to fields
 void particlesTable(Bench& bench);  ///< particles to fields, and then the next
 void fluidTable(Bench& bench);      ///< steps of a fluid
