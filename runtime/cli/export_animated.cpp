@@ -34,21 +34,20 @@ struct Animation {
 };
 
 int writeTurns(const Animation& of) {
-    const auto& [options, how, range, placement, player] = of;
-    Result<AnimatedGltf> file = AnimatedGltf::open(options.output, how);
+    Result<AnimatedGltf> file = AnimatedGltf::open(of.options.output, of.how);
     if (!file) return print(file.error()), kSystemFailure;
     WrittenBehind writing;
-    SequenceProgress progress("frame", range.count());
-    for (long frame = range.first; frame < range.last; ++frame) {
+    SequenceProgress progress("frame", of.range.count());
+    for (long frame = of.range.first; frame < of.range.last; ++frame) {
         Result<Mesh> mesh = onceMoreIfLost(
             [&] {
-                player.seek(range.time(frame));
-                return player.mesh(partsOf(of.options, of.options.output));
+                of.player.seek(of.range.time(frame));
+                return of.player.mesh(partsOf(of.options, of.options.output));
             },
-            [&] { renewDevice(player, "going on at frame " + std::to_string(frame)); });
-        if (!mesh) return badInput(options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
+            [&] { renewDevice(of.player, "going on at frame " + std::to_string(frame)); });
+        if (!mesh) return badInput(of.options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
         auto add = [&, frame, mesh = std::move(*mesh)]() mutable {
-            return file->add(placed(std::move(mesh), placement), of.seconds(frame),
+            return file->add(placed(std::move(mesh), of.placement), of.seconds(frame),
                              "frame_" + std::to_string(frame));
         };
         if (const Done before = writing.begin(std::move(add)); !before)
@@ -57,7 +56,7 @@ int writeTurns(const Animation& of) {
     }
     Done written = writing.end();
     if (written)
-        if (const Result<ExportedFiles> files = file->end(of.seconds(range.last)); !files)
+        if (const Result<ExportedFiles> files = file->end(of.seconds(of.range.last)); !files)
             written = files.error();
     if (!written) return print(written.error()), kSystemFailure;
     return kDone;

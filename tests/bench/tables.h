@@ -34,6 +34,7 @@ void particlesTable(Bench& bench);  ///< particles to fields, and then the next
 void fluidTable(Bench& bench);      ///< steps of a fluid
 void texturesTable(Bench& bench);   ///< meshes unwrapped, and baked
 void talkTable(Bench& bench);       ///< the slide's table
+void exportTable(Bench& bench);     ///< sequences, sweeps, compressed files
 void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
 void tapesTable(Bench& bench);      ///< fields on the host
 void largeTable(Bench& bench);      ///< fields that a driver compiles for long

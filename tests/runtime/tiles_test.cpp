@@ -324,8 +324,9 @@ TEST_F(TilesCommand, AreMeasuredAsTheWholeIs) {
                 folder.path("merged.json"), "--require", "closed"});
     const nlohmann::json whole = content("whole.json"), tiled = content("a.json"),
                          merged = content("merged.json");
-    for (const char* key : {"vertices", "triangles", "shells", "cavities", "boundaryEdges",
-                            "nonManifoldEdges", "eulerCharacteristic", "selfIntersections", "capped", "maxError"}) {
+    for (const char* key :
+         {"vertices", "triangles", "shells", "cavities", "boundaryEdges", "nonManifoldEdges",
+          "eulerCharacteristic", "selfIntersections", "capped", "maxError"}) {
         EXPECT_EQ(tiled[key], whole[key]) << key;
         if (key != std::string("maxError")) { EXPECT_EQ(merged[key], whole[key]) << key; }
     }
