@@ -61,7 +61,7 @@ class Baker {
           distance(makeTape(program.ir, program.distance(), program.parameters())),
           surface(makeTape(program.ir, std::span(program.surface).subspan(1, kBaked), program.parameters())),
           seeker(mesh, texels, distance, options.reach, 1e-5f * options.radius),
-          cell(std::max<std::size_t>(2, size / kCells)),
+          cell(std::max<std::size_t>(1, size / kCells)),
           cells((size + cell - 1) / cell) {
         for (std::size_t i = emissionComponent; i < emissionComponent + 3u; ++i)
             glows = glows || !program.ir.isConstant(program.surface[i], 0.0);
@@ -226,6 +226,7 @@ class Baker {
     /// By the plane that is nearest to what the places of the cells about a texel have, of those of its
     /// chart: on the chart's border, where there are some on one side alone, it goes on as they do.
     float openAt(std::size_t texel) const {
+        if (cell == 1) return cellPlaces[firstOf[texel]].open;
         const uint32_t chart = chartAt(texel);
         const auto x = int(texel % size), y = int(texel / size), side = int(cell), along = int(cells);
         double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, wyy = 0, wv = 0, wvx = 0, wvy = 0;
