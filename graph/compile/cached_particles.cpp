@@ -107,6 +107,27 @@ Done checkCache(const Graph& graph, const ParticleCache& cache) {
     return done();
 }
 
+bool simulatesAnew(const Graph& graph, std::string_view node) {
+    const auto output = std::ranges::find_if(
+        graph.nodes, [](const Node& each) { return roleOf(each.type) == NodeRole::output; });
+    if (node.empty() && output == graph.nodes.end()) return false;
+    const Graph part = partBehind(graph, node.empty() ? std::string_view(output->id) : node);
+    // The part knows nothing of caches: those are looked up in the document.
+    const auto anew = [](const std::vector<Node>& needed, const std::vector<Node>& nodes) {
+        return std::ranges::any_of(nodes, [&](const Node& each) {
+            const NodeType* type = findNodeType(each.type);
+            return type && std::ranges::find(needed, each.id, &Node::id) != needed.end() &&
+                   std::ranges::any_of(type->inputs, [&](const InputSpec& input) {
+                       return input.file == &kParticleCacheFile && !each.input(input.name);
+                   });
+        });
+    };
+    return anew(part.nodes, graph.nodes) || std::ranges::any_of(part.groups, [&](const Group& group) {
+               const auto own = std::ranges::find(graph.groups, group.id, &Group::id);
+               return own != graph.groups.end() && anew(group.nodes, own->nodes);
+           });
+}
+
 void useCache(Graph& graph, const std::string& header) {
     const auto within = [&](std::vector<Node>& nodes) {
         for (Node& node : nodes)

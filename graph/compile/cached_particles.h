@@ -19,6 +19,9 @@ Done findCached(const Graph& graph, ParticleRecipe& recipe);
 /// other simulations, with what differs; not what files hold, which findCached() sees.
 Done checkCache(const Graph& graph, const ParticleCache& cache);
 
+/// Whether what this node gives takes a simulation that no cache has; of no node: what the document shows.
+bool simulatesAnew(const Graph& graph, std::string_view node = {});
+
 /// How two simulations of one node differ, in words.
 std::string differenceOf(const CachedSimulation& was, const CachedSimulation& is);
 

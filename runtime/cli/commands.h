@@ -133,6 +133,7 @@ struct SimulateOptions {
     std::string output, device;
     std::string node;  ///< whose particles are kept; empty: all that the graph shows
     SequenceOptions sequence;
+    bool planned = false;  ///< all is checked, and nothing made
 };
 int runSimulate(const SimulateOptions& options);
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "graph/compile/cached_particles.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
@@ -30,7 +31,9 @@ Result<FrameFiles> filesOf(const ExportOptions& options, const Graph& graph) {
                      .whole = isWholePoints};
     const Result<FrameRange> frames = framesOf(*readTimeline(graph), options.sequence.frames);
     if (!frames) return Error{.message = frames.error().message + " (--from, --to, --fps)"};
-    files.frames = *frames;
+    const Result<FrameRange> part = partOf(*frames, options.sequence.frames.part);
+    if (!part) return part.error();
+    files.frames = *part;
     if (const Done free = checkFrames(files, graph); !free)
         return Error{.message = free.error().message + " (-o, --format)"};
     return files;
@@ -123,7 +126,12 @@ int exportParticles(const ExportOptions& options) {
         if (!wanted) return badParticles(wanted.error().message);
         files = std::move(*wanted);
     }
-    if (options.mesh.planned) return many ? noteWork(*options.mesh.planned, "frame", files.frames) : kDone;
+    if (options.mesh.planned && many) {
+        const std::string& node = options.particles;
+        options.mesh.planned->simulates = simulatesAnew(*graph, node.substr(0, node.find('.')));
+        noteWork(*options.mesh.planned, "frame", files.frames);
+    }
+    if (options.mesh.planned) return kDone;
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), kBadUsage;
     CompileOptions compiling;

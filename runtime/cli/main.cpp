@@ -99,6 +99,12 @@ void addSequence(CLI::App* command, SequenceOptions& sequence) {
                       "The frames of the timeline's range (default: of all of it)");
     if (CLI::Option* moment = command->get_option_no_throw("--time"))
         for (const char* many : {"--from", "--to", "--range"}) command->get_option(many)->excludes(moment);
+    command->add_flag("--overwrite", sequence.overwrite,
+                      "Make frames anew that are there already (default: skip them)");
+}
+
+/// What of it one of several machines makes.
+void addPart(CLI::App* command, SequenceOptions& sequence) {
     command
         ->add_option_function<std::string>(
             "--frames",
@@ -109,8 +115,6 @@ void addSequence(CLI::App* command, SequenceOptions& sequence) {
             },
             "Only those of all the files, by their numbers: FIRST-LAST, both among them")
         ->type_name("FIRST-LAST");
-    command->add_flag("--overwrite", sequence.overwrite,
-                      "Make frames anew that are there already (default: skip them)");
 }
 
 void oneMomentOrMany(const CLI::App* command) {
@@ -243,6 +247,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     addMeasures(exportCommand, exportOptions);
     addOpenJd(exportCommand);
     addSequence(exportCommand, exportOptions.sequence);
+    addPart(exportCommand, exportOptions.sequence);
     exportCommand->parse_complete_callback([exportCommand] { oneMomentOrMany(exportCommand); });
     std::vector<std::string> formats;
     for (const ExportFormat& format : exportFormats()) formats.emplace_back(format.ending + 1);
@@ -322,6 +327,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         ->required();
     addOpenJd(renderCommand);
     addSequence(renderCommand, renderOptions.sequence);
+    addPart(renderCommand, renderOptions.sequence);
     renderCommand
         ->add_option("--turntable", renderOptions.turntable,
                      "A camera that goes once around the solid in so many seconds; --time says what it shows")
@@ -373,10 +379,11 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         ->check(CLI::Range(1, kMostBounces));
 
     JobOptions jobOptions;
-    CLI::App* jobCommand = app.add_subcommand("job",
-                                              "Share an export or render out among machines: write what an "
-                                              "engine that runs jobs takes, and a program "
-                                              "`submit` that hands it in");
+    CLI::App* jobCommand =
+        app.add_subcommand("job",
+                           "Share an export, a render or a simulation out among machines: write what an "
+                           "engine that runs jobs takes, and a program "
+                           "`submit` that hands it in");
     jobCommand->footer(
         "Behind -- comes the command, as you would type it. A job waits in DIR until DIR/submit is run.\n"
         "Try:  fieldwright job --for slurm -o job -- render moving.field.json -o frames --from 0");
@@ -439,6 +446,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
                      "graph shows)")
         ->check(something());
     addSequence(simulateCommand, simulateOptions.sequence);
+    addOpenJd(simulateCommand);
     simulateCommand->add_option("--device", simulateOptions.device,
                                 "Index or part of the name of the device (see fieldwright info)");
 
@@ -546,12 +554,12 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
     if (jobCommand->parsed()) {
-        if (!shared.empty() && (shared[0] == "export" || shared[0] == "render"))
+        if (!shared.empty() && (shared[0] == "export" || shared[0] == "render" || shared[0] == "simulate"))
             return run(std::move(shared), &jobOptions);
         std::fprintf(
             stderr,
-            "fieldwright job: it shares out an export or a render: write that behind --, as you would "
-            "type it\nTry: fieldwright job --help\n");
+            "fieldwright job: it shares out an export, a render or a simulate: write that behind --, as you "
+            "would type it\nTry: fieldwright job --help\n");
         return kBadUsage;
     }
 
@@ -581,6 +589,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         JobWork work;
         if (exportCommand->parsed() && particles->count() == 0) work.parts = job->sharing.tasks.value_or(1);
         exportOptions.mesh.planned = renderOptions.mesh.planned = &work;
+        simulateOptions.planned = true;
         const int checked = command();
         return checked == kDone ? runJob(*job, typedCommand(*app.get_subcommands().front()), work) : checked;
     }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "graph/compile/cached_particles.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/progress_lines.h"
 #include "runtime/system/interruption.h"
@@ -59,7 +60,10 @@ int makeFrames(const FrameWork& work, const std::string& folder) {
             Result<FrameFiles> wanted = work.files(graph);
             if (!wanted) return badUsage(wanted.error().message);
             files = std::move(*wanted);
-            if (work.mesh.planned) return noteWork(*work.mesh.planned, work.one, files.frames);
+            if (work.mesh.planned) {
+                work.mesh.planned->simulates = !work.rests && simulatesAnew(graph);
+                return noteWork(*work.mesh.planned, work.one, files.frames);
+            }
             return kDone;
         });
         if (!player) return status;

@@ -81,6 +81,7 @@ int runSimulate(const SimulateOptions& options) {
             if (!link) return print(at(*graph, link.error())), kBadInput;
             graph = showingParticles(std::move(*graph), *link);
         }
+        if (options.planned) return kDone;
         progress.start("device", 20, kCompiling);
         Result<Device>& opened = device.get();
         if (!opened) return print(opened.error()), kBadUsage;

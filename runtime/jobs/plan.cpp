@@ -94,6 +94,21 @@ void addParts(Job& job, const TypedCommand& command, long parts, const std::stri
                  {"merge", {{"the merge of " + std::to_string(parts) + " parts", wordsOf(merge)}}}};
 }
 
+/// The first step, into a cache that the command then reads.
+void addSimulation(Job& job, TypedCommand& command, const std::string& cache) {
+    TypedCommand simulate{.name = "simulate", .options = {}};
+    for (const TypedOption& option : command.options)
+        if (option.name == "--particles")
+            simulate.options.push_back({"--node", option.values});
+        else if (option.name.empty() || option.name == "--set" || option.name == "--from" ||
+                 option.name == "--to" || option.name == "--fps" || option.name == "--range" ||
+                 option.name == "--device")
+            simulate.options.push_back(option);
+    simulate.options.push_back({"--output", {cache}});
+    job.steps.push_back({"simulate", {{"the simulation", wordsOf(simulate)}}});
+    command.options.push_back({"--cache", {cache}});
+}
+
 std::string jobName(const std::string& graph) {
     std::string name = fs::path(graph).filename().string();
     name = name.substr(0, name.find(".field.json"));
@@ -120,6 +135,7 @@ Result<Job> planJob(const TypedCommand& typed, const JobWork& work, const JobSha
             job.steps = {{command.name, {{"the " + command.name, wordsOf(command)}}}};
         return job;
     }
+    if (work.simulates) addSimulation(job, command, fs::absolute(folder).string() + "/cache");
     const long usual = work.one == std::string_view("frame") ? kFramesOfTask : kVariantsOfTask;
     const long least = (count + kMostJobTasks - 1) / kMostJobTasks;
     const long chunk = sharing.chunk   ? *sharing.chunk

@@ -2,8 +2,9 @@
 //
 // Frames and variants are shared out in runs of consecutive numbers (--frames); one mesh in parts of its
 // tiles
-// (--tile), which a second step merges. What is said of all of a sequence, a report, is a last step: the
-// command as it was typed, which finds all files there. Anything else is one task.
+// (--tile), which a second step merges. Frames of what is simulated read a cache that the first step writes.
+// What is said of all of a sequence, a report, is a last step: the command as it was typed, which finds all
+// files there. Anything else is one task.
 #pragma once
 
 #include <optional>
@@ -28,6 +29,7 @@ struct TypedCommand {
 struct JobWork {
     const char* one = nullptr;  ///< what there is many of: "frame", "variant"; null: one file
     long first = 0, last = 0;   ///< their numbers, first <= n < last
+    bool simulates = false;     ///< each would have to simulate what none needs to do again
     long parts = 1;             ///< that the one mesh is to be shared out in
 };
 

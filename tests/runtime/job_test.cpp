@@ -88,6 +88,19 @@ TEST(JobPlan, SharesOneMeshOutInPartsThatAreMerged) {
     EXPECT_FALSE(planJob(kExport, {}, {.chunk = 3}, "/job"));
 }
 
+TEST(JobPlan, SimulatesOnceBeforeTheFrames) {
+    TypedCommand command = kExport;
+    command.options.push_back({"--from", {"1"}});
+    const Result<Job> job = planJob(command, {"frame", 30, 60, true}, {}, "/job");
+    ASSERT_TRUE(job);
+    ASSERT_EQ(job->steps.size(), 3u);
+    EXPECT_EQ(joined(job->steps[0].tasks[0].words),
+              "simulate /g.field.json --set a=1 --set b=2 --from 1 --output /job/cache");
+    EXPECT_EQ(job->steps[1].tasks.size(), 3u);
+    for (const std::size_t step : {1u, 2u})
+        EXPECT_NE(joined(job->steps[step].tasks[0].words).find(" --cache /job/cache"), std::string::npos);
+}
+
 TEST(JobPlan, MakesPathsAbsoluteAndWordsThatAreRead) {
     const TypedCommand command = {"render",
                                   {{"", {"g.field.json"}},
@@ -127,8 +140,8 @@ TEST_F(Jobs, RefuseAtOnceWhatTheCommandWouldRefuseOnTheFarm) {
         return words;
     };
     refused({"job", "--for", "slurm", "-o", job}, 2,
-            {"fieldwright job: it shares out an export or a render"});
-    refused(with(slurm, {"play", graph}), 2, {"it shares out an export or a render"});
+            {"fieldwright job: it shares out an export, a render or a simulate"});
+    refused(with(slurm, {"play", graph}), 2, {"it shares out an export"});
     refused({"job", "--for", "lsf", "-o", job, "--", "export", graph, "-o", out}, 2,
             {"'lsf' is none of slurm"});
     refused(with(slurm, {"export", graph, "-o", out, "--form", "0"}), 2,
@@ -222,6 +235,36 @@ TEST_F(Jobs, OfTilesAreMergedToTheMeshThatOneMachineMakes) {
     EXPECT_EQ(run.status, 0) << run.output;
     EXPECT_EQ(runCommand(exported(whole)).status, 0);
     EXPECT_TRUE(readText(mesh) == readText(whole));
+}
+
+TEST_F(Jobs, OfWhatIsSimulatedReadOneSimulation) {
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [
+      {"id": "cloud", "type": "emitter", "inputs": {"rate": 300, "burst": 30, "lifetime": 0.6}},
+      {"id": "rain", "type": "particle_dynamics", "inputs": {"particles": {"from": "cloud"}}},
+      {"id": "field", "type": "particles_to_field", "inputs": {"particles": {"from": "rain"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "field"}, "resolution": 24}}],
+     "timeline": {"length": 2, "fps": 30}})");
+    const std::string out = folder.path("frames"), whole = folder.path("whole");
+    const auto exported = [&](const std::string& to) -> std::vector<std::string> {
+        return {"export", graph, "-o", to, "--from", "0.5", "--to", "0.8", "--format", "ply"};
+    };
+    ASSERT_EQ(shareOut("parallel", {"--chunk", "5"}, exported(out)).status, 0);
+    EXPECT_EQ(readText(job + "/simulate.jobs"), "./task simulate 0\n");
+    const ProgramResult run = submit();
+    EXPECT_EQ(run.status, 0) << run.output;
+    EXPECT_TRUE(fs::exists(job + "/cache/rain"));
+    EXPECT_EQ(runCommand(exported(whole)).status, 0);
+    expectSameFiles(out, whole);
+    // A cache that is there already is read, and what is not simulated has none.
+    fs::rename(job, folder.path("first"));
+    ASSERT_EQ(shareOut("parallel", {},
+                       {"export", graph, "-o", out, "--from", "0.5", "--cache", folder.path("first/cache")})
+                  .status,
+              0);
+    EXPECT_FALSE(fs::exists(job + "/simulate.jobs"));
+    ASSERT_EQ(shareOut("slurm", {}, {"simulate", graph, "-o", folder.path("cache"), "--to", "0.5"}).status,
+              0);
+    EXPECT_FALSE(fs::exists(folder.path("cache")));
 }
 
 TEST_F(Jobs, TellWhichTaskHasFailedAndWhyAndGoNoFurther) {
