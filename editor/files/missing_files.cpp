@@ -8,6 +8,7 @@
 #include "editor/files/watch.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "graph/assets/particle_file.h"
 #include "graph/base/words.h"
 
 namespace fw::editor {
@@ -107,6 +108,7 @@ void showList(Editor& editor, const std::vector<NamedFile>& missing) {
 std::vector<NamedFile> missingFiles(const Graph& graph, const std::string& folder) {
     std::vector<NamedFile> missing = namedFiles(graph);
     std::erase_if(missing, [&](const NamedFile& file) {
+        if (file.kind->apart || (file.kind == &kParticleFile && namesSequence(file.path))) return true;
         std::error_code none;
         return fs::is_regular_file(fs::path(folder) / file.path, none);
     });

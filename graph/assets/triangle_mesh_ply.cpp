@@ -1,5 +1,6 @@
 // PLY: elements with properties that a header lists, as text or in binary of either byte order. Of the
-// vertices their places and colours are read, of the faces their corners; all else is passed over.
+// vertices their places and colours are read, of particles their velocities and numbers, of the faces their
+// corners; all else is passed over.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 
+#include "graph/assets/file_points.h"
 #include "graph/assets/image.h"
 #include "graph/assets/triangle_mesh.h"
 #include "graph/assets/triangle_mesh_text.h"
@@ -70,6 +72,8 @@ class Reader {
         }
         return std::move(mesh);
     }
+    /// What vertices have as particles, once they were read.
+    FilePoints asPoints() { return std::move(points); }
 
   private:
     void header() {
@@ -184,6 +188,10 @@ class Reader {
                                    place({"blue", "b", "diffuse_blue"})};
         if (std::ranges::find(places, none) != places.end()) fail("has vertices without x, y and z");
         const bool colored = std::ranges::find(colors, none) == colors.end();
+        const std::array velocity = {place({"vx", "velocity_x"}), place({"vy", "velocity_y"}),
+                                     place({"vz", "velocity_z"})};
+        const bool moves = std::ranges::find(velocity, none) == velocity.end();
+        const std::size_t id = place({"id", "particle_id"});
         std::vector<double> values(none);
         for (uint64_t i = 0; i < element.count; ++i) {
             each(
@@ -201,7 +209,15 @@ class Reader {
             }
             mesh.positions.push_back(p);
             if (colored) mesh.colors.push_back(color);
+            if (moves)
+                points.velocities.emplace_back(values[velocity[0]], values[velocity[1]], values[velocity[2]]);
+            if (id != none) points.ids.push_back(asId(values[id]));
         }
+    }
+
+    static uint32_t asId(double number) {
+        if (!(number >= -2147483648.0 && number <= 4294967295.0)) fail("has an id beyond 32 bits");
+        return uint32_t(int64_t(number));
     }
 
     void faces(const Element& element) {
@@ -235,6 +251,7 @@ class Reader {
     std::vector<Element> elements;
     std::vector<double> list;
     TriangleMesh mesh;
+    FilePoints points;
 };
 
 }  // namespace
@@ -243,6 +260,16 @@ Result<TriangleMesh> readPlyMesh(const MeshFile& file) {
     try {
         return Reader(file.bytes).run();
     } catch (const Fault& fault) { return meshProblem(file, fault.what); }
+}
+
+Result<FilePoints> readPlyPoints(std::string_view bytes, const std::string& path) {
+    try {
+        Reader reader(bytes);
+        TriangleMesh mesh = reader.run();
+        FilePoints points = reader.asPoints();
+        points.places = std::move(mesh.positions);
+        return points;
+    } catch (const Fault& fault) { return fileProblem(path, kParticleFile, fault.what); }
 }
 
 }  // namespace fw

@@ -26,7 +26,8 @@ struct FileKind {
 
 inline constexpr std::string_view kPictureEndings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga"};
 inline constexpr std::string_view kMeshEndings[] = {".glb", ".gltf", ".obj", ".stl", ".ply"};
-inline constexpr std::string_view kParticleEndings[] = {".ply", ".obj", ".csv", ".txt", ".xyz"};
+inline constexpr std::string_view kParticleEndings[] = {".ply", ".vtk", ".bgeo", ".obj",
+                                                        ".csv", ".txt", ".xyz"};
 inline constexpr std::string_view kEnvironmentEndings[] = {".hdr", ".exr", ".png", ".jpg", ".jpeg"};
 
 inline constexpr FileKind kPictureFile = {

@@ -67,6 +67,14 @@ Box particleBounds(const Ir& ir, const ParticleRecipe& recipe, std::span<const d
     switch (source.kind) {
         case ParticleStage::Kind::emitter: bounds = emitted(numbers, least, most); break;
         case ParticleStage::Kind::file: {
+            if (source.sequence) {
+                const Box& box = source.sequence->bounds;
+                bounds = {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}};
+                // Between the files that were looked into they may be farther out.
+                const double some = 0.05 * glm::compMax(bounds.hi - bounds.lo);
+                bounds.lo -= some, bounds.hi += some;
+                break;
+            }
             glm::vec3 lo = source.places->places.front(), hi = lo;
             for (const glm::vec3& p : source.places->places) lo = glm::min(lo, p), hi = glm::max(hi, p);
             bounds = {lo, hi};
@@ -125,6 +133,7 @@ uint64_t hashOfStages(const Ir& ir, std::span<const ParticleStage> stages) {
         for (const auto& [name, program] : stage.fields)
             mix(mixed(std::hash<std::string>()(name), program->structureHash));
         if (stage.places) mix(stage.places->hash);
+        if (stage.sequence) mix(stage.sequence->hash);
     }
     return hash;
 }

@@ -48,7 +48,8 @@ struct ParticleStage {
     /// By the input's name: those that are connected. Their live slots are the first ones of the graph's
     /// program.
     std::map<std::string, std::shared_ptr<const Program>, std::less<>> fields = {};
-    ParticlePlacesPtr places = {};  ///< of a file
+    ParticlePlacesPtr places = {};      ///< of a file
+    ParticleSequencePtr sequence = {};  ///< of a sequence of files, which have none
     std::optional<CachedStates> cached =
         {};  ///< of what comes out of it, if there are any; not of the recipe
 };

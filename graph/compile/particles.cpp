@@ -137,6 +137,19 @@ Reach reachOf(const GraphLowering& lowering, const ParticleStage& own, const Par
     return reach;
 }
 
+/// Warns of numbers that a sequence of files lacks.
+void warnOfGaps(GraphLowering& lowering, const NodeAt& at, const ParticleSequence& sequence) {
+    for (std::size_t i = 1; i < sequence.numbers.size(); ++i) {
+        const long last = sequence.numbers[i - 1], next = sequence.numbers[i];
+        if (next == last + 1) continue;
+        const long first = sequence.numbers.front(),
+                   lacks = sequence.numbers.back() - first + 1 - long(sequence.numbers.size());
+        return lowering.warn(at, "path",
+                             "the sequence lacks " + std::to_string(lacks) + " of its files, the first " +
+                                 inQuotes(sequence.path(last + 1)) + ": the nearest before is shown");
+    }
+}
+
 /// Warns of an inflow from which nothing can come: of numbers that never change.
 void warnOfDryInflow(GraphLowering& lowering, const NodeAt& at, const ParticleStage& fluid) {
     const auto inflow = fluid.fields.find("inflow");
@@ -183,6 +196,16 @@ Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at) {
     std::optional<ParticleStage> stage = stageOf(lowering, at, ParticleStage::Kind::file);
     if (!stage) return lowering.failure(at.type.outputs);
     const std::string& path = stage->words["path"];
+    if (namesSequence(path)) {
+        const Result<ParticleSequencePtr> sequence = readParticleSequence(lowering.state.graphPath, path);
+        if (!sequence) {
+            lowering.report(at, "path", sequence.error());
+            return lowering.failure(at.type.outputs);
+        }
+        stage->sequence = *sequence;
+        warnOfGaps(lowering, at, **sequence);
+        return particlesOf(at, goingOn({}, std::move(*stage)));
+    }
     const Result<ParticlePlacesPtr> places =
         path.empty() ? noFileNamed(kParticleFile) : readParticlePlaces(lowering.state.graphPath, path);
     if (!places) {
@@ -201,6 +224,11 @@ Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at) {
     const Value& from = inputOf(*inputs, "particles");
     if (!from.particles) return lowering.failure(at.type.outputs);
     ParticleRecipe recipe = *from.particles;
+    if (recipe.stages.front().sequence) {
+        lowering.report(at, "particles",
+                        {.message = "a sequence of files moves its particles itself: take one file of it"});
+        return lowering.failure(at.type.outputs);
+    }
     if (recipe.stages.front().kind == ParticleStage::Kind::fluid) {
         lowering.report(
             at, "particles",

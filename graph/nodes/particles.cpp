@@ -63,10 +63,20 @@ std::vector<NodeType> particleNodes() {
         {.id = "particle_file",
          .label = "Particle file",
          .category = Category::particles,
-         .doc = "Reads the places of particles: the vertices of a mesh's file, or x, y and z in each line of "
-                "a text, whose first line may name the columns, in the folder of the graph's file or in one "
-                "below it.",
-         .inputs = {fileInput("path", kParticleFile)},
+         .doc =
+             "Reads particles from a file: the vertices of a mesh's file, points of a .vtk or .bgeo file, or "
+             "x, y "
+             "and z in each line of a text, whose first line may name the columns, in the folder of the "
+             "graph's file or in one below it. Or a sequence of such files, one for every frame: a path as "
+             "splash/####.ply, with # for each digit of the number, or %04d. File n is shown from n / fps "
+             "on; where one lacks, the one before. What moves the particles of one file begins with the "
+             "velocities that it has.",
+         .inputs = {fileInput("path", kParticleFile),
+                    [&] {
+                        InputSpec input = amount("fps", 30, "1/s", "Files a second, of a sequence.");
+                        input.positive = true;
+                        return input;
+                    }()},
          .outputs = {{"particles", Type::particles}},
          .lower = lowerParticleFile,
          .aliases = {"point_cloud"}},

@@ -33,7 +33,8 @@ Done applyOptions(Graph& graph, const GraphOptions& options) {
     }
     if (options.cache.empty()) return done();
     std::filesystem::path header = std::filesystem::absolute(options.cache);
-    if (header.extension() != std::filesystem::path(kParticleCacheName).extension())
+    if (header.extension() != std::filesystem::path(kParticleCacheName).extension() ||
+        std::filesystem::is_directory(header))
         header /= kParticleCacheName;
     const Result<ParticleCachePtr> cache = readParticleCache(graph.path, header.string());
     const Done fits = cache ? checkCache(graph, **cache) : cache.error();

@@ -129,7 +129,7 @@ const Buffer& Simulation::places(std::size_t recipe) const {
 
 const Buffer* Simulation::velocities(std::size_t recipe) const {
     if (const Foam* const foam = foamOf(recipe)) return &foam->particles.velocities;
-    return rests() ? nullptr : &motion();
+    return rests() && (!points || points->velocities.empty()) ? nullptr : &motion();
 }
 
 uint32_t Simulation::slots(std::size_t recipe) const {
@@ -208,7 +208,7 @@ double bornAfter(double before, const StageNumbers& emitter) {
 
 }  // namespace
 
-bool Simulation::rests() const { return source().kind == Kind::file && moves.empty(); }
+bool Simulation::rests() const { return source().kind == Kind::file && moves.empty() && !source().sequence; }
 
 int Simulation::stepAt(double seconds) {
     return int(std::floor(std::max(seconds, 0.0) / kSimulationStep + 1e-6));
@@ -220,6 +220,7 @@ Result<bool> Simulation::goTo(double seconds, const ValuesAt& values,
         return Error{.message = "particles are simulated for " +
                                 std::to_string(int(kMostSimulated / 3600.0)) +
                                 " hours at most: choose an earlier time"};
+    if (source().sequence) return show(seconds, values(seconds));
     const int wanted = rests() ? 0 : stepAt(seconds);
     if (wanted == state.steps) return false;
     const Result<bool> gone = stepTo(wanted, values, progress);
@@ -265,14 +266,7 @@ Done Simulation::start(const std::vector<double>& values) {
     if (source().kind == Kind::fluid) return fill(values);
     const StageNumbers numbers(field().ir, source(), values);
     if (source().kind == Kind::file) {
-        const std::vector<glm::vec3>& from = source().places->places;
-        state.slots = uint32_t(from.size());
-        std::vector<glm::vec4> places, still(from.size(), glm::vec4(0.0f));
-        for (const glm::vec3& p : from) places.emplace_back(p, 0.0f);
-        reserve(*device, state.places, 16 * from.size());
-        reserve(*device, state.velocities, 16 * from.size());
-        upload(*device, state.places, places);
-        upload(*device, state.velocities, still);
+        takePoints(source().places);
         Commands commands(*device);
         return taken(commands);
     }
@@ -282,6 +276,34 @@ Done Simulation::start(const std::vector<double>& values) {
     Commands commands(*device);
     emit(commands, numbers, 0.0, born[0]);
     return taken(commands);
+}
+
+void Simulation::takePoints(ParticlePlacesPtr from) {
+    points = std::move(from);
+    const std::size_t count = points->places.size();
+    state.slots = uint32_t(count);
+    std::vector<glm::vec4> places, velocities(count, glm::vec4(0.0f));
+    for (const glm::vec3& p : points->places) places.emplace_back(p, 0.0f);
+    for (std::size_t i = 0; i < points->velocities.size(); ++i)
+        velocities[i] = glm::vec4(points->velocities[i], 0.0f);
+    reserve(*device, state.places, 16 * count);
+    reserve(*device, state.velocities, 16 * count);
+    upload(*device, state.places, places);
+    upload(*device, state.velocities, velocities);
+}
+
+/// The file of a sequence that is shown at the time; its number stands for the step.
+Result<bool> Simulation::show(double seconds, const std::vector<double>& values) {
+    const ParticleSequence& sequence = *source().sequence;
+    const double framesPerSecond = StageNumbers(field().ir, source(), values).scalar("fps");
+    const auto number = sequence.numberAt(std::max(seconds, 0.0), framesPerSecond);
+    if (points && number == shown) return false;
+    Result<ParticlePlacesPtr> read = readParticlePlaces(sequence.graphPath, sequence.path(number));
+    if (!read) return Error{.message = read.error().message, .node = source().node, .input = "path"};
+    takePoints(std::move(*read));
+    state.steps = 0;
+    shown = number;
+    return true;
 }
 
 Done Simulation::step(const std::vector<double>& now, const ValuesAt& values) {
@@ -787,6 +809,7 @@ std::vector<uint32_t> Simulation::ids(std::size_t recipe) const {
         for (std::size_t i = 0; i < list.size(); ++i) list[i] = std::bit_cast<uint32_t>(velocities[i].w);
         return list;
     }
+    if (points && points->ids.size() == list.size()) return points->ids;
     for (std::size_t i = 0; i < list.size(); ++i) list[i] = uint32_t(i);
     if (source().kind == Kind::emitter) {  // the last with this slot
         const auto all = uint64_t(born[std::size_t(state.steps)]);

@@ -25,8 +25,10 @@
 // bytes. A live value that was changed by hand leaves the cache aside until recipes come that know of the
 // change.
 //
-// Every particle has a number that stays its own: of a file its place there, else that of its birth, from 0,
-// modulo 2^32.
+// A sequence of files is not simulated: a time is the file that is shown then.
+//
+// Every particle has a number that stays its own: of a file the one that it has there, or its place; else
+// that of its birth, from 0, modulo 2^32.
 //
 // Recipes that differ in their foam alone, or of which some have none, are simulated as one: the fluid flows
 // once, and each foam goes along.
@@ -132,6 +134,8 @@ class Simulation {
     bool rests() const;
     Done start(const std::vector<double>& values);
     Done fill(const std::vector<double>& values);
+    void takePoints(ParticlePlacesPtr from);
+    Result<bool> show(double seconds, const std::vector<double>& values);
     FluidConfig configOf(Commands& commands, const std::vector<double>& values) const;
     int partsOf(const FluidConfig& config, const std::vector<double>& before,
                 const std::vector<double>& now) const;
@@ -179,6 +183,8 @@ class Simulation {
     std::optional<FoamKernels> foamKernels;  ///< where there is foam
     std::vector<Foam> foams;
     State state;
+    ParticlePlacesPtr points = {};  ///< of a file, or of the sequence's that is shown
+    long shown = 0;                 ///< its number
     std::vector<CachedStates> cached = {};
     bool cacheHolds = true;    ///< its states are of the live values
     std::vector<double> born;  ///< how many were, after each step; of a fluid into which more flows, too

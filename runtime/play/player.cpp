@@ -213,7 +213,8 @@ std::vector<std::string> Player::files() const {
         if (const std::string& cache = volume->particles->particles.cache; !cache.empty())
             list.push_back((std::filesystem::path(now.graph.path).parent_path() / cache).string());
         for (const ParticleStage& stage : volume->particles->particles.stages)
-            if (stage.places) list.push_back(stage.places->file);
+            if (stage.places || stage.sequence)
+                list.push_back(stage.places ? stage.places->file : stage.sequence->file);
     }
     return list;
 }

@@ -1,8 +1,11 @@
 // Particles to a density, the talk's three ways, beside what the slide says of them; and the fluid that makes
 // such particles.
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <map>
@@ -12,6 +15,7 @@
 
 #include "graph/document/json.h"
 #include "runtime/particles/particle_volume.h"
+#include "runtime/play/cached_run.h"
 #include "runtime/play/player.h"
 #include "shaders/shared.h"
 #include "tests/bench/surface_baseline.h"
@@ -245,6 +249,48 @@ void frameTable(Bench& bench) {
     print(table, bench.options.markdown);
 }
 
+/// Frames of a fluid as a cache gets and gives them.
+void cacheTable(Bench& bench) {
+    namespace fs = std::filesystem;
+    const Result<Graph> graph = parseGraph(kFluid, "", nullptr);
+    if (!graph) return bench.fail(format(graph.error()));
+    const fs::path folder =
+        fs::temp_directory_path() / ("fieldwright-bench-" + std::to_string(::getpid()) + "-cache");
+    const FrameRange frames{0, 40, 30.0};
+    std::vector<double> simulated, written, read;
+    /// Milliseconds of each frame until its state is on the host; and of writing it, where that is done.
+    const auto pass = [&](std::vector<double>& made, std::vector<double>* writing) {
+        Result<CachedRun> run = CachedRun::open(*graph, folder.string(), {}, bench.device());
+        if (!run) return bench.fail(format(run.error()));
+        if (const Done begun = run->begin(frames, false); !begun) return bench.fail(format(begun.error()));
+        for (const int step : run->steps(frames)) {
+            auto start = Clock::now();
+            const Result<std::function<Done()>> write = run->make(step);
+            if (!write) return bench.fail(format(write.error()));
+            if (step > 0) made.push_back(millisecondsSince(start));
+            start = Clock::now();
+            if (!writing) continue;
+            if (const Done kept = (*write)(); !kept) return bench.fail(format(kept.error()));
+            writing->push_back(millisecondsSince(start));
+        }
+        std::ranges::sort(made);
+    };
+    pass(simulated, &written);
+    pass(read, nullptr);
+    std::error_code failure;
+    uintmax_t bytes = 0;
+    for (const auto& each : fs::directory_iterator(folder / "water", failure)) bytes += each.file_size();
+    fs::remove_all(folder, failure);
+    if (read.empty()) return;
+    std::ranges::sort(written);
+    Table table{.title = "A frame of a fluid, two steps, in a particle cache (ms)",
+                .header = {"MB", "simulated", "written", "read", "times as fast to read"}};
+    const Figure first{simulated}, second{written}, third{read};
+    table.rows.push_back({number(double(bytes) / double(frames.count()) * 1e-6), text(first), text(second),
+                          text(third), number(first.median() / third.median())});
+    print(table, bench.options.markdown);
+}
+
 }  // namespace
 
 void particlesTable(Bench& bench) {
@@ -312,6 +358,7 @@ void particlesTable(Bench& bench) {
     surfaceTable(bench, volumeKernels, places, particles);
     volumeTable(bench, volumeKernels, particles);
     frameTable(bench);
+    cacheTable(bench);
     fluidTable(bench);
 }
 

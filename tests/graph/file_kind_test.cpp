@@ -121,15 +121,15 @@ TEST(FileKinds, CheckTellsAWrongEndingByTheName) {
         format(mesh),
         "g.field.json:2:68: error: node 'file', input 'path': the mesh 'sub/a.png' is of no format that is "
         "read: use a .glb, .gltf, .obj, .stl or .ply file");
-    EXPECT_EQ(
-        first("particle_file", "path", "a.glb").message,
-        "the particle file 'a.glb' is of no format that is read: use a .ply, .obj, .csv, .txt or .xyz file");
+    EXPECT_EQ(first("particle_file", "path", "a.glb").message,
+              "the particle file 'a.glb' is of no format that is read: use a .ply, .vtk, .bgeo, .obj, .csv, "
+              ".txt or .xyz file");
     // What is missing or not named is told as such, whatever the case of the letters.
     EXPECT_NE(first("mesh_file", "path", "a.GLB").message.find("does not exist"), std::string::npos);
     EXPECT_EQ(first("mesh_file", "path", "").message,
               "no file is named: write the path of a .glb, .gltf, .obj, .stl or .ply file");
     EXPECT_EQ(first("particle_file", "path", "").message,
-              "no file is named: write the path of a .ply, .obj, .csv, .txt or .xyz file");
+              "no file is named: write the path of a .ply, .vtk, .bgeo, .obj, .csv, .txt or .xyz file");
     // A picture may be called anything: what it holds tells.
     EXPECT_NE(first("triplanar", "image", "a.dat").message.find("does not exist"), std::string::npos);
     EXPECT_EQ(first("triplanar", "image", "").message, "");

@@ -145,10 +145,10 @@ TEST(Particles, TheGridIsWhereTheyCanBe) {
 }
 
 std::string placesIn(const std::string& bytes, const std::string& name) {
-    const Result<std::vector<glm::vec3>> places = parseParticlePlaces(bytes, name);
-    if (!places) return places.error().message;
+    const Result<FilePoints> points = parseParticlePlaces(bytes, name);
+    if (!points) return points.error().message;
     std::string text;
-    for (const glm::vec3& p : *places) {
+    for (const glm::vec3& p : points->places) {
         char line[96];
         std::snprintf(line, sizeof line, "%g %g %g;", double(p.x), double(p.y), double(p.z));
         text += line;
