@@ -10,7 +10,7 @@
 namespace fw::bench {
 namespace {
 
-constexpr int kFrames = 24, kVariants = 24;
+constexpr int kSequenceFrames = 24, kVariants = 24;
 
 std::string sample(const std::string& name) {
     return FIELDWRIGHT_BENCH_GRAPHS "/../../../samples/" + name + ".field.json";
@@ -48,15 +48,15 @@ void sequenceTable(Bench& bench, const TemporaryFolder& folder) {
     const Figure sequence = measure(bench.options.repeats, [&] { return timed(bench, all, warm); });
     const Figure singles = measure(1, [&] {
         double sum = 0.0;
-        for (int frame = 0; frame < kFrames; ++frame) sum += timed(bench, single(frame), warm);
+        for (int frame = 0; frame < kSequenceFrames; ++frame) sum += timed(bench, single(frame), warm);
         return sum;
     });
     std::vector<std::string> first = all;
     first[8] = std::to_string(1.0 / 24.0);
     const Figure start = measure(bench.options.repeats, [&] { return timed(bench, first, warm); });
     double work = 0.0;
-    for (int frame = 0; frame < kFrames; ++frame) work += workOf(bench, single(frame), folder.path);
-    const double one = work / kFrames;
+    for (int frame = 0; frame < kSequenceFrames; ++frame) work += workOf(bench, single(frame), folder.path);
+    const double one = work / kSequenceFrames;
     const double ratio = (sequence.median() - (start.median() - one)) / work;
     print(
         {.title = "A mesh for each of 24 frames of moving_booleans at 128, wall clock",

@@ -27,9 +27,10 @@ Report reportOf(const Mesh& mesh) {
 }
 
 TEST(MeshRequirements, EachIsMetByACube) {
-    EXPECT_EQ(missed("closed,manifold,uncut,nondegenerate,bodies=1,cavities=0,triangles=12,angle=44.9,error=0",
-                     reportOf(test::cube())),
-              "");
+    EXPECT_EQ(
+        missed("closed,manifold,uncut,nondegenerate,bodies=1,cavities=0,triangles=12,angle=44.9,error=0",
+               reportOf(test::cube())),
+        "");
 }
 
 TEST(MeshRequirements, EachIsMissedByWhatItIsAbout) {
