@@ -32,7 +32,8 @@ std::vector<double> valuesOf(const Graph& graph) {
     for (Point& point : points)
         for (int axis = 0; axis < 3; ++axis) point[axis] = std::uniform_real_distribution(-2.0, 2.0)(random);
     std::vector<double> all, values(points.size());
-    for (const IrId id : program->surface) {
+    // Who painted a place is told by a number of the document's nodes, which groups change.
+    for (const IrId id : std::span(program->surface).first(painterComponent)) {
         evaluate(program->ir, id, program->parameters(), points, values);
         all.insert(all.end(), values.begin(), values.end());
     }
