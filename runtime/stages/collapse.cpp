@@ -241,7 +241,7 @@ void Rounds::claim() {
 
 /// Whether the new triangles cut none as they are, nor those that collapses before this one would make.
 bool Rounds::cutsNone(uint32_t number, std::vector<Made>& made) const {
-    const auto [from, to, cost] = chosen[number];
+    const uint32_t from = chosen[number].from, to = chosen[number].to;
     NearBox all;
     made.clear();
     forChanged(state.stars.at(from), to, [&](const Spoke& spoke) {
