@@ -149,6 +149,7 @@ class VtkReader {
             word == "lookup_table")
             return word != "lookup_table";
         if (word == "points") {
+            if (found) failVtk("has POINTS twice: keep one");
             const std::size_t count = countIn(words);
             if (count > kMostFileParticles)
                 failVtk("has " + std::to_string(count) + " particles: " + std::to_string(kMostFileParticles) +
