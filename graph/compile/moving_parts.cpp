@@ -30,10 +30,11 @@ class PartFinder {
         });
         if (output == graph.nodes.end() || output->input("mesh")) return std::nullopt;
         const Link* shown = linkOf(*output, "surface");
-        const Result<Timeline> timeline = readTimeline(graph);
-        if (!shown || !timeline) return std::nullopt;
+        Result<Timeline> read = readTimeline(graph);
+        if (!shown || !read) return std::nullopt;
         outputId = output->id;
-        animated = animatedInputs(graph, *timeline);
+        timeline = std::move(*read);
+        animated = animatedInputs(graph, timeline);
         if (rests(graph) || !walk(*shown, std::nullopt) || nodes.size() > kMostPartNodes) return std::nullopt;
         return std::move(nodes);
     }
@@ -44,18 +45,16 @@ class PartFinder {
         return value ? std::get_if<Link>(&value->value) : nullptr;
     }
 
-    static InputValue linkTo(const std::string& node) {
+    static InputValue linkTo(Link link) {
         InputValue value;
-        value.value = Link{node, ""};
+        value.value = std::move(link);
         return value;
     }
 
     /// The document with its output showing this.
     Graph showing(const Link& link) const {
         Graph shown = graph;
-        InputValue value;
-        value.value = link;
-        shown.node(outputId)->set("surface", value);
+        shown.node(outputId)->set("surface", linkTo(link));
         return shown;
     }
 
@@ -100,7 +99,7 @@ class PartFinder {
                                                  std::span<const Point> places) const {
         Graph shown = showing({node.id, ""});
         const std::string field = addField(shown, code);
-        shown.node(node.id)->set(input, linkTo(field));
+        shown.node(node.id)->set(input, linkTo({field, ""}));
         const Result<LiveProgram> live = compileLive(std::move(shown), {});
         std::vector<std::vector<double>> seen;
         if (!live) return seen;
@@ -185,8 +184,8 @@ class PartFinder {
                 return addField(shown, "return " + std::to_string(value) + ";");
             };
             const std::string first = constant(left), second = constant(right);
-            shown.node(node.id)->set(a, linkTo(first));
-            shown.node(node.id)->set(b, linkTo(second));
+            shown.node(node.id)->set(a, linkTo({first, ""}));
+            shown.node(node.id)->set(b, linkTo({second, ""}));
             const Result<LiveProgram> live = compileLive(std::move(shown), {});
             if (!live) return false;
             for (const double time : times)
@@ -197,18 +196,18 @@ class PartFinder {
         return true;
     }
 
-    /// The part that is behind the link, with what goes to each part that is behind it.
+    /// The part that is behind the link, with what goes to each part that is behind it, as it is at the first
+    /// of the times: it has no timeline of its own.
     Graph partOf(const Link& link) const {
         Graph part = graph;
-        InputValue behind;
-        behind.value = link;
+        Link behind = link;
         for (auto wrapper = wrappers.rbegin(); wrapper != wrappers.rend(); ++wrapper) {
-            part.node(wrapper->first)->set(wrapper->second, behind);
-            behind.value = Link{wrapper->first, ""};
+            part.node(wrapper->first)->set(wrapper->second, linkTo(behind));
+            behind = {wrapper->first, ""};
         }
-        part.node(outputId)->set("surface", behind);
+        part.node(outputId)->set("surface", linkTo(behind));
         part.timeline = nullptr;
-        return part;
+        return atTime(part, timeline, timelineTime(timeline, times[0]));
     }
 
     bool walk(const Link& link, std::optional<std::size_t> parent) {
@@ -217,9 +216,7 @@ class PartFinder {
         if (!type || nodes.size() > kMostPartNodes) return false;
         const std::string name = node->label.empty() ? node->id : node->label;
         if (rests(showing(link))) {
-            Graph part = partOf(link);
-            if (!setAt(part)) return false;
-            nodes.push_back({.name = name, .parent = parent, .part = std::move(part)});
+            nodes.push_back({.name = name, .parent = parent, .part = partOf(link)});
             return true;
         }
         if (type->outputs.size() != 1) return false;
@@ -243,16 +240,9 @@ class PartFinder {
         return walk(behind, nodes.size() - 1);
     }
 
-    /// Has the part be what it is at the first of the times, since it has no timeline of its own.
-    bool setAt(Graph& part) const {
-        const Result<Timeline> timeline = readTimeline(graph);
-        if (!timeline) return false;
-        part = atTime(part, *timeline, timelineTime(*timeline, times[0]));
-        return true;
-    }
-
     const Graph& graph;
     std::span<const double> times;
+    Timeline timeline;
     std::string outputId;
     std::set<std::string> animated;                             ///< "node.input"
     std::vector<std::pair<std::string, std::string>> wrappers;  ///< on the way, and their inputs
