@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "editor/files/attempt.h"
+#include "graph/document/unit.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/export/outputs.h"
 #include "runtime/play/mesh_program.h"
@@ -30,6 +31,8 @@ constexpr Stage kStages[] = {{"check", "checking the graph", 0.0f},
                              {"mesh", "making the mesh", 0.4f},
                              {"download", "reading the mesh", 0.6f},
                              {"report", "measuring the mesh", 0.65f},
+                             {"unwrap", "laying the mesh flat for its textures", 0.68f},
+                             {"bake", "baking textures", 0.7f},
                              {"write", "writing the file", 0.8f},
                              {"count", "counting the triangles of the tiles", 0.2f},
                              {"tiles", "writing the tiles", 0.5f},
@@ -77,6 +80,13 @@ struct ExportJob::Shared {
         return !cancel;
     }
 
+    /// How the file is written.
+    ExportOptions writing() const {
+        ExportOptions how = writingOf(wish.file);
+        how.placement = *placementOf(wish.path, unitOf(*wish.graph), wish.file.placement);
+        how.cancel = &cancel;
+        return how;
+    }
     Result<Opened> open();
     Result<ExportState> atOnce(Opened opened);
     Result<ExportState> inTiles(Opened opened, int side);
@@ -89,18 +99,18 @@ struct ExportJob::Shared {
 
 /// Everything that comes before the mesh.
 Result<ExportJob::Shared::Opened> ExportJob::Shared::open() {
-    if (const Done known = checkExportPath(wish.path, {.manifold = wish.manifold}); !known)
-        return known.error();
-    if (const Done distinct = checkDistinct(wish.graph->path, exportedPaths(wish.path)); !distinct)
-        return distinct.error();
-    if (const Done kept = checkReplacesNone(filesRead(*wish.graph), exportedPaths(wish.path)); !kept)
-        return kept.error();
+    if (const Done known = checkWish(wish.file, wish.path); !known) return known.error();
+    const std::vector<std::string> outputs = wishedPaths(wish.file, wish.path);
+    if (const Done distinct = checkDistinct(wish.graph->path, outputs); !distinct) return distinct.error();
+    if (const Done kept = checkReplacesNone(filesRead(*wish.graph), outputs); !kept) return kept.error();
     OpeningDevice opening(std::launch::async, wish.device);
     if (!start("check")) return kStopped;
     findings = errorsOf(*wish.graph);
     if (!findings.empty()) return findings.front();
     if (!start("compile")) return kStopped;
     CompileOptions options;
+    options.triangles = wish.triangles;
+    options.byShape = wish.file.textures.has_value();
     options.bake = meshFieldBaker([&] { return opening.orNone(); });
     Result<Program> program = compileAtTime(
         *wish.graph, wish.seconds, std::move(options), [&] { return opening.orNone(); },
@@ -123,16 +133,25 @@ Result<ExportState> ExportJob::Shared::atOnce(Opened opened) {
                     [this](const char* stage) { return start(stage); });
     if (!meshed) return meshed.error();
     if (!start("download")) return kStopped;
-    const Mesh mesh = meshed->session.download(
-        meshed->mesh, exportFormat(wish.path)->parts ? MaterialParts::whole : MaterialParts::none);
+    std::vector<Mesh> levels = meshed->session.downloadLevels(meshed->mesh, std::size_t(wish.file.lods),
+                                                              partsOf(wish.file, wish.path));
     if (!start("report")) return kStopped;
     ExportState made{.phase = Phase::done, .stage = "done", .part = 1.0f};
-    made.report = reportOnMesh(mesh.positions, mesh.indices);
+    made.report = reportOnMesh(levels[0].positions, levels[0].indices);
+    made.report.unit = unitOf(*wish.graph).name;
     made.report.capped = meshed->mesh.capped;
     made.report.device = meshed->session.device().name();
+    if (wish.file.textures) {
+        Result<std::vector<Mesh>> dressed =
+            withTextures(wish.file, std::move(levels), meshed->session.onHost(),
+                         [this](const char* stage) { (void)start(stage); });
+        if (!dressed) return dressed.error();
+        levels = std::move(*dressed);
+    }
     if (!start("write")) return kStopped;
-    Result<ExportedFiles> written = exportMesh(
-        mesh, wish.path, {.cellSize = float(meshed->cellSize), .manifold = wish.manifold, .cancel = &cancel});
+    ExportOptions how = writing();
+    how.cellSize = float(meshed->cellSize);
+    Result<ExportedFiles> written = exportWished(wish.file, levels, wish.path, how);
     if (!written) return written.error();
     made.files = std::move(*written);
     return made;
@@ -165,18 +184,20 @@ Result<ExportState> ExportJob::Shared::inTiles(Opened opened, int side) {
         return load(tile, part);
     };
     if (!start("tiles")) return kStopped;
-    fw::ExportOptions how{.cancel = &cancel};
+    ExportOptions how = writing();
     if (made.measured)
         how.examine = [&](const StoredMesh& file) -> Done {
             if (!start("examine")) return kStopped;
-            const Result<WeldedMesh> read = readWelded(file);
+            Result<WeldedMesh> read = readWelded(file);
             if (!read) return read.error();
+            for (glm::vec3& p : read->positions) p = how.placement.placeBack(p);
             made.report = reportOnWelded(*read);
             return done();
         };
     Result<ExportedFiles> written = exportPieces(mesh, wish.path, how);
     if (!written) return written.error();
     made.files = std::move(*written);
+    made.report.unit = unitOf(*wish.graph).name;
     made.report.capped = tiles->capped;
     made.report.device = session.device().name();
     return made;
@@ -186,7 +207,7 @@ Result<ExportState> ExportJob::Shared::make() {
     Result<Opened> opened = open();
     if (!opened) return opened.error();
     const Program& program = opened->program;
-    if (wish.manifold || !checkPiecesPath(wish.path) || !checkTiles(program))
+    if (!checkTilesWish(wish.file, wish.path) || !checkPiecesPath(wish.path) || !checkTiles(program))
         return atOnce(std::move(*opened));
     if ((wish.mesh.resolution > 0 ? wish.mesh.resolution : program.resolution) <= kMostUntiled) {
         try {

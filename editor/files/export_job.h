@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "graph/document/graph.h"
-#include "runtime/export/export.h"
+#include "runtime/files/mesh_wish.h"
 #include "runtime/measure/mesh_report.h"
 #include "runtime/play/session.h"
 
@@ -26,7 +26,8 @@ struct ExportWish {
     std::string path;           ///< of the mesh file; its ending says the format
     MeshRequest mesh = {};      ///< as of `fieldwright export`: what is left out is found
     double seconds = 0.0;       ///< on the timeline
-    bool manifold = false;      ///< as ExportOptions has it
+    MeshWish file = {};         ///< what the file is to be like
+    int triangles = 0;          ///< at most; 0: as many as there are
     DeviceOptions device = {};  ///< that meshes
 };
 
@@ -38,7 +39,8 @@ struct ExportState {
     bool again = false;                ///< it began again, since the device was lost
     std::vector<Error> problems = {};  ///< why it failed
     ExportedFiles files = {};          ///< that were written
-    Report report = {};                ///< measured from the mesh; with what it took and the device
+    Report report = {};                ///< measured from the mesh, the finest of its levels of detail, in the
+                                       ///< document's unit; with what it took and the device
     bool measured = true;              ///< if not, the report has but counts: there was no memory for more
     bool tiled = false;                ///< it was meshed in tiles
 };

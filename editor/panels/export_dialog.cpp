@@ -11,6 +11,7 @@
 #include "editor/editor.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 using Phase = ExportState::Phase;
 
 constexpr double kMegabyte = 1e6;
+constexpr int kMostTriangles = 1 << 24;
 
 /// "1,234,567"
 std::string grouped(uint64_t number) {
@@ -67,15 +69,107 @@ void showFile(Editor& editor) {
     }
 }
 
+/// A choice among names, the first of which stands for none.
+bool chooseWord(const char* id, std::vector<std::string> names, const char* none, std::string& word) {
+    names.insert(names.begin(), none);
+    auto chosen = std::size_t(std::ranges::find(names, word) - names.begin());
+    if (chosen == names.size()) chosen = 0;
+    if (!chooseName(id, names, chosen)) return false;
+    word = chosen == 0 ? std::string() : names[chosen];
+    return true;
+}
+
+/// In which unit and with which axis up the file is, where its format leaves that open.
+void showPlacement(Editor& editor) {
+    const std::string path = exportPath(editor);
+    PlacementWish& wish = editor.exporting.file.placement;
+    if (!exportFormat(path)) return;
+    const LengthUnit& document = unitOf(*editor.graph);
+    const auto open = [&](const PlacementWish& other) { return bool(placementOf(path, document, other)); };
+    if (open({.purpose = "print"})) {
+        propertyRow("For printing", "Millimetres and +Z up, as slicers have it.");
+        bool print = wish.forPrinting();
+        if (ImGui::Checkbox("millimetres, +Z up##print", &print)) wish = {.purpose = print ? "print" : ""};
+    }
+    if (wish.forPrinting() && open(wish)) return;
+    if (open({.unit = "mm"}) && open({.unit = "m"})) {
+        propertyRow("Unit", "Of the lengths in the file, which does not say it.");
+        std::vector<std::string> names;
+        for (const LengthUnit& unit : lengthUnits()) names.emplace_back(unit.name);
+        const std::string own = std::string("the document's, ") + document.name;
+        if (chooseWord("##unit", names, own.c_str(), wish.unit)) wish.purpose.clear();
+    }
+    if (open({.up = "z"})) {
+        propertyRow("Up");
+        if (chooseWord("##up", {"z"}, "y", wish.up)) wish.purpose.clear();
+    }
+}
+
+/// What the file has beside triangles, as far as its format has it.
+void showForm(Editor& editor) {
+    ExportDialog& dialog = editor.exporting;
+    MeshWish& file = dialog.file;
+    const std::string path = exportPath(editor);
+    const ExportFormat* const format = exportFormat(path);
+    if (!format) return;
+    propertyRow("Triangles", "Decimated to at most so many, with borders and creases where they are.");
+    bool all = !dialog.triangles;
+    if (ImGui::Checkbox("as many as there are##triangles", &all))
+        dialog.triangles = all ? std::nullopt : std::optional(10'000);
+    if (dialog.triangles) {
+        propertyRow("   at most");
+        if (ImGui::InputInt("##most", &*dialog.triangles, 1000, 10'000))
+            dialog.triangles = std::clamp(*dialog.triangles, 4, kMostTriangles);
+    }
+    if (format->parts) {
+        propertyRow("Textures", "Colours, finish, light, occlusion and normals, baked from the field.");
+        std::vector<std::string> sizes;
+        for (int size = kLeastTexture; size <= kMostTexture; size *= 2) sizes.push_back(std::to_string(size));
+        std::string size = file.textures ? std::to_string(*file.textures) : std::string();
+        if (chooseWord("##textures", sizes, "none", size))
+            file.textures = size.empty() ? std::nullopt : std::optional(std::stoi(size));
+        if (!file.textures) {
+            propertyRow("Materials", "Faces are cut where the materials of two nodes meet.");
+            ImGui::Checkbox("cut along their borders##split", &file.splitMaterials);
+        }
+    }
+    if (!isGltf(path)) return;
+    propertyRow("Levels", "Of detail, each with a quarter of the triangles of the one before: NAME_LOD0, …");
+    if (ImGui::SliderInt("##lods", &file.lods, 1, kMostLevels))
+        file.lods = std::clamp(file.lods, 1, kMostLevels);
+    propertyRow("Parts", "What touches nowhere is a node of its own.");
+    ImGui::BeginDisabled(file.lods > 1);
+    ImGui::Checkbox("as nodes##parts", &file.parts);
+    ImGui::EndDisabled();
+    propertyRow("Size", "Few bits a number, in meshoptimizer's code: for three.js, Babylon and engines.");
+    ImGui::Checkbox("compressed##compress", &file.compress);
+    propertyRow("Solid", "For programs that compute with solids (EXT_mesh_manifold).");
+    ImGui::BeginDisabled(file.lods > 1 || file.parts || file.compress);
+    ImGui::Checkbox("marked as one##manifold", &file.manifold);
+    ImGui::EndDisabled();
+}
+
+/// What is asked of the dialog's file: no more than its format has, and than goes together.
+MeshWish wishFor(const Editor& editor, const std::string& path) {
+    MeshWish wish = editor.exporting.file;
+    const ExportFormat* const format = exportFormat(path);
+    if (!format) return wish;
+    if (!format->parts) wish.textures.reset(), wish.splitMaterials = false;
+    if (wish.textures) wish.splitMaterials = false;
+    if (!isGltf(path)) wish.compress = wish.parts = wish.manifold = false, wish.lods = 1;
+    if (wish.lods > 1) wish.parts = false;
+    if (wish.lods > 1 || wish.parts || wish.compress) wish.manifold = false;
+    if (!placementOf(path, unitOf(*editor.graph), wish.placement)) wish.placement = {};
+    return wish;
+}
+
 void showSettings(Editor& editor) {
     ExportDialog& dialog = editor.exporting;
     if (!beginProperties("export")) return;
     showFormat(editor);
     showFile(editor);
-    if (const ExportFormat* format = exportFormat(exportPath(editor)); format && format->manifold) {
-        propertyRow("Solid", "For programs that compute with solids (EXT_mesh_manifold).");
-        ImGui::Checkbox("marked as one##manifold", &dialog.manifold);
-    }
+    showPlacement(editor);
+    showForm(editor);
     propertyRow("Resolution");
     bool own = !dialog.givesResolution;
     if (ImGui::Checkbox("as the output node says##resolution", &own)) dialog.givesResolution = !own;
@@ -91,10 +185,11 @@ void showSettings(Editor& editor) {
     own = !of.givesRegion;
     if (ImGui::Checkbox("found from the solid##region", &own)) of.givesRegion = !own;
     if (of.givesRegion) {
-        propertyRow("   least corner, m");
+        const std::string unit = unitOf(*editor.graph).name;
+        propertyRow("   least corner, " + unit);
         dragNumbers(editor, "##least", std::span(of.region).first(3), {},
                     [&of](std::span<const double> to) { std::ranges::copy(to, of.region.begin()); });
-        propertyRow("   greatest corner, m");
+        propertyRow("   greatest corner, " + unit);
         dragNumbers(editor, "##greatest", std::span(of.region).last(3), {},
                     [&of](std::span<const double> to) { std::ranges::copy(to, of.region.begin() + 3); });
     }
@@ -115,8 +210,8 @@ void begin(Editor& editor) {
                     .seconds = of.seconds.value_or(editor.viewport.seconds),
                     .device = editor.device};
     const std::array<double, 6>& r = of.region;
-    const ExportFormat* format = exportFormat(wish.path);
-    wish.manifold = dialog.manifold && format && format->manifold;
+    wish.file = wishFor(editor, wish.path);
+    wish.triangles = dialog.triangles.value_or(0);
     if (dialog.givesResolution) wish.mesh.resolution = dialog.resolution;
     if (of.givesRegion) wish.mesh.region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
     dialog.job.reset();
@@ -148,8 +243,10 @@ void showDone(const ExportState& state) {
         return wrapped(themeColor(ThemeColor::warning), "There was not enough memory free to measure it.");
     std::array<double, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = report.boundsMax[axis] - report.boundsMin[axis];
-    wrapped(themeColor(ThemeColor::text), printed("%.4g × %.4g × %.4g m, volume %.4g m³, area %.4g m²",
-                                                  size[0], size[1], size[2], report.volume, report.area));
+    const char* const unit = report.unit.c_str();
+    wrapped(themeColor(ThemeColor::text),
+            printed("%.4g × %.4g × %.4g %s, volume %.4g %s³, area %.4g %s²", size[0], size[1], size[2], unit,
+                    report.volume, unit, report.area, unit));
     if (const std::string wrong = soundness(report); wrong.empty())
         wrapped(themeColor(ThemeColor::text), "Watertight: every edge has two triangles.");
     else

@@ -26,10 +26,11 @@ struct ExportDialog : StayingDialog {
         std::array<double, 6> region = {-1, -1, -1, 1, 1, 1};  ///< least corner, greatest corner, metres
         std::optional<double> seconds = {};                    ///< on the timeline; none: what is seen
     } of;
-    std::string ending = ".glb";   ///< of what is proposed
-    bool givesResolution = false;  ///< else the output node's
-    int resolution = 256;          ///< cells along the longest side
-    bool manifold = false;         ///< of glTF: marked as a solid
+    std::string ending = ".glb";        ///< of what is proposed
+    bool givesResolution = false;       ///< else the output node's
+    int resolution = 256;               ///< cells along the longest side
+    MeshWish file = {};                 ///< what files are to be like; of it a format takes what it has
+    std::optional<int> triangles = {};  ///< at most
     FileBrowser browser;
     std::unique_ptr<ExportJob> job = {};
     bool told = true;  ///< what came of the job was said

@@ -153,7 +153,8 @@ Result<Program> compileGraph(const Graph& graph, const CompileOptions& options) 
         program.notes.push_back(std::move(*note));
     readSettings(*output, result.value.mesh ? *result.value.mesh : MeshRecipe{}, program);
     if (options.triangles > 0)
-        program.stages.push_back({.kind = MeshStage::Kind::decimate, .triangles = options.triangles});
+        program.stages.push_back(
+            {.kind = MeshStage::Kind::decimate, .triangles = options.triangles, .byShape = options.byShape});
     return program;
 }
 

@@ -32,6 +32,7 @@ struct CompileOptions {
     std::vector<std::map<std::string, std::vector<double>>> moments = {};
     double time = 0.0;                 ///< seconds, folded unless live
     int triangles = 0;                 ///< decimates what the graph shows to so many at most; 0: does not
+    bool byShape = false;              ///< then: MeshStage::byShape
     MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
     /// Every node that has part in an operation is known, for effortByNode(); takes longer.
     bool costByNode = false;

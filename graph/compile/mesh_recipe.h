@@ -23,6 +23,8 @@ struct MeshStage {
     bool project = true;  ///< of subdivide: new vertices are led onto the field
     double error = 0.0;   ///< of decimate: metres that the result may be away from the field; 0: any
     int triangles = 0;    ///< of decimate: at which it ends; 0: as few as the error allows
+    bool byShape =
+        false;  ///< of decimate: borders between colours and materials may move, for textures tell them
     /// Of smooth, metres: the radius of balls that stay as they are, and how far a vertex may get; 0: none,
     /// any.
     double spare = 0.0, within = 0.0;

@@ -14,7 +14,7 @@
 #include "graph/base/result.h"
 #include "graph/compile/compile.h"
 #include "graph/document/graph.h"
-#include "runtime/export/placement.h"
+#include "runtime/files/mesh_wish.h"
 #include "runtime/gpu/device.h"
 #include "runtime/jobs/plan.h"
 #include "runtime/measure/mesh_requirements.h"
@@ -58,6 +58,7 @@ struct MeshOptions {
     std::vector<double> region;  ///< empty, or x0 y0 z0 x1 y1 z1
     std::optional<MeshMethod> method;
     int triangles = 0;                      ///< at most; 0: as many as there are
+    bool byShape = false;                   ///< then: as CompileOptions has it
     std::vector<std::string> outputs = {};  ///< files that the command will write
     JobWork* planned =
         nullptr;  ///< if not null: all is checked, what there is to make told here, and nothing made
@@ -76,23 +77,17 @@ struct SequenceOptions {
     bool overwrite = false;  ///< frames that are there already; else they are passed over
 };
 
-struct ExportOptions : MeshOutput {
+struct ExportOptions : MeshOutput, MeshWish {
     MeshOptions mesh;
     SequenceOptions sequence;        ///< a numbered mesh for every frame
     bool animated = false;           ///< the same as one file that moves
     std::vector<std::string> sweep;  ///< a mesh for every variant (graph/document/sweep.h)
     std::string format;              ///< of the meshes of a sequence or sweep: "glb"; empty: that
-    bool manifold = false, compress = false, parts = false;  ///< as fw::ExportOptions has them
-    bool splitMaterials = false;                             ///< faces are cut where materials meet
-    std::optional<int> textures;  ///< texels along a side of those that are baked; none: no textures
-    PlacementWish placement = {};
-    int tiles = 0;          ///< along the longest side; 0: as many as it takes
-    std::string share;      ///< "i/n": only this part of the tiles; empty: all
-    std::string particles;  ///< the node whose particles are written in place of a mesh; empty: none
+    int tiles = 0;                   ///< along the longest side; 0: as many as it takes
+    std::string share;               ///< "i/n": only this part of the tiles; empty: all
+    std::string particles;           ///< the node whose particles are written in place of a mesh; empty: none
 };
 int runExport(const ExportOptions& options);
-/// What parts a file of that name has of its mesh.
-MaterialParts partsOf(const ExportOptions& options, const std::string& path);
 
 struct MergeOptions : MeshOutput {
     std::vector<std::string> parts;

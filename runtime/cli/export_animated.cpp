@@ -1,14 +1,18 @@
 // `fieldwright export --animated`: the frames of a timeline as one glTF that moves. Where parts move as
 // wholes each is a mesh, and what carries it a node with keys, called as in the graph; else every frame is a
-// mesh, and they take turns.
+// mesh, and they take turns. Or as one mesh and the places of its points, where its triangles stay.
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/animated.h"
 #include "runtime/export/outputs.h"
+#include "runtime/export/point_cache.h"
+#include "runtime/mesh/joined.h"
 #include "runtime/play/mesh_sequence.h"
 #include "runtime/play/part_meshes.h"
 #include "runtime/system/interruption.h"
@@ -26,6 +30,7 @@ int badAnimation(const std::string& message) {
 struct Animation {
     const ExportOptions& options;
     fw::ExportOptions how;
+    std::string meshPath;  ///< whose ending says what a mesh in it has
     FrameRange range;
     Placement placement;
     Player& player;
@@ -33,33 +38,83 @@ struct Animation {
     double seconds(long frame) const { return range.time(frame) - range.time(range.first); }
 };
 
-int writeTurns(const Animation& of) {
-    Result<AnimatedGltf> file = AnimatedGltf::open(of.options.output, of.how);
-    if (!file) return print(file.error()), kSystemFailure;
+/// Makes the mesh of each frame, as it stands in a file, and calls add(mesh, frame) behind the making of the
+/// next.
+int forFrames(const Animation& of, const std::function<Done(Mesh, long frame)>& add) {
     WrittenBehind writing;
     SequenceProgress progress("frame", of.range.count());
     for (long frame = of.range.first; frame < of.range.last; ++frame) {
         Result<Mesh> mesh = onceMoreIfLost(
             [&] {
                 of.player.seek(of.range.time(frame));
-                return of.player.mesh(partsOf(of.options, of.options.output));
+                return of.player.mesh(partsOf(of.options, of.meshPath));
             },
             [&] { renewDevice(of.player, "going on at frame " + std::to_string(frame)); });
         if (!mesh) return badInput(of.options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
-        auto add = [&, frame, mesh = std::move(*mesh)]() mutable {
-            return file->add(placed(std::move(mesh), of.placement), of.seconds(frame),
-                             "frame_" + std::to_string(frame));
+        std::shared_ptr<const Program> program;
+        if (of.options.textures) program = std::make_shared<Program>(of.player.programOnHost());
+        auto write = [&, frame, program, mesh = std::move(*mesh)]() mutable -> Done {
+            Result<Mesh> dressed =
+                program ? withTextures(of.options, std::move(mesh), *program) : Result<Mesh>(std::move(mesh));
+            const Done added =
+                dressed ? add(placed(std::move(*dressed), of.placement), frame) : Done(dressed.error());
+            return added ? done() : Done(in(added.error(), "frame " + std::to_string(frame)));
         };
-        if (const Done before = writing.begin(std::move(add)); !before)
+        if (const Done before = writing.begin(std::move(write)); !before)
             return print(before.error()), kSystemFailure;
         progress.next(true);
     }
-    Done written = writing.end();
-    if (written)
-        if (const Result<ExportedFiles> files = file->end(of.seconds(of.range.last)); !files)
-            written = files.error();
-    if (!written) return print(written.error()), kSystemFailure;
+    if (const Done written = writing.end(); !written) return print(written.error()), kSystemFailure;
     return kDone;
+}
+
+/// The exit status of the file's end.
+int ended(const Result<ExportedFiles>& files) {
+    return files ? kDone : (print(files.error()), kSystemFailure);
+}
+
+int writeTurns(const Animation& of) {
+    Result<AnimatedGltf> file = AnimatedGltf::open(of.options.output, of.how);
+    if (!file) return print(file.error()), kSystemFailure;
+    const auto add = [&](const Mesh& mesh, long frame) {
+        return file->add(mesh, of.seconds(frame), "frame_" + std::to_string(frame));
+    };
+    const int status = forFrames(of, add);
+    return status == kDone ? ended(file->end(of.seconds(of.range.last))) : status;
+}
+
+Result<PointCache> openPoints(const Animation& of) {
+    std::vector<double> seconds;
+    for (long frame = of.range.first; frame < of.range.last; ++frame) seconds.push_back(of.seconds(frame));
+    return PointCache::open(of.options.output, std::move(seconds), of.how);
+}
+
+/// The points of a mesh whose triangles stay what they are.
+int writePoints(const Animation& of) {
+    Result<PointCache> file = openPoints(of);
+    if (!file) return print(file.error()), kSystemFailure;
+    const int status = forFrames(of, [&](const Mesh& mesh, long) { return file->add(mesh); });
+    return status == kDone ? ended(file->end()) : status;
+}
+
+/// Those of all parts, each of which moves as a whole.
+int writePartPoints(const Animation& of, const std::vector<PartNode>& nodes,
+                    const std::vector<PartMesh>& meshes) {
+    Result<PointCache> file = openPoints(of);
+    if (!file) return print(file.error()), kSystemFailure;
+    for (std::size_t moment = 0; moment < std::size_t(of.range.count()); ++moment) {
+        const std::vector<glm::dmat4> places = placesAt(nodes, moment);
+        std::vector<Mesh> moved;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            Mesh& mesh = moved.emplace_back(meshes[i].mesh);
+            for (glm::vec3& p : mesh.positions) p = glm::vec3(places[i] * glm::dvec4(p, 1.0));
+            for (glm::vec3& n : mesh.normals)
+                n = glm::vec3(glm::normalize(glm::dmat3(places[i]) * glm::dvec3(n)));
+        }
+        if (const Done added = file->add(placed(joined(moved), of.placement)); !added)
+            return print(added.error()), kSystemFailure;
+    }
+    return ended(file->end());
 }
 
 /// The values of a property at all moments as a track; the first of them alone, as the node's own, where it
@@ -102,8 +157,10 @@ int writeParts(const Animation& of, const std::vector<PartNode>& nodes, const st
         const std::size_t parent = nodes[i].parent ? numbers[*nodes[i].parent] : whole;
         nlohmann::json node = {{"name", nodes[i].name}};
         if (!meshes[i].mesh.indices.empty()) {
+            Result<Mesh> dressed = withTextures(of.options, meshes[i].mesh, meshes[i].program);
+            if (!dressed) return badInput(of.options.mesh, in(dressed.error(), nodes[i].name));
             const Result<std::size_t> mesh =
-                scene->addMesh(placed(meshes[i].mesh, of.placement), nodes[i].name);
+                scene->addMesh(placed(std::move(*dressed), of.placement), nodes[i].name);
             if (!mesh) return badInput(of.options.mesh, mesh.error());
             node["mesh"] = *mesh;
         }
@@ -112,9 +169,7 @@ int writeParts(const Animation& of, const std::vector<PartNode>& nodes, const st
             addTracks(*scene, tracks, times, numbers.back(), nodes[i].poses, of.placement.scale);
     }
     if (!tracks.empty()) scene->addAnimation("motion", tracks);
-    if (const Result<ExportedFiles> written = scene->end(); !written)
-        return print(written.error()), kSystemFailure;
-    return kDone;
+    return ended(scene->end());
 }
 
 PlayerOptions playing(const ExportOptions& options) {
@@ -126,7 +181,9 @@ PlayerOptions playing(const ExportOptions& options) {
 /// The parts' meshes, where the document is parts that move apart from each other.
 std::optional<std::vector<PartMesh>> separateMeshes(const Animation& of, const std::vector<PartNode>& nodes) {
     const double cell = longestSide(of.player.region()) / of.player.resolution();
-    const auto make = [&] { return partMeshes(of.player, nodes, cell, playing(of.options)); };
+    const auto make = [&] {
+        return partMeshes(of.player, nodes, cell, playing(of.options), partsOf(of.options, of.meshPath));
+    };
     const Result<std::vector<PartMesh>> meshes =
         onceMoreIfLost(make, [&] { renewDevice(of.player, "making the parts again"); });
     if (!meshes || overlap(nodes, *meshes, std::size_t(of.range.count()), 0.25 * cell)) return std::nullopt;
@@ -136,17 +193,24 @@ std::optional<std::vector<PartMesh>> separateMeshes(const Animation& of, const s
 }  // namespace
 
 int exportAnimated(const ExportOptions& options) {
-    fw::ExportOptions how = fileOptions(options);
+    fw::ExportOptions how = writingOf(options);
     how.kept = [] { whenEnded({.said = "; the file was written"}); };
-    if (const Done fine = checkAnimatedPath(options.output, how); !fine)
+    const bool asPoints = isPointCache(options.output);
+    if (const Done fine =
+            asPoints ? checkPointCache(options.output, how) : checkAnimatedPath(options.output, how);
+        !fine)
         return print(fine.error()), kBadUsage;
-    if (const auto known = placementOf(options.output, *lengthUnit("m"), options.placement); !known)
-        return print(known.error()), kBadUsage;
+    const std::vector<std::string> files =
+        asPoints ? pointCachePaths(options.output) : exportedPaths(options.output);
+    const std::string meshPath = files[asPoints ? 1 : 0];
+    if (const Done fine = checkWish(options, meshPath); !fine) return print(fine.error()), kBadUsage;
+    if (asPoints && options.textures)
+        return badAnimation("a point cache has no --textures: leave them out, or write a .glb");
     if (options.measured())
         return badAnimation(
             "--report and --require measure one mesh: export the frames into a folder for them");
     MeshOptions wanted = options.mesh;
-    wanted.outputs = exportedPaths(options.output);
+    wanted.outputs = files;
     if (const Done distinct = checkDistinct(wanted.graph.path, wanted.outputs); !distinct)
         return print(distinct.error()), kBadUsage;
     FrameRange range;
@@ -162,8 +226,8 @@ int exportAnimated(const ExportOptions& options) {
         });
         if (!player) return status;
     }
-    const Placement placement = *placementOf(options.output, unitOf(player->graph()), options.placement);
-    const Animation animation{options, how, range, placement, *player};
+    const Placement placement = *placementOf(meshPath, unitOf(player->graph()), options.placement);
+    const Animation animation{options, how, meshPath, range, placement, *player};
     std::vector<double> times;
     for (long frame = range.first; frame < range.last; ++frame) times.push_back(range.time(frame));
     int status = -1;
@@ -172,11 +236,12 @@ int exportAnimated(const ExportOptions& options) {
         if (const std::optional<std::vector<PartNode>> nodes = movingParts(player->graph(), times)) {
             const Graph whole = player->graph();
             if (const auto meshes = separateMeshes(animation, *nodes))
-                status = writeParts(animation, *nodes, *meshes);
+                status = asPoints ? writePartPoints(animation, *nodes, *meshes)
+                                  : writeParts(animation, *nodes, *meshes);
             else if (const Done back = player->reload(whole, playing(options)); !back)
                 return badInput(options.mesh, back.error());
         }
-    if (status < 0) status = writeTurns(animation);
+    if (status < 0) status = asPoints ? writePoints(animation) : writeTurns(animation);
     if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     return status;
 }

@@ -3,18 +3,15 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
-#include <iterator>
 
 #include "runtime/cli/measured.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/cli/tiled_export.h"
 #include "runtime/export/export.h"
 #include "runtime/export/outputs.h"
-#include "runtime/export/texture_files.h"
 #include "runtime/play/tiled_mesh.h"
 #include "runtime/system/interruption.h"
 #include "runtime/system/output_file.h"
-#include "runtime/textures/textured.h"
 
 namespace fw::cli {
 
@@ -33,7 +30,7 @@ int notWritten(const ExportOptions& options, const Error& error) {
 
 struct WholeMesh {
     MeshedProgram program;
-    Mesh mesh;
+    std::vector<Mesh> levels;  ///< of detail; one at least
 };
 
 /// All of the mesh at once. Where the device has no room for it and tiles can be had, says so, and it is an
@@ -44,8 +41,9 @@ Result<WholeMesh> meshWhole(const ExportOptions& options, OpenedGraph graph, Pro
         Result<MeshedProgram> meshed = meshOpened(std::move(graph), progress, timed);
         if (!meshed) return meshed.error();
         progress.start("download", 60);
-        Mesh mesh = meshed->session.download(meshed->mesh, partsOf(options, options.output));
-        return WholeMesh{std::move(*meshed), std::move(mesh)};
+        std::vector<Mesh> levels = meshed->session.downloadLevels(meshed->mesh, std::size_t(options.lods),
+                                                                  partsOf(options, options.output));
+        return WholeMesh{std::move(*meshed), std::move(levels)};
     } catch (const DeviceTooSmall& full) {
         if (!canTile) throw DeviceTooSmall(full.what() + std::string(kOrTiles));
         std::fprintf(stderr, "%s: note: %s: it is meshed in tiles instead\n", options.output.c_str(),
@@ -84,10 +82,24 @@ void note(const ExportOptions& options, const MesherResult& meshed) {
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());
     if (meshed.undecimated)
+        std::fprintf(
+            stderr,
+            "%s: note: decimate ended at %u triangles: no more could go within its error, an "
+            "eighth of the solid's size at most, and with every part left a solid; raise the error or "
+            "the number\n",
+            options.output.c_str(), meshed.triangles);
+}
+
+void noteLevels(const ExportOptions& options, const std::vector<LevelReport>& levels) {
+    for (const LevelReport& level : levels)
+        std::fprintf(stderr, "%s: note: %s has %llu triangles, at most %.3g m from the surface\n",
+                     options.output.c_str(), level.name.c_str(),
+                     static_cast<unsigned long long>(level.triangles), level.error);
+    if (options.lods > 1 && levels.size() < std::size_t(options.lods))
         std::fprintf(stderr,
-                     "%s: note: decimate ended at %u triangles: no more could go within its error, and with "
-                     "every part left a solid; raise the error\n",
-                     options.output.c_str(), meshed.triangles);
+                     "%s: note: it has no further levels: no more triangles can go with every part left "
+                     "a solid\n",
+                     options.output.c_str());
 }
 
 /// Of what is to be printed, or has its lengths in a unit that was asked for.
@@ -102,35 +114,7 @@ void noteUnlikelySize(const ExportOptions& options, const Mesh& mesh, const Plac
         std::fprintf(stderr, "%s: note: %s\n", options.output.c_str(), words->c_str());
 }
 
-Done checkTextures(const ExportOptions& options) {
-    if (!options.textures) return done();
-    const auto refuse = [&](std::string message) {
-        return Error{.message = std::move(message), .file = options.output};
-    };
-    if (!hasTextures(options.output))
-        return refuse("textures are in .glb, .gltf and .obj alone: leave --textures out for " +
-                      lowerExtension(options.output) + ", or choose one of them");
-    const int size = *options.textures;
-    if (size < kLeastTexture || size > kMostTexture || (size & (size - 1)) != 0)
-        return refuse("--textures " + std::to_string(size) + ": a texture's side is a power of two from " +
-                      std::to_string(kLeastTexture) + " to " + std::to_string(kMostTexture) + " texels");
-    return done();
-}
-
 }  // namespace
-
-fw::ExportOptions fileOptions(const ExportOptions& options) {
-    return {.manifold = options.manifold,
-            .compress = options.compress,
-            .parts = options.parts,
-            .splitMaterials = options.splitMaterials};
-}
-
-MaterialParts partsOf(const ExportOptions& options, const std::string& path) {
-    if (!exportFormat(path)->parts) return MaterialParts::none;
-    if (options.textures) return MaterialParts::besideTextures;
-    return options.splitMaterials ? MaterialParts::cut : MaterialParts::whole;
-}
 
 int runExport(const ExportOptions& options) {
     Progress progress;
@@ -151,18 +135,15 @@ int runExport(const ExportOptions& options) {
                       .file = options.output}),
                kBadUsage;
     const bool tiled = options.tiles > 0 || !options.share.empty();
-    fw::ExportOptions how = fileOptions(options);
     if (const Done fine =
-            tiled ? checkTiledExport(options) : checkExportPath(options.output, how, options.measured());
+            tiled ? checkTiledExport(options) : checkWish(options, options.output, options.measured());
         !fine)
         return print(fine.error()), kBadUsage;
-    if (options.share.empty())
+    if (tiled && options.share.empty())
         if (const auto known = placementOf(options.output, *lengthUnit("m"), options.placement); !known)
             return print(known.error()), kBadUsage;
-    if (const Done fine = checkTextures(options); !fine) return print(fine.error()), kBadUsage;
     MeshOptions wanted = options.mesh;
-    wanted.outputs = exportedPaths(options.output);
-    if (options.textures) std::ranges::copy(texturePaths(options.output), std::back_inserter(wanted.outputs));
+    wanted.outputs = wishedPaths(options, options.output);
     if (!options.report.empty()) wanted.outputs.push_back(options.report);
     if (const Done distinct = checkDistinct(options.mesh.graph.path, wanted.outputs); !distinct)
         return print(distinct.error()), kBadUsage;
@@ -173,6 +154,7 @@ int runExport(const ExportOptions& options) {
     if (tiled || wantsTiles(options, *graph))
         return tiledExport(options, wanted, std::move(*graph), progress);
     const bool canTile = canBeTiled(options, *graph);
+    fw::ExportOptions how = writingOf(options);
     how.placement = *placementOf(options.output, graph->unit, options.placement);
     Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, options.measured());
     if (!whole && canTile && whole.error().code == Error::Code::tooMuchSurface) {
@@ -182,13 +164,13 @@ int runExport(const ExportOptions& options) {
     }
     if (!whole) return notWritten(options, whole.error());
     const MeshedProgram& meshed = whole->program;
-    if (options.textures) {
-        Result<Mesh> made = textured(
-            std::move(whole->mesh), meshed.session.onHost(), *options.textures,
-            [&](const char* stage) { progress.start(stage, std::string_view(stage) == "unwrap" ? 62 : 65); });
-        if (!made) return badInput(options.mesh, made.error());
-        whole->mesh = std::move(*made);
-    }
+    const Program onHost = options.textures || options.lods > 1 ? meshed.session.onHost() : Program();
+    std::vector<LevelReport> levels;
+    if (options.lods > 1) levels = reportOnLevels(whole->levels, options.output, onHost, meshed.region);
+    Result<std::vector<Mesh>> made = withTextures(
+        options, std::move(whole->levels), onHost,
+        [&](const char* stage) { progress.start(stage, std::string_view(stage) == "unwrap" ? 62 : 65); });
+    if (!made) return badInput(options.mesh, made.error());
     progress.start("write", 70);
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
@@ -196,11 +178,13 @@ int runExport(const ExportOptions& options) {
                           how.placement};
     how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
-    const Result<ExportedFiles> written = exportMesh(whole->mesh, options.output, how);
+    const Result<ExportedFiles> written = exportWished(options, *made, options.output, how);
     if (!written) return print(written.error()), kSystemFailure;
     progress.finish();
     note(options, meshed.mesh);
-    noteUnlikelySize(options, whole->mesh, how.placement);
+    noteUnlikelySize(options, made->front(), how.placement);
+    noteLevels(options, levels);
+    report.levels = std::move(levels);
     report.capped = meshed.mesh.capped;
     for (const StageTime& stage : meshed.mesh.stages)
         report.stages.emplace_back("mesh." + stage.name, stage.milliseconds);

@@ -76,12 +76,10 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         return badExport(options.output + ": each " + many.one +
                          " is a file of its own, in a folder: give its name, and --format " +
                          lowerExtension(options.output).substr(1));
-    fw::ExportOptions how = fileOptions(options);
+    fw::ExportOptions how = writingOf(options);
     how.mayBeEmpty = true;
-    if (const Done fine = checkExportPath("a" + ending, how, options.measured()); !fine)
+    if (const Done fine = checkWish(options, "a" + ending, options.measured()); !fine)
         return badExport(fine.error().message);
-    if (const auto known = placementOf("a" + ending, *lengthUnit("m"), options.placement); !known)
-        return badExport(known.error().message);
     if (!options.report.empty())
         if (const Done distinct = checkDistinct(options.mesh.graph.path, {options.report}); !distinct)
             return print(distinct.error()), kBadUsage;
@@ -106,22 +104,30 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
     const auto make = [&](Player& player, long number, const std::string& path, std::function<void()> kept) {
         if (const Done shown = many.show(player, number); !shown)
             return badInput(options.mesh, shown.error());
-        Result<Mesh> mesh = player.mesh(partsOf(options, path));
-        if (!mesh) return badInput(options.mesh, in(mesh.error(), many.one + (' ' + files.name(number))));
-        if (mesh->indices.empty() && !std::exchange(empty, true))
+        Result<std::vector<Mesh>> levels = player.levels(std::size_t(options.lods), partsOf(options, path));
+        if (!levels) return badInput(options.mesh, in(levels.error(), many.one + (' ' + files.name(number))));
+        if (levels->front().indices.empty() && !std::exchange(empty, true))
             std::fprintf(stderr, "%s: note: the solid is empty there, and the file has no triangles\n",
                          path.c_str());
         fw::ExportOptions with = how;
         with.cellSize = float(longestSide(player.region()) / player.resolution());
         with.kept = std::move(kept);
         std::shared_ptr<const Program> program;
-        if (options.measured()) program = std::make_shared<Program>(player.programOnHost());
+        if (options.measured() || options.textures)
+            program = std::make_shared<Program>(player.programOnHost());
         const MeshedFrom from{program.get(), player.region(), player.device().name(), how.placement};
-        auto write = [&, path, number, with, program, from, mesh = std::move(*mesh)]() mutable -> Done {
+        auto write = [&, path, number, with, program, from, levels = std::move(*levels)]() mutable -> Done {
             Report report;
-            if (!mesh.indices.empty()) with.examine = measuring(options, from, nullptr, report);
-            const Result<ExportedFiles> written = exportMesh(mesh, path, with);
+            if (!levels[0].indices.empty()) with.examine = measuring(options, from, nullptr, report);
+            std::vector<LevelReport> coarser;
+            if (options.lods > 1 && options.measured())
+                coarser = reportOnLevels(levels, path, *program, from.region);
+            Result<std::vector<Mesh>> made =
+                program ? withTextures(options, std::move(levels), *program) : std::move(levels);
+            if (!made) return in(made.error(), path);
+            const Result<ExportedFiles> written = exportWished(options, *made, path, with);
             if (!written) return written.error();
+            report.levels = std::move(coarser);
             measured.reports.emplace(number, std::move(report));
             return done();
         };

@@ -216,6 +216,13 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
                                   "light, occlusion and normals "
                                   "from the field into textures of so many texels a side: 64, 128, ... 8192");
     textures->type_name("TEXELS");
+    CLI::Option* lods =
+        exportCommand
+            ->add_option(
+                "--lods", exportOptions.lods,
+                "Levels of detail in a .glb or .gltf, each with a quarter of the triangles of the one "
+                "before, as nodes whose names end in _LOD0 and so on; they share materials and textures")
+            ->check(whole(1, kMostLevels));
     exportCommand->add_flag("--parts", exportOptions.parts,
                             "Of a .glb or .gltf: what touches nowhere is a node of its own");
     std::vector<std::string> units;
@@ -260,7 +267,8 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         ->check(oneOf(formats));
     CLI::Option* animated = exportCommand->add_flag(
         "--animated", exportOptions.animated,
-        "Write all frames into one .glb or .gltf, in which they take turns (default: of the whole timeline)");
+        "Write all frames into one .glb or .gltf (default: of the whole timeline); or, where the mesh keeps "
+        "its triangles, as an .obj and the places of its points, .pc2 or .mdd");
     for (const char* ofOne : {"--time", "--overwrite", "--format", "--frames"})
         animated->excludes(exportCommand->get_option(ofOne));
     CLI::Option* sweep =
@@ -300,8 +308,9 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         for (const char* ofOne : {"--tiles", "--tile"})
             exportCommand->get_option(ofWholes)->excludes(exportCommand->get_option(ofOne));
 
-    for (const char* without : {"--from", "--to", "--fps", "--range", "--overwrite", "--animated", "--sweep",
-                                "--split-materials", "--particles"})
+    for (const char* without : {"--animated", "--tiles", "--tile", "--particles"})
+        lods->excludes(exportCommand->get_option(without));
+    for (const char* without : {"--split-materials", "--particles"})
         textures->excludes(exportCommand->get_option(without));
 
     MergeOptions mergeOptions;
@@ -572,6 +581,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     const WhenEnded nothingYet{.said = writes ? kNothingWritten : ""};
     endOnSignals(nothingYet);
     const auto command = [&] {
+        exportOptions.mesh.byShape = exportOptions.textures.has_value();
         if (exportCommand->parsed()) return runExport(exportOptions);
         if (mergeCommand->parsed()) return runMerge(mergeOptions);
         if (renderCommand->parsed()) return runRender(renderOptions);

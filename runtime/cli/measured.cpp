@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <future>
 
+#include "runtime/export/export.h"
 #include "runtime/measure/field_measure.h"
+#include "runtime/stages/decimate.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::cli {
@@ -57,6 +59,20 @@ std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, cons
         report = std::move(*measured);
         return done();
     };
+}
+
+std::vector<LevelReport> reportOnLevels(std::span<const Mesh> levels, const std::string& path,
+                                        const Program& program, const Box& region) {
+    const MeasureOptions measure = measureOf(program, region, Points::affordable);
+    std::vector<LevelReport> reports;
+    for (const Mesh& level : levels) {
+        const Report report = reportOnMesh(level.positions, level.indices, measure);
+        reports.push_back({.name = levelName(path, {}, reports.size()),
+                           .vertices = level.positions.size(),
+                           .triangles = level.triangleCount(),
+                           .error = farthest(report)});
+    }
+    return reports;
 }
 
 int tellUnmet(const MeshOutput& options, const std::string& file, const Report& report) {

@@ -26,6 +26,11 @@ std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, cons
 /// What a mesh file holds that was written before; its lengths are the graph's.
 Result<Report> reportOnThere(const std::string& path, const Placement& placement);
 
+/// What levels of detail are, the finest first, held against the program's field in the region that was
+/// meshed; with their names in a file of that path.
+std::vector<LevelReport> reportOnLevels(std::span<const Mesh> levels, const std::string& path,
+                                        const Program& program, const Box& region);
+
 /// Says in what a mesh is not what it is required to be; the exit status.
 int tellUnmet(const MeshOutput& options, const std::string& file, const Report& report);
 

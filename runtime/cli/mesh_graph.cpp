@@ -95,6 +95,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     progress.start("compile", 5);
     CompileOptions compileOptions;
     compileOptions.triangles = options.triangles;
+    compileOptions.byShape = options.byShape;
     compileOptions.bake =
         meshFieldBaker([&] { return device.orNone(); },
                        {.progress = [&](double share) { progress.show(5 + int(5 * share)); }});
@@ -153,6 +154,7 @@ std::optional<Player> openPlayer(const MeshOptions& options, Progress& progress,
     playerOptions.resolution = options.resolution.value_or(0);
     playerOptions.method = options.method;
     playerOptions.triangles = options.triangles;
+    playerOptions.byShape = options.byShape;
     if (!readRegion(options, playerOptions.region)) return fail(kBadUsage);
     OpeningDevice opening(startOf(options), playerOptions.deviceOptions);
     progress.start("read", 0);

@@ -58,9 +58,6 @@ Result<FrameRange> framesAsked(const Graph& graph, const ExportOptions& options)
 /// Says of a command that a job is to share out what there is many of; kDone.
 int noteWork(JobWork& work, const char* one, const FrameRange& frames);
 
-/// What is asked of each mesh file, but for its placement.
-fw::ExportOptions fileOptions(const ExportOptions& options);
-
 /// `export` with --from, --to, --fps or --range; the same into one file, with --animated; with --sweep.
 int exportSequence(const ExportOptions& options);
 int exportAnimated(const ExportOptions& options);

@@ -232,20 +232,7 @@ Done checkTiledExport(const ExportOptions& options) {
     const auto refuse = [&](std::string message) {
         return Error{.message = std::move(message), .file = options.output};
     };
-    if (options.manifold)
-        return refuse(
-            "--manifold holds the whole mesh in memory, which tiles are there to avoid: leave it out");
-    if (options.compress || options.parts)
-        return refuse(
-            "--compress and --parts hold the whole mesh in memory, which tiles are there to avoid: leave "
-            "them out");
-    if (options.splitMaterials)
-        return refuse(
-            "--split-materials is for a mesh that is made as a whole: leave it out, or --tiles and "
-            "--tile");
-    if (options.textures)
-        return refuse(
-            "--textures is for a mesh that is made as a whole: leave it out, or --tiles and --tile");
+    if (const Done fine = checkTilesWish(options, options.output); !fine) return fine;
     if (options.share.empty()) return checkPiecesPath(options.output);
     if (!options.placement.isNone())
         return refuse("a part is in the document's unit and +Y up: leave out --unit, --up and --for");

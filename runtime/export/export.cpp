@@ -212,21 +212,6 @@ Result<Beside> openBeside(const std::string& path, const ExportOptions& options)
     return Beside{std::move(*opened), std::filesystem::path(besidePath).filename().string()};
 }
 
-/// Files of a mesh's textures beside it, with all that goes into them.
-Result<std::vector<OutputFile>> openImages(const std::string& path, const std::vector<TextureImage>& images,
-                                           const ExportOptions& options) {
-    std::vector<OutputFile> files;
-    if (lowerExtension(path) == ".glb") return files;
-    for (const TextureImage& image : images) {
-        const std::filesystem::path file = std::filesystem::path(path).parent_path() / image.file;
-        Result<OutputFile> opened = OutputFile::open(file.string(), options.cancel);
-        if (!opened) return opened.error();
-        opened->write(image.png);
-        files.push_back(std::move(*opened));
-    }
-    return files;
-}
-
 /// A file of the format without a triangle.
 Result<ExportedFiles> exportEmpty(const std::string& path, Format format, const ExportOptions& options) {
     const std::string name = objectName(path, options);
@@ -307,6 +292,20 @@ std::string percentEncoded(const std::string& name) {
     return uri;
 }
 
+Result<std::vector<OutputFile>> openImages(const std::string& path, const std::vector<TextureImage>& images,
+                                           const ExportOptions& options) {
+    std::vector<OutputFile> files;
+    if (lowerExtension(path) == ".glb") return files;
+    for (const TextureImage& image : images) {
+        const std::filesystem::path file = std::filesystem::path(path).parent_path() / image.file;
+        Result<OutputFile> opened = OutputFile::open(file.string(), options.cancel);
+        if (!opened) return opened.error();
+        opened->write(image.png);
+        files.push_back(std::move(*opened));
+    }
+    return files;
+}
+
 Result<ExportedFiles> commitAll(const std::string& path, const ExportOptions& options, OutputFile& file,
                                 OutputFile* beside, std::span<OutputFile> images) {
     ExportedFiles files{exportedPaths(path), file.size() + (beside ? beside->size() : 0)};
@@ -345,7 +344,7 @@ Done checkExportPath(const std::string& path, const ExportOptions& options, bool
                 .file = path};
         for (const auto& [asked, what] :
              {std::pair(options.compress, "compressed"), {options.parts, "parted"}})
-            if (asked && ending != ".glb" && ending != ".gltf")
+            if (asked && !isGltf(path))
                 return Error{.message = std::string("a mesh is ") + what +
                                         " in .glb and .gltf alone: leave that out for " + ending,
                              .file = path};
@@ -376,6 +375,10 @@ Done checkExportPath(const std::string& path, const ExportOptions& options, bool
     return Error{.message = message, .file = path};
 }
 
+bool isGltf(const std::string& path) {
+    return formatOf(path) == Format::glb || formatOf(path) == Format::gltf;
+}
+
 std::vector<std::string> exportedPaths(const std::string& path) {
     const std::optional<Format> format = formatOf(path);
     if (format != Format::gltf && format != Format::obj) return {path};
@@ -385,25 +388,20 @@ std::vector<std::string> exportedPaths(const std::string& path) {
 
 namespace {
 
-/// Parts as nodes, or few bits a number: what a scene has.
+/// The mesh, or its parts, as a scene, where few bits a number can be had.
 Result<ExportedFiles> exportScene(const Mesh& mesh, const std::string& path, const ExportOptions& options) {
     Result<GltfScene> scene = GltfScene::open(path, options);
     if (!scene) return scene.error();
-    const std::string name = objectName(path, options);
+    const std::string name = scene->name();
     if (!options.parts) {
-        const Result<std::size_t> added = scene->addMesh(mesh, name);
-        if (!added) return added.error();
-        scene->addNode({{"name", name}, {"mesh", *added}});
+        if (const Done added = scene->addShown(mesh, name); !added) return added.error();
         return scene->end();
     }
     const std::size_t whole = scene->addNode({{"name", name}});
     const std::vector<Mesh> parts = separateParts(mesh);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::string one = name + "_" + std::to_string(i + 1);
-        const Result<std::size_t> added = scene->addMesh(parts[i], one);
-        if (!added) return added.error();
-        scene->addNode({{"name", one}, {"mesh", *added}}, whole);
-    }
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (const Done added = scene->addShown(parts[i], name + "_" + std::to_string(i + 1), whole); !added)
+            return added.error();
     return scene->end();
 }
 
@@ -424,8 +422,6 @@ Result<ExportedFiles> exportPlaced(const Mesh& mesh, const std::string& path, co
     if (!bounds) return bounds.error();
     if (const std::optional<Mesh> repaired = withUnitNormals(mesh))
         return exportPlaced(*repaired, path, options);
-    if (mesh.textures && (options.compress || options.parts))
-        return refuse("a mesh with textures is neither compressed nor parted: leave one of them out");
     if (options.compress || options.parts) return exportScene(mesh, path, options);
     assert(!mesh.textures || (hasTextures(path) && mesh.uvs.size() == mesh.positions.size() &&
                               mesh.tangents.size() == mesh.positions.size()));
@@ -484,6 +480,36 @@ Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path, cons
     if (Done known = checkExportPath(path, options); !known) return known.error();
     if (options.placement.isNone()) return exportPlaced(mesh, path, options);
     return exportPlaced(placed(mesh, options.placement), path, options);
+}
+
+Result<ExportedFiles> exportLevels(std::span<const Mesh> levels, const std::string& path,
+                                   const ExportOptions& options) {
+    if (const Done fine = checkLevelsPath(path, options); !fine) return fine.error();
+    Result<GltfScene> scene = GltfScene::open(path, options);
+    if (!scene) return scene.error();
+    const std::size_t whole = scene->addNode({{"name", scene->name()}});
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string name = levelName(path, options, i);
+        const Done added = options.placement.isNone()
+                               ? scene->addShown(levels[i], name, whole)
+                               : scene->addShown(placed(levels[i], options.placement), name, whole);
+        if (!added) return added.error();
+    }
+    return scene->end();
+}
+
+Done checkLevelsPath(const std::string& path, const ExportOptions& options) {
+    const auto refuse = [&](const char* message) { return Error{.message = message, .file = path}; };
+    if (const Done known = checkExportPath(path, options); !known) return known.error();
+    if (!isGltf(path))
+        return refuse("levels of detail are in .glb and .gltf alone: leave them out, or choose one of them");
+    if (options.manifold || options.parts)
+        return refuse("levels of detail are neither marked as solids nor parted: choose one");
+    return done();
+}
+
+std::string levelName(const std::string& path, const ExportOptions& options, std::size_t level) {
+    return objectName(path, options) + "_LOD" + std::to_string(level);
 }
 
 Done checkPiecesPath(const std::string& path) {

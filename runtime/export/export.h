@@ -61,6 +61,16 @@ struct ExportedFiles {
 Result<ExportedFiles> exportMesh(const Mesh& mesh, const std::string& path,
                                  const ExportOptions& options = {});
 
+/// Levels of detail as one .glb or .gltf: a node for each under one, the finest first, which share textures
+/// and materials. Their names end as many programs that import them look for: lamp_LOD0. `options` as of
+/// exportMesh. Errors: as of it and checkLevelsPath().
+Result<ExportedFiles> exportLevels(std::span<const Mesh> levels, const std::string& path,
+                                   const ExportOptions& options = {});
+/// Refuses, before any work is done, paths of other formats, and options that do not go with levels.
+Done checkLevelsPath(const std::string& path, const ExportOptions& options);
+/// What a level is called in a file of that path.
+std::string levelName(const std::string& path, const ExportOptions& options, std::size_t level);
+
 /// A mesh too large for memory, given piece by piece. Its vertices are those of the pieces in their order.
 struct MeshPieces {
     enum Part {
@@ -100,6 +110,9 @@ struct ExportFormat {
 std::span<const ExportFormat> exportFormats();
 /// That of the path's ending; nullptr if it is none of them.
 const ExportFormat* exportFormat(const std::string& path);
+
+/// Whether that of the path's ending is glTF.
+bool isGltf(const std::string& path);
 
 /// Refuses, before any work is done, a path whose extension exportMesh does not know; the message lists those
 /// it does. Also options that the format does not have; `measured` says that a report is wanted of the file.

@@ -43,6 +43,11 @@ struct Merges {
     std::vector<uint32_t> entries, vertices;
 };
 
+/// The files of images that stand beside a mesh file of that path, written but without their names; none of a
+/// GLB, which holds them.
+Result<std::vector<OutputFile>> openImages(const std::string& path, const std::vector<TextureImage>& images,
+                                           const ExportOptions& options);
+
 /// How much there is of what a glTF holds.
 struct GltfLayout {
     uint64_t vertices = 0, indices = 0;
@@ -61,7 +66,7 @@ struct GltfLayout {
 };
 /// The JSON with the materials of `mesh`, whose other arrays are not looked at. Its one buffer has the given
 /// uri, or none where the binary part follows in the same file: all positions, normals, colours, uvs,
-/// tangents, then indices. `images` are the mesh's textures.
+/// tangents, then indices. `images` are the mesh's textures; without them its materials show none.
 std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& bounds,
                      const std::string& name, const std::string& uri,
                      const std::vector<TextureImage>& images = {});

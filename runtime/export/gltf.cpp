@@ -265,7 +265,12 @@ std::string gltfJson(const Mesh& mesh, const GltfLayout& layout, const Bounds& b
     auto document = nlohmann::json::parse(text.str());
     document["buffers"][0]["byteLength"] = layout.bytes();
     if (layout.solid) addManifold(document, layout);
-    if (mesh.textures) addTextures(document, *mesh.textures, images, uri.empty());
+    if (!images.empty()) {
+        const TextureNumbers numbers =
+            addTextures(document, images, uri.empty() ? std::optional(layout.bytes()) : std::nullopt);
+        showTextures(document, *mesh.textures, numbers);
+        if (uri.empty()) document["buffers"][0]["byteLength"] = layout.bytes() + bytesOf(images);
+    }
     if (!uri.empty()) document["buffers"][0]["uri"] = uri;
     return uri.empty() ? document.dump() : document.dump(2) + "\n";
 }
@@ -317,8 +322,7 @@ void writeGlbEnd(uint64_t bytes, OutputFile& file) { file.write("\0\0\0", (4 - b
 bool writeGlb(const Mesh& mesh, const Bounds& bounds, const std::string& name, const Merges* merges,
               const std::vector<TextureImage>& images, OutputFile& file) {
     const GltfLayout layout = gltfLayout(mesh, merges);
-    uint64_t bytes = layout.bytes();
-    for (const TextureImage& image : images) bytes += image.png.size();
+    const uint64_t bytes = layout.bytes() + bytesOf(images);
     if (!writeGlbHead(gltfJson(mesh, layout, bounds, name, {}, images), bytes, file)) return false;
     writeGltfBinary(mesh, layout, merges, file);
     for (const TextureImage& image : images) file.write(image.png);

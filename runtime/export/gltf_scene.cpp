@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -25,10 +26,20 @@ std::string contentOf(const Mesh& mesh, const nlohmann::json& part) {
     content.add(std::span(mesh.positions));
     content.add(std::span(mesh.normals));
     content.add(std::span(mesh.colors));
+    content.add(std::span(mesh.uvs));
+    content.add(std::span(mesh.tangents));
     content.add(std::span(mesh.indices));
     const std::string text =
         nlohmann::json{part["meshes"][0]["primitives"], part["materials"], part["accessors"]}.dump();
     content.add(text.data(), text.size());
+    return content.uuid();
+}
+
+std::string contentOf(const MeshTextures& textures) {
+    Fingerprint content;
+    for (const auto* pixels : {&textures.baseColor, &textures.surface, &textures.normal, &textures.emission})
+        content.add(std::span(*pixels));
+    content.add(std::span(&textures.emissionStrength, 1));
     return content.uuid();
 }
 
@@ -86,6 +97,28 @@ void GltfScene::join(nlohmann::json part) {
     document["meshes"].push_back(std::move(mesh));
 }
 
+Result<TextureNumbers> GltfScene::texturesOf(const std::shared_ptr<const MeshTextures>& given) {
+    if (given == lastTextures) return lastNumbers;
+    const auto [found, fresh] = textures.emplace(contentOf(*given), TextureNumbers());
+    if (fresh) {
+        const std::vector<TextureImage> made = textureImages(*given, path, textures.size() - 1);
+        const bool inBuffer = lowerExtension(path) == ".glb";
+        found->second = addTextures(document, made, inBuffer ? std::optional(binary.size()) : std::nullopt);
+        if (inBuffer) {
+            for (const TextureImage& image : made) binary.write(image.png);
+            binary.write("\0\0\0", (4 - binary.size() % 4) % 4);
+        } else {
+            Result<std::vector<OutputFile>> opened = openImages(path, made, options);
+            if (!opened) return opened.error();
+            std::ranges::move(*opened, std::back_inserter(images));
+            for (const TextureImage& image : made)
+                imagePaths.push_back((std::filesystem::path(path).parent_path() / image.file).string());
+        }
+    }
+    lastTextures = given;
+    return lastNumbers = found->second;
+}
+
 Result<std::size_t> GltfScene::addMesh(const Mesh& given, const std::string& name) {
     const Result<Bounds> bounds = checkMesh(given, path);
     if (!bounds) return bounds.error();
@@ -96,6 +129,11 @@ Result<std::size_t> GltfScene::addMesh(const Mesh& given, const std::string& nam
     for (std::size_t i = 0; i < part["materials"].size(); ++i)
         if ((mesh.parts.empty() ? mesh.materialName : mesh.parts[i].name).empty())
             part["materials"][i].erase("name");  // the mesh's, whichever that is
+    if (mesh.textures) {
+        const Result<TextureNumbers> numbers = texturesOf(mesh.textures);
+        if (!numbers) return numbers.error();
+        showTextures(part, *mesh.textures, *numbers);
+    }
     const auto [found, fresh] = known.emplace(contentOf(mesh, part), known.size());
     if (fresh) {
         join(std::move(part));
@@ -112,6 +150,13 @@ std::size_t GltfScene::addNode(nlohmann::json node, std::optional<std::size_t> p
     document["nodes"].push_back(std::move(node));
     (parent ? document["nodes"][*parent]["children"] : document["scenes"][0]["nodes"]).push_back(number);
     return number;
+}
+
+Done GltfScene::addShown(const Mesh& mesh, const std::string& name, std::optional<std::size_t> parent) {
+    const Result<std::size_t> added = addMesh(mesh, name);
+    if (!added) return added.error();
+    addNode({{"name", name}, {"mesh", *added}}, parent);
+    return done();
 }
 
 std::string GltfScene::name() const { return objectName(path, options); }
@@ -195,6 +240,12 @@ Result<ExportedFiles> GltfScene::writeCompressed() {
     return writeGltf(*beside);
 }
 
+Result<ExportedFiles> GltfScene::commit(OutputFile& file, OutputFile* beside) {
+    Result<ExportedFiles> files = commitAll(path, options, file, beside, images);
+    if (files) std::ranges::copy(imagePaths, std::back_inserter(files->paths));
+    return files;
+}
+
 Result<ExportedFiles> GltfScene::writeGltf(OutputFile& beside) {
     if (beside.size() > 0)
         document["buffers"][0]["uri"] =
@@ -202,7 +253,7 @@ Result<ExportedFiles> GltfScene::writeGltf(OutputFile& beside) {
     Result<OutputFile> file = OutputFile::open(path, options.cancel);
     if (!file) return file.error();
     file->write(document.dump());
-    return commitAll(path, options, *file, &beside);
+    return commit(*file, &beside);
 }
 
 Result<ExportedFiles> GltfScene::writeGlb(uint64_t bytes, const std::function<Done(OutputFile&)>& write) {
@@ -213,7 +264,7 @@ Result<ExportedFiles> GltfScene::writeGlb(uint64_t bytes, const std::function<Do
                      .file = path};
     if (const Done written = write(*file); !written) return written.error();
     writeGlbEnd(bytes, *file);
-    return commitAll(path, options, *file, nullptr);
+    return commit(*file, nullptr);
 }
 
 }  // namespace fw

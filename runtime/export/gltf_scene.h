@@ -1,12 +1,13 @@
 // One glTF of many nodes and meshes: frames that take turns, parts that move, levels of detail.
 //
-// A mesh that comes again, byte for byte, is in the file once, and so is a material; nodes refer to meshes by
-// number. The meshes are written as they come, one behind the other, and the JSON in the end; of a GLB, which
-// begins with the JSON, they lie in a temporary file until then.
+// A mesh that comes again, byte for byte, is in the file once, and so are a material and a set of textures;
+// nodes refer to meshes by number. The meshes are written as they come, one behind the other, and the JSON in
+// the end; of a GLB, which begins with the JSON, they lie in a temporary file until then.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "runtime/export/export.h"
+#include "runtime/export/texture_files.h"
 #include "runtime/system/output_file.h"
 
 namespace fw {
@@ -38,6 +40,8 @@ class GltfScene {
     Result<std::size_t> addMesh(const Mesh& mesh, const std::string& name);
     /// The number of the node, which is as the JSON says: a child of `parent`, or at the top.
     std::size_t addNode(nlohmann::json node, std::optional<std::size_t> parent = {});
+    /// The mesh, and a node that shows it; both have the name. Errors: as of exportMesh().
+    Done addShown(const Mesh& mesh, const std::string& name, std::optional<std::size_t> parent = {});
     /// All tracks, of one at least, play together.
     void addAnimation(const char* name, const std::vector<GltfTrack>& tracks);
     void setNode(std::size_t node, const char* key, nlohmann::json value);
@@ -50,8 +54,11 @@ class GltfScene {
   private:
     GltfScene(std::string path, ExportOptions options, OutputFile binary);
     void join(nlohmann::json part);
+    /// The numbers of textures, which are added if they have not come before.
+    Result<TextureNumbers> texturesOf(const std::shared_ptr<const MeshTextures>& textures);
     std::size_t addFloats(const std::vector<float>& values, std::size_t parts);
     Done readBinary(const std::function<Done(std::span<const unsigned char>)>& take);
+    Result<ExportedFiles> commit(OutputFile& file, OutputFile* beside);
     Result<ExportedFiles> writeCompressed();
     Result<ExportedFiles> writeGltf(OutputFile& beside);
     Result<ExportedFiles> writeGlb(uint64_t bytes, const std::function<Done(OutputFile&)>& write);
@@ -60,8 +67,13 @@ class GltfScene {
     ExportOptions options;
     OutputFile binary;  ///< the buffer's bytes; in a GLB and compressed, before they have their places
     nlohmann::json document;
-    std::map<std::string, std::size_t> materials;  ///< by their JSON
-    std::map<std::string, std::size_t> known;      ///< meshes by their content
+    std::map<std::string, std::size_t> materials;      ///< by their JSON
+    std::map<std::string, std::size_t> known;          ///< meshes by their content
+    std::map<std::string, TextureNumbers> textures;    ///< by their content
+    std::shared_ptr<const MeshTextures> lastTextures;  ///< of the mesh before; most meshes share them
+    TextureNumbers lastNumbers;
+    std::vector<OutputFile> images;  ///< beside a .gltf
+    std::vector<std::string> imagePaths;
 };
 
 }  // namespace fw

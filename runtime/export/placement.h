@@ -23,6 +23,7 @@ struct PlacementWish {
 
     bool forPrinting() const { return purpose == "print"; }
     bool isNone() const { return unit.empty() && up.empty() && purpose.empty(); }
+    bool operator==(const PlacementWish&) const = default;
 };
 
 struct Placement {

@@ -1,7 +1,7 @@
 // Formats whose numbers have their high byte first.
-#include <bit>
 #include <cstring>
 
+#include "runtime/export/big_endian.h"
 #include "runtime/export/blocks.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/point_formats.h"
@@ -9,16 +9,6 @@
 namespace fw {
 
 namespace {
-
-char* putBig(char* out, uint32_t word) {
-    for (int shift = 24; shift >= 0; shift -= 8) *out++ = static_cast<char>(word >> shift);
-    return out;
-}
-char* putBig(char* out, float number) { return putBig(out, std::bit_cast<uint32_t>(number)); }
-char* putBig(char* out, const glm::vec3& vector) {
-    for (int k = 0; k < 3; ++k) out = putBig(out, vector[k]);
-    return out;
-}
 
 /// Writes words(out, i), so many for each point.
 template <class Words>
@@ -28,13 +18,6 @@ void writeWords(std::size_t points, std::size_t wordsOfOne, OutputFile& file, co
         return out;
     };
     writeBlocks(points, 4 * wordsOfOne, format, file);
-}
-
-std::string big(std::initializer_list<uint32_t> words) {
-    std::string bytes(4 * words.size(), '\0');
-    char* out = bytes.data();
-    for (const uint32_t word : words) out = putBig(out, word);
-    return bytes;
 }
 
 }  // namespace

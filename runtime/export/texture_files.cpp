@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -25,9 +24,10 @@ std::vector<const char*> rolesOf(const std::string& path) {
     return {kBaseColor, kSurface, kNormal, kEmission};
 }
 
-std::string fileOf(const std::string& path, const char* role) {
-    return std::filesystem::path(path).stem().string() + "_" + lowerExtension(path).substr(1) + "_" + role +
-           ".png";
+std::string fileOf(const std::string& path, const char* role, std::size_t set) {
+    const std::string number = set == 0 ? "" : std::to_string(set + 1) + "_";
+    return std::filesystem::path(path).stem().string() + "_" + lowerExtension(path).substr(1) + "_" + number +
+           role + ".png";
 }
 
 std::string pngOf(const std::vector<uint8_t>& pixels, int size, int channels) {
@@ -54,10 +54,12 @@ bool hasTextures(const std::string& path) {
     return format && format->parts;
 }
 
-std::vector<TextureImage> textureImages(const MeshTextures& textures, const std::string& path) {
+std::vector<TextureImage> textureImages(const MeshTextures& textures, const std::string& path,
+                                        std::size_t set) {
     std::vector<TextureImage> images;
     for (const char* role : rolesOf(path))
-        if (role != kEmission || !textures.emission.empty()) images.push_back({role, fileOf(path, role), {}});
+        if (role != kEmission || !textures.emission.empty())
+            images.push_back({role, fileOf(path, role, set), {}});
     forBlocks(images.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
         const std::string_view role = images[i].role;
         const bool one = role == kRoughness || role == kMetallic;
@@ -71,44 +73,54 @@ std::vector<TextureImage> textureImages(const MeshTextures& textures, const std:
     return images;
 }
 
+uint64_t bytesOf(const std::vector<TextureImage>& images) {
+    uint64_t bytes = 0;
+    for (const TextureImage& image : images) bytes += image.png.size();
+    return bytes;
+}
+
 std::vector<std::string> texturePaths(const std::string& path) {
     std::vector<std::string> paths;
     if (!hasTextures(path) || lowerExtension(path) == ".glb") return paths;
     for (const char* role : rolesOf(path))
-        paths.push_back((std::filesystem::path(path).parent_path() / fileOf(path, role)).string());
+        paths.push_back((std::filesystem::path(path).parent_path() / fileOf(path, role, 0)).string());
     return paths;
 }
 
-void addTextures(nlohmann::json& document, const MeshTextures& textures,
-                 const std::vector<TextureImage>& images, bool inBuffer) {
+TextureNumbers addTextures(nlohmann::json& document, const std::vector<TextureImage>& images,
+                           std::optional<uint64_t> inBuffer) {
     using nlohmann::json;
-    auto& bytes = document["buffers"][0]["byteLength"];
-    std::map<std::string_view, json> textureOf;  // as a material refers to it
+    TextureNumbers numbers;
     document["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}};
     for (const TextureImage& image : images) {
         json entry = {{"name", image.role}};
         if (inBuffer) {
             document["bufferViews"].push_back(
-                {{"buffer", 0}, {"byteOffset", bytes}, {"byteLength", image.png.size()}});
-            bytes = bytes.get<uint64_t>() + image.png.size();
+                {{"buffer", 0}, {"byteOffset", *inBuffer}, {"byteLength", image.png.size()}});
+            *inBuffer += image.png.size();
             entry["bufferView"] = document["bufferViews"].size() - 1;
             entry["mimeType"] = "image/png";
         } else {
             entry["uri"] = percentEncoded(image.file);
         }
-        textureOf[image.role] = {{"index", textureOf.size()}};
         document["images"].push_back(entry);
         document["textures"].push_back({{"sampler", 0}, {"source", document["images"].size() - 1}});
+        numbers[image.role] = document["textures"].size() - 1;
     }
+    return numbers;
+}
+
+void showTextures(nlohmann::json& document, const MeshTextures& textures, const TextureNumbers& numbers) {
+    using nlohmann::json;
+    const auto shown = [&](const char* role) { return json{{"index", numbers.at(role)}}; };
     const float strength = textures.emissionStrength;
     for (json& material : document["materials"]) {
-        json& surface = material["pbrMetallicRoughness"];
-        surface = {{"baseColorTexture", textureOf[kBaseColor]},
-                   {"metallicRoughnessTexture", textureOf[kSurface]}};
-        material["occlusionTexture"] = textureOf[kSurface];
-        material["normalTexture"] = textureOf[kNormal];
+        material["pbrMetallicRoughness"] = {{"baseColorTexture", shown(kBaseColor)},
+                                            {"metallicRoughnessTexture", shown(kSurface)}};
+        material["occlusionTexture"] = shown(kSurface);
+        material["normalTexture"] = shown(kNormal);
         if (textures.emission.empty()) continue;
-        material["emissiveTexture"] = textureOf[kEmission];
+        material["emissiveTexture"] = shown(kEmission);
         const double factor = std::min(strength, 1.0f);
         material["emissiveFactor"] = {factor, factor, factor};
         if (strength <= 1.0f) continue;

@@ -423,6 +423,11 @@ std::string writeReport(const Report& report) {
     };
     sampled("meshToSurface", report.meshToSurface);
     sampled("surfaceToMesh", report.surfaceToMesh);
+    for (const LevelReport& level : report.levels)
+        out["levels"].push_back({{"name", level.name},
+                                 {"vertices", level.vertices},
+                                 {"triangles", level.triangles},
+                                 {"error", level.error}});
     out["capped"] = report.capped;
     out["stages"] = nlohmann::ordered_json::object();
     for (const auto& [name, milliseconds] : report.stages) out["stages"][name] = milliseconds;

@@ -52,6 +52,13 @@ struct SampledDistance {
     uint64_t samples = 0;
 };
 
+/// A level of detail, and the largest distance between it and the field's surface, metres.
+struct LevelReport {
+    std::string name;
+    uint64_t vertices = 0, triangles = 0;
+    double error = 0;
+};
+
 struct Report {
     uint64_t vertices = 0;             ///< welded, used by a triangle that is not collapsed
     uint64_t triangles = 0;            ///< as the file lists them, collapsed ones included
@@ -75,6 +82,9 @@ struct Report {
     /// From points spread evenly over the mesh's area to the surface; from points of the surface, found
     /// without regard to the mesh, to its nearest triangle (field_measure.h).
     std::optional<SampledDistance> meshToSurface, surfaceToMesh;
+
+    /// Of a file of several levels of detail, all of them; what is above is that of the finest.
+    std::vector<LevelReport> levels = {};
 
     // The run that made the file: the caller fills these in.
     std::string unit = "m", fileLengths = {};            ///< of the lengths here; of those in the file

@@ -266,6 +266,19 @@ std::optional<std::array<float, N>> numbersOf(const json& node, const char* key,
     return fallback;
 }
 
+/// Whether the node's name ends as that of a level of detail behind the finest, _LOD1 and on: it stands where
+/// that one does.
+bool isCoarserLevel(const json& node) {
+    const auto name = node.find("name");
+    if (name == node.end() || !name->is_string()) return false;
+    const auto& text = name->get_ref<const std::string&>();
+    const std::size_t last = text.rfind("_LOD");
+    if (last == std::string::npos) return false;
+    const std::string_view number = std::string_view(text).substr(last + 4);
+    return !number.empty() && number != "0" &&
+           number.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 /// The nodes of the scene, and what of meshes they show.
 struct SceneReader {
     GltfReader reader;
@@ -290,6 +303,7 @@ struct SceneReader {
         if (!of) return reader.fault("a node is missing");
         if (depth > kMaxJsonDepth || ++visited > reader.document["nodes"].size())
             return reader.fault("its nodes are no tree, or a deep one");
+        if (isCoarserLevel(*of)) return done();
         if (of->contains("matrix")) return reader.fault("nodes with matrices are not read back");
         const auto move = numbersOf<3>(*of, "translation", {0, 0, 0}),
                    size = numbersOf<3>(*of, "scale", {1, 1, 1});

@@ -54,6 +54,7 @@ std::vector<Mesh> separateParts(const Mesh& mesh) {
             separate.back().baseColor = mesh.baseColor;
             separate.back().material = mesh.material;
             separate.back().materialName = mesh.materialName;
+            separate.back().textures = mesh.textures;
         }
         return separate[number];
     };

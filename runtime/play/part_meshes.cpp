@@ -67,7 +67,7 @@ bool pointsWithin(const AskedPart& points, const glm::dmat4& from, const AskedPa
 }  // namespace
 
 Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNode> nodes, double cellSize,
-                                         PlayerOptions options) {
+                                         PlayerOptions options, MaterialParts parts) {
     std::vector<PartMesh> meshes(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i].part.nodes.empty()) continue;
@@ -83,7 +83,7 @@ Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNod
         options.resolution =
             std::clamp(int(std::ceil(longestSide(region) / cellSize)), kFewestCells, kMostCells);
         if (const Done set = player.reload(nodes[i].part, options); !set) return named(set.error());
-        Result<Mesh> mesh = player.mesh(MaterialParts::whole);
+        Result<Mesh> mesh = player.mesh(parts);
         if (!mesh) return named(mesh.error());
         if (mesh->indices.empty()) return named({.message = "it is empty, or smaller than a cell"});
         meshes[i] = {std::move(*mesh), player.programOnHost()};

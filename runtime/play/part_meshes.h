@@ -15,10 +15,10 @@ struct PartMesh {
 };
 
 /// A mesh for every node that is a part, in cells of `cellSize` metres, made by a player, which is left with
-/// the last of them; of what carries others an empty one. Errors: as of Player::reload() and mesh(), with the
-/// part's name; a part that is empty.
+/// the last of them; of what carries others an empty one. `parts` as of Player::mesh(). Errors: as of
+/// Player::reload() and mesh(), with the part's name; a part that is empty.
 Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNode> nodes, double cellSize,
-                                         PlayerOptions options);
+                                         PlayerOptions options, MaterialParts parts);
 
 /// From each node's own space into the document's, at the moment of that number.
 std::vector<glm::dmat4> placesAt(std::span<const PartNode> nodes, std::size_t moment);

@@ -99,6 +99,7 @@ Result<Player::Prepared> Player::prepare(Graph graph, const PlayerOptions& wishe
     CompileOptions compileOptions;
     compileOptions.bake = bake;
     compileOptions.triangles = wishes.triangles;
+    compileOptions.byShape = wishes.byShape;
     std::set<std::string> exposed = wishes.live;
     if (wishes.liveParameters)
         for (const NamedParameter& parameter : namedParameters(graph))
@@ -367,6 +368,14 @@ Result<Mesh> Player::mesh(MaterialParts parts) {
         const Result<MesherResult> result = makeMesh(true);
         if (!result) return result.error();
         return session.download(*result, parts);
+    });
+}
+
+Result<std::vector<Mesh>> Player::levels(std::size_t count, MaterialParts parts) {
+    return halvedIfFull([&]() -> Result<std::vector<Mesh>> {
+        const Result<MesherResult> result = makeMesh(true);
+        if (!result) return result.error();
+        return session.downloadLevels(*result, count, parts);
     });
 }
 

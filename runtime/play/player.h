@@ -46,9 +46,10 @@ struct PlayerOptions {
     std::optional<Box> region = {};         ///< metres; none: found
     int resolution = 0;                     ///< cells along the region's longest side; 0: the graph's
     std::optional<MeshMethod> method = {};  ///< none: the graph's
-    int triangles = 0;                      ///< as CompileOptions has it
-    bool liveParameters = true;             ///< set() uploads; otherwise it compiles, and the field is faster
-    std::set<std::string> live = {};        ///< further inputs, "node.input", that reload() uploads
+    int triangles = 0;                      ///< as CompileOptions has it, and so with
+    bool byShape = false;
+    bool liveParameters = true;       ///< set() uploads; otherwise it compiles, and the field is faster
+    std::set<std::string> live = {};  ///< further inputs, "node.input", that reload() uploads
     /// Nothing waits for kernels to be compiled: until they are there, meshes are made on the host and
     /// pictures are drafts (Session::replaceProgram).
     bool compileBehind = false;
@@ -106,6 +107,8 @@ class Player {
     /// The mesh now, copied to the host; without triangles where the solid is empty. Errors as
     /// Session::polygonise. With `parts`, where the material varies, each part has its own (partByMaterial).
     Result<Mesh> mesh(MaterialParts parts = MaterialParts::none);
+    /// The same and coarser levels of it: Session::downloadLevels().
+    Result<std::vector<Mesh>> levels(std::size_t count, MaterialParts parts = MaterialParts::none);
     /// The same where the mesher left it on the device: in deviceMesh(), until the next call of anything.
     /// That of a picture that showsParticles() lacks their surfaces.
     Result<MesherResult> meshOnDevice(uint32_t show = RENDER_PICTURE);

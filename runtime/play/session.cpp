@@ -14,6 +14,7 @@
 #include "runtime/mesh/split_materials.h"
 #include "runtime/mesher/host.h"
 #include "runtime/stages/decimate.h"
+#include "runtime/stages/levels_of_detail.h"
 #include "runtime/stages/project_host.h"
 #include "runtime/system/behind.h"
 #include "runtime/system/clock.h"
@@ -377,8 +378,9 @@ Done Session::runStages(MesherResult& result, const Box& region, const Program* 
     config.decimate = [&](Mesh& mesh, const MeshStage& stage) {
         if (!measured) measured = onHost();
         if (stage.error > 0.0 && !measure) measure = measureOf(*measured, region);
+        if (stage.byShape) mesh.colors.clear();
         return decimate(mesh, {stage.error, std::size_t(stage.triangles)}, measure.value_or(MeasureOptions{}),
-                        materialsOfVertices(mesh, *measured));
+                        stage.byShape ? std::vector<uint32_t>() : materialsOfVertices(mesh, *measured));
     };
     return runMeshStages(*gpu, stageBuffers, buffers, result, current.stages, config);
 }
@@ -415,7 +417,31 @@ std::string Session::materialName() const {
 }
 
 Mesh Session::download(const MesherResult& result, MaterialParts wanted) const {
-    Mesh mesh = downloadMesh(*gpu, buffers, result);
+    return finished(downloadMesh(*gpu, buffers, result), result.creases, wanted);
+}
+
+std::vector<Mesh> Session::downloadLevels(const MesherResult& result, std::size_t levels,
+                                          MaterialParts wanted) const {
+    if (levels == 1) return {download(result, wanted)};
+    Mesh finest = downloadMesh(*gpu, buffers, result);
+    // Where textures tell what it looks like, no border needs triangles.
+    const bool textured = wanted == MaterialParts::besideTextures;
+    const Program program = onHost();
+    const auto labels = [&](const Mesh& level) {
+        return textured ? std::vector<uint32_t>() : materialsOfVertices(level, program);
+    };
+    std::vector<glm::vec3> colors = textured ? std::exchange(finest.colors, {}) : std::vector<glm::vec3>();
+    std::vector<Mesh> made = coarserLevels(finest, levels - 1, labels);
+    if (textured) finest.colors = std::move(colors);
+    const bool smoothed = std::ranges::any_of(current.stages, [](const MeshStage& stage) {
+        return stage.kind == MeshStage::Kind::smooth && stage.times > 0;
+    });
+    for (Mesh& level : made) level = finished(std::move(level), !smoothed, wanted);
+    made.insert(made.begin(), finished(std::move(finest), result.creases, wanted));
+    return made;
+}
+
+Mesh Session::finished(Mesh mesh, bool creases, MaterialParts wanted) const {
     mesh.baseColor = baseColor();
     mesh.material = material();
     mesh.materialName = materialName();
@@ -423,7 +449,7 @@ Mesh Session::download(const MesherResult& result, MaterialParts wanted) const {
     const Program program = parts ? onHost() : Program();
     std::vector<glm::vec3> places;
     if (parts && wanted == MaterialParts::cut) places = splitMaterials(mesh, program);
-    if (result.creases) splitCreases(mesh);
+    if (creases) splitCreases(mesh);
     if (parts && places.empty()) places = middlesOf(mesh);
     if (parts) partByMaterial(mesh, program, places, wanted == MaterialParts::besideTextures);
     return mesh;

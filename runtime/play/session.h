@@ -117,6 +117,10 @@ class Session {
     /// The last mesh, with the program's material. Where it has sharp edges, vertices on them are doubled.
     /// With `parts`, where the material varies, each part of the mesh has its own (partByMaterial).
     Mesh download(const MesherResult& result, MaterialParts parts = MaterialParts::none) const;
+    /// The last mesh and coarser levels of it, up to so many in all (stages/levels_of_detail.h); as
+    /// download().
+    std::vector<Mesh> downloadLevels(const MesherResult& result, std::size_t levels,
+                                     MaterialParts parts = MaterialParts::none) const;
     const MesherBuffers& meshBuffers() const { return buffers; }
     /// Another number if mesh or field differ from what they were at another.
     uint64_t contentNumber() const { return content; }
@@ -142,6 +146,8 @@ class Session {
 
   private:
     void take(Program program);
+    /// What download() does to a mesh as it lies on the device.
+    Mesh finished(Mesh mesh, bool creases, MaterialParts parts) const;
     void dropRenderer();
     /// Of the surface, if it is the same everywhere, else of the default material.
     float constant(int component) const;

@@ -20,7 +20,9 @@ constexpr uint32_t kNoOne = ~0u;
 constexpr double kShare = 0.4;      // of the vertices that could go, of which a round takes some
 constexpr double kFew = 0.05;       // of a round: if fewer went, the next one takes from all
 constexpr double kStart = 0.25;     // of an edge: the distance with which it begins, if it may grow
-constexpr double kRough = 8;        // edges: if it grows beyond them, only the number matters
+constexpr double kRough = 8;        // edges: if it grows beyond them, creases and borders are given up,
+constexpr double kLittle = 0.1;     // and also if fewer of the triangles went for a distance twice as large
+constexpr double kMost = 0.25;      // of the mesh's size, beyond which it does not grow
 constexpr double kSamples = 65536;  // points at which all of the surface would be asked
 constexpr int kMostSamples = 256;   // of a triangle
 constexpr float kFaces = 0.01f;     // the least cosine to a direction that a triangle faces along
@@ -420,8 +422,12 @@ void Rounds::compact() {
 std::vector<uint32_t> Rounds::run() {
     if (limits.fromSurface) askSurface();
     tried.assign(state.positions.size(), -1.0f);
-    const double enough = std::min(limits.distance, 1e4 * state.edge * std::sqrt(double(state.triangles())));
-    distance = limits.triangles > 0 ? std::min(kStart * state.edge, enough) : enough;
+    const bool grows = limits.triangles > 0, bound = std::isfinite(limits.distance);
+    const double any = 1e4 * state.edge * std::sqrt(double(state.triangles()));
+    const double enough = std::min(limits.distance, grows ? kMost * state.size : any);
+    const double start = grows ? std::min(kStart * state.edge, enough) : enough;
+    distance = start;
+    std::size_t before = 2 * state.triangles();  // the distance grew for the last time
     for (bool all = false; !reached();) {
         choose(all);
         std::size_t gone = 0;
@@ -434,8 +440,14 @@ std::vector<uint32_t> Rounds::run() {
         }
         const bool few = double(gone) < kFew * double(chosen.size()) || chosen.empty();
         if (few && (all || chosen.empty()) && distance < enough) {
-            distance = std::min(2.0 * distance, enough);
-            state.features = std::isfinite(limits.distance) || distance < kRough * state.edge;
+            const bool little = double(state.triangles()) > (1.0 - kLittle) * double(before);
+            if (!bound && state.features && (little || 2.0 * distance >= kRough * state.edge)) {
+                state.features = false;
+                distance = start;
+            } else {
+                distance = std::min(2.0 * distance, enough);
+            }
+            before = state.triangles();
             std::ranges::fill(tried, -1.0f);
             all = false;
         } else if (chosen.empty()) {

@@ -120,7 +120,7 @@ bool CollapseState::keepsLook(const CarriedPoints::Point& point, std::span<const
 
 bool CollapseState::keepsPoints(const Collapse& collapse, double distance) const {
     const std::span<const Spoke> star = stars.at(collapse.from);
-    const bool looks = !colors.empty() || !labels.empty();
+    const bool looks = features && (!colors.empty() || !labels.empty());
     const glm::dvec3 apex = placeOf(collapse.to);
     const auto kept = [&](const CarriedPoints::Point& point) {
         const double within = std::min(distance, double(point.allowance));

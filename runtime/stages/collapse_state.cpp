@@ -78,6 +78,7 @@ CollapseState::CollapseState(const Mesh& mesh, const CollapseLimits& limits) {
         if (finite(mesh.positions[index])) bounds.add(mesh.positions[index]);
     if (!(bounds.lo.x <= bounds.hi.x)) bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
     middle = 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
+    size = glm::distance(bounds.lo, bounds.hi);
     triangleNumbers = alongCurve(mesh, bounds);
     std::vector<uint32_t> numbers(mesh.positions.size(), ~0u);
     indices.reserve(3 * triangleNumbers.size());

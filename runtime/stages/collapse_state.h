@@ -45,6 +45,7 @@ struct CollapseState {
     std::vector<float> areas;       ///< of the triangles that they stand for
     CarriedPoints carried{0};
     glm::dvec3 middle{0.0};
+    double size = 0.0;     ///< of the mesh's box from corner to corner
     double edge = 0.0;     ///< mean length of the mesh's edges as it was
     bool closed = true;    ///< the stars of all vertices are
     bool features = true;  ///< creases and borders are kept

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kRoundsOfOverlap = 4;
 
-/// In its plane, as large as it is in space.
-FlatChart flatChart(const Mesh& mesh, glm::vec3 axis, std::span<const uint32_t> triangles) {
+/// In its plane, as large as it is in space, times `larger`.
+FlatChart flatChart(const Mesh& mesh, glm::vec3 axis, std::span<const uint32_t> triangles, float larger) {
     const auto [right, up] = planeOf(axis);
     FlatChart flat;
     double area = 0, projected = 0;
@@ -29,7 +29,7 @@ FlatChart flatChart(const Mesh& mesh, glm::vec3 axis, std::span<const uint32_t> 
         area += glm::length(cross);
         projected += std::abs(glm::dot(cross, glm::dvec3(axis)));
     }
-    const float scale = projected > 0 ? float(std::sqrt(area / projected)) : 1.0f;
+    const float scale = larger * (projected > 0 ? float(std::sqrt(area / projected)) : 1.0f);
     for (const uint32_t t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::vec3 p = mesh.positions[mesh.indices[3 * std::size_t(t) + k]];
@@ -79,13 +79,16 @@ struct Layout {
     Packing packing;
 };
 
-std::optional<Layout> layOut(const Mesh& mesh, const Charts& charts, int size) {
+std::optional<Layout> layOut(const Mesh& mesh, const Charts& charts, int size,
+                             std::span<const float> scales) {
     Layout layout{.triangles = std::vector<std::vector<uint32_t>>(charts.count()), .packing = {}};
     for (uint32_t t = 0; t < charts.ofTriangle.size(); ++t)
         layout.triangles[charts.ofTriangle[t]].push_back(t);
     std::vector<FlatChart> flat;
-    for (std::size_t i = 0; i < charts.count(); ++i)
-        flat.push_back(flatChart(mesh, charts.axes[i], layout.triangles[i]));
+    for (std::size_t i = 0; i < charts.count(); ++i) {
+        const float larger = scales.empty() ? 1.0f : scales[layout.triangles[i].front()];
+        flat.push_back(flatChart(mesh, charts.axes[i], layout.triangles[i], larger));
+    }
     std::optional<Packing> packing = pack(flat, size);
     if (!packing) return std::nullopt;
     layout.packing = std::move(*packing);
@@ -117,14 +120,14 @@ std::vector<uint32_t> overlapping(const Layout& layout, int size) {
 
 }  // namespace
 
-Result<Unwrapping> unwrap(Mesh mesh, int size) {
+Result<Unwrapping> unwrap(Mesh mesh, int size, std::span<const float> scales) {
     Unwrapping made{.charts = chartsOf(mesh)};
-    std::optional<Layout> layout = layOut(mesh, made.charts, size);
+    std::optional<Layout> layout = layOut(mesh, made.charts, size, scales);
     for (int round = 0; layout && round < kRoundsOfOverlap; ++round) {
         const std::vector<uint32_t> over = overlapping(*layout, size);
         if (over.empty()) break;
         splitOff(made.charts, mesh, over);
-        layout = layOut(mesh, made.charts, size);
+        layout = layOut(mesh, made.charts, size, scales);
     }
     if (!layout)
         return Error{.message = "the mesh falls into " + std::to_string(made.charts.count()) +

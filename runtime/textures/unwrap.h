@@ -9,6 +9,8 @@
 // outside u runs right where v runs down.
 #pragma once
 
+#include <span>
+
 #include "graph/base/result.h"
 #include "runtime/textures/charts.h"
 
@@ -23,7 +25,9 @@ struct Unwrapping {
     double covered = 0;  ///< share of the texture
 };
 
-/// For a texture of `size` x `size` texels. Errors: more charts than so few texels have room for.
-Result<Unwrapping> unwrap(Mesh mesh, int size);
+/// For a texture of `size` x `size` texels. `scales` has for each triangle how large it is to be there beside
+/// others, the same for all that hang together; none: 1. Errors: more charts than so few texels have room
+/// for.
+Result<Unwrapping> unwrap(Mesh mesh, int size, std::span<const float> scales = {});
 
 }  // namespace fw

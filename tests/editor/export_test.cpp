@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
 #include "editor/files/export_job.h"
 #include "editor/panels/export_dialog.h"
 #include "graph/document/json.h"
+#include "graph/document/unit.h"
 #include "tests/support/command.h"
 #include "tests/support/faults.h"
 #include "tests/support/graph/temp_dir.h"
@@ -46,7 +48,8 @@ TEST(Export, GivesTheBytesOfTheCommand) {
         std::vector<std::string> options;
         MeshRequest mesh = {};
         double seconds = 0.0;
-        bool manifold = false;
+        MeshWish file = {};
+        int triangles = 0;
     };
     const Case cases[] = {
         {"tower", ".glb", {}},
@@ -59,12 +62,26 @@ TEST(Export, GivesTheBytesOfTheCommand) {
          {Box{{-0.5, -0.6, -0.7}, {0.8, 0.9, 1}}, 60}},
         {"brick_block", ".3mf", {"--resolution", "50"}, {{}, 50}},
         {"mushroom", ".vdb", {"--resolution", "60"}, {{}, 60}},
-        {"moving_booleans", ".glb", {"--resolution", "50", "--manifold"}, {{}, 50}, 0.0, true},
+        {"moving_booleans", ".glb", {"--resolution", "50", "--manifold"}, {{}, 50}, 0.0, {.manifold = true}},
+        {"csg_part",
+         ".glb",
+         {"--lods", "3", "--textures", "64", "--compress", "--triangles", "4000", "--resolution", "40"},
+         {{}, 40},
+         0.0,
+         {.compress = true, .textures = 64, .lods = 3},
+         4000},
+        {"table_and_stool", ".gltf", {"--parts", "--resolution", "40"}, {{}, 40}, 0.0, {.parts = true}},
+        {"talk_1_box",
+         ".stl",
+         {"--unit", "cm", "--up", "z", "--resolution", "30"},
+         {{}, 30},
+         0.0,
+         {.placement = {.unit = "cm", .up = "z"}}},
     };
     for (const Case& each : cases) {
         SCOPED_TRACE(each.sample);
         const std::string name = std::string(each.sample) + each.ending;
-        std::filesystem::create_directory(folder.path(each.sample));
+        std::filesystem::create_directories(folder.path(each.sample));
         // Files beside each other name each other, so both exports have the same name in folders of their
         // own.
         const std::string mine = folder.path(std::string(each.sample) + "/" + name),
@@ -77,7 +94,8 @@ TEST(Export, GivesTheBytesOfTheCommand) {
                        .path = mine,
                        .mesh = each.mesh,
                        .seconds = each.seconds,
-                       .manifold = each.manifold},
+                       .file = each.file,
+                       .triangles = each.triangles},
                       {});
         const ExportState state = finish(job);
         ASSERT_EQ(state.phase, Phase::done) << (state.problems.empty() ? "" : format(state.problems[0]));
@@ -95,7 +113,9 @@ TEST(Export, GivesTheBytesOfTheCommand) {
         if (!exportFormat(mine)->measurable) continue;
         ASSERT_TRUE(measured);
         EXPECT_EQ(state.report.triangles, measured->triangles);
-        EXPECT_NEAR(state.report.volume, measured->volume, 1e-5 * std::abs(measured->volume));
+        const Result<Placement> placement = placementOf(mine, *lengthUnit("m"), each.file.placement);
+        EXPECT_NEAR(state.report.volume * std::pow(placement->scale, 3), measured->volume,
+                    (each.file.compress ? 1e-3 : 1e-5) * std::abs(measured->volume));
     }
 }
 

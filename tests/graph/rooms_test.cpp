@@ -40,10 +40,11 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/textures", "graph mesh"},
     {"runtime/export", "graph system mesh measure mesher"},
     {"runtime/play", "graph system gpu mesh measure bake mesher stages particles render export"},
+    {"runtime/files", "graph system mesh export textures"},
     {"runtime/pictures", "graph system render export play"},
     {"runtime/window", "graph gpu render"},
     {"runtime/jobs", "graph system"},
-    {"runtime/cli", "graph system gpu measure bake textures render export play pictures window jobs"},
+    {"runtime/cli", "graph system gpu measure bake textures render export files play pictures window jobs"},
 
     {"editor", "graph runtime"},
 };

@@ -163,6 +163,24 @@ TEST(Collapse, ABorderBetweenColoursStaysWhereItIs) {
     EXPECT_GT(widthOfBorder(mesh, collapse(plain, {.triangles = 1000})), 2.0 * cell);
 }
 
+// Where borders need more triangles than are wanted, they are given up before the shape is.
+TEST(Collapse, FewerTrianglesThanItsBordersNeedKeepTheShape) {
+    Mesh mesh = test::torus(200, 80);
+    const double whole = reportOn(mesh, mesh.indices).volume;
+    for (const glm::vec3& p : mesh.positions)  // dots all over it
+        mesh.colors.push_back(std::sin(20.0f * p.x) * std::sin(20.0f * p.y) * std::sin(20.0f * p.z) > 0.2f
+                                  ? glm::vec3(1)
+                                  : glm::vec3(1, 0, 0));
+    for (const std::size_t wanted : {2000u, 600u}) {
+        const Report report = reportOn(mesh, collapse(mesh, {.triangles = wanted}));
+        EXPECT_LE(report.triangles, wanted);
+        EXPECT_GT(report.volume, 0.93 * whole) << wanted;
+        EXPECT_LT(report.volume, 1.02 * whole) << wanted;
+        EXPECT_EQ(report.selfIntersections, 0u);
+        EXPECT_TRUE(report.closedManifold());
+    }
+}
+
 TEST(Collapse, ABorderBetweenMaterialsStaysWhereItIs) {
     Mesh mesh = test::torus(200, 80);
     std::vector<uint32_t> labels;

@@ -12,6 +12,7 @@
 #include "runtime/measure/mesh_report.h"
 #include "runtime/mesh/separate_parts.h"
 #include "tests/support/command.h"
+#include "tests/support/glb.h"
 #include "tests/support/gltf_validator.h"
 #include "tests/support/graph/temp_dir.h"
 
@@ -200,6 +201,24 @@ TEST_F(MeshForm, PartsAreNodes) {
         EXPECT_EQ(document["nodes"][2]["name"], "a_2");
         test::expectValidGltf({file}, more.empty());
     }
+}
+
+TEST_F(MeshForm, PartsAndCompressedMeshesHaveTextures) {
+    for (const char* how : {"--parts", "--compress"})
+        for (const char* name : {"a.gltf", "a.glb"}) {
+            const std::string file = folder.path(name);
+            const json report = reported(file, {how, "--textures", "64"});
+            expectHolds(file, 0.001, false);
+            const std::string text = readText(file);
+            const json document = name == std::string("a.glb") ? test::jsonOfGlb(text) : json::parse(text);
+            EXPECT_EQ(document["images"].size(), 3u) << how << name;
+            for (const json& mesh : document["meshes"])
+                EXPECT_TRUE(mesh["primitives"][0]["attributes"].contains("TEXCOORD_0"));
+            for (const json& material : document["materials"])
+                EXPECT_EQ(material["normalTexture"]["index"], 2) << how << name;
+            test::expectValidGltf({file}, how == std::string("--parts"));
+        }
+    EXPECT_TRUE(std::filesystem::exists(folder.path("a_gltf_normal.png")));
 }
 
 TEST_F(MeshForm, WhatAFormatLacksIsRefused) {

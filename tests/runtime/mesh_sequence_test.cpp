@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -12,10 +13,12 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <sstream>
 
 #include "runtime/export/whole.h"
 #include "runtime/measure/mesh_report.h"
 #include "tests/support/command.h"
+#include "tests/support/glb.h"
 #include "tests/support/gltf_validator.h"
 #include "tests/support/graph/temp_dir.h"
 
@@ -23,6 +26,8 @@ namespace fw::mesh_sequence_test {
 
 using test::CommandResult;
 using test::expectRefusal;
+using test::floatsOf;
+using test::jsonOfGlb;
 using test::namesIn;
 using test::readText;
 using test::runCommand;
@@ -64,31 +69,11 @@ struct MeshSequence : testing::Test {
     }
 };
 
-nlohmann::json jsonOf(const std::string& glb) {
-    uint32_t length = 0;
-    std::memcpy(&length, glb.data() + 12, 4);
-    return nlohmann::json::parse(glb.substr(20, length));
-}
-
-/// The floats of an accessor of a GLB whose buffers are not interleaved.
-std::vector<float> floatsOf(const std::string& glb, const nlohmann::json& document, std::size_t accessor) {
-    uint32_t length = 0;
-    std::memcpy(&length, glb.data() + 12, 4);
-    const nlohmann::json& of = document["accessors"][accessor];
-    const nlohmann::json& view = document["bufferViews"][of["bufferView"].get<std::size_t>()];
-    const std::size_t parts = of["type"] == "VEC4" ? 4 : of["type"] == "VEC3" ? 3 : 1;
-    std::vector<float> values(parts * of["count"].get<std::size_t>());
-    std::memcpy(values.data(),
-                glb.data() + 28 + length + view.value("byteOffset", 0u) + of.value("byteOffset", 0u),
-                values.size() * sizeof(float));
-    return values;
-}
-
 using Place = std::array<float, 3>;
 /// The places of the vertices below a height.
 std::set<Place> placesBelow(const std::string& path, float height) {
     const std::string glb = readText(path);
-    const nlohmann::json document = jsonOf(glb);
+    const nlohmann::json document = jsonOfGlb(glb);
     const std::vector<float> values =
         floatsOf(glb, document, document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
     std::set<Place> places;
@@ -168,7 +153,7 @@ TEST_F(MeshSequence, AFrameWithoutASolidIsAnEmptyFile) {
                   4 * std::filesystem::file_size(frame(at, 2, ending)))
             << ending;
     }
-    const nlohmann::json empty = jsonOf(readText(frame(folder.path("of_glb"), 2)));
+    const nlohmann::json empty = jsonOfGlb(readText(frame(folder.path("of_glb"), 2)));
     EXPECT_FALSE(empty.contains("meshes"));
     EXPECT_EQ(empty["nodes"].size(), 1u);
 }
@@ -203,7 +188,7 @@ TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
     const CommandResult made = exported(path, {"--animated"});
     EXPECT_EQ(made.status, 0) << made.errors;
     const std::string glb = readText(path);
-    const nlohmann::json document = jsonOf(glb);
+    const nlohmann::json document = jsonOfGlb(glb);
     ASSERT_EQ(document["animations"].size(), 1u);
     const nlohmann::json& animation = document["animations"][0];
     // The way back is the way there: five places for eight frames.
@@ -250,7 +235,7 @@ TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
     test::writeText(graph, kEaten);
     EXPECT_EQ(exported(path, {"--animated", "--to", "0.75"}).status, 0);
     const std::string eaten = readText(path);
-    const nlohmann::json gone = jsonOf(eaten);
+    const nlohmann::json gone = jsonOfGlb(eaten);
     EXPECT_EQ(gone["meshes"].size(), 1u);
     const std::size_t input = gone["animations"][0]["samplers"][0]["input"];
     EXPECT_EQ(floatsOf(eaten, gone, input), (std::vector<float>{0.0f, 0.25f}));
@@ -280,7 +265,7 @@ TEST_F(MeshSequence, PartsThatMoveAsWholesAreNodesThatMove) {
     const CommandResult made = exported(path, {"--animated"});
     EXPECT_EQ(made.status, 0) << made.errors;
     const std::string glb = readText(path);
-    const nlohmann::json document = jsonOf(glb);
+    const nlohmann::json document = jsonOfGlb(glb);
     // Named as in the graph, each behind what carries it; what carries nothing else is one with its part.
     std::map<std::string, nlohmann::json> nodes;
     for (const nlohmann::json& node : document["nodes"]) nodes[node["name"]] = node;
@@ -317,10 +302,147 @@ TEST_F(MeshSequence, PartsThatMoveAsWholesAreNodesThatMove) {
         other.replace(other.find(from), from.size(), to);
         test::writeText(graph, other);
         EXPECT_EQ(exported(path, {"--animated", "--to", "0.5"}).status, 0);
-        const nlohmann::json turns = jsonOf(readText(path));
+        const nlohmann::json turns = jsonOfGlb(readText(path));
         EXPECT_EQ(turns["meshes"].size(), 4u) << to;
         EXPECT_EQ(turns["animations"][0]["samplers"][0]["interpolation"], "STEP") << to;
     }
+}
+
+/// What a point cache holds: samples of places.
+struct CachedPoints {
+    std::vector<float> times;  ///< of .mdd
+    std::vector<std::vector<float>> samples;
+};
+
+CachedPoints readPc2(const std::string& bytes) {
+    EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2\0", 12));
+    std::array<uint32_t, 2> head{};
+    std::array<float, 2> frames{};
+    uint32_t samples = 0;
+    std::memcpy(head.data(), &bytes[12], 8);
+    std::memcpy(frames.data(), &bytes[20], 8);
+    std::memcpy(&samples, &bytes[28], 4);
+    EXPECT_EQ(head[0], 1u);
+    EXPECT_EQ(frames, (std::array{0.0f, 1.0f}));
+    EXPECT_EQ(bytes.size(), 32 + std::size_t(12) * head[1] * samples);
+    CachedPoints points;
+    for (uint32_t i = 0; i < samples; ++i) {
+        std::vector<float>& sample = points.samples.emplace_back(3 * head[1]);
+        std::memcpy(sample.data(), &bytes[32 + std::size_t(12) * head[1] * i], 12 * head[1]);
+    }
+    return points;
+}
+
+CachedPoints readMdd(const std::string& bytes) {
+    std::size_t at = 0;
+    const auto word = [&] {
+        uint32_t value = 0;
+        for (int i = 0; i < 4; ++i) value = value << 8 | uint8_t(bytes[at++]);
+        return value;
+    };
+    const auto number = [&] { return std::bit_cast<float>(word()); };
+    const uint32_t samples = word(), count = word();
+    EXPECT_EQ(bytes.size(), 8 + 4 * samples + std::size_t(12) * count * samples);
+    CachedPoints points;
+    for (uint32_t i = 0; i < samples; ++i) points.times.push_back(number());
+    for (uint32_t i = 0; i < samples; ++i)
+        for (uint32_t k = 0; k < 3 * count; ++k) {
+            if (k == 0) points.samples.emplace_back();
+            points.samples.back().push_back(number());
+        }
+    return points;
+}
+
+TEST_F(MeshSequence, WhatKeepsItsTrianglesIsAPointCache) {
+    test::writeText(graph, kGate);
+    for (const char* name : {"gate.pc2", "gate.mdd"}) {
+        const CommandResult made = exported(folder.path(name), {"--animated"});
+        EXPECT_EQ(made.status, 0) << made.errors;
+    }
+    EXPECT_EQ(folder.names(),
+              (std::vector<std::string>{"a.field.json", "gate.mdd", "gate.mtl", "gate.obj", "gate.pc2"}));
+    const CachedPoints points = readPc2(readText(folder.path("gate.pc2"))),
+                       same = readMdd(readText(folder.path("gate.mdd")));
+    EXPECT_EQ(points.samples, same.samples);
+    ASSERT_EQ(points.samples.size(), 8u);
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(same.times[i], float(i) / 8.0f);
+    // The mesh beside it is the first sample, point for point.
+    std::istringstream object(readText(folder.path("gate.obj")));
+    std::vector<float> places;
+    std::size_t faces = 0;
+    for (std::string line; std::getline(object, line); faces += line.starts_with("f "))
+        if (line.starts_with("v ")) {
+            std::istringstream words(line.substr(2));
+            std::array<float, 3> place{};
+            words >> place[0] >> place[1] >> place[2];
+            places.insert(places.end(), place.begin(), place.end());
+        }
+    EXPECT_GT(faces, 1000u);
+    ASSERT_EQ(places.size(), points.samples[0].size());
+    for (std::size_t i = 0; i < places.size(); ++i) ASSERT_NEAR(places[i], points.samples[0][i], 1e-6f);
+    // Each sample has the extent of the mesh of that frame.
+    EXPECT_EQ(exported(frames, {"--format", "obj", "--from", "0"}).status, 0);
+    for (int i : {0, 3, 7}) {
+        const Result<Report> report = reportOnFile(frame(frames, i, ".obj"));
+        ASSERT_TRUE(report);
+        std::array<float, 3> least{1e9f, 1e9f, 1e9f}, greatest{-1e9f, -1e9f, -1e9f};
+        const std::vector<float>& sample = points.samples[std::size_t(i)];
+        for (std::size_t k = 0; k < sample.size(); ++k) {
+            least[k % 3] = std::min(least[k % 3], sample[k]);
+            greatest[k % 3] = std::max(greatest[k % 3], sample[k]);
+        }
+        const double cell = 3.0 / 64;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(least[axis], report->boundsMin[axis], cell) << i << " " << axis;
+            EXPECT_NEAR(greatest[axis], report->boundsMax[axis], cell) << i << " " << axis;
+        }
+    }
+    // What rests keeps its triangles too; what grows into other triangles does not.
+    test::writeText(graph, kGraph);
+    EXPECT_EQ(exported(folder.path("still.mdd"), {"--animated", "--to", "0.2"}).status, 0);
+    test::writeText(graph, kEaten);
+    const CommandResult changed = exported(folder.path("eaten.pc2"), {"--animated"});
+    EXPECT_NE(changed.status, 0);
+    EXPECT_NE(changed.errors.find("write a .glb, or a mesh for every frame"), std::string::npos)
+        << changed.errors;
+    EXPECT_NE(changed.errors.find("frame 1"), std::string::npos) << changed.errors;
+    for (const char* without : {"--compress", "--parts", "--manifold"})
+        expectRefusal(exported(folder.path("no.pc2"), {"--animated", without}), 2, {".glb and .gltf alone"});
+    expectRefusal(exported(folder.path("no.pc2"), {"--animated", "--textures", "64"}), 2, {"--textures"});
+    expectRefusal(exported(folder.path("no.pc2"), {}), 2, {"no.pc2"});
+    for (const std::string& name : folder.names())
+        EXPECT_TRUE(!name.starts_with("eaten") && !name.starts_with("no")) << name;
+}
+
+TEST_F(MeshSequence, FramesHaveTexturesOfTheirOwn) {
+    const std::vector<std::string> few{"--to", "0.5", "--textures", "64"};
+    std::vector<std::string> asFiles = few;
+    asFiles.insert(asFiles.end(), {"--format", "gltf"});
+    ASSERT_EQ(exported(frames, asFiles).status, 0);
+    const std::vector<std::string> names = namesIn(frames);
+    for (const char* name :
+         {"000000.gltf", "000000.bin", "000000_gltf_base_color.png", "000001_gltf_normal.png"})
+        EXPECT_TRUE(std::ranges::count(names, name)) << name;
+    test::expectValidGltf({frame(frames, 0, ".gltf"), frame(frames, 1, ".gltf")});
+    // In one file too: of parts, each has its own.
+    std::vector<std::string> animated = few;
+    animated.push_back("--animated");
+    for (const char* file : {"moves.glb", "moves.gltf"}) {
+        ASSERT_EQ(exported(folder.path(file), animated).status, 0);
+        const std::string text = readText(folder.path(file));
+        const nlohmann::json document =
+            file == std::string("moves.glb") ? jsonOfGlb(text) : nlohmann::json::parse(text);
+        EXPECT_EQ(document["meshes"].size(), 1u) << "the balls are alike";
+        EXPECT_EQ(document["images"].size(), 3u);
+        test::expectValidGltf({folder.path(file)});
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder.path("moves_gltf_normal.png")));
+    // Meshes that differ have a set each.
+    test::writeText(graph, kGate);
+    ASSERT_EQ(exported(folder.path("gate.gltf"), animated).status, 0);
+    for (const char* name : {"gate_gltf_normal.png", "gate_gltf_2_normal.png", "gate_gltf_3_normal.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path(name))) << name;
+    test::expectValidGltf({folder.path("gate.gltf")});
 }
 
 TEST_F(MeshSequence, ASweepIsAMeshForEveryValue) {

@@ -627,7 +627,8 @@ TEST(Textures, TheCommandRefusesWhatCannotBe) {
     refused("a.glb", {"--textures", "many"}, 2, {"--textures"});
     refused("a.glb", {"--textures", "256", "--tiles", "2"}, 2,
             {"--textures is for a mesh that is made as a whole"});
-    refused("a", {"--textures", "256", "--from", "0", "--to", "1"}, 2, {"--textures"});
+    refused("a", {"--textures", "256", "--from", "0", "--to", "1", "--format", "stl"}, 2,
+            {"textures are in .glb, .gltf and .obj alone"});
     test::writeText(folder.path("none.field.json"),
                     R"({"fieldwright": 1, "nodes": [{"id": "s", "type": "sphere", "inputs": {"radius": -1}},
                     {"id": "out", "type": "output", "inputs": {"surface": {"from": "s"}}}]})");
