@@ -210,7 +210,8 @@ void Rounds::check() {
     });
 }
 
-/// Leaves out what would make an edge, or a triangle, that another makes too.
+/// Leaves out what would make an edge, or a triangle, that another makes too; and of a part of few triangles
+/// all but one, which are checked alone.
 void Rounds::claim() {
     std::size_t most = 0;
     for (const Collapse& one : chosen) most += state.stars.at(one.from).size();
@@ -221,6 +222,9 @@ void Rounds::claim() {
         if (refused[i]) continue;
         const auto [from, to, cost] = chosen[i];
         const std::span<const Spoke> star = state.stars.at(from);
+        refused[i] = std::ranges::any_of(state.fewFaces(chosen[i]).all(),
+                                         [&](uint32_t triangle) { return owners[triangle] != kNoOne; });
+        if (refused[i]) continue;
         made.clear();
         if (star.size() == 3) {
             for (const Spoke& spoke : star) made.emplace_back(spoke.next, spoke.previous);

@@ -11,7 +11,8 @@
 //    processors, and what it does depends on the mesh alone.
 //  * Each collapse is checked by itself, and one that is refused is only left out: the mesh stays closed and
 //    manifold (Dey, Edelsbrunner, Guha and Nekhayev, "Topology preserving edge contraction", 1999), no
-//    triangle turns over, none cuts another that did not before, whichever else of the round is done.
+//    triangle turns over, no part inside out, none cuts another that did not before, whichever else of the
+//    round is done.
 //    Where all that is near faces one way, that is known without looking at pairs of triangles
 //    (near_triangles.h), if the mesh is of a solid: none of its parts is inside twice.
 //  * Points of the mesh as it was stay near, and keep their colours (carried_points.h): a border between two

@@ -12,6 +12,7 @@ constexpr float kTurned = 0.25f;     // the least cosine between a triangle's no
 constexpr float kThin = 1e-3f;       // the least shape of a triangle, unless one there was as thin
 constexpr float kSliver = 0.02f;     // whose own normal says little
 constexpr double kOtherLook = 0.02;  // by which a point's colour may differ anyhow
+constexpr double kKept = 0.01;       // the least share of its volume that a part of few triangles keeps
 
 using Corners3 = std::array<glm::dvec3, 3>;
 
@@ -55,7 +56,8 @@ bool isNear(double wanted, const glm::dvec3& values, const Corners3& places, con
 }  // namespace
 
 bool CollapseState::allows(const Collapse& collapse, double distance) const {
-    return keepsTopology(collapse) && keepsFaces(collapse) && keepsPoints(collapse, distance);
+    return keepsTopology(collapse) && keepsFaces(collapse) && keepsInside(collapse) &&
+           keepsPoints(collapse, distance);
 }
 
 bool CollapseState::keepsTopology(const Collapse& collapse) const {
@@ -103,6 +105,38 @@ bool CollapseState::keepsFaces(const Collapse& collapse) const {
         kept = after.area > 0.0f && after.shape >= worst && turn > 0.0f;
     });
     return kept;
+}
+
+FewFaces CollapseState::fewFaces(const Collapse& collapse) const {
+    FewFaces part;
+    const auto add = [&](uint32_t vertex) {
+        for (const Spoke& spoke : stars.at(vertex)) {
+            if (std::ranges::find(part.all(), spoke.triangle()) != part.all().end()) continue;
+            if (part.count == part.triangles.size()) return false;
+            part.triangles[part.count++] = spoke.triangle();
+        }
+        return true;
+    };
+    bool few = closed && add(collapse.from) && add(collapse.to);
+    for (std::size_t i = 0; few && i < 3 * part.count; ++i)
+        few = add(indices[3 * std::size_t(part.triangles[i / 3]) + i % 3]);
+    return few ? part : FewFaces{};
+}
+
+bool CollapseState::keepsInside(const Collapse& collapse) const {
+    const FewFaces part = fewFaces(collapse);
+    double before = 0.0, after = 0.0;
+    for (const uint32_t triangle : part.all()) {
+        std::array<glm::dvec3, 3> old{}, made{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const uint32_t corner = indices[3 * std::size_t(triangle) + k];
+            old[k] = placeOf(corner) - placeOf(collapse.to);
+            if (corner != collapse.from) made[k] = old[k];
+        }
+        before += glm::dot(old[0], glm::cross(old[1], old[2]));
+        after += glm::dot(made[0], glm::cross(made[1], made[2]));
+    }
+    return part.count == 0 || after * before > kKept * before * before;
 }
 
 bool CollapseState::keepsLook(const CarriedPoints::Point& point, std::span<const uint32_t, 3> corners,

@@ -1,7 +1,9 @@
 // What a collapse knows of the mesh between two rounds, and whether one vertex may go onto another.
 #pragma once
 
+#include <array>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "runtime/stages/carried_points.h"
 #include "runtime/stages/collapse.h"
@@ -23,6 +25,14 @@ CollapseFace faceOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 struct Collapse {
     uint32_t from, to;
     float cost;
+};
+
+/// The triangles of a part of the mesh that touches no other, if there are few: it could turn inside out
+/// while each of them turns only a little.
+struct FewFaces {
+    std::array<uint32_t, 16> triangles{};
+    std::size_t count = 0;  ///< 0: there are more
+    std::span<const uint32_t> all() const { return {triangles.data(), count}; }
 };
 
 struct CollapseState {
@@ -57,8 +67,10 @@ struct CollapseState {
     void findAround();
     /// The neighbours onto which a vertex may go as far as creases and borders say, cheapest first.
     void findOptions(uint32_t vertex, std::vector<Collapse>& options) const;
-    /// Whether the mesh stays closed and manifold, its triangles as they face, and its points within
-    /// `distance` of it and their allowances.
+    /// Of the part in which it is.
+    FewFaces fewFaces(const Collapse& collapse) const;
+    /// Whether the mesh stays closed and manifold, its triangles as they face, its parts outside out, and its
+    /// points within `distance` of it and their allowances.
     bool allows(const Collapse& collapse, double distance) const;
 
   private:
@@ -69,6 +81,7 @@ struct CollapseState {
     void carryPoints(const CollapseLimits& limits);
     bool keepsTopology(const Collapse& collapse) const;
     bool keepsFaces(const Collapse& collapse) const;
+    bool keepsInside(const Collapse& collapse) const;
     bool keepsPoints(const Collapse& collapse, double distance) const;
     bool keepsLook(const CarriedPoints::Point& point, std::span<const uint32_t, 3> corners,
                    const glm::dvec3& weights, double distance) const;

@@ -67,6 +67,24 @@ TEST(Collapse, CreasesStayThoughTheDistanceWouldAllowMore) {
     EXPECT_NEAR(report.volume, 8.0, 1e-9);
 }
 
+TEST(Collapse, NoPartTurnsInsideOutOnTheWayToATetrahedron) {
+    std::mt19937 random(3);
+    for (int number = 0; number < 200; ++number) {
+        Mesh box = finerCube(1 + int(random() % 5));
+        const glm::vec3 size(1.0f, 0.01f + 0.1f * float(random() % 10), 0.01f + 0.1f * float(random() % 10));
+        for (glm::vec3& place : box.positions) place *= size;
+        for (const bool hollow : {false, true}) {
+            if (hollow)
+                for (std::size_t i = 0; i < box.indices.size(); i += 3)
+                    std::swap(box.indices[i], box.indices[i + 1]);
+            const Report report = reportOn(box, collapse(box, {.triangles = 4}));
+            EXPECT_TRUE(report.closedManifold());
+            EXPECT_LE(report.triangles, 6u);
+            EXPECT_GT(hollow ? -report.volume : report.volume, 0.0) << number;
+        }
+    }
+}
+
 TEST(Collapse, RandomMeshesStayClosedManifoldAndUncut) {
     const int meshes = kLong ? 400 : 25;
     for (int number = 0; number < meshes; ++number) {
