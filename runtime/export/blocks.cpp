@@ -23,7 +23,7 @@ void writeBlocks(std::size_t count, std::size_t itemBytes, const FormatBlock& fo
     std::condition_variable turned;
     std::size_t turn = 0;  // the block that may be written now
     const auto worker = [&] {
-        const auto text = std::make_unique_for_overwrite<char[]>(items * itemBytes);
+        const auto text = std::make_unique_for_overwrite<char[]>(std::min(items, count) * itemBytes);
         for (std::size_t block = next++; block < blocks; block = next++) {
             const char* end = format(text.get(), block * items, std::min(count, (block + 1) * items));
             std::unique_lock lock(mutex);
@@ -36,7 +36,9 @@ void writeBlocks(std::size_t count, std::size_t itemBytes, const FormatBlock& fo
         }
     };
     const std::size_t threads =
-        std::min({blocks, kThreads, std::size_t{std::max(1u, std::thread::hardware_concurrency())}});
+        blocks < 2
+            ? blocks
+            : std::min({blocks, kThreads, std::size_t{std::max(1u, std::thread::hardware_concurrency())}});
     std::vector<std::future<void>> others;
     for (std::size_t i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, worker));
     if (blocks > 0) worker();

@@ -246,8 +246,10 @@ Result<Bounds> checkMesh(const Mesh& mesh, const std::string& path) {
     };
     if (mesh.positions.size() > 0x7fffffffu || mesh.triangleCount() > 0xffffffffu)
         return refuse("the mesh is too large for this format; lower the resolution");
-    std::future<uint32_t> greatest = std::async(
-        std::launch::async, [&] { return *std::max_element(mesh.indices.begin(), mesh.indices.end()); });
+    const bool small = mesh.positions.size() < 10'000;  // not worth a thread
+    std::future<uint32_t> greatest = std::async(small ? std::launch::deferred : std::launch::async, [&] {
+        return *std::max_element(mesh.indices.begin(), mesh.indices.end());
+    });
     const std::optional<Bounds> bounds = finiteBounds(mesh.positions);
     if (greatest.get() >= mesh.positions.size())
         return refuse("the mesh refers to a vertex that it does not have");
