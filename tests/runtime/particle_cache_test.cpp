@@ -198,6 +198,48 @@ TEST_F(ParticleCaches, KilledAtAnyTimeGoOnToTheSameBytes) {
     EXPECT_EQ(made.size(), wanted.size());
 }
 
+TEST_F(ParticleCaches, MeshesOfKilledRunsAreThoseOfOneWithoutACache) {
+    const bool all = std::getenv("FIELDWRIGHT_LONG");
+    if (all)
+        fs::copy_file(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/dam_break.field.json", graph);
+    else
+        write(waterWith("0.08"));
+    const std::vector<std::string> until = {"--to", all ? "2" : "0.3"};
+    const auto meshes = [&](const std::string& output, const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"export", graph, "-o", folder.path(output), "--resolution", "32"};
+        words.insert(words.end(), until.begin(), until.end());
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    ASSERT_EQ(runCommand(meshes("wanted", {})).status, 0);
+    const std::vector<std::string> names = test::namesIn(folder.path("wanted"));
+    EXPECT_EQ(names.size(), all ? 60u : 9u);
+    std::mt19937 random(11);
+    int killed = 0;
+    const auto untilDone = [&](const std::vector<std::string>& words) {
+        for (int attempt = 0; attempt < 400; ++attempt) {
+            test::CommandOptions options;
+            options.signal = SIGKILL;
+            options.interruptAfterMs =
+                int(std::uniform_int_distribution(20, 60 + (all ? 100 : 400) * attempt)(random));
+            const CommandResult result = runCommand(words, options);
+            killed += result.killed;
+            if (result.killed) continue;
+            EXPECT_EQ(result.status, 0) << result.errors;
+            return;
+        }
+        FAIL() << "it never came to its end";
+    };
+    std::vector<std::string> simulate = {"simulate", graph, "-o", cache};
+    simulate.insert(simulate.end(), until.begin(), until.end());
+    untilDone(simulate);
+    untilDone(meshes("made", fromCache()));
+    EXPECT_GT(killed, 0);
+    EXPECT_EQ(test::namesIn(folder.path("made")), names);
+    for (const std::string& name : names)
+        EXPECT_TRUE(readText(folder.path("made/" + name)) == readText(folder.path("wanted/" + name))) << name;
+}
+
 TEST_F(ParticleCaches, AreExtendedAndMadeAnew) {
     write(kRain);
     ASSERT_EQ(simulated({"--to", "0.2"}).status, 0);
