@@ -12,7 +12,6 @@
 #include "runtime/export/animated.h"
 #include "runtime/export/outputs.h"
 #include "runtime/export/point_cache.h"
-#include "runtime/mesh/joined.h"
 #include "runtime/play/mesh_sequence.h"
 #include "runtime/play/part_meshes.h"
 #include "runtime/system/interruption.h"
@@ -103,15 +102,7 @@ int writePartPoints(const Animation& of, const std::vector<PartNode>& nodes,
     Result<PointCache> file = openPoints(of);
     if (!file) return print(file.error()), kSystemFailure;
     for (std::size_t moment = 0; moment < std::size_t(of.range.count()); ++moment) {
-        const std::vector<glm::dmat4> places = placesAt(nodes, moment);
-        std::vector<Mesh> moved;
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            Mesh& mesh = moved.emplace_back(meshes[i].mesh);
-            for (glm::vec3& p : mesh.positions) p = glm::vec3(places[i] * glm::dvec4(p, 1.0));
-            for (glm::vec3& n : mesh.normals)
-                n = glm::vec3(glm::normalize(glm::dmat3(places[i]) * glm::dvec3(n)));
-        }
-        if (const Done added = file->add(placed(joined(moved), of.placement)); !added)
+        if (const Done added = file->add(placed(together(nodes, meshes, moment), of.placement)); !added)
             return print(added.error()), kSystemFailure;
     }
     return ended(file->end());

@@ -82,12 +82,11 @@ void note(const ExportOptions& options, const MesherResult& meshed) {
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",
                      options.output.c_str());
     if (meshed.undecimated)
-        std::fprintf(
-            stderr,
-            "%s: note: decimate ended at %u triangles: no more could go within its error, an "
-            "eighth of the solid's size at most, and with every part left a solid; raise the error or "
-            "the number\n",
-            options.output.c_str(), meshed.triangles);
+        std::fprintf(stderr,
+                     "%s: note: decimate ended at %u triangles: no more could go within its error, "
+                     "half the solid's size at most, and with every part left a solid; raise the error or "
+                     "the number\n",
+                     options.output.c_str(), meshed.triangles);
 }
 
 void noteLevels(const ExportOptions& options, const std::vector<LevelReport>& levels) {

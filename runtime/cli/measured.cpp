@@ -5,7 +5,6 @@
 
 #include "runtime/export/export.h"
 #include "runtime/measure/field_measure.h"
-#include "runtime/stages/decimate.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::cli {

@@ -63,16 +63,18 @@ void PointCache::begin() {
 }
 
 Done PointCache::add(const Mesh& mesh) {
+    const auto refuse = [&](const char* message) { return Error{.message = message, .file = path}; };
     if (mesh.indices.empty())
-        return Error{.message = "the solid is empty: a point cache has no place for that"};
+        return refuse(
+            "the solid is empty, of which a point cache can say nothing: write a .glb, or leave "
+            "that time out");
     if (!first) {
         first = mesh;
         begin();
     } else if (mesh.indices != first->indices || mesh.positions.size() != first->positions.size()) {
-        return Error{
-            .message =
-                "the mesh has other triangles than before, and a point cache moves the points of one "
-                "mesh: write a .glb, or a mesh for every frame"};
+        return refuse(
+            "the mesh has other triangles than before, and a point cache moves the points of one mesh: "
+            "write a .glb, or a mesh for every frame");
     }
     if (isPc2(path)) {
         file.write(std::span(mesh.positions));

@@ -386,6 +386,13 @@ Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32
     return reportOnWelded(weld(positions, indices), options);
 }
 
+double farthest(const Report& report) {
+    double most = report.errorNote.empty() ? report.maxError.value_or(0.0) : 0.0;
+    for (const std::optional<SampledDistance>& sampled : {report.meshToSurface, report.surfaceToMesh})
+        if (sampled) most = std::max(most, sampled->max);
+    return most;
+}
+
 std::string writeReport(const Report& report) {
     nlohmann::ordered_json out;
     const auto known = [](const std::optional<double>& value) {

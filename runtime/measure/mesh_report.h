@@ -102,6 +102,10 @@ struct Report {
     }
 };
 
+/// The largest of a report's distances from the field, metres: those that are measured, where the field is no
+/// distance.
+double farthest(const Report& report);
+
 /// Measures the mesh file at `path`. An Error says what in the file is not as it should be.
 Result<Report> reportOnFile(const std::string& path, const MeasureOptions& options = {});
 

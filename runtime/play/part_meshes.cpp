@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "graph/evaluate/evaluate.h"
+#include "runtime/mesh/joined.h"
 
 namespace fw {
 namespace {
@@ -98,6 +99,18 @@ std::vector<glm::dmat4> placesAt(std::span<const PartNode> nodes, std::size_t mo
         places.push_back(node.poses.empty() ? carried : carried * matrixOf(node.poses[moment]));
     }
     return places;
+}
+
+Mesh together(std::span<const PartNode> nodes, std::span<const PartMesh> meshes, std::size_t moment) {
+    const std::vector<glm::dmat4> places = placesAt(nodes, moment);
+    std::vector<Mesh> moved;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        Mesh& mesh = moved.emplace_back(meshes[i].mesh);
+        for (glm::vec3& p : mesh.positions) p = glm::vec3(places[i] * glm::dvec4(p, 1.0));
+        for (glm::vec3& n : mesh.normals)
+            n = glm::vec3(glm::normalize(glm::dmat3(places[i]) * glm::dvec3(n)));
+    }
+    return joined(moved);
 }
 
 bool overlap(std::span<const PartNode> nodes, std::span<const PartMesh> meshes, std::size_t moments,

@@ -23,6 +23,9 @@ Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNod
 /// From each node's own space into the document's, at the moment of that number.
 std::vector<glm::dmat4> placesAt(std::span<const PartNode> nodes, std::size_t moment);
 
+/// All meshes as one, where they are at the moment of that number.
+Mesh together(std::span<const PartNode> nodes, std::span<const PartMesh> meshes, std::size_t moment);
+
 /// Whether two parts are in each other at some moment, by more than `depth` metres: then together they are
 /// no union. Some hundred points of each are looked at.
 bool overlap(std::span<const PartNode> nodes, std::span<const PartMesh> meshes, std::size_t moments,

@@ -19,7 +19,7 @@
 //    colours, or two materials, is not moved farther than they may be away. A vertex on a crease or on a
 //    border goes only along it.
 //  * If only a number of triangles is wanted, that distance is small at first, and grows as nothing more can
-//    go, up to a quarter of the mesh's size. Where it has grown to eight edges, or the triangles are hardly
+//    go, up to half the mesh's size. Where it has grown to eight edges, or the triangles are hardly
 //    fewer for it, creases and borders are in the way: they are given up, and it begins small again.
 //  * Where the field is known it is asked at points of each new triangle, more in larger ones.
 //

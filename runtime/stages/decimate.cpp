@@ -70,13 +70,6 @@ std::vector<CollapseLimits::Further> pointsOnSurface(const Mesh& mesh,
 
 }  // namespace
 
-double farthest(const Report& report) {
-    double most = report.errorNote.empty() ? report.maxError.value_or(0.0) : 0.0;
-    for (const std::optional<SampledDistance>& sampled : {report.meshToSurface, report.surfaceToMesh})
-        if (sampled) most = std::max(most, sampled->max);
-    return most;
-}
-
 bool decimate(Mesh& mesh, const DecimateWish& wish, const MeasureOptions& measure,
               std::span<const uint32_t> labels) {
     if (mesh.indices.empty() || (wish.error <= 0.0 && wish.triangles == 0)) return false;

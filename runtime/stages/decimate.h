@@ -25,8 +25,4 @@ struct DecimateWish {
 bool decimate(Mesh& mesh, const DecimateWish& wish, const MeasureOptions& measure,
               std::span<const uint32_t> labels = {});
 
-/// The largest of a report's distances from the field, metres: those that are measured, where the field is no
-/// distance.
-double farthest(const Report& report);
-
 }  // namespace fw

@@ -183,4 +183,44 @@ TEST_F(Blender, HasThePartsAsObjects) {
     for (const auto& [name, mesh] : read["meshes"].items()) EXPECT_EQ(mesh["materials"].size(), 1u) << name;
 }
 
+TEST_F(Blender, MovesThePointsOfACache) {
+    test::writeText(graph, kGate);
+    const json nodes = inBlender(exported(graph, "gate.glb", {"--animated"}), {0, 10, 29});
+    for (const char* file : {"gate.pc2", "gate.mdd"}) {
+        SCOPED_TRACE(file);
+        const json points = inBlender(exported(graph, file, {"--animated", "--unit", "m"}), {0, 10, 29});
+        for (const char* frame : {"0", "10", "29"}) {
+            const json &seen = points["frames"][frame], &wanted = nodes["frames"][frame];
+            EXPECT_NEAR(seen["volume"].get<double>(), wanted["volume"].get<double>(),
+                        1e-4 * wanted["volume"].get<double>())
+                << frame;
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_NEAR(seen["min"][k].get<double>(), wanted["min"][k].get<double>(), 1e-5) << frame;
+                EXPECT_NEAR(seen["max"][k].get<double>(), wanted["max"][k].get<double>(), 1e-5) << frame;
+            }
+        }
+    }
+}
+
+TEST_F(Blender, HasTheLevelsOfDetail) {
+    test::writeText(graph, kPainted);
+    const json read = inBlender(exported(graph, "thing.glb", {"--lods", "3", "--textures", "128"}), {0});
+    ASSERT_EQ(read["meshes"].size(), 3u);
+    EXPECT_EQ(read["images"].size(), 3u) << "shared by all";
+    double finest = 0.0;
+    for (int level = 0; level < 3; ++level) {
+        const std::string name = "thing_LOD" + std::to_string(level);
+        SCOPED_TRACE(name);
+        ASSERT_TRUE(read["meshes"].contains(name));
+        const json& mesh = read["meshes"][name];
+        if (level == 0) finest = mesh["triangles"].get<double>();
+        EXPECT_NEAR(mesh["triangles"].get<double>(), finest / double(1 << 2 * level), 2.0);
+        EXPECT_EQ(read["parents"][name], "thing");
+        EXPECT_GE(mesh["uv"][0].get<double>(), 0.0);
+        EXPECT_LE(mesh["uv"][1].get<double>(), 1.0);
+        expectColor(mesh["materials"]["Red paint"]["color"], kRedColor);
+        expectColor(mesh["materials"]["metal"]["color"], kMetalColor);
+    }
+}
+
 }  // namespace fw::blender_test

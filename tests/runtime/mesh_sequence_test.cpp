@@ -178,12 +178,15 @@ TEST_F(MeshSequence, IsMeasuredFrameByFrame) {
     EXPECT_EQ(measured["frames"][1]["triangles"], 0);
 }
 
-TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
-    // A blend of the two is no part that moves, though they are too far apart for it to be seen.
-    std::string blended = kGraph;
+/// A blend of the two is no part that moves, though they are too far apart for it to be seen.
+std::string blended() {
+    std::string text = kGraph;
     const std::string link = R"("b": {"from": "lift"})";
-    blended.replace(blended.find(link), link.size(), link + R"(, "radius": 0.3)");
-    test::writeText(graph, blended);
+    return text.replace(text.find(link), link.size(), link + R"(, "radius": 0.3)");
+}
+
+TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
+    test::writeText(graph, blended());
     const std::string path = folder.path("moves.glb");
     const CommandResult made = exported(path, {"--animated"});
     EXPECT_EQ(made.status, 0) << made.errors;
@@ -401,6 +404,10 @@ TEST_F(MeshSequence, WhatKeepsItsTrianglesIsAPointCache) {
     test::writeText(graph, kGraph);
     EXPECT_EQ(exported(folder.path("still.mdd"), {"--animated", "--to", "0.2"}).status, 0);
     test::writeText(graph, kEaten);
+    const CommandResult gone = exported(folder.path("eaten.pc2"), {"--animated"});
+    EXPECT_NE(gone.status, 0);
+    EXPECT_NE(gone.errors.find("eaten.pc2: error: the solid is empty"), std::string::npos) << gone.errors;
+    test::writeText(graph, blended());
     const CommandResult changed = exported(folder.path("eaten.pc2"), {"--animated"});
     EXPECT_NE(changed.status, 0);
     EXPECT_NE(changed.errors.find("write a .glb, or a mesh for every frame"), std::string::npos)

@@ -1,4 +1,4 @@
-# Opens a glTF or OBJ file in Blender and prints as JSON, in the file's axes, what it has become there: what is seen at
+# Opens a glTF or OBJ file, or a point cache beside one, in Blender and prints as JSON, in the file's axes, what it has become there: what is seen at
 # each of the frames asked for, and the meshes, materials and pictures that there are.
 #     blender --background --factory-startup --python in_blender.py -- FILE FPS FRAME...
 import builtins
@@ -83,6 +83,11 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.context.scene.render.fps = int(fps)
 if path.endswith(".obj"):
     bpy.ops.wm.obj_import(filepath=path)
+elif path.endswith((".pc2", ".mdd")):
+    bpy.ops.wm.obj_import(filepath=path[:-3] + "obj")
+    for each in bpy.context.scene.objects:
+        cache = each.modifiers.new("moves", "MESH_CACHE")
+        cache.cache_format, cache.filepath, cache.frame_start = path[-3:].upper(), path, 0
 else:
     bpy.ops.import_scene.gltf(filepath=path)
 objects = bpy.context.scene.objects
