@@ -19,14 +19,26 @@ using nlohmann::ordered_json;
 constexpr std::size_t kLongestValue = 1024;
 constexpr int kSecondsToEnd = 30;
 
-constexpr char kSubmit[] = R"(if command -v deadline >/dev/null; then
+struct PathParameter {
+    const char *name, *type, *flow, *what;
+    std::string value;
+};
+
+/// The last step is run with those before it: all of them.
+std::string submitText(const Job& job, const std::vector<PathParameter>& parameters) {
+    std::string text = R"(if command -v deadline >/dev/null; then
     exec deadline bundle submit . "$@"
 elif command -v openjd >/dev/null; then
-    exec openjd run template.json "$@"
+    exec openjd run template.json --run-dependencies --step )" +
+                       shellWord(job.steps.back().name);
+    for (const PathParameter& parameter : parameters)
+        text += " \\\n        --job-param " + shellWord(parameter.name + ("=" + parameter.value));
+    return text + R"( "$@"
 fi
-echo "$0: neither deadline nor openjd is installed (pip install openjd-cli): hand template.json in to your farm" >&2
+echo "$0: neither deadline nor openjd is installed (pip install openjd-cli): hand template.json in to your farm, with the values of parameter_values.json" >&2
 exit 1
 )";
+}
 
 /// Why the text cannot be in a template; empty if it can.
 std::string unfit(const std::string& text) {
@@ -85,12 +97,11 @@ ordered_json stepOf(const Job& job, const JobStep& step) {
     return made;
 }
 
-struct PathParameter {
-    const char *name, *type, *flow, *what;
-};
-ordered_json definitionOf(const PathParameter& parameter, const std::string& value) {
-    return {{"name", parameter.name},     {"type", "PATH"},   {"objectType", parameter.type},
-            {"dataFlow", parameter.flow}, {"default", value}, {"description", parameter.what}};
+Done writeJson(const std::string& path, const ordered_json& text) {
+    Result<OutputFile> file = OutputFile::open(path, nullptr);
+    if (!file) return file.error();
+    file->write(text.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    return file->commit();
 }
 
 }  // namespace
@@ -109,23 +120,31 @@ Done writeOpenJdJob(const Job& job, const std::string& folder) {
     }
     if (const std::string why = unfit(job.program); !why.empty())
         return Error{.message = inQuotes(job.program) + " cannot be in an OpenJD template: it " + why};
-    const ordered_json text = {
-        {"specificationVersion", "jobtemplate-2023-09"},
-        {"name", job.name},
-        {"parameterDefinitions",
-         {definitionOf({"Fieldwright", "FILE", "NONE", "The program, as the machines call it"}, job.program),
-          definitionOf({"Graph", "FILE", "IN", "The graph"}, job.graph),
-          definitionOf({"Output", job.makesFolder ? "DIRECTORY" : "FILE", "OUT", "What is made"},
-                       job.output)}},
-        {"steps", steps}};
-    Result<OutputFile> file = OutputFile::open(folder + "/template.json", nullptr);
-    if (!file) return file.error();
-    file->write(text.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-    if (Done written = file->commit(); !written) return written;
+    const std::vector<PathParameter> parameters = {
+        {"Fieldwright", "FILE", "NONE", "The program, as the machines call it", job.program},
+        {"Graph", "FILE", "IN", "The graph", job.graph},
+        {"Output", job.makesFolder ? "DIRECTORY" : "FILE", "OUT", "What is made", job.output}};
+    ordered_json definitions = ordered_json::array(), values = ordered_json::array();
+    for (const PathParameter& parameter : parameters) {
+        definitions.push_back({{"name", parameter.name},
+                               {"type", "PATH"},
+                               {"objectType", parameter.type},
+                               {"dataFlow", parameter.flow},
+                               {"description", parameter.what}});
+        values.push_back({{"name", parameter.name}, {"value", parameter.value}});
+    }
+    const Done written =
+        writeJson(folder + "/template.json", {{"specificationVersion", "jobtemplate-2023-09"},
+                                              {"name", job.name},
+                                              {"parameterDefinitions", definitions},
+                                              {"steps", steps}});
+    if (!written) return written;
+    const Done valued = writeJson(folder + "/parameter_values.json", {{"parameterValues", values}});
+    if (!valued) return valued;
     return writeScript(folder + "/submit",
                        "#!/bin/sh\n"
                        "# Hands template.json in: by deadline to a farm, or by openjd to be run here.\n" +
-                           std::string(kSubmitBegin) + kSubmit);
+                           std::string(kSubmitBegin) + submitText(job, parameters));
 }
 
 }  // namespace fw

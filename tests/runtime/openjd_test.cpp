@@ -23,6 +23,12 @@ struct OpenJd : test::SharedOut {
         EXPECT_EQ(test::openJdFindings(read), std::vector<std::string>{});
         return read;
     }
+    /// With the values that stand beside it.
+    std::vector<OpenJdTask> tasksOf(const json& read) const {
+        const json values = json::parse(readText(job + "/parameter_values.json"));
+        EXPECT_EQ(values["parameterValues"].size(), read["parameterDefinitions"].size());
+        return test::openJdTasks(read, values);
+    }
     ProgramResult run(const OpenJdTask& task) const {
         std::string line = "XDG_CACHE_HOME=" + shellWord(folder.path("caches"));
         for (const std::string& word : task.words) line += " " + shellWord(word);
@@ -38,7 +44,7 @@ TEST_F(OpenJd, TemplatesOfFramesRunToTheFramesOfTheWhole) {
     ASSERT_EQ(space.size(), 1u);
     EXPECT_EQ(space[0]["name"], "Frames");
     EXPECT_EQ(space[0]["range"], (json{"0-2", "3-5", "6-7"}));
-    for (const OpenJdTask& task : test::openJdTasks(read)) {
+    for (const OpenJdTask& task : tasksOf(read)) {
         const ProgramResult result = run(task);
         EXPECT_EQ(result.status, 0) << result.output;
         double last = -1.0;
@@ -64,7 +70,7 @@ TEST_F(OpenJd, TemplatesOfTilesRunToTheMergedMesh) {
                                                     "--tiles", "2", "--require", "closed"});
     EXPECT_EQ(read["steps"][0]["parameterSpace"]["combination"], "(Output, Tile)");
     EXPECT_EQ(read["steps"][1]["dependencies"], (json{{{"dependsOn", "tiles"}}}));
-    for (const OpenJdTask& task : test::openJdTasks(read)) EXPECT_EQ(run(task).status, 0);
+    for (const OpenJdTask& task : tasksOf(read)) EXPECT_EQ(run(task).status, 0);
     EXPECT_EQ(runCommand({"export", graph, "-o", whole, "--resolution", "150", "--tiles", "2"}).status, 0);
     EXPECT_TRUE(readText(mesh) == readText(whole));
 }
@@ -76,11 +82,35 @@ TEST_F(OpenJd, TemplatesOfAllElseKeepTheRules) {
     templateOf({}, {"export", graph, "-o", out, "--sweep", "size=0.2:0.8:1000", "--report", out + ".json"});
     const json most =
         templateOf({"--chunk", "1"}, {"export", graph, "-o", out, "--sweep", "size=0.2:0.8:1000"});
-    EXPECT_EQ(test::openJdTasks(most).size(), 1000u);
+    EXPECT_EQ(tasksOf(most).size(), 1000u);
     // Paths that a farm maps are parameters, what they are said.
-    EXPECT_EQ(most["parameterDefinitions"][2]["default"], out);
+    EXPECT_EQ(json::parse(readText(job + "/parameter_values.json"))["parameterValues"][2]["value"], out);
     EXPECT_EQ(most["parameterDefinitions"][2]["objectType"], "DIRECTORY");
     EXPECT_EQ(most["steps"][0]["script"]["actions"]["onRun"]["args"][1], "{{Param.Graph}}");
+}
+
+TEST_F(OpenJd, SubmitHandsTheValuesInWithTheTemplate) {
+    const std::string out = folder.path("it's $out");
+    templateOf({}, {"export", graph, "-o", out, "--from", "0", "--report", folder.path("r.json")});
+    // Programs of those names, which say what they were called with and where.
+    std::filesystem::create_directory(folder.path("bin"));
+    const auto saysIts = [&](const char* name) {
+        const std::string path = folder.path("bin/") + name;
+        test::writeText(path, "#!/bin/sh\npwd\nprintf '%s\\n' \"$@\"\n");
+        std::filesystem::permissions(path, std::filesystem::perms(0755));
+    };
+    const std::string submit = "PATH=" + shellWord(folder.path("bin")) + ":/usr/bin:/bin " +
+                               shellWord(job + "/submit") + " --verbose";
+    const ProgramResult none = test::runProgram(submit);
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.output.find("neither deadline nor openjd is installed"), std::string::npos) << none.output;
+    saysIts("openjd");
+    EXPECT_EQ(test::runProgram(submit).output,
+              job + "\nrun\ntemplate.json\n--run-dependencies\n--step\nreport\n--job-param\nFieldwright=" +
+                  FIELDWRIGHT_BINARY_DIR + "/fieldwright\n--job-param\nGraph=" + graph +
+                  "\n--job-param\nOutput=" + out + "\n--verbose\n");
+    saysIts("deadline");
+    EXPECT_EQ(test::runProgram(submit).output, job + "\nbundle\nsubmit\n.\n--verbose\n");
 }
 
 TEST_F(OpenJd, RulesFindWhatBreaksThem) {
@@ -107,6 +137,7 @@ TEST_F(OpenJd, RulesFindWhatBreaksThem) {
                  std::vector<std::string>(1025, "x");
          }},
         {"step name twice", [](json& t) { t["steps"][1]["name"] = "tiles"; }},
+        {"default: absolute", [](json& t) { t["parameterDefinitions"][0]["default"] = "/a"; }},
         {"no identifier", [](json& t) { t["parameterDefinitions"][0]["name"] = "1st"; }}};
     for (const auto& [said, breakIt] : breaks) {
         json broken = fine;

@@ -92,7 +92,10 @@ class Schema {
              {"description", "default", "objectType", "dataFlow"});
         identifier(parameter.value("name", json()), "job parameter");
         expect(parameter.value("type", "") == "PATH", "job parameter: type");
-        if (parameter.contains("default")) text(parameter["default"], "default", 0, 1024, true);
+        if (parameter.contains("default")) {
+            text(parameter["default"], "default", 0, 1024, true);
+            expect(!parameter.value("default", "").starts_with('/'), "default: absolute");
+        }
         if (parameter.contains("description")) text(parameter["description"], "description", 1, 2048, false);
         const std::set<std::string> types = {"FILE", "DIRECTORY"}, flows = {"NONE", "IN", "OUT", "INOUT"};
         expect(types.contains(parameter.value("objectType", "DIRECTORY")), "objectType");
@@ -177,10 +180,10 @@ std::vector<std::string> openJdFindings(const json& jobTemplate) {
     return schema.findings;
 }
 
-std::vector<OpenJdTask> openJdTasks(const json& jobTemplate) {
+std::vector<OpenJdTask> openJdTasks(const json& jobTemplate, const json& given) {
     std::map<std::string, std::string> values;
-    for (const json& parameter : jobTemplate["parameterDefinitions"])
-        values["Param." + std::string(parameter["name"])] = parameter["default"];
+    for (const json& parameter : given["parameterValues"])
+        values["Param." + std::string(parameter["name"])] = parameter["value"];
     std::vector<OpenJdTask> tasks;
     for (const json& step : jobTemplate["steps"]) {
         const json parameters =

@@ -14,12 +14,13 @@ namespace fw::test {
 /// Where and how the template breaks a rule; empty if it is fine.
 std::vector<std::string> openJdFindings(const nlohmann::json& jobTemplate);
 
-/// A task with everything resolved by the parameters' defaults: the command and its arguments.
+/// A task with everything resolved: the command and its arguments.
 struct OpenJdTask {
     std::string step;
     std::vector<std::string> words;
 };
-/// All tasks of a template without findings, in an order in which they may be run.
-std::vector<OpenJdTask> openJdTasks(const nlohmann::json& jobTemplate);
+/// All tasks of a template without findings, in an order in which they may be run; its parameters are as a
+/// bundle's parameter_values.json has them.
+std::vector<OpenJdTask> openJdTasks(const nlohmann::json& jobTemplate, const nlohmann::json& values);
 
 }  // namespace fw::test
