@@ -215,7 +215,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
                                   "Unwrap the mesh of a .glb, .gltf or .obj, and bake its colours, finish, "
                                   "light, occlusion and normals "
                                   "from the field into textures of so many texels a side: 64, 128, ... 8192");
-    textures->type_name("TEXELS");
+    textures->type_name("TEXELS")->check(something());
     CLI::Option* lods =
         exportCommand
             ->add_option(
@@ -563,8 +563,10 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kDone : kBadUsage; }
 
     if (jobCommand->parsed()) {
-        if (!shared.empty() && (shared[0] == "export" || shared[0] == "render" || shared[0] == "simulate"))
+        if (!shared.empty() && (shared[0] == "export" || shared[0] == "render" || shared[0] == "simulate")) {
+            std::erase(shared, "--openjd");  // a template has it anyhow, and nothing is made now
             return run(std::move(shared), &jobOptions);
+        }
         std::fprintf(
             stderr,
             "fieldwright job: it shares out an export, a render or a simulate: write that behind --, as you "
@@ -597,7 +599,8 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     };
     if (job) {
         JobWork work;
-        if (exportCommand->parsed() && particles->count() == 0) work.parts = job->sharing.tasks.value_or(1);
+        if (exportCommand->parsed() && particles->count() == 0 && !exportOptions.animated)
+            work.parts = job->sharing.tasks.value_or(1);
         exportOptions.mesh.planned = renderOptions.mesh.planned = &work;
         simulateOptions.planned = true;
         const int checked = command();

@@ -45,7 +45,8 @@ Result<Placement> placementOf(const std::string& path, const LengthUnit& documen
                         .document = document};
     if (gltf) {
         if (placement.zUp)
-            return refuse("glTF has +Y up by its specification, and programs turn it as they like");
+            return refuse(
+                "glTF has +Y up by its specification, and programs turn it as they like: leave out --up");
         if (!named.empty() && named != "m")
             return refuse("glTF is in metres by its specification: leave out --unit");
         placement.scale = document.metres, placement.unit = *lengthUnit("m");

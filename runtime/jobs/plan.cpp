@@ -129,6 +129,10 @@ Result<Job> planJob(const TypedCommand& typed, const JobWork& work, const JobSha
         if (sharing.chunk)
             return Error{.message =
                              "--chunk is of frames or variants, and this makes one file: leave it out"};
+        if (work.parts <= 1 && sharing.tasks && *sharing.tasks > 1)
+            return Error{.message =
+                             "--tasks is of frames, of variants and of the tiles of one mesh, and this is "
+                             "made as a whole: leave it out"};
         if (work.parts > 1)
             addParts(job, command, work.parts, fs::absolute(folder).string());
         else
