@@ -175,6 +175,25 @@ TEST_F(Blender, HasTheTextures) {
     }
 }
 
+TEST_F(Blender, HasLevelsOfDetailThatShareMaterialsAndTextures) {
+    test::writeText(graph, kPainted);
+    const json read = inBlender(exported(graph, "a.glb", {"--lods", "3", "--textures", "128"}));
+    ASSERT_EQ(read["meshes"].size(), 3u);
+    std::size_t before = std::size_t(-1);
+    for (const char* level : {"a_LOD0", "a_LOD1", "a_LOD2"}) {
+        ASSERT_TRUE(read["meshes"].contains(level)) << read["meshes"].dump();
+        const json& mesh = read["meshes"][level];
+        EXPECT_LT(mesh["triangles"], before) << level;
+        before = mesh["triangles"];
+        EXPECT_GE(mesh["uv"][0], 0.0);
+        EXPECT_LE(mesh["uv"][1], 1.0);
+        expectColor(mesh["materials"]["Red paint"]["color"], kRedColor);
+    }
+    const double volume = measured(exported(graph, "whole.glb")).volume;
+    EXPECT_NEAR(read["frames"]["0"]["volume"].get<double>(), 3 * volume, 0.1 * volume);
+    EXPECT_EQ(read["materials"].size(), 2u);
+}
+
 TEST_F(Blender, HasThePartsAsObjects) {
     test::writeText(graph, kPainted);
     const json read = inBlender(exported(graph, "a.glb", {"--parts"}));

@@ -157,6 +157,10 @@ TEST_F(Jobs, RefuseAtOnceWhatTheCommandWouldRefuseOnTheFarm) {
             2, {"--chunk is of frames or variants"});
     refused({"job", "--for", "slurm", "-o", job, "--tasks", "4", "--", "export", graph, "-o", out + ".glb"},
             2, {"too few tiles, 1, for 4 parts"});
+    for (const std::vector<std::string>& whole : std::vector<std::vector<std::string>>{
+             {"export", graph, "-o", out + ".glb", "--animated"}, {"render", graph, "-o", out + ".png"}})
+        refused(with({"job", "--for", "slurm", "-o", job, "--tasks", "4", "--"}, whole), 2,
+                {"is made as a whole: leave it out"});
     refused({"job", "--for", "openjd", "-o", job, "--", "export", graph, "-o", folder.path("{{x}}.glb")}, 1,
             {"cannot be in an OpenJD template"});
 }
@@ -220,6 +224,27 @@ TEST_F(Jobs, AreRunByGnuParallelWhateverFoldersAreCalled) {
     expectSameFiles(out, whole);
     EXPECT_NE(readText(odd + "/r.json").find("000007.glb"), std::string::npos);
     EXPECT_EQ(submit().status, 0) << "all frames are there, and are passed over";
+}
+
+TEST_F(Jobs, KilledWithAllTheirTasksAndSubmittedAgainMakeTheSameBytes) {
+    const std::string whole = folder.path("whole"), out = folder.path("frames"),
+                      report = folder.path("r.json");
+    const auto exported = [&](const std::string& to) -> std::vector<std::string> {
+        return {"export", graph, "-o", to, "--fps", "8", "--report", report};
+    };
+    ASSERT_EQ(shareOut("parallel", {"--chunk", "4"}, exported(out)).status, 0);
+    const int kills = std::getenv("FIELDWRIGHT_LONG") ? 12 : 2;
+    for (int kill = 0; kill < kills; ++kill)  // as when the machine goes: processes of a space of their own
+        runProgram(
+            "timeout --signal=KILL " + std::to_string(0.3 + 0.3 * kill) +
+            " unshare --map-root-user --mount --pid --fork --mount-proc --kill-child env XDG_CACHE_HOME=" +
+            shellWord(folder.path("caches")) + " " + shellWord(job + "/submit") + " --jobs 2");
+    const ProgramResult run = submit("--jobs 2");
+    EXPECT_EQ(run.status, 0) << run.output;
+    EXPECT_FALSE(fs::exists(job + "/failed"));
+    EXPECT_TRUE(fs::exists(report));
+    EXPECT_EQ(runCommand(exported(whole)).status, 0);
+    expectSameFiles(out, whole);
 }
 
 TEST_F(Jobs, OfTilesAreMergedToTheMeshThatOneMachineMakes) {

@@ -511,6 +511,59 @@ TEST_F(MeshSequence, RefusesWhatMakesNoSequence) {
                   {"/proc/frames: error: cannot make the folder"});
 }
 
+TEST_F(MeshSequence, AFullDiskLeavesWholeFilesAloneAndIsGoneOnWith) {
+    const std::string disk = folder.path("disk"), left = folder.path("left");
+    std::filesystem::create_directory(disk);
+    if (test::runProgram("unshare -rm mount -t tmpfs none '" + disk + "'").status != 0)
+        GTEST_SKIP() << "mounting is not permitted here";
+    std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+        {"frames", {"--from", "0"}},
+        {"a.glb", {"--animated"}},
+        {"a.obj", {"--textures", "64"}},
+        {"a.gltf", {"--parts"}},
+        {"frames", {"--from", "0", "--format", "gltf"}},
+        {"frames", {"--sweep", "size=0.3:0.8:8", "--format", "ply"}},
+        {"a.gltf", {"--animated"}},
+        {"a.glb", {"--textures", "64"}},
+        {"a.glb", {"--parts", "--compress"}}};
+    if (!std::getenv("FIELDWRIGHT_LONG")) cases.resize(4);
+    for (const auto& [output, words] : cases) {
+        SCOPED_TRACE(output + " " + words[0] + " " + words.back());
+        const TempDir whole;
+        EXPECT_EQ(exported(whole.path(output), words).status, 0);
+        std::map<std::string, std::string> wanted;
+        std::size_t bytes = 0;
+        for (const auto& each : std::filesystem::recursive_directory_iterator(whole.folder))
+            if (each.is_regular_file()) {
+                const std::string name = std::filesystem::relative(each.path(), whole.folder).string();
+                bytes += (wanted[name] = readText(each.path().string())).size();
+            }
+        test::CommandOptions half;  // of the room that they need, on a disk that ends with the command
+        half.wrapper = {"unshare", "-rm", "sh", "-c",
+                        "mount -t tmpfs -o size=" + std::to_string(bytes / 2) + " none '" + disk +
+                            "' && \"$0\" \"$@\"; status=$?; cp -r '" + disk + "' '" + left +
+                            "'; exit $status"};
+        std::vector<std::string> full = {"export", graph, "-o", disk + "/" + output};
+        full.insert(full.end(), words.begin(), words.end());
+        const CommandResult result = runCommand(full, half);
+        EXPECT_EQ(result.status, 3) << result.errors;
+        EXPECT_TRUE(result.errors.starts_with(disk + "/" + output.substr(0, 1))) << result.errors;
+        EXPECT_NE(result.errors.find("No space left on device"), std::string::npos) << result.errors;
+        std::size_t there = 0;
+        for (const auto& each : std::filesystem::recursive_directory_iterator(left)) {
+            if (!each.is_regular_file()) continue;
+            const std::string name = std::filesystem::relative(each.path(), left).string();
+            EXPECT_TRUE(wanted.contains(name) && readText(each.path().string()) == wanted[name]) << name;
+            ++there;
+        }
+        EXPECT_EQ(there > 0, output == "frames");
+        EXPECT_EQ(exported(left + "/" + output, words).status, 0);
+        for (const auto& [name, content] : wanted)
+            EXPECT_TRUE(readText(left + "/" + name) == content) << name;
+        std::filesystem::remove_all(left);
+    }
+}
+
 TEST_F(MeshSequence, KilledAtAnyTimeGoesOnToTheSameBytes) {
     // Sixty frames; with FIELDWRIGHT_LONG of the sample.
     const bool all = std::getenv("FIELDWRIGHT_LONG");
