@@ -344,7 +344,7 @@ void showExport(Editor& editor) {
     const uint64_t document = editor.viewport.document;
     if (dialog.of.document != document) dialog.of = {.document = document};
     const float scale = editor.shell.scale();
-    showStaying(dialog, "Export", 520.0f * scale, 0.25f, [&] {
+    showStaying(dialog, "Export", 520.0f * scale, 0.06f, [&] {
         showSettings(editor);
         if (state) showJob(editor, *state);
         ImGui::Separator();

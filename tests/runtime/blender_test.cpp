@@ -221,25 +221,4 @@ TEST_F(Blender, MovesThePointsOfACache) {
     }
 }
 
-TEST_F(Blender, HasTheLevelsOfDetail) {
-    test::writeText(graph, kPainted);
-    const json read = inBlender(exported(graph, "thing.glb", {"--lods", "3", "--textures", "128"}), {0});
-    ASSERT_EQ(read["meshes"].size(), 3u);
-    EXPECT_EQ(read["images"].size(), 3u) << "shared by all";
-    double finest = 0.0;
-    for (int level = 0; level < 3; ++level) {
-        const std::string name = "thing_LOD" + std::to_string(level);
-        SCOPED_TRACE(name);
-        ASSERT_TRUE(read["meshes"].contains(name));
-        const json& mesh = read["meshes"][name];
-        if (level == 0) finest = mesh["triangles"].get<double>();
-        EXPECT_NEAR(mesh["triangles"].get<double>(), finest / double(1 << 2 * level), 2.0);
-        EXPECT_EQ(read["parents"][name], "thing");
-        EXPECT_GE(mesh["uv"][0].get<double>(), 0.0);
-        EXPECT_LE(mesh["uv"][1].get<double>(), 1.0);
-        expectColor(mesh["materials"]["Red paint"]["color"], kRedColor);
-        expectColor(mesh["materials"]["metal"]["color"], kMetalColor);
-    }
-}
-
 }  // namespace fw::blender_test
