@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <span>
 
 #include "tests/support/command.h"
 #include "tests/support/graph/temp_dir.h"
@@ -110,15 +111,18 @@ TEST_F(ParticleCaches, AreTheSameBytesAsSimulating) {
         std::string text;
         std::vector<std::string> nodes;
     } cases[] = {{waterWith("0.08"), {"water"}}, {kTap, {"white", "water"}}, {kRain, {"rain"}}};
-    for (const auto& [text, nodes] : cases) {
+    const bool all = std::getenv("FIELDWRIGHT_LONG") != nullptr;
+    // Of a frame, between two of them, before the first and behind the last.
+    const std::vector<const char*> times =
+        all ? std::vector{"0.5", "0.45", "0.1", "0.7"} : std::vector{"0.45", "0.7"};
+    for (const auto& [text, nodes] : std::span(cases).first(all ? std::size(cases) : 1)) {
         write(text);
         const CommandResult made = simulated({"--from", "0.2", "--to", "0.6"});
         ASSERT_EQ(made.status, 0) << made.errors;
         EXPECT_EQ(made.output + made.errors, "");
         for (const std::string& node : nodes) {
             EXPECT_TRUE(fs::exists(cache + "/" + node + "/000014.state")) << node;
-            // Of a frame, between two of them, before the first and behind the last.
-            for (const char* time : {"0.5", "0.45", "0.1", "0.7"})
+            for (const char* time : times)
                 EXPECT_EQ(bytesAt(node, time), bytesAt(node, time, fromCache())) << node << " at " << time;
         }
         fs::remove_all(cache);

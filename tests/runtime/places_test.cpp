@@ -52,6 +52,7 @@ std::array<Picture, 2> picturesOf(const Program& program, RenderOptions options)
 }
 
 TEST(Places, PicturesAreThoseOfStraightCode) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "half a minute: with FIELDWRIGHT_LONG";
     const Result<Program> program = compile(test::expressionGraph(manyShapes()));
     ASSERT_TRUE(program) << format(program.error());
     ASSERT_GE(program->families.all.size(), 3u);

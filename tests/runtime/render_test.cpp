@@ -204,7 +204,7 @@ TEST(Render, FromBelowThereIsNoGround) {
 TEST(Render, WhatIsOutOfFocusIsBlurredAsTheLensSays) {
     // The edge of a plate four metres away. Of a disc's blur, half as wide as the disc is far from the focus,
     // nine tenths less a tenth of the change lie within 0.687 of its width.
-    RenderOptions options{.width = 320, .height = 40, .samples = 256, .show = RENDER_BASE};
+    RenderOptions options{.width = 320, .height = 40, .samples = 128, .show = RENDER_BASE};
     Scene& scene = options.scene;
     scene.ao.reset(), scene.sun.reset(), scene.ground.reset();
     const auto width = [&](double aperture, double focus) {
