@@ -118,7 +118,9 @@ bool simulatesAnew(const Graph& graph, std::string_view node) {
             const NodeType* type = findNodeType(each.type);
             return type && std::ranges::find(needed, each.id, &Node::id) != needed.end() &&
                    std::ranges::any_of(type->inputs, [&](const InputSpec& input) {
-                       return input.file == &kParticleCacheFile && !each.input(input.name);
+                       const InputValue* given = each.input(input.name);
+                       const auto* path = given ? std::get_if<std::string>(&given->value) : nullptr;
+                       return input.file == &kParticleCacheFile && (!given || (path && path->empty()));
                    });
         });
     };

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "graph/compile/cached_particles.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
@@ -81,7 +82,10 @@ int runSimulate(const SimulateOptions& options) {
             if (!link) return print(at(*graph, link.error())), kBadInput;
             graph = showingParticles(std::move(*graph), *link);
         }
-        if (options.planned) return kDone;
+        if (options.planned) {
+            useCache(*graph, "");
+            return simulatesAnew(*graph) ? kDone : (print(nothingSimulated(*graph)), kBadInput);
+        }
         progress.start("device", 20, kCompiling);
         Result<Device>& opened = device.get();
         if (!opened) return print(opened.error()), kBadUsage;

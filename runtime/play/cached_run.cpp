@@ -25,13 +25,15 @@ Result<CachedRun> CachedRun::open(Graph graph, const std::string& folder, const 
                     run.simulated.end())
                     run.simulated.push_back(std::move(each));
     std::ranges::sort(run.simulated, {}, &CachedSimulation::node);
-    if (run.simulated.empty())
-        return Error{.message =
-                         "nothing that this graph shows is simulated: link an emitter, "
-                         "particle_dynamics or an sph_fluid to its output by particles_to_field, or "
-                         "name a node of them",
-                     .file = run.live.graph.path};
+    if (run.simulated.empty()) return nothingSimulated(run.live.graph);
     return run;
+}
+
+Error nothingSimulated(const Graph& graph) {
+    return Error{.message =
+                     "nothing that this graph shows is simulated: link an emitter, particle_dynamics or an "
+                     "sph_fluid to its output by particles_to_field, or name a node of them",
+                 .file = graph.path};
 }
 
 std::string CachedRun::headerPath() const {

@@ -18,6 +18,9 @@
 
 namespace fw {
 
+/// The error that a document shows nothing which is simulated.
+Error nothingSimulated(const Graph& graph);
+
 class CachedRun {
   public:
     /// Compiles the document, in which check() found no error, for a cache in the folder. Errors: those of

@@ -152,6 +152,7 @@ TEST_F(Jobs, RefuseAtOnceWhatTheCommandWouldRefuseOnTheFarm) {
     refused(with(slurm, {"export", graph, "-o", out, "--from", "9"}), 2, {"there is no frame from"});
     refused(with(slurm, {"export", graph, "-o", out, "--from", "0", "--set", "siz=1"}), 1, {"did you mean"});
     refused(with(slurm, {"export", graph, "-o", out, "--sweep", "siz=0.2:1:3"}), 2, {"siz"});
+    refused(with(slurm, {"simulate", graph, "-o", out}), 1, {"nothing that this graph shows is simulated"});
     refused(with(slurm, {"render", graph, "-o", out + ".jpg"}), 2, {"a picture is a PNG or an OpenEXR file"});
     refused({"job", "--for", "slurm", "-o", job, "--chunk", "4", "--", "export", graph, "-o", out + ".glb"},
             2, {"--chunk is of frames or variants"});
