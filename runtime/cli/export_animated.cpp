@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "runtime/cli/mesh_graph.h"
 #include "runtime/cli/sequence.h"
@@ -42,6 +43,7 @@ struct Animation {
 int forFrames(const Animation& of, const std::function<Done(Mesh, long frame)>& add) {
     WrittenBehind writing;
     SequenceProgress progress("frame", of.range.count());
+    bool empty = false;
     for (long frame = of.range.first; frame < of.range.last; ++frame) {
         Result<Mesh> mesh = onceMoreIfLost(
             [&] {
@@ -50,6 +52,9 @@ int forFrames(const Animation& of, const std::function<Done(Mesh, long frame)>& 
             },
             [&] { renewDevice(of.player, "going on at frame " + std::to_string(frame)); });
         if (!mesh) return badInput(of.options.mesh, in(mesh.error(), "frame " + std::to_string(frame)));
+        if (mesh->indices.empty() && !std::exchange(empty, true))
+            std::fprintf(stderr, "%s: note: the solid is empty at frame %ld, and nothing is shown there\n",
+                         of.options.output.c_str(), frame);
         std::shared_ptr<const Program> program;
         if (of.options.textures) program = std::make_shared<Program>(of.player.programOnHost());
         auto write = [&, frame, program, mesh = std::move(*mesh)]() mutable -> Done {

@@ -141,7 +141,7 @@ Result<std::size_t> GltfScene::addMesh(const Mesh& given, const std::string& nam
         binary.write("\0\0\0", (4 - binary.size() % 4) % 4);
     }
     if (!binary.good())
-        if (const Done written = binary.finish(); !written) return written.error();
+        if (const Done written = finished(); !written) return written.error();
     return found->second;
 }
 
@@ -195,9 +195,18 @@ void GltfScene::addAnimation(const char* name, const std::vector<GltfTrack>& tra
     document["animations"].push_back({{"name", name}, {"samplers", samplers}, {"channels", channels}});
 }
 
+/// Its error is that of the file asked for, for nobody knows the other.
+Done GltfScene::finished() {
+    Done whole = binary.finish();
+    if (whole || lowerExtension(path) == ".gltf") return whole;
+    Error error = whole.error();
+    error.file = path;
+    return error;
+}
+
 /// What was written so far, of a file that is whole.
 Done GltfScene::readBinary(const std::function<Done(std::span<const unsigned char>)>& take) {
-    if (const Done whole = binary.finish(); !whole) return whole.error();
+    if (const Done whole = finished(); !whole) return whole.error();
     std::ifstream from(binary.place(), std::ios::binary);
     std::vector<unsigned char> piece(4 << 20);
     for (uint64_t left = binary.size(); left > 0;) {

@@ -57,6 +57,7 @@ class GltfScene {
     /// The numbers of textures, which are added if they have not come before.
     Result<TextureNumbers> texturesOf(const std::shared_ptr<const MeshTextures>& textures);
     std::size_t addFloats(const std::vector<float>& values, std::size_t parts);
+    Done finished();
     Done readBinary(const std::function<Done(std::span<const unsigned char>)>& take);
     Result<ExportedFiles> commit(OutputFile& file, OutputFile* beside);
     Result<ExportedFiles> writeCompressed();

@@ -236,7 +236,9 @@ TEST_F(MeshSequence, IsOneFileInWhichFramesTakeTurns) {
                                                         "moves.gltf"}));
     // Nothing is there while the solid is empty.
     test::writeText(graph, kEaten);
-    EXPECT_EQ(exported(path, {"--animated", "--to", "0.75"}).status, 0);
+    const CommandResult empty = exported(path, {"--animated", "--to", "0.75"});
+    EXPECT_EQ(empty.status, 0);
+    EXPECT_EQ(empty.errors, path + ": note: the solid is empty at frame 1, and nothing is shown there\n");
     const std::string eaten = readText(path);
     const nlohmann::json gone = jsonOfGlb(eaten);
     EXPECT_EQ(gone["meshes"].size(), 1u);
