@@ -119,6 +119,7 @@ int runExport(const ExportOptions& options) {
     Progress progress;
     if (!options.particles.empty()) return exportParticles(options);
     if (options.animated) return exportAnimated(options);
+    if (!options.instances.empty()) return exportInstances(options);
     if (!options.sweep.empty()) return exportSweep(options);
     if (options.sequence.frames.asked()) return exportSequence(options);
     if (const std::string ending = lowerExtension(options.output);

@@ -225,6 +225,16 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
             ->check(whole(1, kMostLevels));
     exportCommand->add_flag("--parts", exportOptions.parts,
                             "Of a .glb or .gltf: what touches nowhere is a node of its own");
+    CLI::Option* instances =
+        exportCommand
+            ->add_option("--instances", exportOptions.instances,
+                         "Of a .glb or .gltf: copies that stand apart, as repeat, scatter and polar_repeat "
+                         "make them, share one mesh; as nodes, which every program reads, or gpu "
+                         "(EXT_mesh_gpu_instancing), smaller, for game engines, three.js and Babylon")
+            ->type_name("[FORM]")
+            ->expected(0, 1)
+            ->default_str("nodes")
+            ->check(oneOf({"nodes", "gpu"}));
     std::vector<std::string> units;
     for (const LengthUnit& unit : lengthUnits()) units.emplace_back(unit.name);
     exportCommand
@@ -308,6 +318,10 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         for (const char* ofOne : {"--tiles", "--tile"})
             exportCommand->get_option(ofWholes)->excludes(exportCommand->get_option(ofOne));
 
+    for (const char* ofOneMesh :
+         {"--from", "--to", "--fps", "--range", "--frames", "--overwrite", "--animated", "--sweep", "--tiles",
+          "--tile", "--textures", "--lods", "--manifold", "--parts", "--triangles", "--particles"})
+        instances->excludes(exportCommand->get_option(ofOneMesh));
     for (const char* without : {"--animated", "--tiles", "--tile", "--particles"})
         lods->excludes(exportCommand->get_option(without));
     for (const char* without : {"--split-materials", "--particles"})

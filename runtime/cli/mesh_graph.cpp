@@ -89,7 +89,7 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     // The device starts while the graph is read: on software Vulkan that takes longer than reading.
     OpeningDevice device(startOf(options), {.pick = options.device});
     progress.start("read", 0);
-    const std::optional<Graph> graph = openKept(options, status);
+    std::optional<Graph> graph = openKept(options, status);
     if (!graph) return std::nullopt;
     if (options.planned && options.planned->parts == 1) return fail(kDone);
     progress.start("compile", 5);
@@ -120,7 +120,8 @@ std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& pro
     progress.start("device", 15);
     Result<Device>& opened = device.get();
     if (!opened) return print(opened.error()), fail(kBadUsage);
-    return OpenedGraph{std::move(*opened), std::move(*program), request, *box, unitOf(*graph)};
+    const LengthUnit unit = unitOf(*graph);
+    return OpenedGraph{std::move(*opened), std::move(*program), request, *box, unit, std::move(*graph)};
 }
 
 Result<MeshedProgram> meshOpened(OpenedGraph opened, Progress& progress, bool timed) {

@@ -45,6 +45,7 @@ struct OpenedGraph {
     MeshRequest request;  ///< with its resolution and method
     Box region;
     LengthUnit unit;  ///< the document's
+    Graph graph;      ///< with its options' values
 };
 
 /// When the device is opened: a plan needs none.

@@ -62,6 +62,8 @@ int noteWork(JobWork& work, const char* one, const FrameRange& frames);
 int exportSequence(const ExportOptions& options);
 int exportAnimated(const ExportOptions& options);
 int exportSweep(const ExportOptions& options);
+/// `export --instances`: copies share a mesh.
+int exportInstances(const ExportOptions& options);
 /// `export --particles`: a file of points, or one for every frame.
 int exportParticles(const ExportOptions& options);
 

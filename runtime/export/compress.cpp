@@ -8,12 +8,14 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace fw {
 namespace {
@@ -22,7 +24,7 @@ using nlohmann::json;
 
 enum ComponentType : int { kByte = 5120, kUnsignedByte, kShort, kUnsignedShort, kUnsignedInt = 5125, kFloat };
 
-constexpr const char* kCode = "EXT_meshopt_compression";
+constexpr const char *kCode = "EXT_meshopt_compression", *kInstances = "EXT_mesh_gpu_instancing";
 
 /// What an array of a vertex's numbers is stored as.
 struct Stored {
@@ -224,6 +226,42 @@ class GltfCompressor {
         return steps;
     }
 
+    /// A node's move and size, which come to be those of its mesh's cube in it.
+    static void placeIn(const Steps& cube, glm::vec4 turn, glm::vec3& move, glm::vec3& size) {
+        move += glm::quat(turn.w, turn.x, turn.y, turn.z) * (size * cube.from);
+        size *= cube.side;
+    }
+
+    /// Each instance's transform is the outer one: the cube goes into all of them.
+    void placeInstances(const json& attributes, const Steps& cube) {
+        const auto number = [&](const char* key) { return attributes[key].get<std::size_t>(); };
+        json& moves = document["accessors"][number("TRANSLATION")];
+        json& sizes = document["accessors"][number("SCALE")];
+        const unsigned char* const turns = elements(document["accessors"][number("ROTATION")]);
+        const auto count = moves["count"].get<std::size_t>();
+        std::vector<glm::vec3> move(count), size(count);
+        std::memcpy(move.data(), elements(moves), count * sizeof(glm::vec3));
+        std::memcpy(size.data(), elements(sizes), count * sizeof(glm::vec3));
+        for (std::size_t i = 0; i < count; ++i) {
+            glm::vec4 turn;
+            std::memcpy(&turn, turns + i * sizeof turn, sizeof turn);
+            placeIn(cube, turn, move[i], size[i]);
+        }
+        for (const auto& [accessor, values] : {std::pair(&moves, &move), std::pair(&sizes, &size)}) {
+            (*accessor)["bufferView"] = addPlain(values->data(), count * sizeof(glm::vec3));
+            placed.insert(std::size_t(accessor - &document["accessors"][0]));
+        }
+    }
+
+    /// Adds bytes as they are; their view's number.
+    std::size_t addPlain(const void* bytes, std::size_t size) {
+        document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", to.size()}, {"byteLength", size}});
+        const auto* first = static_cast<const unsigned char*>(bytes);
+        to.insert(to.end(), first, first + size);
+        to.resize((to.size() + 3) / 4 * 4);
+        return document["bufferViews"].size() - 1;
+    }
+
     /// Puts the meshes' cubes into the nodes that show them.
     void place(const std::vector<Steps>& steps) {
         std::set<std::size_t> moving;
@@ -234,9 +272,12 @@ class GltfCompressor {
         for (std::size_t i = 0, count = nodes.size(); i < count; ++i) {
             if (!nodes[i].contains("mesh")) continue;
             const auto mesh = nodes[i]["mesh"].get<std::size_t>();
-            const bool free = !moving.contains(i) && !nodes[i].contains("children") &&
-                              !nodes[i].contains("scale") && !nodes[i].contains("translation") &&
-                              !nodes[i].contains("rotation");
+            if (const auto extensions = nodes[i].find("extensions");
+                extensions != nodes[i].end() && extensions->contains(kInstances)) {
+                placeInstances((*extensions)[kInstances]["attributes"], steps[mesh]);
+                continue;
+            }
+            const bool free = !moving.contains(i) && !nodes[i].contains("children");
             std::size_t node = i;
             if (!free) {
                 node = nodes.size();
@@ -244,9 +285,15 @@ class GltfCompressor {
                 nodes[i].erase("mesh");
                 nodes[i]["children"].push_back(node);
             }
-            const Steps& cube = steps[mesh];
-            nodes[node]["translation"] = {cube.from.x, cube.from.y, cube.from.z};
-            nodes[node]["scale"] = {cube.side, cube.side, cube.side};
+            const auto numbers = [&](const char* key, auto none) {
+                if (const auto own = nodes[node].find(key); own != nodes[node].end())
+                    for (std::size_t k = 0; k < own->size(); ++k) none[int(k)] = (*own)[k].get<float>();
+                return none;
+            };
+            glm::vec3 move = numbers("translation", glm::vec3(0)), size = numbers("scale", glm::vec3(1));
+            placeIn(steps[mesh], numbers("rotation", glm::vec4(0, 0, 0, 1)), move, size);
+            nodes[node]["translation"] = {move.x, move.y, move.z};
+            nodes[node]["scale"] = {size.x, size.y, size.z};
         }
     }
 
@@ -273,7 +320,7 @@ class GltfCompressor {
                     arrays.insert(attribute.get<std::size_t>());
             }
         for (std::size_t i = 0; i < document["accessors"].size(); ++i)
-            if (!arrays.contains(i)) keep(document["accessors"][i]);
+            if (!arrays.contains(i) && !placed.contains(i)) keep(document["accessors"][i]);
         if (document.contains("images"))
             for (json& image : document["images"])
                 if (image.contains("bufferView")) keep(image);
@@ -283,7 +330,8 @@ class GltfCompressor {
     const std::vector<unsigned char>& from;
     const json oldViews;
     std::vector<unsigned char> to;
-    std::size_t decoded = 0;  ///< bytes that a decoder makes of them
+    std::size_t decoded = 0;       ///< bytes that a decoder makes of them
+    std::set<std::size_t> placed;  ///< accessors of instances that have the meshes' cubes in them
 };
 
 }  // namespace

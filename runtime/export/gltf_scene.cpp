@@ -204,6 +204,19 @@ Done GltfScene::finished() {
     return error;
 }
 
+void GltfScene::addInstances(std::size_t node, const std::vector<float>& moves,
+                             const std::vector<float>& turns, const std::vector<float>& sizes) {
+    document["nodes"][node]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", addFloats(moves, 3)},
+        {"ROTATION", addFloats(turns, 4)},
+        {"SCALE", addFloats(sizes, 3)}};
+    // Who does not know it shows the mesh once, at a place where there may be none.
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        if (nlohmann::json& names = document[list];
+            std::find(names.begin(), names.end(), "EXT_mesh_gpu_instancing") == names.end())
+            names.push_back("EXT_mesh_gpu_instancing");
+}
+
 /// What was written so far, of a file that is whole.
 Done GltfScene::readBinary(const std::function<Done(std::span<const unsigned char>)>& take) {
     if (const Done whole = finished(); !whole) return whole.error();

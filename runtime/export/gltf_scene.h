@@ -45,6 +45,10 @@ class GltfScene {
     /// All tracks, of one at least, play together.
     void addAnimation(const char* name, const std::vector<GltfTrack>& tracks);
     void setNode(std::size_t node, const char* key, nlohmann::json value);
+    /// Shows the node's mesh at places within the node, in place of once there (EXT_mesh_gpu_instancing):
+    /// three numbers of a place, a turn's four and three sizes each.
+    void addInstances(std::size_t node, const std::vector<float>& moves, const std::vector<float>& turns,
+                      const std::vector<float>& sizes);
     /// What the object in the file is called.
     std::string name() const;
 

@@ -20,6 +20,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxJsonBytes = 16u << 20;  // ours has about 1 KiB
 constexpr int kMaxJsonDepth = 64;
+constexpr const char* kInstances = "EXT_mesh_gpu_instancing";
 
 /// nlohmann's parser keeps its own stack, but its destructor and callers recurse: bound the depth beforehand.
 bool tooDeep(std::string_view text) {
@@ -154,7 +155,7 @@ struct GltfReader {
         found.normalized = accessor->value("normalized", json()) == json(true);
         const uint64_t componentBytes = Elements::bytesOf(found.componentType);
         if (componentBytes == 0) return fault("an accessor has an unknown component type");
-        const uint64_t elementBytes = componentBytes * (type == "VEC3" ? 3 : 1);
+        const uint64_t elementBytes = componentBytes * (type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1);
         const auto viewIndex = whole(*accessor, "bufferView");
         const auto count = whole(*accessor, "count");
         const auto offset = whole(*accessor, "byteOffset", 0);
@@ -247,7 +248,7 @@ Result<json> parseDocument(const Bytes& bytes, const Fault& fault) {
     if (!asset || !asset->is_object() || asset->value("version", json()) != json("2.0"))
         return fault("it is not of glTF version 2.0");
     for (const json& extension : document.value("extensionsRequired", json::array()))
-        if (extension != kMeshCode && extension != "KHR_mesh_quantization")
+        if (extension != kMeshCode && extension != kInstances && extension != "KHR_mesh_quantization")
             return fault("it requires an extension that is not read back");
     return document;
 }
@@ -279,6 +280,13 @@ bool isCoarserLevel(const json& node) {
            number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+glm::mat4 transformOf(glm::vec3 move, glm::vec4 turn, glm::vec3 size) {
+    glm::mat4 transform = glm::mat4_cast(glm::quat(turn.w, turn.x, turn.y, turn.z));
+    for (int axis = 0; axis < 3; ++axis) transform[axis] *= size[axis];
+    transform[3] = glm::vec4(move, 1.0f);
+    return transform;
+}
+
 /// The nodes of the scene, and what of meshes they show.
 struct SceneReader {
     GltfReader reader;
@@ -291,9 +299,43 @@ struct SceneReader {
             return reader.fault("a mesh has no primitives");
         reader.transform = transform;
         reader.numbered.reset();
+        const std::size_t before = welded.indices.size();
         for (const json& part : of["primitives"]) {
             if (!part.is_object()) return reader.fault("a primitive is malformed");
             if (Done read = reader.primitive(part, welder, welded.indices); !read) return read;
+        }
+        if (glm::determinant(glm::mat3(transform)) < 0.0f)  // then they wind the other way, and show the same
+            for (std::size_t i = before; i < welded.indices.size(); i += 3)
+                std::swap(welded.indices[i + 1], welded.indices[i + 2]);
+        return done();
+    }
+
+    /// The mesh at each place that the node's instances have.
+    Done instances(const json& of, const json& attributes, const glm::mat4& transform) {
+        std::array<std::optional<Elements>, 3> read;
+        constexpr std::array<const char*, 3> kNames = {"TRANSLATION", "ROTATION", "SCALE"};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!attributes.is_object() || !attributes.contains(kNames[i])) continue;
+            const auto number = whole(attributes, kNames[i]);
+            if (!number) return reader.fault("instances are malformed");
+            const Result<Elements> list = reader.elements(*number, i == 1 ? "VEC4" : "VEC3");
+            if (!list) return list.error();
+            if (list->componentType != Elements::kFloat)
+                return reader.fault("instances that are no floats are not read back");
+            read[i] = *list;
+        }
+        uint64_t count = 0;
+        for (const auto& list : read)
+            if (list) {
+                if (count != 0 && count != list->count) return reader.fault("instances are malformed");
+                count = list->count;
+            }
+        for (uint64_t i = 0; i < count; ++i) {
+            const glm::vec3 move = read[0] ? read[0]->vector(i) : glm::vec3(0),
+                            size = read[2] ? read[2]->vector(i) : glm::vec3(1);
+            const glm::vec4 turn =
+                read[1] ? load<glm::vec4>(read[1]->bytes, i * read[1]->stride) : glm::vec4(0, 0, 0, 1);
+            if (Done shown = mesh(of, transform * transformOf(move, turn, size)); !shown) return shown;
         }
         return done();
     }
@@ -309,16 +351,21 @@ struct SceneReader {
                    size = numbersOf<3>(*of, "scale", {1, 1, 1});
         const auto turn = numbersOf<4>(*of, "rotation", {0, 0, 0, 1});
         if (!move || !size || !turn) return reader.fault("a node's transform is malformed");
-        glm::mat4 transform = parent;
-        transform *=
-            glm::mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {(*move)[0], (*move)[1], (*move)[2], 1});
-        transform *= glm::mat4_cast(glm::quat((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]));
-        for (int axis = 0; axis < 3; ++axis) transform[axis] *= (*size)[std::size_t(axis)];
+        const auto vector = [](const std::array<float, 3>& v) { return glm::vec3(v[0], v[1], v[2]); };
+        const glm::mat4 transform =
+            parent *
+            transformOf(vector(*move), {(*turn)[0], (*turn)[1], (*turn)[2], (*turn)[3]}, vector(*size));
         if (const auto shown = of->find("mesh"); shown != of->end()) {
             const json* named =
                 shown->is_number_unsigned() ? entry(reader.document, "meshes", *shown) : nullptr;
             if (!named) return reader.fault("a node's mesh is missing");
-            if (Done read = mesh(*named, transform); !read) return read;
+            const json extensions = of->value("extensions", json::object());
+            const bool many = extensions.is_object() && extensions.contains(kInstances) &&
+                              extensions[kInstances].is_object();
+            Done read = many
+                            ? instances(*named, extensions[kInstances].value("attributes", json()), transform)
+                            : mesh(*named, transform);
+            if (!read) return read;
         }
         return nodes(*of, "children", transform, depth + 1);
     }
@@ -376,7 +423,9 @@ Result<WeldedMesh> readGltf(const Bytes& bytes, const StoredMesh& mesh, const Fa
     const Result<json> document = parseDocument(bytes, fault);
     if (!document) return document.error();
     const json* buffer = entry(*document, "buffers", 0);
-    const bool coded = document->contains("extensionsRequired");  // then there is one that a decoder fills
+    const json required = document->value("extensionsRequired", json::array());
+    const bool coded = std::find(required.begin(), required.end(), kMeshCode) != required.end();
+    // Then there is one more, that a decoder fills.
     if (!buffer || (*document)["buffers"].size() != (coded ? 2 : 1))
         return fault("it does not have exactly one buffer");
     const auto uri = buffer->find("uri");

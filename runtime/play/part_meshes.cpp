@@ -32,14 +32,6 @@ std::vector<glm::dvec3> somePoints(const Mesh& mesh) {
     return points;
 }
 
-glm::dmat4 matrixOf(const Pose& pose) {
-    const auto& [x, y, z, w] = pose.turn;
-    glm::dmat4 matrix = glm::mat4_cast(glm::dquat(w, x, y, z));
-    for (int axis = 0; axis < 3; ++axis) matrix[axis] *= pose.size;
-    matrix[3] = glm::dvec4(pose.move[0], pose.move[1], pose.move[2], 1.0);
-    return matrix;
-}
-
 /// One part's points and field, for questions.
 struct AskedPart {
     std::vector<glm::dvec3> points;
@@ -90,6 +82,14 @@ Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNod
         meshes[i] = {std::move(*mesh), player.programOnHost()};
     }
     return meshes;
+}
+
+glm::dmat4 matrixOf(const Pose& pose) {
+    const auto& [x, y, z, w] = pose.turn;
+    glm::dmat4 matrix = glm::mat4_cast(glm::dquat(w, x, y, z));
+    for (int axis = 0; axis < 3; ++axis) matrix[axis] *= pose.size;
+    matrix[3] = glm::dvec4(pose.move[0], pose.move[1], pose.move[2], 1.0);
+    return matrix;
 }
 
 std::vector<glm::dmat4> placesAt(std::span<const PartNode> nodes, std::size_t moment) {

@@ -20,6 +20,9 @@ struct PartMesh {
 Result<std::vector<PartMesh>> partMeshes(Player& player, std::span<const PartNode> nodes, double cellSize,
                                          PlayerOptions options, MaterialParts parts);
 
+/// From the space of what is carried into that of what carries it.
+glm::dmat4 matrixOf(const Pose& pose);
+
 /// From each node's own space into the document's, at the moment of that number.
 std::vector<glm::dmat4> placesAt(std::span<const PartNode> nodes, std::size_t moment);
 

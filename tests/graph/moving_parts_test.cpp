@@ -105,6 +105,26 @@ TEST(MovingParts, AreWhereTheFieldHasThem) {
     }
 }
 
+TEST(MovingParts, WhatOnlyLooksLikeCarryingIsNone) {
+    // Grown by a length: of coordinates and 1 alone that looks like another size.
+    EXPECT_FALSE(partsOf(kBall +
+                             R"({"id": "grow", "type": "offset", "inputs": {"surface": {"from": "ball"}}},)" +
+                             shown("grow"),
+                         moved("grow", "distance", "0.1", "0.2")));
+    const std::string far =
+        R"({"id": "go", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0, 0, 0]}},
+           {"id": "copies", "type": "repeat",
+            "inputs": {"surface": {"from": "go"}, "period": [100, 0, 0], "count": [3, 1, 1]}},)";
+    EXPECT_FALSE(partsOf(kBall + far + shown("copies"), moved("go", "offset", "[0, 0, 0]", "[1, 0, 0]")));
+    // A blend over a short way is no plain union.
+    const std::string blend =
+        R"({"id": "go", "type": "translate", "inputs": {"surface": {"from": "ball"}, "offset": [0, 0, 0]}},
+           {"id": "box", "type": "box"},
+           {"id": "both", "type": "union",
+            "inputs": {"a": {"from": "go"}, "b": {"from": "box"}, "radius": 0.05}},)";
+    EXPECT_FALSE(partsOf(kBall + blend + shown("both"), moved("go", "offset", "[0, 0, 0]", "[1, 0, 0]")));
+}
+
 TEST(MovingParts, TurnsGoTheShortWay) {
     const auto parts =
         partsOf(kBall + R"({"id": "turn", "type": "rotate", "inputs": {"surface": {"from": "ball"}}},)" +
