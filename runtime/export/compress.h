@@ -3,11 +3,12 @@
 // engines.
 //
 // Positions become 16-bit steps of the longest side of their mesh's box, which is made part of the
-// transforms of the nodes and instances that show it; a node that moves, or has children, gets one for it. So every place is off by at most a
-// 131,070th of that side, and vertices at one place stay at one place: what is closed stays closed. Normals
-// and tangents become 8-bit vectors (0.4 degrees), texture coordinates 16-bit; colours have 16 bits already.
-// Triangles are put in the order that a GPU's cache likes, and vertices in the order in which triangles name
-// them: the coder needs both. Vertices that no triangle names are left out.
+// transforms of the nodes and instances that show it; a node that moves, or has children, gets one for it. So
+// every place is off by at most a 131,070th of that side, and vertices at one place stay at one place: what
+// is closed stays closed. Normals and tangents become 8-bit vectors (0.4 degrees), texture coordinates
+// 16-bit; colours have 16 bits already. Triangles are put in the order that a GPU's cache likes, and vertices
+// in the order in which triangles name them: the coder needs both. Vertices that no triangle names are left
+// out.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -27,6 +27,7 @@ constexpr std::size_t kPointsForABorder = 16;
 
 constexpr const char* kApart = "do not stand apart: they touch, or reach into each other";
 constexpr const char* kWhole = "are not whole: a border of a cell or of the region cuts them, or they differ";
+constexpr const char* kAlone = "cannot be meshed by themselves";
 constexpr const char* kAlike = "are not of the same material";
 
 struct Piece {
@@ -90,12 +91,12 @@ class CopyFinder {
             double largest = 0;
             for (const Copy& copy : copies) largest = std::max(largest, copy.place.pose.size);
             const Result<MeshedField> content = meshContent(solid.cellSize / largest);
-            if (content) {
+            if (content && !content->mesh.indices.empty()) {
                 check(*content);
                 found.mesh = content->mesh;
             } else {
-                for (Copy& copy : copies) copy.fault = "cannot be meshed by themselves";
-                found.why = content.error().message;
+                for (Copy& copy : copies) copy.fault = kAlone;
+                if (!content) found.why = content.error().message;
             }
         }
         std::vector<bool> copied(pieces.size());

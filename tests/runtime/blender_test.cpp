@@ -122,6 +122,24 @@ TEST_F(Blender, MovesThePartsThatMove) {
     EXPECT_EQ(read["parents"]["hinge"], read["parents"]["the post"]);
 }
 
+TEST_F(Blender, ShowsCopiesOfOneMesh) {
+    test::writeText(graph, R"({"fieldwright": 1, "nodes": [
+      {"id": "cone", "type": "capped_cone", "inputs": {"half_height": 0.5, "radius_bottom": 0.4, "radius_top": 0.1}},
+      {"id": "turned", "type": "rotate", "inputs": {"surface": {"from": "cone"}, "angles": [20, 0, 50]}},
+      {"id": "off", "type": "translate", "inputs": {"surface": {"from": "turned"}, "offset": [2, 0, 0]}},
+      {"id": "ring", "type": "polar_repeat", "inputs": {"surface": {"from": "off"}, "count": 7}},
+      {"id": "high", "type": "translate", "inputs": {"surface": {"from": "ring"}, "offset": [0, 2, 0]}},
+      {"id": "both", "type": "mirror", "inputs": {"surface": {"from": "off"}, "normal": [0.6, 0.8, 0.1]}},
+      {"id": "all", "type": "union", "inputs": {"a": {"from": "high"}, "b": {"from": "both"}}},
+      {"id": "out", "type": "output", "inputs": {"surface": {"from": "all"}, "resolution": 96}}]})");
+    const std::string path = exported(graph, "copies.glb", {"--instances"});
+    const json read = inBlender(path);
+    expectSame(read["frames"]["0"], measured(path));
+    EXPECT_EQ(read["frames"]["0"]["names"].size(), 9u);
+    EXPECT_EQ(read["parents"]["ring_7"], "ring");
+    EXPECT_EQ(read["parents"]["both_2"], "both");
+}
+
 TEST_F(Blender, HasColoursAndMaterials) {
     test::writeText(graph, kPainted);
     for (const std::string file : {"a.glb", "a.gltf", "a.obj"}) {

@@ -30,7 +30,7 @@ def seen(frame):
         mesh.from_mesh(each.evaluated_get(evaluated).to_mesh())
         mesh.transform(each.matrix_world)
         names.append(each.name)
-        volume += mesh.calc_volume(signed=True)
+        volume += mesh.calc_volume(signed=True) * numpy.sign(each.matrix_world.determinant())  # a mirror image turns faces
         places += [(v.co.x, v.co.z, -v.co.y) for v in mesh.verts]
         mesh.free()
     return {"names": sorted(names), "volume": volume,
