@@ -369,6 +369,7 @@ std::size_t Rounds::apply() {
         const auto [from, to, cost] = chosen[i];
         state.quadrics[to].add(state.quadrics[from]);
         state.areas[to] += state.areas[from];
+        state.partTriangles[state.parts[from]] -= 2;
         for (const Spoke& spoke : state.stars.at(from)) {
             state.indices[spoke.corner] = to;
             tried[spoke.next] = -1.0f;

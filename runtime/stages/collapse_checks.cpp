@@ -109,6 +109,7 @@ bool CollapseState::keepsFaces(const Collapse& collapse) const {
 
 FewFaces CollapseState::fewFaces(const Collapse& collapse) const {
     FewFaces part;
+    if (!closed || partTriangles[parts[collapse.from]] > part.triangles.size()) return part;
     const auto add = [&](uint32_t vertex) {
         for (const Spoke& spoke : stars.at(vertex)) {
             if (std::ranges::find(part.all(), spoke.triangle()) != part.all().end()) continue;
@@ -117,7 +118,7 @@ FewFaces CollapseState::fewFaces(const Collapse& collapse) const {
         }
         return true;
     };
-    bool few = closed && add(collapse.from) && add(collapse.to);
+    bool few = add(collapse.from) && add(collapse.to);
     for (std::size_t i = 0; few && i < 3 * part.count; ++i)
         few = add(indices[3 * std::size_t(part.triangles[i / 3]) + i % 3]);
     return few ? part : FewFaces{};

@@ -5,6 +5,7 @@
 
 #include "graph/base/parallel.h"
 #include "runtime/mesh/corners.h"
+#include "runtime/mesh/joined_sets.h"
 
 namespace fw {
 
@@ -114,9 +115,20 @@ CollapseState::CollapseState(const Mesh& mesh, const CollapseLimits& limits) {
         closed = closed && stars.closed(v);
         stays[v] = stays[v] || !stars.closed(v);
     }
+    findParts();
     findBorders();
     findQuadrics();
     carryPoints(limits);
+}
+
+void CollapseState::findParts() {
+    JoinedSets sets(positions.size());
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        for (std::size_t k = 1; k < 3; ++k) sets.join(indices[i], indices[i + k]);
+    parts.resize(positions.size());
+    for (uint32_t v = 0; v < parts.size(); ++v) parts[v] = sets.root(v);
+    partTriangles.assign(positions.size(), 0);
+    for (std::size_t i = 0; i < indices.size(); i += 3) ++partTriangles[parts[indices[i]]];
 }
 
 void CollapseState::findAround() {

@@ -43,6 +43,8 @@ struct CollapseState {
     std::vector<glm::vec3> positions, colors;  ///< of colours none, or as many
     std::vector<uint32_t> labels;              ///< none, or as many
     std::vector<uint32_t> vertexNumbers;       ///< of the mesh
+    std::vector<uint32_t> parts;               ///< which one of the mesh hangs together with each vertex
+    std::vector<uint32_t> partTriangles;       ///< of each part, by such a number
     std::vector<char> stays;                   ///< vertices that must
     std::vector<char> bordering;               ///< vertices at a border between two looks
 
@@ -76,6 +78,7 @@ struct CollapseState {
   private:
     /// How much two vertices differ in colour and material; 1 for another material.
     float difference(uint32_t a, uint32_t b) const;
+    void findParts();
     void findBorders();
     void findQuadrics();
     void carryPoints(const CollapseLimits& limits);
