@@ -24,10 +24,9 @@ constexpr int kFewestCells = 8;
 
 Done checkInstances(const ExportOptions& options) {
     if (const Done fine = checkWish(options, options.output, options.measured()); !fine) return fine;
-    const std::string ending = lowerExtension(options.output);
-    if (ending == ".glb" || ending == ".gltf") return done();
+    if (isGltf(options.output)) return done();
     return Error{.message = "copies share a mesh in .glb and .gltf alone: leave --instances out for " +
-                            ending + ", or choose one of them",
+                            lowerExtension(options.output) + ", or choose one of them",
                  .file = options.output};
 }
 

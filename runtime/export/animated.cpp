@@ -7,8 +7,7 @@
 namespace fw {
 
 Done checkAnimatedPath(const std::string& path, const ExportOptions& options) {
-    const std::string ending = lowerExtension(path);
-    if (ending != ".glb" && ending != ".gltf")
+    if (!isGltf(path))
         return Error{.message =
                          "meshes that take turns are a .glb or .gltf file; of another format export each "
                          "frame into a folder",

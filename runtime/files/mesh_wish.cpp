@@ -77,6 +77,12 @@ ExportOptions writingOf(const MeshWish& wish) {
 Result<std::vector<Mesh>> withTextures(const MeshWish& wish, std::vector<Mesh> levels, const Program& program,
                                        const TextureStage& starts) {
     if (!wish.textures || levels[0].indices.empty()) return levels;
+    if (levels.size() == 1) {  // nothing is to be joined and parted again
+        Result<Mesh> one = textured(std::move(levels[0]), program, *wish.textures, starts);
+        if (!one) return one.error();
+        levels[0] = std::move(*one);
+        return levels;
+    }
     return texturedLevels(std::move(levels), program, *wish.textures, starts);
 }
 
