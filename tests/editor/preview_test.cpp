@@ -200,6 +200,7 @@ TEST(Preview, TheFirstPictureOfAStructureIsADraftOfTheSameView) {
 }
 
 TEST(Preview, AHundredEditsEndOnTheLast) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     Previewed previewed;
     std::mt19937 random(7);
     const auto number = [&](double low, double high) {
@@ -403,6 +404,7 @@ TEST(Preview, AMissingDeviceIsAFailure) {
 }
 
 TEST(Preview, AnEmptyTimeIsSaidOnceAndOverWhenItIsOver) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     Previewed previewed;
     PreviewWish wish{.graph = shared(R"({"fieldwright": 1, "nodes": [
       {"id": "now", "type": "time"}, {"id": "ball", "type": "expression", "code": "return length(p) - 1 + 2 * abs(now);",

@@ -68,14 +68,15 @@ TEST_P(CompiledOnce, WhateverIsShown) {
     expectNoMore("whole paths", draw);
 }
 
-INSTANTIATE_TEST_SUITE_P(Samples, CompiledOnce,
-                         testing::ValuesIn([] {  // of those that take the longest with FIELDWRIGHT_LONG
-                             std::vector<const char*> names = {"moving_booleans", "dusk_city"};
-                             if (std::getenv("FIELDWRIGHT_LONG"))
-                                 names.insert(names.end(), {"glass_of_water", "breaker", "tap", "wet_city"});
-                             return names;
-                         }()),
-                         [](const auto& about) { return std::string(about.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Samples, CompiledOnce,
+    testing::ValuesIn([] {  // of those that take the longest with FIELDWRIGHT_LONG
+        std::vector<const char*> names = {"moving_booleans"};
+        if (std::getenv("FIELDWRIGHT_LONG"))
+            names.insert(names.end(), {"dusk_city", "glass_of_water", "breaker", "tap", "wet_city"});
+        return names;
+    }()),
+    [](const auto& about) { return std::string(about.param); });
 
 TEST(CompiledOnce, TheViewsOfAField) {
     Result<Player> player = Player::open(FIELDWRIGHT_SOURCE_DIR "/samples/csg_part.field.json",

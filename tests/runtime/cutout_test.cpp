@@ -1,7 +1,9 @@
 // Pictures of the solid alone: how much of each pixel it takes, and that its edges hold nothing of what would
 // be behind.
 #include <gtest/gtest.h>
+
 #include <stb/stb_image.h>
+#include <cstdlib>
 
 #include <cmath>
 #include <memory>
@@ -48,6 +50,7 @@ double fromMiddle(std::size_t i) {
 }
 
 TEST(Cutout, AlphaIsTheShareOfEachPixelThatTheSolidTakes) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     // In the studio, on its ground, in fog, by paths, and with rays whose noise is taken out of linear light.
     const struct {
         const char* scene;

@@ -107,6 +107,7 @@ bool sameBytes(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b)
 }
 
 TEST(Foam, StillWaterGivesOffNone) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     Played player(textOf(kLake));
     for (const double time : {0.0, 0.5, 1.0, 2.0}) {
         player.goTo(time);
@@ -218,6 +219,7 @@ std::vector<glm::vec3> rowAt(float height) {
 }
 
 TEST(Foam, BubblesRiseAtTheirSpeedAndBecomeFoam) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     Lake lake(rowAt(0.1f));
     lake.run(30);
     for (const Slot& bubble : lake.slots()) {
@@ -235,6 +237,7 @@ TEST(Foam, BubblesRiseAtTheirSpeedAndBecomeFoam) {
 }
 
 TEST(Foam, FloatsUntilItsLifeEnds) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     Lake lake(rowAt(0.475f), 0.5f);  // and their share of chance is a half
     lake.run(29);
     for (const Slot& foam : lake.slots()) {

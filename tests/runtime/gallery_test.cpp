@@ -62,7 +62,9 @@ std::vector<fs::path> someSamples() {
 /// But for those that take the longest, of which other tests make pictures; all with FIELDWRIGHT_LONG.
 std::vector<fs::path> mostSamples() {
     std::vector<fs::path> most = samples();
-    const std::set<std::string> slow = {"breaker", "tap", "glass_of_water", "wet_city", "tidal_wave"};
+    const std::set<std::string> slow = {"breaker",       "tap",          "glass_of_water", "wet_city",
+                                        "tidal_wave",    "drop_in_bowl", "mesh_morph",     "eroded_duck",
+                                        "camera_flight", "blobs",        "cornell_box"};
     if (!std::getenv("FIELDWRIGHT_LONG"))
         std::erase_if(most, [&](const fs::path& sample) { return slow.contains(nameOf(sample)); });
     return most;

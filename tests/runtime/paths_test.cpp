@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <initializer_list>
 #include <numbers>
@@ -102,6 +103,7 @@ struct Paths : testing::Test {
 };
 
 TEST_F(Paths, AWhiteBallInAWhiteSkyVanishes) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     for (const char* metallic : {"0", "1"})
         for (const char* roughness : {"0", "0.1", "0.3", "0.6", "1"}) {
             SCOPED_TRACE(filled("metallic $, roughness $", {std::string(metallic), roughness}));
@@ -171,6 +173,7 @@ double fresnelOf(double cosine, double ior) {
 }
 
 TEST_F(Paths, ReflectsFresnelsShare) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     // What enters is absorbed at once.
     for (const double ior : {1.33, 1.5, 3.0})
         for (const double degrees : {0.0, 45.0, 70.0}) {
@@ -368,6 +371,7 @@ const std::string kStand =
        {"id": "stand", "type": "union", "inputs": {"a": {"from": "post"}, "b": {"from": "low"}}})";
 
 TEST_F(Paths, WhatBendsNothingIsNotSeen) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const std::string scene = seenFrom({0, 2, 5}, 40) + R"("sky": {}, "ground": false, "sun": {"size": 40})";
     const auto with = [&](const std::string& material) {
         return trace(

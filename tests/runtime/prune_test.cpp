@@ -94,6 +94,7 @@ const Box kBox{{-1.07, -1.06, -1.05}, {1.08, 1.09, 1.1}};
 constexpr int kFewForTheDriver = 100;  // members written out: of three hundred a shader takes long to build
 
 TEST(Prune, ThreeHundredScatteredBoxes) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const auto boxes = [](int count) {
         return programOf(
             "d = 1000.0; for (int i = 0; i < " + std::to_string(count) +
@@ -121,6 +122,7 @@ TEST(Prune, BlocksAreListedOnLongGrids) {
 }
 
 TEST(Prune, ThreeHundredBallsBlendedIntoTheGround) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const std::string ball =
         "c = vec3(hash(vec3(i, 1, 0), 1), 0.5 * hash(vec3(i, 2, 0), 1), hash(vec3(i, 3, 0), 1)) * 2 - 1; ";
     for (const char* first : {"d = p.y + 0.8; ", "d = length(p) - 0.3; ", "d = 0.02 * p.x + 1000.0; "}) {
@@ -264,6 +266,7 @@ TEST(Scatter, ChanceLeavesCopiesOutAndSeedsDiffer) {
 }
 
 TEST(Scatter, IsPrunedWithoutAChange) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const std::string box =
         R"({"id": "shape", "type": "box", "inputs": {"half_extents": [0.3, 0.2, 0.4], "rounding": 0.05}})";
     for (const char* settings :

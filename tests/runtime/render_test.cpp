@@ -421,6 +421,7 @@ TEST(Render, ASolidThatWasCutIsShadedAtTheCut) {
 }
 
 TEST(Render, ATracedSunIsSharpInALargeScene) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     // The shadow of a post 0.2 m wide on a plate of 100 m, of which a map has one texel for several posts.
     const std::string post = graphText(R"(
         {"id": "bar", "type": "box", "inputs": {"half_extents": [0.1, 2, 0.1]}},

@@ -2,8 +2,10 @@
 // them.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+
 #include <sys/file.h>
 #include <unistd.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <array>
@@ -166,6 +168,7 @@ TEST(Tiles, MakeUpTheWholeMesh) {
 }
 
 TEST(Tiles, OfRandomGraphsMakeUpTheWholeMesh) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const int most = std::getenv("FIELDWRIGHT_LONG") ? 8 : 4;
     int meshed = 0, capped = 0;
     for (uint32_t seed = 1; meshed < most; ++seed) {
@@ -200,6 +203,7 @@ TEST(Tiles, ByTapesMakeUpTheWholeMesh) {
 }
 
 TEST(Tiles, OfDualContouringMakeUpTheWholeMesh) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     int number = 0;  // every other without FIELDWRIGHT_LONG
     for (const char* name : {"tower", "csg_part", "menger", "gyroid_sphere", "dusk_city", "island"}) {
         if (number++ % 2 != 0 && !std::getenv("FIELDWRIGHT_LONG")) continue;
@@ -315,6 +319,7 @@ TEST_F(TilesCommand, FilesHoldTheSameMeshAsWithoutTiles) {
 }
 
 TEST_F(TilesCommand, AreMeasuredAsTheWholeIs) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const auto content = [&](const char* name) { return nlohmann::json::parse(bytes(name)); };
     expectDone({"export", graph, "-o", folder.path("whole.ply"), "--resolution", "130", "--report",
                 folder.path("whole.json")});
