@@ -40,7 +40,9 @@ TEST(EditorTasks, ACutMesh) {
             fs::copy_file(person.path("elsewhere/cube.obj"), person.path("cube.obj"));
             person.makeRoom();
             person.addAt("mesh file", person.spot(-1.6f, -1.6f));
-            const Area label = person.waitFor("Path", kInspector);  // the node has such a word too
+            // What is wrong with the node comes between, and moves the inputs down; it has such a word too.
+            const Area finding = person.waitFor("named", kInspector);
+            const Area label = person.waitFor("Path", Area{{kInspector.lo.x, finding.hi.y}, kInspector.hi});
             person.click({label.hi.x + 200, label.centre().y});
             person.type("cube.obj\n");
             person.save();
