@@ -230,8 +230,8 @@ void drawRows(const Pen& pen, const Canvas& canvas, const NodeBox& box) {
                 pen.text({at.x + inset, at.y}, row.linked ? quiet : ink, name, room * pen.view.unit());
                 const bool ramp = row.type == Type::stops && !row.linked;
                 if (ramp) drawStops(pen, box, row);
-                const std::string value =
-                    row.fields == 0 && !row.linked && !ramp ? valueText(row) : std::string();
+                std::string value = row.fields == 0 && !row.linked && !ramp ? valueText(row) : std::string();
+                std::ranges::replace(value, '\n', ' ');
                 if (!value.empty())
                     pen.text({at.x + 0.5f * box.area.width() * pen.view.unit(), at.y}, quiet, value,
                              (0.5f * box.area.width() - 10.0f) * pen.view.unit());

@@ -157,6 +157,8 @@ void showText(const Input& input, float room) {
     };
     if (kind)
         editFile(input.editor, "##text", valueText(input.row), *kind, room, commit);
+    else if (input.row.spec && input.row.spec->lines)
+        editLines(input.editor, "##text", valueText(input.row), commit);
     else
         editText(input.editor, "##text", valueText(input.row), "", commit);
 }

@@ -231,6 +231,16 @@ void editText(Editor& editor, const char* id, const std::string& text, const cha
     followText(editor, ImGui::GetID(id), text, shown, std::move(commit));
 }
 
+void editLines(Editor& editor, const char* id, const std::string& text,
+               std::function<void(Editor&, const std::string&)> commit) {
+    std::string shown = shownText(editor, id, text);
+    const auto lines = 1 + float(std::ranges::count(shown, '\n'));
+    const float height =
+        std::clamp(lines, 2.0f, 8.0f) * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().FramePadding.y;
+    ImGui::InputTextMultiline(id, &shown, {ImGui::CalcItemWidth(), height});
+    followText(editor, ImGui::GetID(id), text, shown, std::move(commit));
+}
+
 namespace {
 
 /// A square button with a folder on it.

@@ -75,6 +75,9 @@ void follow(Editor& editor, const char* id, const Touched& touched, const std::s
 /// takes it back.
 void editText(Editor& editor, const char* id, const std::string& text, const char* hint,
               std::function<void(Editor&, const std::string&)> commit);
+/// The same for a text of several lines, which ends with Ctrl+Enter.
+void editLines(Editor& editor, const char* id, const std::string& text,
+               std::function<void(Editor&, const std::string&)> commit);
 
 /// The path of a file: a line of text, and a button that chooses one (pickFile). `room` as in propertyRow().
 void editFile(Editor& editor, const char* id, const std::string& path, const FileKind& kind, float room,

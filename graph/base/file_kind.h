@@ -40,6 +40,17 @@ inline constexpr std::string_view kParticleCacheEndings[] = {".cache"};
 inline constexpr FileKind kParticleCacheFile = {
     .noun = "particle cache", .endings = kParticleCacheEndings, .mostBytes = 64u << 20, .apart = true};
 
+inline constexpr std::string_view kSvgEndings[] = {".svg"};
+inline constexpr std::string_view kDxfEndings[] = {".dxf"};
+inline constexpr std::string_view kFontEndings[] = {".ttf", ".otf", ".ttc"};
+inline constexpr FileKind kSvgFile = {.noun = "drawing", .endings = kSvgEndings, .mostBytes = 16u << 20};
+inline constexpr FileKind kDxfFile = {.noun = "drawing", .endings = kDxfEndings, .mostBytes = 64u << 20};
+/// Either of the two.
+inline constexpr std::string_view kDrawingEndings[] = {".svg", ".dxf"};
+inline constexpr FileKind kDrawingFile = {
+    .noun = "drawing", .endings = kDrawingEndings, .mostBytes = 64u << 20};
+inline constexpr FileKind kFontFile = {.noun = "font", .endings = kFontEndings, .mostBytes = 64u << 20};
+
 inline constexpr FileKind kEnvironmentFile = {
     .noun = "environment map", .endings = kEnvironmentEndings, .mostBytes = 512u << 20, .byContent = true};
 

@@ -7,6 +7,7 @@
 #include "graph/base/words.h"
 #include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
+#include "graph/document/unit.h"
 #include "graph/language/lower.h"
 
 namespace fw {
@@ -23,6 +24,7 @@ const Value& inputOf(const std::vector<NodeInput>& inputs, std::string_view name
 GraphLowering::GraphLowering(const Graph& graph_, const CompileOptions& options_)
     : graph(graph_), options(options_) {
     state.graphPath = graph.path;
+    state.metre = 1 / unitOf(graph).metres;
     if (options.costByNode) state.ir.keepOriginsApart();
     if (options.live.contains("time")) {
         state.time = state.ir.parameter(0);
@@ -123,6 +125,7 @@ Lowered GraphLowering::lowerBody(const NodeAt& at) {
     std::vector<Value> values;
     for (const NodeInput& input : *given) values.push_back(input.value);
     Result<std::vector<Value>> made = language::lowerNode(state, at.type, std::move(values));
+    for (std::string& remark : std::exchange(state.remarks, {})) warn(at, "", std::move(remark));
     if (!made) {
         Error error = made.error();
         error.codeLine = error.codeColumn = 0;
@@ -286,6 +289,11 @@ void GraphLowering::keepInRange(const NodeAt& at, const InputSpec& spec, Value& 
                  shortNumber(kLeastPositive) + " is taken");
 }
 
+namespace {
+constexpr std::string_view kKnownOnly =
+    "takes one number, known when the graph is compiled: it cannot depend on the place, nor be live";
+}
+
 std::optional<std::vector<NodeInput>> GraphLowering::inputs(const NodeAt& at) {
     std::vector<NodeInput> all;
     bool fine = true;
@@ -305,12 +313,16 @@ std::optional<std::vector<NodeInput>> GraphLowering::inputs(const NodeAt& at) {
             std::optional<Value> value = linkedValue(at, spec, *from);
             fine &= value.has_value();
             if (value) input.value = std::move(*value);
+            if (spec.known && !state.ir.isConstant(input.value.id())) {
+                report(at, spec.name, {.message = std::string(kKnownOnly)});
+                fine = false;
+            }
             if (shape) input.exactness = from->type == Type::surface ? from->exactness : distorted();
         } else if (spec.type != Type::mesh) {
             // What a simulation reads is read anew at each step.
             const bool stepped =
                 at.type.category == Category::particles && spec.value.kind == InputDefault::Kind::numbers;
-            input.value = literal(at, spec, given, at.type.body.empty() && !stepped);
+            input.value = literal(at, spec, given, spec.known || (at.type.body.empty() && !stepped));
         }
     }
     return fine ? std::optional(std::move(all)) : std::nullopt;
@@ -320,10 +332,7 @@ std::optional<double> GraphLowering::knownNumber(const NodeAt& at, const std::ve
                                                  std::string_view name, int component) {
     const IrId id = inputOf(inputs, name).ids[static_cast<std::size_t>(component)];
     if (!state.ir.isConstant(id)) {
-        report(
-            at, name,
-            {.message = "takes one number, known when the graph is compiled: it cannot depend on the place, "
-                        "nor be live"});
+        report(at, name, {.message = std::string(kKnownOnly)});
         return std::nullopt;
     }
     // One that is written was checked where it stands; here one may come from a wire.

@@ -21,7 +21,7 @@
 #include <string_view>
 
 #include "graph/assets/image.h"
-#include "graph/assets/outline.h"
+#include "graph/outlines/outline.h"
 #include "graph/assets/volume.h"
 #include "graph/base/interval.h"
 

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <unordered_map>
 
 #include "graph/language/ramps.h"
+#include "graph/outlines/drawing.h"
+#include "graph/outlines/gear.h"
+#include "graph/outlines/letters.h"
 
 namespace fw::language {
 
@@ -395,6 +399,74 @@ Result<Value> outlineAt(Lowering& s, Arguments a) {
     return scalar(s.ir.sample(s.ir.addOutline(outlineThrough(*a[1].points)), a[0].ids[0], a[0].ids[1]));
 }
 
+/// The distance to an outline at a place. Beyond its box that to the box is never more: it changes no value,
+/// but tells intervals where nothing is.
+IrId distanceToOutline(Lowering& s, const OutlinePtr& outline, const Value& place) {
+    const IrId x = place.ids[0], y = place.ids[1];
+    IrId distance = s.ir.sample(s.ir.addOutline(outline), x, y);
+    for (const auto& [at, lo, hi] :
+         {std::tuple(x, outline->lo.x, outline->hi.x), std::tuple(y, outline->lo.y, outline->hi.y)}) {
+        distance = s.ir.add(Op::maximum, distance, s.ir.add(Op::subtract, number(s, lo), at));
+        distance = s.ir.add(Op::maximum, distance, s.ir.add(Op::subtract, at, number(s, hi)));
+    }
+    return distance;
+}
+
+/// The distance to what a drawing paints.
+Result<Value> drawingAt(Lowering& s, Arguments a) {
+    const Result<OutlinePtr> outline = readDrawing(s.graphPath, a[1].text, a[2].text);
+    if (!outline) return outline.error();
+    for (const std::string& remark : (*outline)->remarks)
+        s.remarks.push_back(inQuotes(a[1].text) + ": " + remark);
+    return scalar(distanceToOutline(s, *outline, a[0]));
+}
+/// How long its unit is by its file.
+Result<Value> drawingScale(Lowering& s, Arguments a) {
+    const Result<OutlinePtr> outline = readDrawing(s.graphPath, a[0].text, a[1].text);
+    if (!outline) return outline.error();
+    return scalar(number(s, (*outline)->scale * s.metre));
+}
+
+/// The distance to a gear.
+Result<Value> gearAt(Lowering& s, Arguments a) {
+    for (const Value& value : a.subspan(1))
+        if (!s.ir.isConstant(value.ids[0]))
+            return Error{
+                "the numbers of a gear must be known when the graph is compiled: they cannot depend on the "
+                "place"};
+    const auto at = [&](std::size_t i) { return s.ir.number(a[i].ids[0]); };
+    const GearShape shape{std::max(at(1), 1e-6), int(std::clamp(at(2), 3.0, 1000.0)),
+                          std::clamp(at(3), 10.0, 35.0), at(4)};
+    const Result<OutlinePtr> outline = outlineOfGear(shape);
+    if (!outline) return outline.error();
+    return scalar(distanceToOutline(s, *outline, a[0]));
+}
+
+/// The distance to a text's letters.
+Result<Value> lettersAt(Lowering& s, Arguments a) {
+    for (std::size_t i = 6; i < 9; ++i)
+        if (!s.ir.isConstant(a[i].ids[0]))
+            return Error{
+                "the spacing of letters must be known when the graph is compiled: it cannot depend on the "
+                "place"};
+    using Align = TextLayout::Align;
+    using Anchor = TextLayout::Anchor;
+    TextLayout layout;
+    if (!a[2].text.empty()) layout.family = a[2].text;
+    layout.fontFile = a[3].text;
+    layout.align = a[4].text == "left" ? Align::left : a[4].text == "right" ? Align::right : Align::center;
+    layout.anchor = a[5].text == "baseline" ? Anchor::baseline
+                    : a[5].text == "top"    ? Anchor::top
+                    : a[5].text == "bottom" ? Anchor::bottom
+                                            : Anchor::middle;
+    layout.letterSpacing = s.ir.number(a[6].ids[0]);
+    layout.lineSpacing = s.ir.number(a[7].ids[0]);
+    layout.kerning = s.ir.number(a[8].ids[0]) != 0;
+    const Result<OutlinePtr> outline = outlineOfText(s.graphPath, a[1].text, layout);
+    if (!outline) return outline.error();
+    return scalar(*outline ? distanceToOutline(s, *outline, a[0]) : number(s, kEmptyDistance));
+}
+
 /// The (u, v) behind an image.
 std::pair<IrId, IrId> imagePlace(Arguments a) {
     return a[1].type == Type::vec2 ? std::pair(a[1].ids[0], a[1].ids[1])
@@ -489,6 +561,10 @@ const std::vector<Builtin>& table() {
         {"hash", 1, 2, noiseType<Type::scalar>, noise<Op::cellHash>}, {"hash3", 1, 2, noiseType<Type::vec3>, hash3},
         {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 8, withMaterialType, withMaterial},
         {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf}, {"outline", 2, 2, fixed<Type::scalar, Type::vec2, Type::points>, outlineAt},
+        {"drawing", 3, 3, fixed<Type::scalar, Type::vec2, Type::string, Type::string>, drawingAt}, {"drawing_scale", 2, 2, fixed<Type::scalar, Type::string, Type::string>, drawingScale},
+        {"metre", 0, 0, fixed<Type::scalar>, [](S s, A) -> R { return scalar(number(s, s.metre)); }},
+        {"gear_outline", 5, 5, fixed<Type::scalar, Type::vec2, Type::scalar, Type::scalar, Type::scalar, Type::scalar>, gearAt},
+        {"letters", 9, 9, fixed<Type::scalar, Type::vec2, Type::string, Type::string, Type::string, Type::string, Type::string, Type::scalar, Type::scalar, Type::scalar>, lettersAt},
         {"color_ramp", 2, 3, fixed<Type::vec3, Type::scalar, Type::stops, Type::string>, colorRamp}, {"curve", 2, 4, fixed<Type::scalar, Type::scalar, Type::points, Type::string, Type::string>, curveThrough},
         {"image_color", 2, 3, imageType<Type::vec3, true>, imageColor}, {"image_grey", 2, 3, imageType<Type::scalar, true>, imageGrey}, {"image_size", 1, 1, imageType<Type::vec2, false>, imageSize},
         {"image_range", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, false); }},

@@ -42,10 +42,13 @@ struct Lowering {
     IrId time = 0;                                  ///< seconds
     std::size_t steps = 0;                          ///< instructions run so far, bounded by kMaxSteps
     std::string graphPath{};                        ///< the file that paths of images are relative to
+    double metre = 1;                               ///< how many of the document's units it is
     std::map<std::string, FieldImagePtr> images{};  ///< by path: those that were read
     /// Surfaces through which light passes are nothing: what is made is the opaque part of the whole.
     bool opaquePart = false;
-    uint32_t painter = 0;           ///< what is painted from here on is so by this one, Program::painters
+    uint32_t painter = 0;  ///< what is painted from here on is so by this one, Program::painters
+    std::vector<std::string>
+        remarks{};                  ///< of functions on what they leave away, for the node that is lowered
     std::size_t transmissions = 0;  ///< surfaces that were given a transmission other than 0
 };
 

@@ -78,6 +78,8 @@ struct InputSpec {
     std::string unit = {};  ///< "m", "1/m", "degrees", "degrees/m", "color" (linear sRGB), "" for a number
     std::string doc = {};
     bool positive = false;           ///< must be > 0 (min alone allows equality)
+    bool known = false;              ///< of a number: it must be known when the graph is compiled
+    bool lines = false;              ///< of a text: it may have several lines
     bool whole = false;              ///< of a surface: what it is, light passing through it or not
     const FileKind* file = nullptr;  ///< of an image, or a string that is the path of a file: its kind
     bool ordered = false;            ///< of points: as orderProblem() has it; stops always are

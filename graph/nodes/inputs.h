@@ -223,6 +223,28 @@ inline InputSpec fileInput(std::string name, const FileKind& kind) {
             .file = &kind};
 }
 
+/// A number that must be known when the graph is compiled.
+inline InputSpec known(InputSpec input) {
+    input.known = true;
+    return input;
+}
+
+/// A file that may be named.
+inline InputSpec optionalFile(std::string name, const FileKind& kind, std::string doc) {
+    InputSpec input = fileInput(std::move(name), kind);
+    input.doc = std::move(doc);
+    return input;
+}
+
+/// A text that may have several lines.
+inline InputSpec linesInput(std::string name, std::string value, std::string doc) {
+    return {.name = std::move(name),
+            .type = Type::string,
+            .value = {InputDefault::Kind::text, {}, std::move(value)},
+            .doc = std::move(doc),
+            .lines = true};
+}
+
 /// Any text.
 inline InputSpec textInput(std::string name, std::string value, std::string doc) {
     return {.name = std::move(name),

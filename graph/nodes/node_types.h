@@ -7,6 +7,7 @@ namespace fw {
 
 std::vector<NodeType> shapeNodes();
 std::vector<NodeType> shape2dNodes();
+std::vector<NodeType> partNodes();
 std::vector<NodeType> combineNodes();
 std::vector<NodeType> domainNodes();
 std::vector<NodeType> fieldNodes();

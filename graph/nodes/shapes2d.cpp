@@ -19,6 +19,21 @@ Exactness revolvedExactness(const ExactnessArguments& node) {
     return {false, false, std::max(node.surface("surface").lipschitz, 1.0)};
 }
 
+/// A drawing's file, which of it, and how large it is to be.
+std::vector<InputSpec> drawingInputs(const FileKind& kind, const std::string& part) {
+    return {
+        positionInput(),
+        optionalFile("path", kind,
+                     "The drawing's path, from the folder of the graph's file; a washer if there is none."),
+        textInput("part", "", part),
+        gripped(kRight,
+                length("size", 1,
+                       "The longer side of the page, whose centre is the origin; 0: as the file has it."))};
+}
+constexpr std::string_view kDrawing = R"(
+float unit = size > 0.0 ? size : drawing_scale(path, part);
+return drawing(p.xy / unit, path, part) * unit;)";
+
 }  // namespace
 
 std::vector<NodeType> shape2dNodes() {
@@ -136,6 +151,57 @@ float foot = dot(q - tip, along);
 float line = (along.y * q.x - along.x * (q.y - outer_radius)) / max(size, 1e-12);
 float d = segment(q, tip, notch);
 return 0.0 < size && foot >= 0.0 && foot <= size * size ? -line : (line > 0.0 ? -d : d);)"},
+        {.id = "text",
+         .label = "Text",
+         .category = Category::shape2d,
+         .doc = "Letters in the xy plane: any script that the font has, in one line or several.",
+         .inputs =
+             {positionInput(),
+              linesInput("string", "Text", "What is written, with a line break between lines."),
+              textInput("font", "DejaVu Sans",
+                        "A font family of this machine, with a style behind a colon: DejaVu Serif:bold."),
+              optionalFile("font_file", kFontFile,
+                           "A font's path, from the folder of the graph's file, in place of a family."),
+              gripped(kUp, positiveLength(
+                               "size", 0.5,
+                               "Height of an em: from the foot of one line to that of the next, about.")),
+              choice("align", {"center", "left", "right"}, "Where the lines lie about x = 0."),
+              choice("anchor", {"middle", "baseline", "top", "bottom"},
+                     "What lies at y = 0: the middle of the text, the foot of the first line, the top of its "
+                     "capitals, or the "
+                     "foot of the last line."),
+              known(scalar("letter_spacing", 0, "Further space behind each letter, in parts of the size.")),
+              known({.name = "line_spacing",
+                     .type = Type::scalar,
+                     .value = numbers({1}),
+                     .min = 0,
+                     .doc = "From line to line, in parts of what the font wants."}),
+              toggle("kerning", true, "Whether pairs of letters are brought together as the font wants.")},
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = "return letters(p.xy / size, string, font, font_file, align, anchor, letter_spacing, "
+                 "line_spacing, "
+                 "float(kerning)) * size;",
+         .aliases = {"lettering"}},
+        {.id = "svg_file",
+         .label = "SVG file",
+         .category = Category::shape2d,
+         .doc = "What an SVG drawing paints, fills and strokes, as one flat shape.",
+         .inputs = drawingInputs(
+             kSvgFile, "The id or label of a layer, a group or a path, to take it alone; empty: all."),
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = std::string(kDrawing),
+         .aliases = {"svg"}},
+        {.id = "dxf_file",
+         .label = "DXF file",
+         .category = Category::shape2d,
+         .doc = "The closed outlines of a DXF drawing as one flat shape; outlines within others are holes.",
+         .inputs = drawingInputs(kDxfFile, "A layer, to take it alone; empty: all."),
+         .outputs = kSurface,
+         .exactness = always(kExact),
+         .body = std::string(kDrawing),
+         .aliases = {"dxf"}},
         {.id = "extrude",
          .label = "Extrude",
          .category = Category::shape2d,
@@ -158,10 +224,15 @@ return with_distance(profile, ext2(vec2(profile.distance + r, abs(p.z) - (half_h
          .doc = "Turns a flat shape around the y axis, as on a lathe.",
          .inputs = {surfaceInput("surface", "The flat shape; what lies right of the axis is used."),
                     gripped(kRight,
-                            coordinate("offset", 0, "How far the shape is moved away from the axis first."))},
+                            coordinate("offset", 0, "How far the shape is moved away from the axis first.")),
+                    angle("angle", 360, 0, 360, "How far it goes round, half of it to each side of +x.")},
          .outputs = kSurface,
          .exactness = revolvedExactness,
-         .body = "return surface(vec3(length(p.xz) - offset, p.y, 0.0));",
+         .body = R"(
+turned = surface(vec3(length(p.xz) - offset, p.y, 0.0));
+if (angle >= 360.0) return turned;
+float half = radians(0.5 * angle);
+return with_distance(turned, max(turned.distance, abs(p.z) * cos(half) - p.x * sin(half)));)",
          .aliases = {"lathe"}},
     };
 }

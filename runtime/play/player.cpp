@@ -207,6 +207,8 @@ std::vector<std::string> Player::files() const {
     if (!now.graph.path.empty()) list.push_back(now.graph.path);
     for (const FieldImagePtr& image : session.program().ir.images())
         if (!image->file.empty()) list.push_back(image->file);
+    for (const OutlinePtr& outline : session.program().ir.outlines())
+        if (!outline->file.empty()) list.push_back(outline->file);
     if (now.environment) list.push_back(now.environment->file);
     for (const FieldVolumePtr& volume : session.program().ir.volumes()) {
         if (volume->mesh) list.push_back(volume->mesh->file);

@@ -37,6 +37,7 @@ void talkTable(Bench& bench);       ///< the slide's table
 void exportTable(Bench& bench);     ///< sequences, sweeps, compressed files
 void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
 void tapesTable(Bench& bench);      ///< fields on the host
+void outlinesTable(Bench& bench);   ///< drawings and letters beside a rectangle
 void largeTable(Bench& bench);      ///< fields that a driver compiles for long
 void liveTable(Bench& bench);       ///< a live parameter changes
 void compileTable(Bench& bench);    ///< a graph's structure changes
