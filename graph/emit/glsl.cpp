@@ -161,8 +161,8 @@ class Emitter : GlslStatements {
             const std::string name = std::to_string(number), grid = "fieldOutlineGrid" + name;
             text += "const OutlineGrid " + grid + " = OutlineGrid(" + std::to_string(first) + ", " +
                     std::to_string(outline.cells) + ", " + std::to_string(outline.rows) + ", " +
-                    std::to_string(outline.farCells) + ", " + pair(outline.centre.x, outline.centre.y) + ", " +
-                    pair(outline.half.x, outline.half.y) + ", " + glslLiteral(outline.least) + ", " +
+                    std::to_string(outline.farCells) + ", " + pair(outline.centre.x, outline.centre.y) +
+                    ", " + pair(outline.half.x, outline.half.y) + ", " + glslLiteral(outline.least) + ", " +
                     (outline.straight ? "true" : "false") + ");\nvec4 fieldOutline" + name +
                     "(vec2 p) { return outlineSample(" + grid + ", p); }\nvec2 fieldOutlineRange" + name +
                     "(vec2 x, vec2 y) { return outlineRange(" + grid + ", x, y); }\n";

@@ -21,9 +21,9 @@
 #include <string_view>
 
 #include "graph/assets/image.h"
-#include "graph/outlines/outline.h"
 #include "graph/assets/volume.h"
 #include "graph/base/interval.h"
+#include "graph/outlines/outline.h"
 
 namespace fw {
 

@@ -26,9 +26,7 @@ std::vector<InputSpec> drawingInputs(const FileKind& kind, const std::string& pa
         optionalFile("path", kind,
                      "The drawing's path, from the folder of the graph's file; a washer if there is none."),
         textInput("part", "", part),
-        gripped(kRight,
-                length("size", 1,
-                       "The longer side of the page, whose centre is the origin; 0: as the file has it."))};
+        length("size", 1, "The longer side of the page, whose centre is the origin; 0: as the file has it.")};
 }
 constexpr std::string_view kDrawing = R"(
 float unit = size > 0.0 ? size : drawing_scale(path, part);
@@ -162,9 +160,8 @@ return 0.0 < size && foot >= 0.0 && foot <= size * size ? -line : (line > 0.0 ? 
                         "A font family of this machine, with a style behind a colon: DejaVu Serif:bold."),
               optionalFile("font_file", kFontFile,
                            "A font's path, from the folder of the graph's file, in place of a family."),
-              gripped(kUp, positiveLength(
-                               "size", 0.5,
-                               "Height of an em: from the foot of one line to that of the next, about.")),
+              positiveLength("size", 0.5,
+                             "Height of an em: from the foot of one line to that of the next, about."),
               choice("align", {"center", "left", "right"}, "Where the lines lie about x = 0."),
               choice("anchor", {"middle", "baseline", "top", "bottom"},
                      "What lies at y = 0: the middle of the text, the foot of the first line, the top of its "

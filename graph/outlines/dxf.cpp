@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "graph/base/words.h"
 #include "graph/outlines/drawing.h"
 
 namespace fw {
@@ -112,7 +113,8 @@ class DxfReader {
         if (problem) return *problem;
         if (lines.empty() && closed.empty()) {
             if (!layer.empty() && !layers.contains(layer))
-                return Error{"has no layer " + inQuotes(layer) + ": it has " + layersNamed()};
+                return Error{"has no layer " + inQuotes(layer) + ": it has " +
+                             listed({layers.begin(), layers.end()})};
             return Error{"has no closed outline that could be filled" +
                          (remarked.empty() ? "" : ", only " + *remarked.begin())};
         }
@@ -427,16 +429,6 @@ class DxfReader {
             else
                 ++open;
         }
-    }
-
-    std::string layersNamed() const {
-        std::string text;
-        int count = 0;
-        for (const std::string& name : layers) {
-            if (++count > 8) return text + ", …";
-            text += (count > 1 ? ", " : "") + inQuotes(name);
-        }
-        return text;
     }
 
     void fail(std::string message) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "graph/base/words.h"
 #include "graph/outlines/drawing.h"
 #include "graph/outlines/stroke.h"
 #include "graph/outlines/svg_style.h"
@@ -88,7 +89,7 @@ class SvgReader {
         if (problem) return *problem;
         if (!found)
             return Error{"has no element with the id or label " + inQuotes(part) +
-                         (labels.empty() ? "" : ": it has " + labelsNamed())};
+                         (labels.empty() ? "" : ": it has " + listed({labels.begin(), labels.end()}))};
         if (drawing.painting.fills.empty())
             return Error{"paints nothing" + std::string(remarked.empty() ? "" : " but " + *remarked.begin())};
         for (const std::string& what : remarked)
@@ -107,16 +108,6 @@ class SvgReader {
     }
     static std::string_view labelOf(const pugi::xml_node& node) { return get(node, "inkscape:label"); }
     bool isPart(const pugi::xml_node& node) const { return get(node, "id") == part || labelOf(node) == part; }
-
-    std::string labelsNamed() const {
-        std::string text;
-        int count = 0;
-        for (const std::string& label : labels) {
-            if (++count > 8) return text + ", …";
-            text += (count > 1 ? ", " : "") + inQuotes(label);
-        }
-        return text;
-    }
 
     /// Ids, style sheets and labels, of the whole file.
     void index(const pugi::xml_node& document) {

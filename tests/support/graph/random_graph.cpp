@@ -91,7 +91,7 @@ class Generator {
                                                                                 : 0.12;
         const bool linkable = spec.type == Type::surface || spec.type == Type::scalar ||
                               spec.type == Type::vec3 || spec.type == Type::vec2;
-        if (linkable)
+        if (linkable && !spec.known)
             if (const auto chosen = link(spec.type, likely)) {
                 node.set(spec.name, {*chosen});
                 return;
