@@ -95,6 +95,12 @@ struct Spline {
     }
 };
 
+/// An angle as one from just above 0 to a whole turn.
+double forwardTurn(double angle) {
+    const double turn = std::fmod(angle, 2 * std::numbers::pi);
+    return turn > 0 ? turn : turn + 2 * std::numbers::pi;
+}
+
 class DxfReader {
   public:
     explicit DxfReader(const std::string& layer_) : layer(layer_) {}
@@ -247,8 +253,8 @@ class DxfReader {
             const double r = entity.number(40, 0),
                          from = entity.name == "ARC" ? entity.number(50, 0) * degree : 0;
             double until = entity.name == "ARC" ? entity.number(51, 360) * degree : 2 * std::numbers::pi;
-            while (until <= from) until += 2 * std::numbers::pi;
-            if (!(r > 0) || !(until - from < 100)) return;
+            until = from + forwardTurn(until - from);
+            if (!(r > 0)) return;
             const glm::dvec2 centre = entity.place(10);
             pen.moveTo(centre + r * glm::dvec2(std::cos(from), std::sin(from)));
             pen.ellipse(centre, {r, 0}, {0, r}, from, until);
@@ -258,8 +264,8 @@ class DxfReader {
                              v = entity.number(40, 1) * leftOf(u) * (entity.isMirrored() ? -1.0 : 1.0);
             const double from = entity.number(41, 0);
             double until = entity.number(42, 2 * std::numbers::pi);
-            while (until <= from) until += 2 * std::numbers::pi;
-            if (!(glm::length(u) > 0) || !(until - from < 100)) return;
+            until = from + forwardTurn(until - from);
+            if (!(glm::length(u) > 0)) return;
             const glm::dvec2 centre = entity.place(10);
             pen.moveTo(centre + std::cos(from) * u + std::sin(from) * v);
             pen.ellipse(centre, u, v, from, until);

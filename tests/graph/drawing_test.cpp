@@ -392,6 +392,9 @@ TEST(Dxf, BadFilesAreRefused) {
         EXPECT_FALSE(whyNotDxf(file.substr(0, length)).empty()) << length;
     EXPECT_NE(whyNotDxf(dxf(kSquare), "X").find("it has A"), std::string::npos);
     EXPECT_NE(whyNotDxf(dxf(line(0, 0, 1, 1))).find("join their ends"), std::string::npos);
+    // Angles of many turns end as soon as others.
+    EXPECT_NEAR(dxfArea(dxf("0\nARC\n10\n0\n20\n0\n40\n3\n50\n-36000000000\n51\n180\n" + line(-3, 0, 3, 0))),
+                4.5 * kPi, 1e-3);
 }
 
 }  // namespace fw::drawing_test
