@@ -1,7 +1,6 @@
 #include "graph/outlines/arc.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -50,10 +50,8 @@ class Space {
 }  // namespace
 
 Result<OutlinePtr> outlineOfGear(const GearShape& shape) {
-    std::string key = "gear";
-    for (const double number : {shape.module, double(shape.teeth), shape.pressureAngle, shape.backlash})
-        key += '\0' + std::to_string(number);
-    return keptOutline(key, [&]() -> Result<OutlinePtr> {
+    const double numbers[] = {shape.module, double(shape.teeth), shape.pressureAngle, shape.backlash};
+    return keptOutline(outlineKey({"gear"}, numbers), [&]() -> Result<OutlinePtr> {
         const Space space(shape, std::clamp(shape.backlash / shape.module, 0.0, kMostBacklash));
         const double step = std::numbers::pi / shape.teeth;  // half of a tooth with its space
         // Teeth that come to a point end there.

@@ -382,11 +382,9 @@ Result<Painting> paintText(const std::string& graphPath, const std::string& text
 
 Result<OutlinePtr> outlineOfText(const std::string& graphPath, const std::string& text,
                                  const TextLayout& layout) {
-    std::string key = "text";
-    for (const std::string& word : {text, layout.family, layout.fontFile}) key += '\0' + word;
-    for (const double number : {double(layout.align), double(layout.anchor), layout.letterSpacing,
-                                layout.lineSpacing, double(layout.kerning)})
-        key += '\0' + std::to_string(number);
+    const double numbers[] = {double(layout.align), double(layout.anchor), layout.letterSpacing,
+                              layout.lineSpacing, double(layout.kerning)};
+    std::string key = outlineKey({"text", text, layout.family, layout.fontFile}, numbers);
     if (!layout.fontFile.empty()) {
         const Result<Asset> asset = openAsset(graphPath, layout.fontFile, kFontFile);
         if (!asset) return asset.error();

@@ -297,10 +297,15 @@ Result<OutlinePtr> keptOutline(const std::string& key, const std::function<Resul
     return outline;
 }
 
+std::string outlineKey(std::initializer_list<std::string_view> words, std::span<const double> numbers) {
+    std::string key;
+    for (const std::string_view word : words) (key += std::to_string(word.size()) + ' ') += word;
+    return key.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+}
+
 OutlinePtr outlineThrough(std::span<const double> corners) {
     assert(corners.size() >= 2 && corners.size() <= 2 * kMaxCorners);
-    const std::string key(reinterpret_cast<const char*>(corners.data()), corners.size_bytes());
-    return *keptOutline(key, [&]() -> Result<OutlinePtr> {
+    return *keptOutline(outlineKey({"polygon"}, corners), [&]() -> Result<OutlinePtr> {
         std::vector<Arc> arcs;
         const std::size_t count = corners.size() / 2;
         for (std::size_t i = 0; i < count; ++i) {

@@ -22,9 +22,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/base/interval.h"
@@ -71,6 +73,9 @@ using OutlinePtr = std::shared_ptr<const Outline>;
 /// The outline that `make` makes, null if there is nothing to see; one with this key that is in use, or was
 /// made lately, is not made again.
 Result<OutlinePtr> keptOutline(const std::string& key, const std::function<Result<OutlinePtr>()>& make);
+
+/// A key of words and numbers, to the last bit of each.
+std::string outlineKey(std::initializer_list<std::string_view> words, std::span<const double> numbers);
 
 /// The closed polygon through `corners`, x and y of each in turn, at least one, at most kMaxCorners; finite.
 OutlinePtr outlineThrough(std::span<const double> corners);

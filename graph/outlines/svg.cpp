@@ -131,11 +131,26 @@ class SvgReader {
         top.traverse(walker);
     }
 
+    struct ViewBox {
+        glm::dvec2 from, size;
+    };
+    static std::optional<ViewBox> viewBoxOf(const pugi::xml_node& node) {
+        SvgWords words{get(node, "viewBox")};
+        const auto x = words.number(), y = words.number(), w = words.number(), h = words.number();
+        if (!(x && y && w && h && *w > 0 && *h > 0)) return std::nullopt;
+        return ViewBox{{*x, *y}, {*w, *h}};
+    }
+    /// The element of the file that this one refers to; none if there is none.
+    pugi::xml_node referred(const pugi::xml_node& node) const {
+        std::string_view href = get(node, "href");
+        if (href.empty()) href = get(node, "xlink:href");
+        const auto found_ = href.starts_with('#') ? ids.find(href.substr(1)) : ids.end();
+        return found_ == ids.end() ? pugi::xml_node() : found_->second;
+    }
+
     /// From the root's user space to the drawing's unit.
     PlaneTransform pageOf(const pugi::xml_node& root, Inherited& page) {
-        SvgWords box{get(root, "viewBox")};
-        const auto x = box.number(), y = box.number(), w = box.number(), h = box.number();
-        const bool hasBox = x && y && w && h && *w > 0 && *h > 0;
+        const std::optional<ViewBox> box = viewBoxOf(root);
         const auto side = [&](const char* name) {
             const std::string_view text = get(root, name);
             const auto length = text.ends_with('%') ? std::nullopt : lengthIn(text, 0);
@@ -144,10 +159,10 @@ class SvgReader {
         const std::optional<double> width = side("width"), height = side("height");
         glm::dvec2 from{0}, size{width.value_or(height.value_or(100)), height.value_or(width.value_or(100))};
         double pixels = 1;  // of a user unit
-        if (hasBox) {
-            from = {*x, *y}, size = {*w, *h};
+        if (box) {
+            from = box->from, size = box->size;
             if (width || height)
-                pixels = std::min(width ? *width / *w : 1e300, height ? *height / *h : 1e300);
+                pixels = std::min(width ? *width / size.x : 1e300, height ? *height / size.y : 1e300);
         }
         page.viewport = size;
         const double longer = std::max(size.x, size.y);
@@ -196,14 +211,10 @@ class SvgReader {
 
     /// Of an element that shows others through a page of its own.
     PlaneTransform viewOf(const pugi::xml_node& node, glm::dvec2 at, glm::dvec2 size, Inherited& to) {
-        SvgWords box{get(node, "viewBox")};
-        const auto x = box.number(), y = box.number(), w = box.number(), h = box.number();
-        if (!(x && y && w && h && *w > 0 && *h > 0)) {
-            to.viewport = size;
-            return {{1, 0}, {0, 1}, at};
-        }
-        to.viewport = {*w, *h};
-        glm::dvec2 scale = size / glm::dvec2(*w, *h), share{0.5, 0.5};
+        const std::optional<ViewBox> box = viewBoxOf(node);
+        to.viewport = box ? box->size : size;
+        if (!box) return {{1, 0}, {0, 1}, at};
+        glm::dvec2 scale = size / box->size, share{0.5, 0.5};
         const std::string_view fit = get(node, "preserveAspectRatio");
         if (!fit.starts_with("none")) {
             scale = glm::dvec2(fit.find("slice") != fit.npos ? std::max(scale.x, scale.y)
@@ -213,8 +224,7 @@ class SvgReader {
             if (fit.find("YMin") != fit.npos) share.y = 0;
             if (fit.find("YMax") != fit.npos) share.y = 1;
         }
-        const glm::dvec2 origin =
-            at + share * (size - scale * glm::dvec2(*w, *h)) - scale * glm::dvec2(*x, *y);
+        const glm::dvec2 origin = at + share * (size - scale * box->size) - scale * box->from;
         return {{scale.x, 0}, {0, scale.y}, origin};
     }
 
@@ -315,25 +325,23 @@ class SvgReader {
     }
 
     void use(const pugi::xml_node& node, Inherited here, int depth) {
-        std::string_view href = get(node, "href");
-        if (href.empty()) href = get(node, "xlink:href");
-        const auto target = href.starts_with('#') ? ids.find(href.substr(1)) : ids.end();
-        if (target == ids.end()) return void(remarked.insert("uses of what is not in the file"));
+        const pugi::xml_node target = referred(node);
+        if (!target) return void(remarked.insert("uses of what is not in the file"));
         const glm::dvec2 page = here.viewport;
         const auto length = [&](const char* attribute, double whole, double otherwise) {
             return lengthIn(get(node, attribute), whole).value_or(otherwise);
         };
         here.toPage =
             here.toPage * PlaneTransform{{1, 0}, {0, 1}, {length("x", page.x, 0), length("y", page.y, 0)}};
-        const std::string_view name = nameOf(target->second);
-        if (name != "symbol" && name != "svg") return element(target->second, here, depth + 1);
+        const std::string_view name = nameOf(target);
+        if (name != "symbol" && name != "svg") return element(target, here, depth + 1);
         if (depth + 1 > kMostNested || ++elements > kMostElements)
-            return element(target->second, here, kMostNested + 1);
-        applyStyle(target->second, here);
+            return element(target, here, kMostNested + 1);
+        applyStyle(target, here);
         const auto side = [&](const char* attribute, double whole) {
-            return length(attribute, whole, lengthIn(get(target->second, attribute), whole).value_or(whole));
+            return length(attribute, whole, lengthIn(get(target, attribute), whole).value_or(whole));
         };
-        view(target->second, {0, 0}, {side("width", page.x), side("height", page.y)}, here, depth + 1);
+        view(target, {0, 0}, {side("width", page.x), side("height", page.y)}, here, depth + 1);
     }
 
     void addClip(std::string_view id, Inherited& here, int depth) {
@@ -458,11 +466,9 @@ class SvgReader {
             }
         if (least <= 1) return least;
         if (depth > 8) return 0;
-        std::string_view href = get(node, "xlink:href");
-        if (href.empty()) href = get(node, "href");
-        const auto next = href.starts_with('#') ? ids.find(href.substr(1)) : ids.end();
-        return next == ids.end() ? (nameOf(node) == "pattern" ? 1 : 0)
-                                 : gradientOpacity(next->second, depth + 1);
+        const pugi::xml_node next = referred(node);
+        if (!next) return nameOf(node) == "pattern" ? 1 : 0;
+        return gradientOpacity(next, depth + 1);
     }
 
     void paint(std::vector<Contour> contours, const Inherited& here) {

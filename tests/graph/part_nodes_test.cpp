@@ -130,6 +130,12 @@ TEST(Gear, TeethTurnInEachOtherWithoutMeeting) {
     }
 }
 
+TEST(Gear, IsNeverTakenForOneThatIsNearlyItsSize) {
+    const auto one = outlineOfGear({.module = 1e-4}), other = outlineOfGear({.module = 1.00001e-4});
+    ASSERT_TRUE(one && other);
+    EXPECT_NEAR((*other)->hi.x / (*one)->hi.x, 1.00001, 1e-8);
+}
+
 TEST(Gear, HasItsDiametersAndItsBacklash) {
     const auto gear = outlineOfGear({.module = 2, .teeth = 24}),
                loose = outlineOfGear({.module = 2, .teeth = 24, .backlash = 0.1});
