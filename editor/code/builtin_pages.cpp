@@ -14,6 +14,7 @@ constexpr BuiltinPage kBuiltins[] = {
     {"atan", "atan(y, x)", "The angle in radians of the direction (x, y); of y alone, whose tangent is y."},
     {"atan2", "atan2(y, x)", "The angle in radians of the direction (x, y)."},
     {"bool", "bool(x)", "Whether x is another number than 0."},
+    {"cell_wall", "cell_wall(p, seed)", "The distance to the nearest wall between points that are scattered, one in each unit cube, 0.15 at most. The seed may be left out."},
     {"ceil", "ceil(x)", "The least whole number that is not below x."},
     {"clamp", "clamp(x, lo, hi)", "x, but no less than lo and no more than hi."},
     {"color_ramp", "color_ramp(x, stops, how)", "The colour of a ramp at x, between stops linear, smooth or constant. The last may be left out."},

@@ -160,7 +160,8 @@ Result<Thumbnail> thumbnail(const Graph& graph, std::string_view path,
                             std::span<const FieldVolumePtr> particles, uint64_t made) {
     const auto [scope, id] = placeOf(graph, path);
     if (!findNode(nodesOf(graph, scope), id)) return Error{.message = "there is no such node"};
-    Result<Program> program = compile(showingNode(graph, path), {.bake = draftInPlace});
+    Result<Program> program =
+        compile(showingNode(graph, path), {.bake = draftInPlace, .finest = kDraftFieldResolution});
     if (!program) return program.error();
     const bool ofParticles = lacksParticles(*program);
     if (!ofParticles && program->structureHash == made) return Thumbnail{made};

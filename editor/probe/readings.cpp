@@ -76,6 +76,7 @@ const std::string& ScopeFields::take(const Seen& seen, const std::string& scope)
     CompileOptions options;
     options.time = seconds;
     options.bake = boxInPlace;  // as Picker
+    options.finest = kLeastFieldResolution;
     // A pinned node of a group is seen through an instance, which what is pinned beside the output may be.
     const std::string besides = seen.pinned.substr(0, seen.pinned.find('/'));
     Result<NodeFields> made = compileNodeFields(graph, *prefix, besides, options);

@@ -242,6 +242,7 @@ const Picker::Probed& Picker::probedOf(const Seen& seen) {
     options.live = probed->probes.live();
     options.time = seconds;
     options.bake = boxInPlace;  // what is seen was measured, and is remembered
+    options.finest = kLeastFieldResolution;
     Result<Program> program = compile(probed->probes.graph(), options);
     if (!program) return *probed;
     useParticles(*program, seen.particles);
@@ -280,7 +281,8 @@ std::string Picker::pick(const Seen& seen, double x, double y) {
 
 std::optional<Box> solidOf(const Graph& graph, const std::string& node, double seconds) {
     const Result<Program> program =
-        compile(shownAt(graph, node, seconds), {.time = seconds, .bake = boxInPlace});
+        compile(shownAt(graph, node, seconds),
+                {.time = seconds, .bake = boxInPlace, .finest = kLeastFieldResolution});
     if (!program) return std::nullopt;
     const Region region = findRegion(*program);
     return region.extent == Extent::bounded ? std::optional(region.box) : std::nullopt;

@@ -25,7 +25,6 @@ namespace {
 constexpr double kPadding = 2.37;
 constexpr double kThin = 2.5;  // cells: what is thinner loses parts
 constexpr int kCoarse = 4;     // cells between the samples from which membranes are looked for
-constexpr int kDraftResolution = 32;
 constexpr float kCrossing =
     1.05f;  // cells: two neighbours are no farther from what is between them, taken together
 constexpr double kFlat = 0.99;    // cosine between the normals of a face and of an edge that is none
@@ -282,25 +281,10 @@ std::vector<uint32_t> wordsOf(const MeshFieldRecipe& recipe, const MeshInGrid& m
     std::vector<uint32_t> words(2 * samples + (source.colors.empty() ? 0 : samples + samples % 2));
     forSamples(mesh.grid, [&](int x, int y, int z, std::size_t index) {
         const glm::dvec3 p(x, y, z);
-        const glm::dvec3 off = p - glm::dvec3(nearest.point[index]);
-        const double sign = std::signbit(nearest.distance[index]) ? -1.0 : 1.0;
-        const double distance = glm::length(off), length = sign * distance;
-        words[2 * index] = std::bit_cast<uint32_t>(float(sign * distance * mesh.grid.cell));
-        glm::dvec3 away = distance > 0.0 ? off / length : glm::dvec3(0.0);
-        if (distance > kBand) {
-            // A point that was handed on is as far as the nearest, or nearly, but not in the same direction.
-            const glm::ivec3 at(x, y, z);
-            for (int axis = 0; axis < 3; ++axis) {
-                glm::ivec3 before = at, next = at;
-                before[axis] = std::max(before[axis] - 1, 0);
-                next[axis] = std::min(next[axis] + 1, mesh.grid.size[axis] - 1);
-                away[axis] = double(nearest.distance[mesh.grid.index(next.x, next.y, next.z)] -
-                                    nearest.distance[mesh.grid.index(before.x, before.y, before.z)]) /
-                             (next[axis] - before[axis]);
-            }
-            away /= std::max(glm::length(away), 1.0);
-        }
-        words[2 * index + 1] = packGradient(glm::vec3(away));
+        const double distance = glm::length(p - glm::dvec3(nearest.point[index])) * mesh.grid.cell;
+        words[2 * index] =
+            std::bit_cast<uint32_t>(float(std::signbit(nearest.distance[index]) ? -distance : distance));
+        words[2 * index + 1] = packGradient(awayFromSurface(mesh.grid, nearest, {x, y, z}));
         if (source.colors.empty()) return;
         const uint32_t triangle = mesh.solid.source[nearest.triangle[index]];
         std::array<glm::dvec3, 3> own, colors;
@@ -329,6 +313,32 @@ uint64_t MeshFieldRecipe::key() const {
     mix(std::bit_cast<uint64_t>(margin));
     mix(uint64_t(inside));
     return hash ^ hash >> 32;
+}
+
+glm::vec3 awayFromSurface(const VolumeGrid& grid, const NearestPoints& nearest, const glm::ivec3& at,
+                          float band) {
+    const std::size_t index = grid.index(at.x, at.y, at.z);
+    const glm::dvec3 off = glm::dvec3(at) - glm::dvec3(nearest.point[index]);
+    const double distance = glm::length(off);
+    if (distance <= band)
+        return distance > 0.0
+                   ? glm::vec3(off / (std::signbit(nearest.distance[index]) ? -distance : distance))
+                   : glm::vec3(0.0f);
+    // A point that was handed on is as far as the nearest, or nearly, but not in the same direction.
+    glm::dvec3 away;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::ivec3 before = at, next = at;
+        before[axis] = std::max(before[axis] - 1, 0);
+        next[axis] = std::min(next[axis] + 1, grid.size[axis] - 1);
+        away[axis] = double(nearest.distance[grid.index(next.x, next.y, next.z)] -
+                            nearest.distance[grid.index(before.x, before.y, before.z)]) /
+                     (next[axis] - before[axis]);
+    }
+    return glm::vec3(away / std::max(glm::length(away), 1.0));
+}
+
+void sweep(const VolumeGrid& grid, NearestPoints& nearest) {
+    for (int axis = 0; axis < 3; ++axis) sweepAxis(grid, nearest, axis);
 }
 
 Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe) {
@@ -459,7 +469,7 @@ Result<FieldVolumePtr> bakeOnHost(const MeshFieldRecipe& recipe) {
         for (float& distance : nearest.distance)
             distance = std::abs(distance) <= kBand ? std::abs(distance) : kUnreached;
         if (!signByWinding(*mesh, nearest)) return nothingInside(recipe);
-        for (int axis = 0; axis < 3; ++axis) sweepAxis(mesh->grid, nearest, axis);
+        sweep(mesh->grid, nearest);
     }
     return volumeOf(recipe, *mesh, wordsOf(recipe, *mesh, nearest));
 }
@@ -489,7 +499,7 @@ Result<FieldVolumePtr> boxInPlace(const MeshFieldRecipe& recipe) {
 
 Result<FieldVolumePtr> draftInPlace(const MeshFieldRecipe& recipe) {
     MeshFieldRecipe coarse = recipe;
-    coarse.resolution = std::min(recipe.resolution, kDraftResolution);
+    coarse.resolution = std::min(recipe.resolution, kDraftFieldResolution);
     const Result<FieldVolumePtr> made = bakeOnHost(coarse);
     if (!made) return made.error();
     auto volume = std::make_shared<FieldVolume>((*made)->grid, (*made)->words);

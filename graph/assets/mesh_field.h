@@ -48,7 +48,7 @@ struct MeshFieldRecipe {
     /// Equal for equal fields.
     uint64_t key() const;
 };
-inline constexpr int kLeastFieldResolution = 8, kMostFieldResolution = 512;
+inline constexpr int kLeastFieldResolution = 8, kDraftFieldResolution = 32, kMostFieldResolution = 512;
 
 /// Makes a recipe's volume, with its mesh and notes. Errors, with a message only: the mesh has no extent, or
 /// encloses nothing.
@@ -92,6 +92,13 @@ inline constexpr float kUnreached = 1e30f;
 inline constexpr float kLeastDistance = 1e-4f;
 
 Result<MeshInGrid> meshInGrid(const MeshFieldRecipe& recipe);
+
+/// Hands nearest points on through the grid, along each axis both ways.
+void sweep(const VolumeGrid& grid, NearestPoints& nearest);
+/// The direction in which the distance grows at a sample, whose nearest point is known, within so many cells
+/// of the surface to be relied on: of length 1, or less where that is not one direction.
+glm::vec3 awayFromSurface(const VolumeGrid& grid, const NearestPoints& nearest, const glm::ivec3& at,
+                          float band = kBand);
 
 /// Finds the inside by the winding number. Of the band, whose triangles and distances are given, only samples
 /// at the solid's surface are left, with their points; those at membranes are added. False if nothing is

@@ -106,6 +106,7 @@ std::optional<Type> compiledType(const Graph& graph, std::string_view group, con
     if (!node) return {};
     CompileOptions options;
     options.bake = boxInPlace;
+    options.finest = kLeastFieldResolution;
     GraphLowering lowering(graph, options);
     const Lowered inputs = inside ? defaultsOf(lowering, *inside) : Lowered{};
     const LoweredNodes& lowered = lowering.lowerAll(nodes, "", inside ? &inputs : nullptr, {node});
@@ -180,6 +181,7 @@ std::optional<Error> warningAtHeaviest(const Graph& graph, double NodeEffort::*c
                                        const std::string& then) {
     CompileOptions options;
     options.bake = boxInPlace;
+    options.finest = kLeastFieldResolution;
     options.costByNode = true;
     const Result<Program> program = compile(graph, options);
     if (!program) return std::nullopt;
@@ -232,6 +234,7 @@ std::optional<Error> slowness(const Graph& graph, Ir& ir, IrId distance, bool pi
 std::vector<Error> compileErrors(const Graph& graph, const CompileOptions& options) {
     CompileOptions unmeasured = options;
     unmeasured.bake = boxInPlace;  // what it would be is of no matter
+    unmeasured.finest = kLeastFieldResolution;
     GraphLowering lowering(graph, unmeasured);
     std::vector<const Node*> all;
     for (const Node& node : graph.nodes) all.push_back(&node);
@@ -260,6 +263,7 @@ Done checkLive(const Graph& graph, const CompileOptions& options) {
     std::vector<std::string> names;
     CompileOptions folded;
     folded.bake = boxInPlace;
+    folded.finest = kLeastFieldResolution;
     GraphLowering lowering(graph, folded);
     lowering.canBeLive = &names;
     std::vector<const Node*> all;

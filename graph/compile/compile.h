@@ -30,10 +30,12 @@ struct CompileOptions {
     /// Values that live inputs come to have, at so many moments, by their names in `live`: what has to hold
     /// at all of them, as the grids of particles, is made so. None: as they are now.
     std::vector<std::map<std::string, std::vector<double>>> moments = {};
-    double time = 0.0;                 ///< seconds, folded unless live
-    int triangles = 0;                 ///< decimates what the graph shows to so many at most; 0: does not
-    bool byShape = false;              ///< then: MeshStage::byShape
-    MeshFieldBaker bake = bakeOnHost;  ///< makes fields of meshes
+    double time = 0.0;                  ///< seconds, folded unless live
+    int triangles = 0;                  ///< decimates what the graph shows to so many at most; 0: does not
+    bool byShape = false;               ///< then: MeshStage::byShape
+    MeshFieldBaker bake = bakeOnHost;   ///< makes fields of meshes
+    int finest = kMostFieldResolution;  ///< samples along a side of what is measured on a grid, at most;
+                                        ///< fewer for whoever wants a program but not its field
     /// Every node that has part in an operation is known, for effortByNode(); takes longer.
     bool costByNode = false;
     /// compileErrors() also warns of fields that a software device would trace for long. It must find the

@@ -39,6 +39,7 @@ bool isEndless(Search& search, const Link& link) {
     outputOf(shown)->set("surface", {link});
     CompileOptions options;
     options.bake = boxInPlace;
+    options.finest = kLeastFieldResolution;
     const Result<Program> program = compile(shown, options);
     return program && findRegion(*program).extent == Extent::unbounded;
 }

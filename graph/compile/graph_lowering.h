@@ -113,6 +113,7 @@ class GraphLowering {
     /// Of a node's code and the types of its inputs (-1: unknown), for groups have it in each instance.
     std::map<std::pair<const Node*, std::vector<int>>, language::Resolved> resolved;
     std::set<std::string, std::less<>> nearFields = {};  ///< particles_to_field without true distances
+    std::set<std::string, std::less<>> gridded = {};     ///< nodes whose distances were measured on a grid
 
   private:
     /// Those of each group's instance, by its prefix; and, while the opaque part is made, those of the whole.
@@ -152,10 +153,13 @@ Lowered lowerPolygonize(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerSmooth(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerSubdivide(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerDecimate(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerDropCrumbs(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerOutput(GraphLowering& lowering, const NodeAt& at);
 /// The surface of a volume at the node's input "p". Used by meshes and particles.
 Lowered sampledVolume(GraphLowering& lowering, const NodeAt& at, const std::vector<NodeInput>& inputs,
                       const FieldVolumePtr& volume, VolumeChannel distance);
+/// What to say if the graph's volumes would take too much with this one, about an input "resolution".
+std::optional<Error> tooManySamples(const GraphLowering& lowering, const FieldVolumePtr& volume);
 // particles.cpp:
 Lowered lowerEmitter(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerParticleFile(GraphLowering& lowering, const NodeAt& at);
@@ -163,7 +167,10 @@ Lowered lowerParticleDynamics(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerFluid(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerFoam(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at);
-/// The body of `offset`, with a warning about distances that are not true.
+// walls.cpp:
+Lowered lowerTrueDistance(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at);
+/// The body of `offset` and `shell`, with a warning about distances that are not true.
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at);
 
 }  // namespace fw

@@ -18,7 +18,7 @@ MeshMethod meshMethod(std::string_view name);
 
 /// What is done to a mesh.
 struct MeshStage {
-    enum class Kind : unsigned char { smooth, subdivide, decimate } kind = Kind::smooth;
+    enum class Kind : unsigned char { smooth, subdivide, decimate, dropCrumbs } kind = Kind::smooth;
     int times = 1;        ///< iterations of smooth, levels of subdivide, at least 0
     bool project = true;  ///< of subdivide: new vertices are led onto the field
     double error = 0.0;   ///< of decimate: metres that the result may be away from the field; 0: any
@@ -28,6 +28,7 @@ struct MeshStage {
     /// Of smooth, metres: the radius of balls that stay as they are, and how far a vertex may get; 0: none,
     /// any.
     double spare = 0.0, within = 0.0;
+    double least = 0.0;  ///< of dropCrumbs: parts stay of so large a share of the largest one's volume
     bool operator==(const MeshStage&) const = default;
 };
 /// Whether the stage needs the field.

@@ -101,19 +101,24 @@ Lowered lowerMeshToField(GraphLowering& lowering, const NodeAt& at) {
     return sampledVolume(lowering, at, *inputs, *volume, flat ? trilinearChannel : tricubicChannel);
 }
 
+std::optional<Error> tooManySamples(const GraphLowering& lowering, const FieldVolumePtr& volume) {
+    std::size_t bytes = kTexelBytes * texelCount(*volume);
+    for (const FieldVolumePtr& held : lowering.state.ir.volumes())
+        if (held != volume) bytes += kTexelBytes * texelCount(*held);
+    if (bytes <= kMostVolumeBytes) return {};
+    return Error{.message = "what the graph has on grids, as meshes and particles, would take more than " +
+                            std::to_string(kMostVolumeBytes >> 20) +
+                            " MiB as fields: lower a resolution or take fewer"};
+}
+
 Lowered sampledVolume(GraphLowering& lowering, const NodeAt& at, const std::vector<NodeInput>& inputs,
                       const FieldVolumePtr& volume, VolumeChannel distance) {
     Ir& ir = lowering.state.ir;
-    std::size_t bytes = kTexelBytes * texelCount(*volume);
-    for (const FieldVolumePtr& held : ir.volumes())
-        if (held != volume) bytes += kTexelBytes * texelCount(*held);
-    if (bytes > kMostVolumeBytes) {
-        lowering.report(at, "resolution",
-                        {.message = "the graph's meshes and particles would take more than " +
-                                    std::to_string(kMostVolumeBytes >> 20) +
-                                    " MiB as fields: lower a resolution or take fewer"});
+    if (auto problem = tooManySamples(lowering, volume)) {
+        lowering.report(at, "resolution", *problem);
         return lowering.failure(at.type.outputs);
     }
+    lowering.gridded.insert(at.path());
     const uint32_t number = ir.addVolume(volume);
     const Value& p = inputOf(inputs, "p");
     const std::array<IrId, 3> place{p.ids[0], p.ids[1], p.ids[2]};
@@ -187,6 +192,14 @@ Lowered lowerDecimate(GraphLowering& lowering, const NodeAt& at) {
         }
         return MeshStage{
             .kind = MeshStage::Kind::decimate, .error = *error, .triangles = static_cast<int>(*triangles)};
+    });
+}
+
+Lowered lowerDropCrumbs(GraphLowering& lowering, const NodeAt& at) {
+    return lowerStage(lowering, at, [&](const std::vector<NodeInput>& inputs) -> std::optional<MeshStage> {
+        const auto least = lowering.knownNumber(at, inputs, "least");
+        if (!least) return std::nullopt;
+        return MeshStage{.kind = MeshStage::Kind::dropCrumbs, .least = *least};
     });
 }
 

@@ -354,14 +354,4 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at) {
     return sampledVolume(lowering, at, *inputs, *volume, tricubicChannel);
 }
 
-Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at) {
-    Lowered result = lowering.lowerBody(at);
-    if (result.failed || !lowering.nearFields.contains(result.outputs[0].spoiledBy)) return result;
-    lowering.warn(at, "surface",
-                  "the particles of node '" + result.outputs[0].spoiledBy +
-                      "' have distances near their surface alone, so this grows by more than it should: set "
-                      "that node's distance to true");
-    return result;
-}
-
 }  // namespace fw

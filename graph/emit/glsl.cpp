@@ -18,7 +18,7 @@ class Emitter : GlslStatements {
         for (IrId id = 0; id < ir.size(); ++id) {
             const Op op = ir[id].op;
             usesNoise |= op == Op::gradientNoise || op == Op::simplexNoise || op == Op::worleyNoise ||
-                         op == Op::cellHash;
+                         op == Op::cellWall || op == Op::cellHash;
             usesSmoothMinimum |= op == Op::smoothMinimum;
         }
         parameters();

@@ -45,7 +45,8 @@ constexpr Rounding roundingOf(Op op, bool boolean) {
         case Op::smoothMinimum: return Rounding::magnitude;
         case Op::gradientNoise:
         case Op::simplexNoise:
-        case Op::worleyNoise: return Rounding::noise;
+        case Op::worleyNoise:
+        case Op::cellWall: return Rounding::noise;
         default: return boolean ? Rounding::none : Rounding::result;
     }
 }
@@ -425,6 +426,14 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         "worleyNoise(vec3(%a, %b, %c), %d)",
         "iNoise(worleyNoise(iCentre(%a, %b, %c), %d.x), %a, %b, %c, 1.0, 0.0, 1.7320508)", kChainRule,
         "worleyNoiseGradient(vec3(%a, %b, %c), %d)", 110),
+    row(
+        Op::cellWall, "cell_wall", Arity<4>(), false, false,
+        []<class T>(const T* x) { return cellWall(x[0], x[1], x[2], x[3]).value; },
+        [](I x) { return noiseInterval(x, cellWall<double>, 1.0, 0.0, kCellWallRange); },
+        []<class T>(const T* x, T, const T* d) { return noiseSlope(cellWall(x[0], x[1], x[2], x[3]), d); },
+        "cellWallGradient(vec3(%a, %b, %c), %d).w",
+        "iNoise(cellWallGradient(iCentre(%a, %b, %c), %d.x).w, %a, %b, %c, 1.0, 0.0, 0.15)", kChainRule,
+        "cellWallGradient(vec3(%a, %b, %c), %d)", 260),
     row(
         Op::cellHash, "hash", Arity<4>(), false, false,
         []<class T>(const T* x) { return cellHash(x[0], x[1], x[2], x[3]); },

@@ -78,6 +78,7 @@ enum class Op : uint8_t {
     gradientNoise,
     simplexNoise,
     worleyNoise,
+    cellWall,
     cellHash,
     // two operands: u, v; which layer of which image is part of the node
     image,

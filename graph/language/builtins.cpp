@@ -558,6 +558,7 @@ const std::vector<Builtin>& table() {
         {"vec2", 1, 2, vectorType<Type::vec2>, toVector<Type::vec2>}, {"float2", 1, 2, vectorType<Type::vec2>, toVector<Type::vec2>},
         {"vec3", 1, 3, vectorType<Type::vec3>, toVector<Type::vec3>}, {"float3", 1, 3, vectorType<Type::vec3>, toVector<Type::vec3>},
         {"perlin", 1, 2, noiseType<Type::scalar>, noise<Op::gradientNoise>}, {"simplex", 1, 2, noiseType<Type::scalar>, noise<Op::simplexNoise>}, {"worley", 1, 2, noiseType<Type::scalar>, noise<Op::worleyNoise>},
+        {"cell_wall", 1, 2, noiseType<Type::scalar>, noise<Op::cellWall>},
         {"hash", 1, 2, noiseType<Type::scalar>, noise<Op::cellHash>}, {"hash3", 1, 2, noiseType<Type::vec3>, hash3},
         {"with_distance", 2, 2, withDistanceType, withDistance}, {"with_material", 5, 8, withMaterialType, withMaterial},
         {"empty", 0, 0, fixed<Type::surface>, [](S s, A) -> R { return emptySurface(s); }}, {"count", 1, 1, fixed<Type::integer, Type::points>, countOf}, {"outline", 2, 2, fixed<Type::scalar, Type::vec2, Type::points>, outlineAt},

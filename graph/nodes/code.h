@@ -43,12 +43,22 @@ vec2 sector(vec2 q, int n) {
 )";
 
 /// chamferMin, stairsMin: the minimum of a and b with the corner between them filled over a width k >= 0, as
-/// smooth_min does it for the round profile; stairs have n steps.
+/// smooth_min does it for the round profile; stairs have n steps. rolledMin: filled by a ball of radius k
+/// that touches both; m and n are slopes of a and b, of any length.
 inline constexpr const char* kBlend = R"(
 float chamferMin(float a, float b, float k) { return min(a, b, (a + b - k) * sqrt(0.5)); }
 float stairsMin(float a, float b, float k, float n) {
     float s = max(k, 1e-9) / (n + 1.0);
     return min(a, b, 0.5 * (a + b - k + abs(mod(b - k - a + s, 2.0 * s) - s)));
+}
+float rolledMin(float a, float b, float k, vec3 m, vec3 n) {
+    float c = clamp(dot(m, n) / max(length(m) * length(n), 1e-30), -0.9999, 0.9999);
+    float toA = k - a;
+    float toB = k - b;
+    float s = toA - c * toB;
+    float t = toB - c * toA;
+    bool inWedge = max(a, b) < 2.0 * k && s > 0.0 && t > 0.0;
+    return min(a, b, inWedge ? k - sqrt((s * toA + t * toB) / (1.0 - c * c)) : 1e9);
 }
 )";
 

@@ -5,6 +5,12 @@
 // is radius / 4 deep where the two fields are equal; chamfer is a flat at 45 degrees for perpendicular faces;
 // stairs follow the stepped blend of the hg_sdf library. Materials blend as the quadratic smooth minimum
 // does.
+//
+// The exact profile is a ball of that radius rolled along the corner, whatever the angle of the faces. Their
+// normals m, n are slopes of the two fields, by differences over a hundredth of the radius; with c = m . n
+// the ball's centre, where both distances are the radius r, lies at y = s m + t n from a place whose
+// distances are a and b, for m . y = r - a and n . y = r - b: s (1 - c^2) = (r - a) - c (r - b), and t
+// likewise. Where s and t are positive the place is in the ball's wedge, at r - |y| from the round.
 #include <cmath>
 
 #include "graph/nodes/code.h"
@@ -21,33 +27,50 @@ ExactnessRule blendRule(Exactness (*sharp)(Exactness a, Exactness b)) {
         Exactness result = sharp(a, b);
         result.lipschitz = lipschitz;
         if (node.constant("radius", 0) == 0.0) return result;
+        if (node.option("profile") == "exact") return distorted();
         if (node.option("profile") == "chamfer") return distorted(lipschitz * std::sqrt(2.0));
         return distorted(lipschitz);
     };
 }
 
-/// d = the blended minimum of the expressions x and y.
-std::string blendedMin(const std::string& x, const std::string& y) {
-    const std::string arguments = "(" + x + ", " + y + ", radius";
+/// The slopes of a and b, for the exact profile.
+constexpr const char* kSlopes = R"(
+vec3 slopeA = vec3(0.0);
+vec3 slopeB = vec3(0.0);
+if (profile == "exact") {
+    float h = max(0.01 * radius, 1e-9);
+    slopeA = vec3(distance(a(p + vec3(h, 0.0, 0.0))), distance(a(p + vec3(0.0, h, 0.0))), distance(a(p + vec3(0.0, 0.0, h)))) - a.distance;
+    slopeB = vec3(distance(b(p + vec3(h, 0.0, 0.0))), distance(b(p + vec3(0.0, h, 0.0))), distance(b(p + vec3(0.0, 0.0, h)))) - b.distance;
+}
+)";
+/// d = the blended minimum of the two distances, each with this sign.
+std::string blendedMin(const std::string& signA, const std::string& signB) {
+    const std::string arguments = "(" + signA + "a.distance, " + signB + "b.distance, radius";
     return "float d;\nif (profile == \"chamfer\") d = chamferMin" + arguments +
            ");\nelse if (profile == \"stairs\") d = stairsMin" + arguments +
-           ", steps);\nelse d = smooth_min" + arguments + ");\n";
+           ", steps);\nelse if (profile == \"exact\") d = rolledMin" + arguments + ", " + signA + "slopeA, " +
+           signB + "slopeB);\nelse d = smooth_min" + arguments + ");\n";
 }
 
 NodeType blendNode(std::string id, std::string label, std::string doc, ExactnessRule rule, std::string body,
                    std::vector<std::string> aliases) {
-    return {.id = std::move(id),
-            .label = std::move(label),
-            .category = Category::combine,
-            .doc = std::move(doc),
-            .inputs = {surfaceInput("a", "The first surface."), surfaceInput("b", "The second surface."),
-                       length("radius", 0, "Width of the blend where the two meet; 0 keeps the edge sharp."),
-                       choice("profile", {"round", "chamfer", "stairs"}, "Shape of the blend."),
-                       integer("steps", 4, 1, 64, "Number of steps of the stairs profile.")},
-            .outputs = {{"surface", Type::surface}},
-            .exactness = std::move(rule),
-            .body = kBlend + std::move(body),
-            .aliases = std::move(aliases)};
+    return {
+        .id = std::move(id),
+        .label = std::move(label),
+        .category = Category::combine,
+        .doc = std::move(doc),
+        .inputs = {surfaceInput("a", "The first surface."), surfaceInput("b", "The second surface."),
+                   length("radius", 0,
+                          "Width of the blend where the two meet, or the radius of an exact round; 0 keeps "
+                          "the edge sharp."),
+                   choice("profile", {"round", "chamfer", "stairs", "exact"},
+                          "Shape of the blend. Exact is the round of a ball of that radius, also between "
+                          "faces that are not square to each other; it asks both surfaces four times."),
+                   integer("steps", 4, 1, 64, "Number of steps of the stairs profile.")},
+        .outputs = {{"surface", Type::surface}},
+        .exactness = std::move(rule),
+        .body = kBlend + std::move(body),
+        .aliases = std::move(aliases)};
 }
 
 /// Whose second surface only cuts, so that it is what it is, though light may pass through it.
@@ -63,7 +86,7 @@ std::vector<NodeType> combineNodes() {
         blendNode("union", "Union", "Both surfaces together.", blendRule([](Exactness a, Exactness b) {
                       return Exactness{a.outside && b.outside, false, 1};
                   }),
-                  "if (radius <= 0.0) return min(a, b);\n" + blendedMin("a.distance", "b.distance") +
+                  std::string("if (radius <= 0.0) return min(a, b);\n") + kSlopes + blendedMin("", "") +
                       "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (a.distance - b.distance) / "
                       "max(radius, 1e-9), 0.0, 1.0)), d);",
                   {"join"}),
@@ -72,7 +95,7 @@ std::vector<NodeType> combineNodes() {
                   blendRule([](Exactness a, Exactness b) {
                       return Exactness{false, a.inside && b.inside, 1};
                   }),
-                  "if (radius <= 0.0) return max(a, b);\n" + blendedMin("-a.distance", "-b.distance") +
+                  std::string("if (radius <= 0.0) return max(a, b);\n") + kSlopes + blendedMin("-", "-") +
                       "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (b.distance - a.distance) / "
                       "max(radius, 1e-9), 0.0, 1.0)), -d);",
                   {"intersection"}),
@@ -82,17 +105,17 @@ std::vector<NodeType> combineNodes() {
             blendRule([](Exactness a, Exactness b) {
                 return Exactness{false, a.inside && b.outside, 1};
             }),
-            "if (radius <= 0.0) return with_distance(a, max(a.distance, -b.distance));\n" +
-                blendedMin("-a.distance", "b.distance") + "return with_distance(a, -d);",
+            std::string("if (radius <= 0.0) return with_distance(a, max(a.distance, -b.distance));\n") +
+                kSlopes + blendedMin("-", "") + "return with_distance(a, -d);",
             {"difference", "cut"})),
         // Rounds the creases where the two meet: union blended, minus intersection blended.
         blendNode(
             "xor", "Exclusive or", "What lies inside exactly one of the two surfaces.",
             blendRule([](Exactness a, Exactness b) { return a.exact() && b.exact() ? kExact : kBound; }),
-            "if (radius <= 0.0) return with_distance(abs(a.distance) < abs(b.distance) ? a : b,\n"
-            "    max(min(a.distance, b.distance), min(-a.distance, -b.distance)));\n" +
-                blendedMin("a.distance", "b.distance") + "float either = d;\n" +
-                blendedMin("-a.distance", "-b.distance").substr(std::string("float d;\n").size()) +
+            std::string("if (radius <= 0.0) return with_distance(abs(a.distance) < abs(b.distance) ? a : b,\n"
+                        "    max(min(a.distance, b.distance), min(-a.distance, -b.distance)));\n") +
+                kSlopes + blendedMin("", "") + "float either = d;\n" +
+                blendedMin("-", "-").substr(std::string("float d;\n").size()) +
                 "float nearer = abs(a.distance) - abs(b.distance);\n"
                 "return with_distance(mix(a, b, clamp(0.5 + 0.5 * nearer / max(radius, 1e-9), 0.0, 1.0)), "
                 "max(either, d));",

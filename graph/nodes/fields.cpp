@@ -114,6 +114,18 @@ vector = sum;)"},
          .outputs = {{"surface", Type::surface}},
          .exactness = always(distorted()),
          .body = "return value;"},
+        {.id = "layers",
+         .label = "Layers along a surface",
+         .category = Category::field,
+         .doc = "The position with the distance from a surface as one of its coordinates: wired to a "
+                "lattice's position, the lattice follows the surface.",
+         .inputs = {surfaceInput("surface", "What the layers follow."),
+                    choice("axis", {"y", "x", "z"}, "Which coordinate becomes the distance.")},
+         .outputs = {{"place", Type::vec3}},
+         .body = R"(
+float d = surface.distance;
+return axis == "y" ? vec3(p.x, d, p.z) : axis == "x" ? vec3(d, p.y, p.z) : vec3(p.x, p.y, d);)",
+         .aliases = {"conformal"}},
     };
 }
 

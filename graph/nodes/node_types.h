@@ -8,6 +8,7 @@ namespace fw {
 std::vector<NodeType> shapeNodes();
 std::vector<NodeType> shape2dNodes();
 std::vector<NodeType> partNodes();
+std::vector<NodeType> latticeNodes();
 std::vector<NodeType> combineNodes();
 std::vector<NodeType> domainNodes();
 std::vector<NodeType> fieldNodes();

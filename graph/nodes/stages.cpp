@@ -77,6 +77,19 @@ std::vector<NodeType> stageNodes() {
                         "error allows.")},
          .outputs = {{"mesh", Type::mesh}},
          .lower = lowerDecimate},
+        {.id = "drop_crumbs",
+         .label = "Drop crumbs",
+         .category = Category::mesh,
+         .doc =
+             "Leaves out small parts that hang together with nothing, as those that a curved solid cuts off "
+             "the ends of a lattice.",
+         .inputs = {mesh,
+                    share("least", 0.05,
+                          "Parts stay whose volume is at least so large a share of the largest one's; 1: "
+                          "that alone.")},
+         .outputs = {{"mesh", Type::mesh}},
+         .lower = lowerDropCrumbs,
+         .aliases = {"islands", "largest_part"}},
         {.id = "output",
          .label = "Output",
          .category = Category::mesh,

@@ -171,9 +171,10 @@ Result<TileContent> contentOf(Session& session, const MeshRequest& request, cons
 
 Done checkTiles(const Program& program) {
     if (!program.stages.empty())
-        return Error{.message =
-                         "a mesh in tiles cannot be smoothed, subdivided or decimated: connect the "
-                         "output to polygonize"};
+        return Error{
+            .message =
+                "a mesh in tiles cannot be smoothed, subdivided, decimated or rid of crumbs: connect the "
+                "output to polygonize"};
     return done();
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "runtime/mesh/creases.h"
+#include "runtime/mesh/crumbs.h"
 #include "runtime/mesh/octahedral.h"
 #include "runtime/system/clock.h"
 
@@ -255,6 +256,17 @@ void decimate(Run& run, const MeshStage& stage, bool last) {
     if (run.config.timed) run.result.stages.push_back({"decimate", millisecondsSince(start)});
 }
 
+/// On the host too.
+void dropCrumbs(Run& run, double least) {
+    const auto start = Clock::now();
+    Mesh mesh = downloadMesh(run.device, run.mesh, run.result);
+    if (leaveOutCrumbs(mesh, least)) {
+        uploadMesh(run.device, run.mesh, mesh, run.result);
+        run.sorted = false;
+    }
+    if (run.config.timed) run.result.stages.push_back({"crumbs", millisecondsSince(start)});
+}
+
 /// That stages can be run on so much; `stage` is what needs it.
 Done fits(const Run& run, const std::string& stage, uint64_t vertices, uint64_t triangles) {
     const bool tooMany = triangles > run.most.triangles;
@@ -332,6 +344,10 @@ Done runMeshStages(const Device& device, MeshStageBuffers& buffers, MesherBuffer
         if (stage.kind == MeshStage::Kind::decimate) {
             if (run.stale) fit = refreshNormals();
             if (fit) decimate(run, stage, i + 1 == stages.size());
+        }
+        if (stage.kind == MeshStage::Kind::dropCrumbs) {
+            if (run.stale) fit = refreshNormals();
+            if (fit) dropCrumbs(run, stage.least);
         }
         if (stage.kind == MeshStage::Kind::smooth && stage.times > 0) {
             fit = fits(run, "smooth", result.vertices, result.triangles);

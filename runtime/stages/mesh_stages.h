@@ -15,7 +15,7 @@
 // Deviations: atomics give buckets in any order, so nothing depends on it: sums are taken in integers
 // (shaders/mesh/exact_sum.glsl), and an edge's number is that of its lower vertex and its rank there. The
 // same input gives the same bytes on every run. Subdivision may lead new vertices onto the field. Decimation
-// is the host's (decimate.h).
+// is the host's (decimate.h), and so is leaving out crumbs (mesh/crumbs.h).
 //
 // Meshes are closed, oriented and manifold, with at most 4096 triangles at a vertex, and stay so.
 //

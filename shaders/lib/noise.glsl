@@ -96,6 +96,39 @@ vec4 worleyNoiseGradient(vec3 p, float seed) {
 }
 float worleyNoise(vec3 p, float seed) { return worleyNoiseGradient(p, seed).w; }
 
+// From p to the point of the cell `step` cells off.
+vec3 wallPoint(vec3 p, vec3 cell, vec3 step, float seed) {
+    return (cell - p) + step + 0.1 + 0.8 * unitHash(latticeHash(ivec3(cell + step), seed));
+}
+// The 27 cells around; then, where what lies beyond may matter, the 125.
+vec4 cellWallGradient(vec3 p, float seed) {
+    vec3 cell = floor(p), side = min(p - cell, 1.0 - (p - cell));
+    float clear = 1.1 + min(side.x, min(side.y, side.z));
+    vec4 found;
+    int width = 3;
+    do {
+        vec4 nearest = vec4(0.0, 0.0, 0.0, 1e30);
+        int cells = width * width * width, c = 0;
+        float reach = float(width / 2);
+        do {
+            vec3 off = wallPoint(p, cell, vec3(c % width, (c / width) % width, c / (width * width)) - reach, seed);
+            float squared = dot(off, off);
+            nearest = squared < nearest.w ? vec4(off, squared) : nearest;
+        } while (++c < cells);
+        found = vec4(0.0, 0.0, 0.0, 0.15);
+        c = 0;
+        do {
+            vec3 off = wallPoint(p, cell, vec3(c % width, (c / width) % width, c / (width * width)) - reach, seed);
+            vec3 way = off - nearest.xyz;
+            float size = length(way), wall = (dot(off, off) - nearest.w) / (2.0 * size);
+            if (size > 0.0 && wall < found.w) found = vec4(-way / size, wall);
+        } while (++c < cells);
+        float distance = sqrt(nearest.w);
+        width = width == 5 || (distance <= clear && (clear - distance) * 0.5 >= found.w) ? 7 : 5;
+    } while (width == 5);
+    return found;
+}
+
 float cellHash(vec3 p, float seed) { return unitHash(latticeHash(ivec3(floor(p)), seed)).x; }
 
 // Interval of cellHash: one value if the box stays within a cell.

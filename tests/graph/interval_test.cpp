@@ -150,6 +150,41 @@ TEST(Noise, WorleyIsTheDistanceToTheNearestPoint) {
     EXPECT_GT(farther, 0);
 }
 
+TEST(Noise, CellWallIsTheDistanceToTheNearestWall) {
+    // Against the planes half way to all points of the 343 cells around.
+    std::mt19937_64 random(6);
+    const int places = isLong() ? 100'000 : 2'000;
+    int beyond = 0;
+    for (int n = 0; n < places; ++n) {
+        const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
+        std::array<double, 3> p;
+        for (double& c : p) c = 1000.0 * unit() - 500.0;
+        std::vector<std::array<double, 3>> points;
+        for (int k = -3; k <= 3; ++k)
+            for (int j = -3; j <= 3; ++j)
+                for (int i = -3; i <= 3; ++i) {
+                    const double o[3] = {std::floor(p[0]) + i, std::floor(p[1]) + j, std::floor(p[2]) + k};
+                    std::array<double, 3> point = worleyPoint(o[0], o[1], o[2], 5.0);
+                    for (std::size_t axis = 0; axis < 3; ++axis)
+                        point[axis] = o[axis] + 0.1 + 0.8 * (point[axis] - o[axis]) - p[axis];
+                    points.push_back(point);
+                }
+        const auto size = [](const std::array<double, 3>& a) { return std::hypot(a[0], a[1], a[2]); };
+        const auto nearest = *std::ranges::min_element(points, {}, size);
+        double wall = kCellWallRange;
+        for (const auto& point : points) {
+            const double apart =
+                std::hypot(point[0] - nearest[0], point[1] - nearest[1], point[2] - nearest[2]);
+            const double far = size(point), near = size(nearest);
+            if (apart > 0.0) wall = std::min(wall, (far * far - near * near) / (2.0 * apart));
+        }
+        const NoiseSample sample = cellWall(p[0], p[1], p[2], 5.0);
+        ASSERT_NEAR(sample.value, wall, 1e-9) << p[0] << ' ' << p[1] << ' ' << p[2];
+        beyond += size(nearest) > 0.9;
+    }
+    EXPECT_GT(beyond, 0);
+}
+
 TEST(Noise, WorleyHasItsIntervalWhereThePointIsTwoCellsOff) {
     const OpInfo& worley = opInfo(Op::worleyNoise);
     const Interval box[4] = {{-14.02, -13.99}, {-20.04, -20.02}, {18.02, 18.04}, {0.0, 0.0}};

@@ -226,11 +226,28 @@ TEST(NodeTable, DefaultsFitTheirInputs) {
 }
 
 TEST(NodeTable, EveryNodeHasAMeaning) {
-    const std::set<std::string> treatedByTheCompiler = {
-        "expression",        "polygonize", "smooth",        "subdivide",         "decimate",     "output",
-        "reroute",           "frame",      "group",         "group_input",       "group_output", "mesh_file",
-        "mesh_to_field",     "emitter",    "particle_file", "particle_dynamics", "sph_fluid",    "foam",
-        "particles_to_field"};
+    const std::set<std::string> treatedByTheCompiler = {"expression",
+                                                        "polygonize",
+                                                        "smooth",
+                                                        "subdivide",
+                                                        "decimate",
+                                                        "output",
+                                                        "reroute",
+                                                        "frame",
+                                                        "group",
+                                                        "group_input",
+                                                        "group_output",
+                                                        "mesh_file",
+                                                        "mesh_to_field",
+                                                        "emitter",
+                                                        "particle_file",
+                                                        "particle_dynamics",
+                                                        "sph_fluid",
+                                                        "foam",
+                                                        "particles_to_field",
+                                                        "true_distance",
+                                                        "round_edges",
+                                                        "drop_crumbs"};
     for (const NodeType& type : nodeTypes()) {
         EXPECT_EQ(type.body.empty(), treatedByTheCompiler.contains(type.id)) << type.id;
         EXPECT_EQ(type.open, type.body.empty() && type.inputs.empty()) << type.id;

@@ -130,7 +130,7 @@ TEST(Tape, EveryOperationMeansTheSameInEveryEvaluator) {
 /// Over boxes so small that rounding is all that their intervals can be wide.
 TEST(Tape, SinglePrecisionIsWithinItsIntervalsOfNoises) {
     std::mt19937 random(9);
-    for (const Op op : {Op::gradientNoise, Op::simplexNoise, Op::worleyNoise}) {
+    for (const Op op : {Op::gradientNoise, Op::simplexNoise, Op::worleyNoise, Op::cellWall}) {
         Ir ir;
         const IrId root = ir.add(op, std::array{ir.position(0), ir.position(1), ir.position(2),
                                                 ir.constant(double(random() % 9))});

@@ -201,7 +201,7 @@ Result<Program> compiledExpression(const std::string& code) {
 }
 
 TEST(Noise, EqualCoordinatesAreNoSpecialCase) {
-    for (const char* kind : {"perlin", "simplex", "worley"}) {
+    for (const char* kind : {"perlin", "simplex", "worley", "cell_wall"}) {
         const Result<Program> program =
             compiledExpression("return " + std::string(kind) + "(floor(p * 4.0) / 4.0 + p.zxy * 0.0);");
         ASSERT_TRUE(program) << format(program.error());

@@ -64,7 +64,8 @@ std::vector<fs::path> mostSamples() {
     std::vector<fs::path> most = samples();
     const std::set<std::string> slow = {"breaker",       "tap",          "glass_of_water", "wet_city",
                                         "tidal_wave",    "drop_in_bowl", "mesh_morph",     "eroded_duck",
-                                        "camera_flight", "blobs",        "cornell_box"};
+                                        "camera_flight", "blobs",        "cornell_box",    "leaf_relief",
+                                        "light_part",    "goblet",       "mushroom",       "menger"};
     if (!std::getenv("FIELDWRIGHT_LONG"))
         std::erase_if(most, [&](const fs::path& sample) { return slow.contains(nameOf(sample)); });
     return most;
