@@ -68,6 +68,11 @@ std::string shortNumber(double value) {
     return text;
 }
 
+std::string exactNumber(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 std::string unitHint(std::string_view text) {
     double number = 0.0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);

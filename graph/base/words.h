@@ -16,6 +16,8 @@ std::string lowered(std::string_view text);
 
 /// A number for reading, six digits.
 std::string shortNumber(double value);
+/// The shortest text that is read as the very same one.
+std::string exactNumber(double value);
 
 /// What to write instead of a number with a unit ("3.2mm", "90deg"), behind ": "; empty if it is none.
 std::string unitHint(std::string_view text);

@@ -133,6 +133,13 @@ struct SimulateOptions {
 };
 int runSimulate(const SimulateOptions& options);
 
+struct ImportOptions {
+    std::string path;    ///< of the file of another program
+    std::string output;  ///< of the graph; empty: beside it, under its name
+    bool overwrite = false;
+};
+int runImport(const ImportOptions& options);
+
 /// `json`: as a list of objects, in place of a line each.
 int runParameters(const std::string& path, bool json);
 

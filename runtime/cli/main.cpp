@@ -473,6 +473,21 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     simulateCommand->add_option("--device", simulateOptions.device,
                                 "Index or part of the name of the device (see fieldwright info)");
 
+    ImportOptions importOptions;
+    CLI::App* importCommand = app.add_subcommand(
+        "import",
+        "Make a graph of a 3MF file with implicit functions: level sets, functions as groups, image stacks, "
+        "meshes; what of it has no counterpart is told");
+    importCommand->footer("Try:  fieldwright import part.3mf -o part.field.json");
+    importCommand->add_option("FILE", importOptions.path, "The .3mf file")->required()->check(something());
+    importCommand
+        ->add_option(
+            "-o,--output", importOptions.output,
+            "The graph; pictures and meshes that it names go into a folder beside it, called after it "
+            "(default: as FILE, but .field.json)")
+        ->check(something());
+    importCommand->add_flag("--overwrite", importOptions.overwrite, "Replace a graph that is there");
+
     std::vector<std::string> checkPaths;
     CLI::App* checkCommand =
         app.add_subcommand("check", "List every problem of graph files, with file:line:column");
@@ -590,7 +605,8 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
 
     const bool writes = exportCommand->parsed() || mergeCommand->parsed() || renderCommand->parsed() ||
                         simulateCommand->parsed();
-    if (!checkCommand->parsed() && !nodesCommand->parsed() && !parametersCommand->parsed()) {
+    if (!checkCommand->parsed() && !importCommand->parsed() && !nodesCommand->parsed() &&
+        !parametersCommand->parsed()) {
         makeRoomForDriverCache();
         passOverDriversWithoutCards();
     }
@@ -603,6 +619,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         if (renderCommand->parsed()) return runRender(renderOptions);
         if (playCommand->parsed()) return runPlay(playOptions);
         if (simulateCommand->parsed()) return runSimulate(simulateOptions);
+        if (importCommand->parsed()) return runImport(importOptions);
         if (checkCommand->parsed()) return runCheck(checkPaths);
         if (evalCommand->parsed()) return runEval(evalOptions);
         if (compileCommand->parsed()) return runCompile(compileOptions);
