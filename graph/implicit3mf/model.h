@@ -24,7 +24,6 @@
 namespace fw::threemf {
 
 inline constexpr std::size_t kMostElements = 2'000'000;  ///< of XML: bounds the memory of reading it
-inline constexpr std::size_t kMostMeshCorners = 6'000'000;
 
 enum class ValueType : unsigned char { scalar, vector, matrix, resource };
 const char* nameOf(ValueType type);
