@@ -9,6 +9,8 @@
 #include "graph/base/words.h"
 #include "graph/document/json.h"
 #include "graph/document/json_tokens.h"
+#include "graph/implicit3mf/import.h"
+#include "runtime/files/import_graph.h"
 
 namespace fw::editor {
 
@@ -18,7 +20,8 @@ namespace fs = std::filesystem;
 
 std::string nameOf(const fs::path& file) { return file.filename().string(); }
 
-bool isGraph(const std::string& file) { return lowered(file).ends_with(kGraphEnding); }
+/// Or of another program, to be made one.
+bool isGraph(const std::string& file) { return lowered(file).ends_with(kGraphEnding) || isImported(file); }
 
 /// "a mesh (.glb, .gltf)" of each kind that has a node.
 std::string whatCanBeDropped() {
@@ -29,7 +32,8 @@ std::string whatCanBeDropped() {
             text += (ending == kind->endings.front() ? "" : ", ") + std::string(ending);
         text += "), ";
     }
-    return text + "or a graph (" + std::string(kGraphEnding) + ")";
+    return text + "or a graph (" + std::string(kGraphEnding) + ", or an implicit " + std::string(k3mfEnding) +
+           ")";
 }
 
 /// Where the nodes of these files go: to the mouse over the canvas, else into the middle of what is seen, or

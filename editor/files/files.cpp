@@ -12,6 +12,8 @@
 #include "editor/files/tabs.h"
 #include "editor/shell/desktop_theme.h"
 #include "graph/document/json.h"
+#include "graph/implicit3mf/import.h"
+#include "runtime/files/import_graph.h"
 
 namespace fw::editor {
 
@@ -101,7 +103,10 @@ std::string proposal(const Editor& editor) {
     return (fs::path(workFolder(editor)) / fileName(path)).string();
 }
 
-void askForName(Editor& editor) { open(editor.files.browser, FileBrowser::Kind::save, proposal(editor)); }
+void askForName(Editor& editor) {
+    editor.files.browser.endings = {std::string(kGraphEnding)};
+    open(editor.files.browser, FileBrowser::Kind::save, proposal(editor));
+}
 
 /// Makes it the choice of this name, if there is one.
 template <class Choice, std::size_t count>
@@ -121,6 +126,25 @@ void takeChange(Editor& editor, FileWatch::Change change) {
     } else {
         reload(editor, change.text);
     }
+}
+
+/// Makes a graph of another program's file, beside it under a name that is free, and shows that.
+void openImported(Editor& editor, const std::string& path) {
+    const std::string stem = (fs::path(path).parent_path() / fs::path(path).stem()).string();
+    std::error_code error;
+    std::string graph = stem + std::string(kGraphEnding);
+    for (int i = 2; fs::exists(graph, error); ++i)
+        graph = stem + "_" + std::to_string(i) + std::string(kGraphEnding);
+    const Result<ImportedFiles> made = importGraph(path, graph);
+    if (!made)
+        return tell(editor, "This file cannot be opened", "No graph can be made of " + fileName(path) + ":",
+                    {made.error()});
+    openFile(editor, graph);
+    if (!made->warnings.empty())
+        return tell(editor, "Opened as a graph",
+                    fileName(graph) + " was made of " + fileName(path) + ". What is to be known of it:",
+                    made->warnings);
+    say(editor, fileName(graph) + " was made of " + fileName(path));
 }
 
 /// The editor's first document where it was started for a file.
@@ -182,6 +206,7 @@ void openFile(Editor& editor, const std::string& path) {
             takeChange(editor, std::move(*change));
         return;
     }
+    if (isImported(path)) return openImported(editor, path);
     const Result<std::string> text = readGraphText(path);
     PartialGraph read;
     if (text)
@@ -198,6 +223,7 @@ void newDocument(Editor& editor) { take(editor, freshGraph()); }
 
 void askForFile(Editor& editor) {
     const bool sample = editor.files.origin == Origin::sample;
+    editor.files.browser.endings = {std::string(kGraphEnding), std::string(k3mfEnding)};
     open(editor.files.browser, FileBrowser::Kind::open, sample ? "" : editor.document.graph().path);
 }
 

@@ -9,6 +9,7 @@
 #include "graph/document/json.h"
 #include "tests/editor/driven_editor.h"
 #include "tests/editor/program.h"
+#include "tests/support/graph/implicit_model.h"
 
 namespace fw::editor::test::tabs_test {
 
@@ -24,6 +25,33 @@ constexpr const char* kBlock =
 
 Graph larger(const Graph& graph, const char* node, const char* input) {
     return setNumber(graph, "", {node, input}, 0, 2.5);
+}
+
+TEST(Tabs, FilesOfOtherProgramsOpenAsGraphs) {
+    DrivenEditor editor;
+    NEEDS_EDITOR(editor);
+    const std::string file = editor.path("part.3mf");
+    writeText(file, fw::test::modelPackage(
+                        fw::test::modelText(std::string("<m:texture2d xmlns:m='urn:m' id='30'/>") +
+                                                fw::test::kBallFunction + fw::test::kLevelSet,
+                                            "<item objectid='9'/>")));
+    openFile(*editor, file);
+    editor.settle();
+    EXPECT_EQ(nameOf(*editor), "part.field.json");
+    EXPECT_NE(editor->document.graph().group("ball"), nullptr);
+    for (const Node& node : editor->document.graph().nodes) EXPECT_TRUE(node.at) << node.id;
+    ASSERT_EQ(editor->files.message.problems.size(), 1u) << "what was left away is told";
+    EXPECT_NE(editor->files.message.problems[0].message.find("texture2d"), std::string::npos);
+    editor->files.message = {};
+
+    openFile(*editor, file);
+    editor.settle();
+    EXPECT_EQ(nameOf(*editor), "part_2.field.json") << "a graph that is there stays";
+    editor->files.message = {};
+    writeText(file, "PK, they say");
+    openFile(*editor, file);
+    EXPECT_EQ(nameOf(*editor), "part_2.field.json");
+    EXPECT_EQ(editor->files.message.title, "This file cannot be opened");
 }
 
 TEST(Tabs, EachDocumentIsAsItWasLeft) {

@@ -16,37 +16,16 @@
 #include "graph/implicit3mf/import.h"
 #include "graph/implicit3mf/model.h"
 #include "graph/implicit3mf/package.h"
+#include "tests/support/graph/implicit_model.h"
 #include "tests/support/graph/temp_dir.h"
 
 namespace fw::implicit3mf_test {
 
 namespace fs = std::filesystem;
-
-/// A model's text. The bounds are a box of 2000 about the origin, as the object 1.
-std::string modelText(const std::string& resources, const std::string& build,
-                      const std::string& attributes = "unit=\"millimeter\"") {
-    std::string corners;
-    for (int i = 0; i < 8; ++i)
-        corners += "<vertex x='" + std::to_string(i & 1 ? 1000 : -1000) + "' y='" +
-                   std::to_string(i & 2 ? 1000 : -1000) + "' z='" + std::to_string(i & 4 ? 1000 : -1000) +
-                   "'/>";
-    const char* triangles =
-        "<triangle v1='0' v2='2' v3='3'/><triangle v1='0' v2='3' v3='1'/><triangle v1='4' v2='5' v3='7'/>"
-        "<triangle v1='4' v2='7' v3='6'/><triangle v1='0' v2='1' v3='5'/><triangle v1='0' v2='5' v3='4'/>"
-        "<triangle v1='2' v2='6' v3='7'/><triangle v1='2' v2='7' v3='3'/><triangle v1='0' v2='4' v3='6'/>"
-        "<triangle v1='0' v2='6' v3='2'/><triangle v1='1' v2='3' v3='7'/><triangle v1='1' v2='7' v3='5'/>";
-    return "<?xml version='1.0'?>\n<model xmlns='http://schemas.microsoft.com/3dmanufacturing/core/2015/02' "
-           "xmlns:v='http://schemas.3mf.io/3dmanufacturing/volumetric/2022/01' "
-           "xmlns:i='http://schemas.3mf.io/3dmanufacturing/implicit/2023/12' " +
-           attributes + "><resources><object id='1'><mesh><vertices>" + corners + "</vertices><triangles>" +
-           triangles + "</triangles></mesh></object>" + resources + "</resources><build>" + build +
-           "</build></model>";
-}
-
-std::string package(const std::string& model, std::vector<threemf::Part> more = {}) {
-    more.insert(more.begin(), {"3D/3dmodel.model", model});
-    return threemf::packed(more);
-}
+using test::kBallFunction;
+using test::kLevelSet;
+using test::modelPackage;
+using test::modelText;
 
 /// An input "A=vector:inputs.pos" as an element.
 std::string inputs(const std::string& list) {
@@ -78,9 +57,6 @@ std::string function(int id, const std::string& name, const std::string& nodes, 
            "</i:in>" + nodes + "<i:out>" + inputs(result) + "</i:out></i:implicitfunction>";
 }
 
-constexpr const char* kSet =
-    "<object id='9'><v:levelset functionid='5' channel='shape' meshid='1' meshbboxonly='true'/></object>";
-
 /// A model whose level set is function 5, of these nodes, where `parts` takes the position apart.
 std::string shapeOf(const std::string& nodes, const std::string& result, const std::string& before = "") {
     return modelText(
@@ -89,7 +65,7 @@ std::string shapeOf(const std::string& nodes, const std::string& result, const s
                 5, "main",
                 node("decomposevector", "parts", "A=vector:inputs.pos", "x:scalar y:scalar z:scalar") + nodes,
                 "shape=scalar:" + result) +
-            kSet,
+            kLevelSet,
         "<item objectid='9'/>");
 }
 
@@ -128,7 +104,7 @@ struct Shape {
     std::string error;
 };
 
-std::string whyNot(const std::string& model) { return Shape(package(model)).error; }
+std::string whyNot(const std::string& model) { return Shape(modelPackage(model)).error; }
 
 TEST(Implicit3mf, NodesOfNumbersHaveTheirValues) {
     struct Case {
@@ -182,7 +158,7 @@ TEST(Implicit3mf, NodesOfNumbersHaveTheirValues) {
     const double places[][3] = {{0.3, 0.7, 0.1}, {-0.6, 0.45, -2}, {0.9, -0.35, 0.5}};
     for (const Case& c : cases) {
         const Shape shape(
-            package(shapeOf(constants + node(c.kind, "n", c.given, "result:scalar"), "n.result")));
+            modelPackage(shapeOf(constants + node(c.kind, "n", c.given, "result:scalar"), "n.result")));
         EXPECT_EQ(shape.error, "") << c.kind;
         if (!shape.error.empty()) continue;
         for (const auto& p : places)
@@ -207,7 +183,7 @@ TEST(Implicit3mf, NodesOfNumbersHaveTheirValues) {
             node("constvec", "ones", "", "vector:vector", "x='1' y='10' z='100'") +
             node(c.kind, "n", given, "result:vector") +
             node("dot", "sum", "A=vector:n.result B=vector:ones.vector", "result:scalar");
-        const Shape vectors(package(shapeOf(more, "sum.result")));
+        const Shape vectors(modelPackage(shapeOf(more, "sum.result")));
         EXPECT_EQ(vectors.error, "") << c.kind;
         const double x = 0.3, y = 0.7, z = 0.45;
         const double sum = c.value(x, y, z) + 10 * c.value(y, z, x) + 100 * c.value(z, x, y);
@@ -226,7 +202,7 @@ TEST(Implicit3mf, DivisionByZeroIsVeryLarge) {
         node("clamp", "h", "A=scalar:q.result min=scalar:zero.value max=scalar:one.value", "result:scalar") +
         node("multiplication", "m", "A=scalar:d.result B=scalar:h.result", "result:scalar") +
         node("subtraction", "r", "A=scalar:parts.y B=scalar:m.result", "result:scalar");
-    const Shape shape(package(shapeOf(blend, "r.result")));
+    const Shape shape(modelPackage(shapeOf(blend, "r.result")));
     ASSERT_EQ(shape.error, "");
     EXPECT_NEAR(shape.at(3, 5, 0), 3, 1e-12);
     EXPECT_NEAR(shape.at(5, 3, 0), 3, 1e-12);
@@ -237,7 +213,7 @@ TEST(Implicit3mf, MatricesMultiplyRows) {
         return node("constmat", "m", "", "matrix:matrix", "matrix='" + std::string(text) + "'");
     };
     const auto applied = [&](const std::string& nodes, const char* from) {
-        return package(
+        return modelPackage(
             shapeOf(nodes +
                         node("matvecmultiplication", "v",
                              std::string("A=matrix:") + from + " B=vector:inputs.pos", "result:vector") +
@@ -281,7 +257,7 @@ TEST(Implicit3mf, FunctionsAreGroups) {
         node("constresourceid", "which", "", "value:resourceid", "value='3'") +
         node("functioncall", "call",
              "functionID=resource:which.value pos=vector:inputs.pos radius=scalar:r.value", "shape:scalar");
-    const Shape shape(package(shapeOf(main, "call.shape", ball)));
+    const Shape shape(modelPackage(shapeOf(main, "call.shape", ball)));
     ASSERT_EQ(shape.error, "");
     EXPECT_NEAR(shape.at(3, 0, 4), 2.5, 1e-12);
     const Group* group = shape.imported.graph.group("ball_of_size");
@@ -309,7 +285,7 @@ TEST(Implicit3mf, FunctionsTakeFunctions) {
         node("constresourceid", "of", "", "value:resourceid", "value='4'") +
         node("functioncall", "call",
              "functionID=resource:which.value pos=vector:inputs.pos f=resource:of.value", "shape:scalar");
-    const Shape shape(package(shapeOf(main, "call.shape", twice + size)));
+    const Shape shape(modelPackage(shapeOf(main, "call.shape", twice + size)));
     ASSERT_EQ(shape.error, "");
     EXPECT_NEAR(shape.at(3, 0, 4), 10, 1e-12);
 }
@@ -356,7 +332,7 @@ TEST(Implicit3mf, ImageStacksAreSampledByTheStandardsRules) {
             node("constresourceid", "which", "", "value:resourceid", "value='8'") +
             node("functioncall", "call", "functionID=resource:which.value pos=vector:inputs.pos",
                  "green:scalar");
-        const Shape shape(package(shapeOf(main, "call.green", stack), parts));
+        const Shape shape(modelPackage(shapeOf(main, "call.green", stack), parts));
         ASSERT_EQ(shape.error, "");
 
         const auto folded = [](int at, int n, int how) {  // the voxel that stands at `at` beyond the edges
@@ -399,36 +375,27 @@ TEST(Implicit3mf, ImageStacksAreSampledByTheStandardsRules) {
 
 // ---- objects
 
-constexpr const char* kBallMain =
-    "<i:implicitfunction id='5' displayname='ball'><i:in><i:vector identifier='pos'/></i:in>"
-    "<i:length identifier='l'><i:in><i:vectorref identifier='A' ref='inputs.pos'/></i:in>"
-    "<i:out><i:scalar identifier='result'/></i:out></i:length>"
-    "<i:constant identifier='r' value='10'><i:out><i:scalar identifier='value'/></i:out></i:constant>"
-    "<i:subtraction identifier='s'><i:in><i:scalarref identifier='A' ref='l.result'/>"
-    "<i:scalarref identifier='B' ref='r.value'/></i:in><i:out><i:scalar identifier='result'/></i:out>"
-    "</i:subtraction><i:out><i:scalarref identifier='shape' ref='s.result'/></i:out></i:implicitfunction>";
-
 TEST(Implicit3mf, ObjectsStandWhereTheyAreBuilt) {
     // Turned by 90 degrees about z (x becomes y), twice as large, moved; and one that is mirrored.
     const std::string set =
         "<object id='9'><v:levelset functionid='5' channel='shape' meshid='1' transform='1 0 0 0 1 0 0 0 1 "
         "-20 0 0'/>"
         "</object>";
-    const Shape turned(package(
-        modelText(kBallMain + set, "<item objectid='9' transform='0 2 0 -2 0 0 0 0 2 100 200 300'/>")));
+    const Shape turned(modelPackage(
+        modelText(kBallFunction + set, "<item objectid='9' transform='0 2 0 -2 0 0 0 0 2 100 200 300'/>")));
     ASSERT_EQ(turned.error, "");
     // The ball's centre, (20, 0, 0), is at (100, 240, 300), its radius 20.
     EXPECT_NEAR(turned.at(100, 240, 300), -20, 1e-9);
     EXPECT_NEAR(turned.at(100, 240, 325), 5, 1e-9);
-    const Shape mirrored(
-        package(modelText(kBallMain + set, "<item objectid='9' transform='-1 0 0 0 1 0 0 0 1 0 0 0'/>")));
+    const Shape mirrored(modelPackage(
+        modelText(kBallFunction + set, "<item objectid='9' transform='-1 0 0 0 1 0 0 0 1 0 0 0'/>")));
     ASSERT_EQ(mirrored.error, "");
     EXPECT_NEAR(mirrored.at(-20, 0, 0), -10, 1e-9);
-    const Shape both(
-        package(modelText(kBallMain + set +
-                              "<object id='10'><components><component objectid='9'/><component "
-                              "objectid='9' transform='1 0 0 0 1 0 0 0 1 0 50 0'/></components></object>",
-                          "<item objectid='10'/>")));
+    const Shape both(modelPackage(
+        modelText(kBallFunction + set +
+                      "<object id='10'><components><component objectid='9'/><component "
+                      "objectid='9' transform='1 0 0 0 1 0 0 0 1 0 50 0'/></components></object>",
+                  "<item objectid='10'/>")));
     ASSERT_EQ(both.error, "");
     EXPECT_NEAR(both.at(20, 0, 0), -10, 1e-9);
     EXPECT_NEAR(both.at(20, 50, 0), -10, 1e-9);
@@ -439,21 +406,21 @@ TEST(Implicit3mf, UnitsColoursAndBoundsAreTaken) {
     const std::string painted =
         "<m:colorgroup xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02' id='2'>"
         "<m:color color='#FF0000FF'/></m:colorgroup>" +
-        std::string(kBallMain) +
+        std::string(kBallFunction) +
         "<object id='9' pid='2' pindex='0'><v:levelset functionid='5' channel='shape' meshid='1'/></object>";
-    const Shape inches(package(modelText(painted, "<item objectid='9'/>", "unit='inch'")));
+    const Shape inches(modelPackage(modelText(painted, "<item objectid='9'/>", "unit='inch'")));
     ASSERT_EQ(inches.error, "");
     EXPECT_STREQ(unitOf(inches.imported.graph).name, "in");
     ASSERT_NE(inches.node("material"), nullptr);
     EXPECT_EQ(std::get<std::vector<double>>(inches.node("material")->input("base_color")->value),
               (std::vector<double>{1, 0, 0}));
     EXPECT_NE(inches.node("box"), nullptr) << "bounds that are a box are one";
-    const Shape feet(package(modelText(painted, "<item objectid='9'/>", "unit='foot'")));
+    const Shape feet(modelPackage(modelText(painted, "<item objectid='9'/>", "unit='foot'")));
     ASSERT_EQ(feet.error, "");
     EXPECT_NEAR(feet.at(0, 0, 0), -120, 1e-9);
     // A colour that is a function.
-    const Shape field(package(modelText(
-        std::string(kBallMain) + function(6, "rainbow", "", "color=vector:inputs.pos") +
+    const Shape field(modelPackage(modelText(
+        std::string(kBallFunction) + function(6, "rainbow", "", "color=vector:inputs.pos") +
             "<v:volumedata id='7'><v:color functionid='6' channel='color'/></v:volumedata>"
             "<object id='9'><v:levelset functionid='5' channel='shape' meshid='1' volumeid='7'/></object>",
         "<item objectid='9'/>")));
@@ -467,7 +434,7 @@ TEST(Implicit3mf, MeshesAreFields) {
     const std::string main =
         node("constresourceid", "which", "", "value:resourceid", "value='1'") +
         node("mesh", "m", "pos=vector:inputs.pos mesh=resource:which.value", "distance:scalar");
-    const Shape shape(package(shapeOf(main, "m.distance")));
+    const Shape shape(modelPackage(shapeOf(main, "m.distance")));
     ASSERT_EQ(shape.error, "");
     EXPECT_NEAR(shape.at(0, 0, 900), -100, 0.5);
     EXPECT_NEAR(shape.at(0, 1010, 0), 10, 0.5);
@@ -511,21 +478,22 @@ TEST(Implicit3mf, WhatMakesNoSenseIsRefusedByName) {
                   "n.shape"),
             "calls the function 77, and there is none");
     refused(shape(node("constant", "n", "", "value:scalar", "value='much'"), "n.value"), "no number");
-    refused(modelText(kBallMain, "<item objectid='9'/>"), "asks for the object 9, and there is none");
-    refused(modelText(kBallMain + std::string(kSet), ""), "it builds nothing");
-    refused(modelText(kBallMain + std::string(kBallMain), ""), "two resources have the id 5");
+    refused(modelText(kBallFunction, "<item objectid='9'/>"), "asks for the object 9, and there is none");
+    refused(modelText(kBallFunction + std::string(kLevelSet), ""), "it builds nothing");
+    refused(modelText(kBallFunction + std::string(kBallFunction), ""), "two resources have the id 5");
     refused(modelText("<object id='9'><components><component objectid='9'/></components></object>",
                       "<item objectid='9'/>"),
             "is a component of itself");
-    refused(modelText(kBallMain + std::string(kSet), "<item objectid='9' transform='1 0 0'/>"),
+    refused(modelText(kBallFunction + std::string(kLevelSet), "<item objectid='9' transform='1 0 0'/>"),
             "is not of twelve numbers");
-    refused(
-        modelText(kBallMain + std::string(kSet), "<item objectid='9' transform='1 0 0 0 1 0 0 0 0 0 0 0'/>"),
-        "makes it flat");
-    refused(modelText(kBallMain + std::string(kSet), "<item objectid='9'/>",
+    refused(modelText(kBallFunction + std::string(kLevelSet),
+                      "<item objectid='9' transform='1 0 0 0 1 0 0 0 0 0 0 0'/>"),
+            "makes it flat");
+    refused(modelText(kBallFunction + std::string(kLevelSet), "<item objectid='9'/>",
                       "requiredextensions='s' xmlns:s='urn:slices'"),
             "urn:slices");
-    refused(modelText(kBallMain + std::string(kSet), "<item objectid='9'/>", "unit='ell'"), "unit 'ell'");
+    refused(modelText(kBallFunction + std::string(kLevelSet), "<item objectid='9'/>", "unit='ell'"),
+            "unit 'ell'");
     refused("<model><resources>", "damaged in line 1");
     std::string deep;
     for (int i = 0; i < 100; ++i)
@@ -550,14 +518,15 @@ TEST(Implicit3mf, DamagedAndBoundlessArchivesAreRefused) {
     EXPECT_NE(why("").find("empty"), std::string::npos);
     EXPECT_NE(why("solid nonsense").find("no ZIP archive"), std::string::npos);
     EXPECT_NE(why(threemf::packed({{"readme.txt", "hello"}})).find("is no 3MF file"), std::string::npos);
-    const std::string whole = package(shapeOf("", "parts.x"));
+    const std::string whole = modelPackage(shapeOf("", "parts.x"));
     EXPECT_EQ(why(whole), "");
     for (std::size_t cut = 1; cut < whole.size(); cut += 37) EXPECT_NE(why(whole.substr(0, cut)), "") << cut;
-    EXPECT_NE(why(package(std::string(threemf::kMostModelBytes + 1, ' '))).find("unpacks to more than 64 MB"),
-              std::string::npos);
+    EXPECT_NE(
+        why(modelPackage(std::string(threemf::kMostModelBytes + 1, ' '))).find("unpacks to more than 64 MB"),
+        std::string::npos);
     std::string many = "<model>";
     for (std::size_t i = 0; i < 2 * threemf::kMostElements; ++i) many += "<a/>";
-    EXPECT_NE(why(package(many)).find("elements"), std::string::npos);
+    EXPECT_NE(why(modelPackage(many)).find("elements"), std::string::npos);
 }
 
 TEST(Implicit3mf, WhatIsLeftAwayIsNamed) {
@@ -566,7 +535,7 @@ TEST(Implicit3mf, WhatIsLeftAwayIsNamed) {
         "<i:implicitfunction id='31' displayname='odd'><i:in/><i:normalizedistance "
         "identifier='n'><i:in/><i:out/>"
         "</i:normalizedistance><i:out/></i:implicitfunction>";
-    const Shape shape(package(modelText(kBallMain + more + kSet, "<item objectid='9'/>")));
+    const Shape shape(modelPackage(modelText(kBallFunction + more + kLevelSet, "<item objectid='9'/>")));
     ASSERT_EQ(shape.error, "");
     std::string all;
     for (const Error& warning : shape.imported.warnings) all += format(warning) + "\n";
