@@ -86,6 +86,7 @@ struct ExportOptions : MeshOutput, MeshWish {
     int tiles = 0;                   ///< along the longest side; 0: as many as it takes
     std::string share;               ///< "i/n": only this part of the tiles; empty: all
     std::string particles;           ///< the node whose particles are written in place of a mesh; empty: none
+    bool implicit = false;           ///< functions in place of a mesh
     std::string instances;           ///< how copies share a mesh: "nodes", "gpu"; empty: they do not
 };
 int runExport(const ExportOptions& options);

@@ -118,6 +118,7 @@ void noteUnlikelySize(const ExportOptions& options, const Mesh& mesh, const Plac
 int runExport(const ExportOptions& options) {
     Progress progress;
     if (!options.particles.empty()) return exportParticles(options);
+    if (options.implicit) return exportImplicit(options);
     if (options.animated) return exportAnimated(options);
     if (!options.instances.empty()) return exportInstances(options);
     if (!options.sweep.empty()) return exportSweep(options);

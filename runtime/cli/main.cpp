@@ -309,6 +309,18 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
             "Mesh only part i of n of the tiles: i/n. The output is a .part file, for fieldwright merge; a "
             "part that was stopped goes on where it was")
         ->check(something());
+    CLI::Option* implicit = exportCommand->add_flag("--implicit", exportOptions.implicit,
+                                                    "Write the field itself into the .3mf, as functions "
+                                                    "(volumetric and implicit extensions) in place of a "
+                                                    "mesh, +Z up; what they cannot say is named");
+    for (const char* ofMeshes : {"--resolution", "--method",    "--manifold",  "--split-materials",
+                                 "--compress",   "--parts",     "--unit",      "--up",
+                                 "--for",        "--report",    "--require",   "--triangles",
+                                 "--tiles",      "--tile",      "--animated",  "--sweep",
+                                 "--textures",   "--lods",      "--instances", "--particles",
+                                 "--from",       "--to",        "--fps",       "--range",
+                                 "--frames",     "--overwrite", "--format"})
+        implicit->excludes(exportCommand->get_option(ofMeshes));
     for (const char* ofMeshes : {"--resolution", "--region", "--method", "--manifold", "--split-materials",
                                  "--compress", "--parts", "--unit", "--up", "--for", "--report", "--require",
                                  "--triangles", "--tiles", "--tile", "--animated", "--sweep"})

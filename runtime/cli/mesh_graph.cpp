@@ -46,9 +46,6 @@ int badInput(const MeshOptions& options, Error error) {
     return kBadInput;
 }
 
-namespace {
-
-/// The box of --region; false, and said why, if it has no extent.
 bool readRegion(const MeshOptions& options, std::optional<Box>& region) {
     if (options.region.empty()) return true;
     const std::vector<double>& r = options.region;
@@ -64,7 +61,6 @@ bool readRegion(const MeshOptions& options, std::optional<Box>& region) {
     return true;
 }
 
-/// Reads the graph and sees that none of the outputs is among what it reads.
 std::optional<Graph> openKept(const MeshOptions& options, int& status) {
     std::optional<Graph> graph = openGraph(options.graph);
     if (!graph) return status = kBadInput, std::nullopt;
@@ -72,8 +68,6 @@ std::optional<Graph> openKept(const MeshOptions& options, int& status) {
         return print(kept.error()), status = kBadUsage, std::nullopt;
     return graph;
 }
-
-}  // namespace
 
 std::launch startOf(const MeshOptions& options) {
     return options.planned ? std::launch::deferred : std::launch::async;

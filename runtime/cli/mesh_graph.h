@@ -51,6 +51,11 @@ struct OpenedGraph {
 /// When the device is opened: a plan needs none.
 std::launch startOf(const MeshOptions& options);
 
+/// The box of --region; false, and said why, if it has no extent.
+bool readRegion(const MeshOptions& options, std::optional<Box>& region);
+/// Reads the graph and sees that none of the outputs is among what it reads.
+std::optional<Graph> openKept(const MeshOptions& options, int& status);
+
 /// Reads and compiles the graph and opens the device; the stages take the first 20 % of the progress. Failure
 /// is told as by meshGraph; so is the end of a plan, with the status kDone.
 std::optional<OpenedGraph> openForMesh(const MeshOptions& options, Progress& progress, int& status);

@@ -64,6 +64,8 @@ int exportAnimated(const ExportOptions& options);
 int exportSweep(const ExportOptions& options);
 /// `export --instances`: copies share a mesh.
 int exportInstances(const ExportOptions& options);
+/// `export --implicit`: functions in place of a mesh.
+int exportImplicit(const ExportOptions& options);
 /// `export --particles`: a file of points, or one for every frame.
 int exportParticles(const ExportOptions& options);
 

@@ -26,7 +26,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"graph/language", "base outlines library ir"},
     {"graph/compile", "base assets library document rules ir evaluate language"},
     {"graph/emit", "compile"},
-    {"graph/implicit3mf", "base assets document"},
+    {"graph/implicit3mf", "base assets document ir compile"},
     {"graph/check", "base assets library document rules language compile"},
     {"graph/nodes", "assets library compile"},
 
