@@ -40,6 +40,7 @@ const char* refusalOf(Op op) {
         case Op::gradientNoise:
         case Op::simplexNoise:
         case Op::worleyNoise:
+        case Op::cellWall:
         case Op::cellHash:
             return "is of random numbers, which 3MF's functions cannot make: take it out, or export a mesh";
         case Op::outline:
@@ -174,7 +175,8 @@ std::string FunctionText::sampled(const IrNode& node, IrId id) {
         if (!volume.mesh || layer.volume->channel > trilinearChannel) {
             fail(id, volume.mesh
                          ? "is of a mesh's colours, which 3MF's functions cannot have: give it one colour"
-                         : "is of particles, which 3MF's functions cannot be: export a mesh");
+                         : "is of particles or was measured on a grid, which 3MF's functions cannot hold: "
+                           "export a mesh");
             return {};
         }
         const int object = numberOf(resources.meshes, &volume, resources.next);
@@ -241,7 +243,9 @@ std::string FunctionText::made(IrId id) {
             return apply("subtraction", apply("min", operand(0), operand(1)),
                          apply("multiplication", apply("multiplication", h, h), depth));
         }
-        default: return sampled(node, id);
+        case Op::image:
+        case Op::volume: return sampled(node, id);
+        default: return fail(id, "is of what 3MF's functions have no node for: export a mesh"), std::string();
     }
 }
 

@@ -222,6 +222,15 @@ TEST(Export3mf, WhatCannotBeWrittenIsNamed) {
            {"id": "solid", "type": "extrude", "inputs": {"surface": {"from": "word"}}},
            {"id": "out", "type": "output", "inputs": {"surface": {"from": "solid"}}})~");
     EXPECT_NE(words.find("letters"), words.npos) << words;
+    const std::string cells = why(
+        R"~({"id": "cells", "type": "voronoi_foam"},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "cells"}}})~");
+    EXPECT_NE(cells.find("random numbers"), cells.npos) << cells;
+    const std::string rounded = why(
+        R"~({"id": "box", "type": "box"},
+           {"id": "round", "type": "round_edges", "inputs": {"surface": {"from": "box"}, "resolution": 16}},
+           {"id": "out", "type": "output", "inputs": {"surface": {"from": "round"}}})~");
+    EXPECT_NE(rounded.find("measured on a grid"), rounded.npos) << rounded;
 }
 
 /// The elements of that name, each as a document of its own.
