@@ -125,6 +125,8 @@ std::vector<double> numbersOf(const Row& row) {
 NumberRange rangeOf(const Row& row, double start) {
     NumberRange range;
     range.whole = row.type == Type::integer;
+    // What a group or an expression takes it for is not known.
+    range.unit = row.spec ? std::string_view(row.spec->unit) : "any";
     if (row.spec) range.min = row.spec->min, range.max = row.spec->max;
     if (row.spec && row.spec->positive) range.min = std::max(range.min, kLeastPositive);
     const double span = range.max - range.min;
@@ -208,11 +210,11 @@ void typeField(NumberHand& hand, Document& document, std::string_view scope, con
               numbersOf(row).at(std::size_t(component)));
 }
 
-std::string describe(const Row& row) {
+std::string describe(const Row& row, const LengthUnit& lengths) {
     std::string text = readable(row.name);
     if (row.type) text += "  (" + std::string(typeName(*row.type)) + ")";
     if (!row.spec) return text;
-    if (!row.spec->unit.empty()) text += ", " + row.spec->unit;
+    if (const std::string sign = unitSign(row.spec->unit, lengths); !sign.empty()) text += ", " + sign;
     const bool least = std::isfinite(row.spec->min), most = std::isfinite(row.spec->max);
     if (row.spec->positive)
         text += ", above 0";

@@ -10,6 +10,7 @@
 
 #include "editor/canvas/boxes.h"
 #include "editor/controls/number.h"
+#include "graph/library/units.h"
 
 namespace fw::editor {
 
@@ -41,7 +42,7 @@ bool showField(NumberHand& hand, Document& document, std::string_view scope, con
 void typeField(NumberHand& hand, Document& document, std::string_view scope, const NodeBox& box,
                const Row& row, int component);
 
-/// The text of an input for a tooltip: name, type, range, unit, and what it means.
-std::string describe(const Row& row);
+/// The text of an input for a tooltip: name, type, unit, range, and what it means.
+std::string describe(const Row& row, const LengthUnit& lengths);
 
 }  // namespace fw::editor

@@ -3,6 +3,7 @@
 
 #include "editor/canvas/canvas.h"
 #include "editor/document/wiring.h"
+#include "graph/document/unit.h"
 #include "graph/library/reference.h"
 
 namespace fw::editor {
@@ -437,7 +438,7 @@ struct Mouse {
         if (hit.what == What::frame || hit.what == What::frameTitle || hit.what == What::frameCorner) return;
         const NodeBox& box = boxes.nodes[hit.index];
         if (hit.what == What::input || hit.what == What::output || hit.what == What::field)
-            return ImGui::SetTooltip("%s", describe(box.rows[hit.row]).c_str());
+            return ImGui::SetTooltip("%s", describe(box.rows[hit.row], unitOf(document.graph())).c_str());
         if (hit.what != What::title) return;
         const auto finding = marks.findings.find(box.node->id);
         if (finding != marks.findings.end()) return ImGui::SetTooltip("%s", finding->second->message.c_str());

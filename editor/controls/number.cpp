@@ -8,7 +8,8 @@
 
 #include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
-#include "graph/language/lower.h"
+#include "graph/document/unit.h"
+#include "graph/language/typed_number.h"
 
 namespace fw::editor {
 
@@ -35,7 +36,8 @@ struct Typed {
 };
 
 /// One frame of it, in place of the number, at ImGui's cursor.
-Typed typeNumber(TypedNumber& edit, float width) {
+Typed typeNumber(TypedNumber& edit, float width,
+                 const std::function<Result<double>(std::string_view)>& numberOf) {
     ImGui::SetNextItemWidth(width);
     if (!edit.opened) ImGui::SetKeyboardFocusHere();
     if (!edit.begun.empty() && ImGui::GetActiveID() == ImGui::GetID("##typed")) {
@@ -45,11 +47,12 @@ Typed typeNumber(TypedNumber& edit, float width) {
             queue.insert(queue.begin(), ImWchar(*letter));
         edit.begun.clear();
     }
-    // It takes Tab for itself, which would go to whatever comes next; and no blanks, of which Tab is one.
+    // It takes Tab for itself, which would go to whatever comes next.
     const bool entered =
         ImGui::InputText("##typed", edit.text, sizeof edit.text,
                          ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue |
-                             ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CharsNoBlank);
+                             ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackCharFilter,
+                         [](ImGuiInputTextCallbackData* typed) { return typed->EventChar == '\t' ? 1 : 0; });
     const bool left = edit.opened && ImGui::IsItemDeactivated();
     const bool tab = edit.opened && ImGui::IsItemActive() && pressedKey(ImGuiKey_Tab);
     edit.opened = true;
@@ -102,6 +105,23 @@ void NumberHand::follow(const Document& document) {
 
 namespace {
 
+/// The number to the right, and its unit behind it where there is room for both.
+void drawNumber(const NumberLook& look, const std::string& number, const std::string& unit) {
+    const float margin = 0.35f * look.size;
+    const auto wide = [&](const std::string& text) {
+        return look.font->CalcTextSizeA(look.size, FLT_MAX, 0.0f, text.c_str()).x;
+    };
+    const std::string behind = unit.empty() || unit.starts_with("°") ? unit : " " + unit;
+    if (unit.empty() || wide(number) + wide(behind) > look.place.width() - 2 * margin)
+        return drawFieldText(look, number, true);
+    NumberLook before = look;
+    before.place.hi.x -= wide(behind);
+    drawFieldText(before, number, true);
+    const ImVec2 at(before.place.hi.x - margin, look.place.centre().y - 0.5f * look.size);
+    ImGui::GetWindowDrawList()->AddText(look.font, look.size, {std::floor(at.x), std::floor(at.y)},
+                                        themeColor(ThemeColor::quiet), behind.c_str());
+}
+
 /// The text field over a number; has the keyboard until Enter, Tab, Escape or a click elsewhere.
 NumberDone typeOver(NumberHand& hand, Document& document, const NumberRange& range, const NumberLook& look,
                     const std::function<void(Hand, double)>& set,
@@ -111,12 +131,15 @@ NumberDone typeOver(NumberHand& hand, Document& document, const NumberRange& ran
     ImGui::PushFont(look.font);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         ImVec2(4, std::max(0.0f, 0.5f * (place.height() - look.font->FontSize))));
-    const Typed typed = typeNumber(hand.typed, std::max(place.width(), kLeastTyped));
+    const auto numberOf = [&document, unit = range.unit](std::string_view text) {
+        return typedNumber(text, unit, unitOf(document.graph()));
+    };
+    const Typed typed = typeNumber(hand.typed, std::max(place.width(), kLeastTyped), numberOf);
     ImGui::PopStyleVar();
     ImGui::PopFont();
     const Hand held = hand.hand;
     if (!typed.ended) {
-        document.hold(held, [set, range, held, text = std::string(hand.typed.text)] {
+        document.hold(held, [set, range, held, numberOf, text = std::string(hand.typed.text)] {
             if (const Result<double> number = numberOf(text)) set(held, kept(*number, range));
         });
         return {};
@@ -167,7 +190,7 @@ NumberDone showNumber(NumberHand& hand, Document& document, std::string_view id,
     if (look.animated)
         ImGui::GetWindowDrawList()->AddRect(look.place.lo, look.place.hi, themeColor(ThemeColor::active),
                                             kNumberRounding);
-    drawFieldText(look, numberText(number), true);
+    drawNumber(look, numberText(number), unitSign(range.unit, unitOf(document.graph())));
     if (hovered || mine) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (mine) return drag(hand, document, range, name, set), NumberDone{};
     if (!hovered || !ImGui::IsMouseClicked(0)) return {};
@@ -199,17 +222,6 @@ void drawFieldText(const NumberLook& look, const std::string& text, bool toTheRi
                     place.centre().y - 0.5f * extent.y);
     ImGui::GetWindowDrawList()->AddText(look.font, look.size, {std::floor(at.x), std::floor(at.y)},
                                         ImGui::GetColorU32(ImGuiCol_Text), fits.c_str());
-}
-
-Result<double> numberOf(std::string_view text) {
-    language::Lowering state;
-    const Result<language::Value> value =
-        language::lowerText(state, "return float(" + std::string(text) + ");");
-    if (!value) return value.error();
-    const IrId id = value->id();
-    if (!state.ir.isConstant(id)) return Error{.message = "this depends on the position or the time"};
-    if (!std::isfinite(state.ir.number(id))) return Error{.message = "this is no finite number"};
-    return state.ir.number(id);
 }
 
 std::string numberText(double number) {

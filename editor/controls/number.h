@@ -1,10 +1,11 @@
 // A number edited where it stands: on a node of the canvas and in every panel alike.
 //
 // It is dragged (Shift: a tenth as fast; Alt: ten times as fast), or clicked and typed, as a number or an
-// expression of the field language ("2*pi/3"): Enter takes it, Ctrl+Enter for all numbers of a vector, Tab
-// goes on to the next one, Shift+Enter asks for the next node where it stands on one. Ctrl+click gives back
-// the default, where there is one. Escape takes back what the hand did. Whatever is done to it between press
-// and release, or while it is typed, is one hand of the document.
+// expression of the field language ("2*pi/3"), of lengths and angles with units ("1/4in", "3 mm + 1 cm"),
+// which are reckoned into the document's (language/typed_number.h): Enter takes it, Ctrl+Enter for all
+// numbers of a vector, Tab goes on to the next one, Shift+Enter asks for the next node where it stands on
+// one. Ctrl+click gives back the default, where there is one. Escape takes back what the hand did. Whatever
+// is done to it between press and release, or while it is typed, is one hand of the document.
 //
 // Lifetime: a NumberHand lives with what shows the numbers, from frame to frame.
 #pragma once
@@ -18,7 +19,6 @@
 
 #include "editor/canvas/view.h"
 #include "editor/document/document.h"
-#include "graph/base/result.h"
 
 namespace fw::editor {
 
@@ -62,6 +62,7 @@ struct NumberRange {
     double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
     double speed = 0.01;  ///< a pixel of a drag; it is rounded to three digits of that
     bool whole = false;
+    std::string_view unit = {};  ///< as InputSpec::unit, of a text that stays
 };
 
 /// How and where a number stands.
@@ -93,8 +94,6 @@ NumberDone showNumber(NumberHand& hand, Document& document, std::string_view id,
 void drawField(const Area& place, bool active, bool hovered);
 void drawFieldText(const NumberLook& look, const std::string& text, bool toTheRight);
 
-/// What the text says: a number or a constant expression. Error: why not.
-Result<double> numberOf(std::string_view text);
 /// As short as it is exact to nine digits.
 std::string numberText(double number);
 

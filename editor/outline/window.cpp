@@ -269,7 +269,8 @@ void showTools(Editor& editor, const Points& points) {
         ImGui::SetTooltip("To the grid, while points are moved; Ctrl turns it around");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5.0f * em);
-    dragNumbers(editor, "##step", std::span(&window.step, 1), {.min = 1e-4, .max = 1e3, .speed = 0.01},
+    dragNumbers(editor, "##step", std::span(&window.step, 1),
+                {.min = 1e-4, .max = 1e3, .speed = 0.01, .unit = "m"},
                 [&window](std::span<const double> to) { window.step = to[0]; });
     ImGui::SameLine();
     if (ImGui::Button("Divide")) change(editor, "Divide Sides", outline::divided(points));
@@ -294,9 +295,10 @@ void showTools(Editor& editor, const Points& points) {
     if (window.picture) {
         ImGui::SameLine();
         ImGui::SetNextItemWidth(5.0f * em);
-        dragNumbers(editor, "##wide", std::span(&window.pictureWidth, 1), {.min = 1e-3, .max = 1e4},
+        dragNumbers(editor, "##wide", std::span(&window.pictureWidth, 1),
+                    {.min = 1e-3, .max = 1e4, .unit = "m"},
                     [&window](std::span<const double> to) { window.pictureWidth = to[0]; });
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Width of the picture, metres");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Width of the picture");
         ImGui::SameLine();
         if (ImGui::SmallButton("×")) editor.shell.forget(std::exchange(window.picture, nullptr));
     }
@@ -314,7 +316,7 @@ void showPlaceOf(Editor& editor, const Points& points) {
     ImGui::TextDisabled("Point %zu of %zu", at + 1, points.count());
     ImGui::SameLine();
     ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
-    editNumbers(editor, "##place", std::span(points.numbers).subspan(2 * at, 2), {}, "Move Point",
+    editNumbers(editor, "##place", std::span(points.numbers).subspan(2 * at, 2), {.unit = "m"}, "Move Point",
                 [numbers = points.numbers, at, scope = window.scope, plug = Plug{window.node, window.input}](
                     const Graph& graph, std::span<const double> to) {
                     InputValue value{.value = numbers};

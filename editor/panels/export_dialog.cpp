@@ -185,18 +185,17 @@ void showSettings(Editor& editor) {
     own = !of.givesRegion;
     if (ImGui::Checkbox("found from the solid##region", &own)) of.givesRegion = !own;
     if (of.givesRegion) {
-        const std::string unit = unitOf(*editor.graph).name;
-        propertyRow("   least corner, " + unit);
-        dragNumbers(editor, "##least", std::span(of.region).first(3), {},
+        propertyRow("   least corner");
+        dragNumbers(editor, "##least", std::span(of.region).first(3), {.unit = "m"},
                     [&of](std::span<const double> to) { std::ranges::copy(to, of.region.begin()); });
-        propertyRow("   greatest corner, " + unit);
-        dragNumbers(editor, "##greatest", std::span(of.region).last(3), {},
+        propertyRow("   greatest corner");
+        dragNumbers(editor, "##greatest", std::span(of.region).last(3), {.unit = "m"},
                     [&of](std::span<const double> to) { std::ranges::copy(to, of.region.begin() + 3); });
     }
     if (!editor.graph->timeline->is_null()) {
-        propertyRow("Time, s", "The moment of the timeline that is exported.");
+        propertyRow("Time", "The moment of the timeline that is exported.");
         const double seconds = of.seconds.value_or(editor.viewport.seconds);
-        dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0},
+        dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0, .unit = "s"},
                     [&of](std::span<const double> to) { of.seconds = to[0]; });
     }
     endProperties();

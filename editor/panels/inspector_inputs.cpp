@@ -10,6 +10,7 @@
 #include "editor/timeline/fields_in_time.h"
 #include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -88,7 +89,8 @@ void showPoints(const Input& input) {
             const std::size_t at = 2 * std::size_t(i);
             ImGui::PushID(i);
             ImGui::SetNextItemWidth(-2.6f * ImGui::GetFrameHeight());
-            editNumbers(input.editor, "##point", std::span(numbers).subspan(at, 2), {}, input.setName(),
+            editNumbers(input.editor, "##point", std::span(numbers).subspan(at, 2), {.unit = "m"},
+                        input.setName(),
                         [numbers, at, scope = std::string(input.scope()), plug = input.plug](
                             const Graph& graph, std::span<const double> to) {
                             InputValue value{.value = numbers};
@@ -211,7 +213,7 @@ void showValue(const Input& input, const Track* track, float room, std::string& 
     if (row.linked) return showLink(input, room, goTo);
     if (track) {
         NumberRange range;
-        if (row.spec) range.min = row.spec->min, range.max = row.spec->max;
+        if (row.spec) range.min = row.spec->min, range.max = row.spec->max, range.unit = row.spec->unit;
         return editAnimated(input.editor, "##animated", *track, range, readable(row.name), input.held());
     }
     if (row.type == Type::string && row.spec && !row.spec->options.empty()) return showChoice(input);
@@ -286,7 +288,7 @@ void showInput(Editor& editor, const NodeBox& box, const Row& row, std::string& 
 
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const float menu = 0.9f * side, key = movable ? 0.8f * side + gap : 0.0f, room = menu + gap + key;
-    propertyRow(readable(row.name), describe(row), room);
+    propertyRow(readable(row.name), describe(row, unitOf(editor.document.graph())), room);
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     const float top = ImGui::GetCursorPosY();
     const ImVec2 rowBegin = ImGui::GetCursorScreenPos();

@@ -47,7 +47,7 @@ void showDefault(Editor& editor, const std::string& group, const GroupInput& inp
             if (list->size() == value.size()) value = *list;
     }
     ImGui::SetNextItemWidth(-FLT_MIN);
-    editNumbers(editor, "##default", value, {}, "Set Default of " + readable(input.name),
+    editNumbers(editor, "##default", value, {.unit = "any"}, "Set Default of " + readable(input.name),
                 [group, socket = input.name](const Graph& graph, std::span<const double> to) {
                     return setSocketDefault(graph, group, socket, numbersValue(to));
                 });

@@ -8,6 +8,8 @@
 #include "editor/shell/theme.h"
 #include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
+#include "graph/document/unit.h"
+#include "graph/language/typed_number.h"
 
 namespace fw::editor {
 
@@ -24,7 +26,9 @@ void editBound(Editor& editor, const char* id, std::size_t index, const std::opt
         if (index >= graph.parameters.size() || graph.parameters[index].name != name) return;
         std::optional<double> number;
         if (!text.empty()) {
-            const Result<double> typed = numberOf(text);
+            const Node* node = graph.node(graph.parameters[index].node);
+            const std::string_view unit = node ? unitOfInput(*node, graph.parameters[index].input) : "any";
+            const Result<double> typed = typedNumber(text, unit, unitOf(graph));
             if (!typed) return say(in, "no range: " + typed.error().message);
             number = *typed;
         }
@@ -51,7 +55,7 @@ void showValue(Editor& editor, const ExposedParameter& parameter) {
     const NodeType* type = findNodeType(node->type);
     const int index = type ? inputIndex(*type, parameter.input) : -1;
     const InputSpec* spec = index < 0 ? nullptr : &type->inputs[std::size_t(index)];
-    NumberRange range;
+    NumberRange range{.unit = unitOfInput(*node, parameter.input)};
     if (parameter.min) range.min = *parameter.min;
     if (parameter.max) range.max = *parameter.max;
     if (spec) range.min = std::max(range.min, spec->min), range.max = std::min(range.max, spec->max);

@@ -141,14 +141,14 @@ void showTimes(Editor& editor) {
     RenderDialog& dialog = editor.rendering;
     const bool rests = dialog.subject == RenderSubject::still || dialog.subject == RenderSubject::turntable;
     if (rests && !editor.graph->timeline->is_null()) {
-        propertyRow("Time, s", "The moment of the timeline that is shown.");
+        propertyRow("Time", "The moment of the timeline that is shown.");
         const double seconds = secondsOf(editor);
-        dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0},
+        dragNumbers(editor, "##time", std::span(&seconds, 1), {.min = 0.0, .unit = "s"},
                     [&dialog](std::span<const double> to) { dialog.of.seconds = to[0]; });
     }
     if (dialog.subject == RenderSubject::turntable) {
-        propertyRow("Once around in, s");
-        dragNumbers(editor, "##turn", std::span(&dialog.turn, 1), {.min = 0.04, .max = 3600.0},
+        propertyRow("Once around in");
+        dragNumbers(editor, "##turn", std::span(&dialog.turn, 1), {.min = 0.04, .max = 3600.0, .unit = "s"},
                     [&dialog](std::span<const double> to) { dialog.turn = to[0]; });
     }
     if (!isSequence(dialog)) return;

@@ -18,7 +18,9 @@ namespace fw::editor {
 
 namespace {
 
-constexpr NumberRange kPlaceRange{.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.02};
+constexpr NumberRange kPlaceRange{
+    .min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.02, .unit = "m"};
+constexpr NumberRange kLengthRange{.min = 0.0, .max = kMostSceneNumber, .speed = 0.02, .unit = "m"};
 constexpr NumberRange kStrengthRange{.min = 0.0, .max = kMostSceneNumber, .speed = 0.02};
 
 /// The document with the value, if its scene is one; as it is otherwise.
@@ -126,32 +128,32 @@ void showCamera(Editor& editor, const Scene& scene) {
     if (!scene.camera)
         return ImGui::TextDisabled("No camera: the whole solid is framed from three quarters.");
     if (!beginProperties("camera")) return;
-    place(editor, "camera.position", "Position", "Metres.", scene.camera->position);
+    place(editor, "camera.position", "Position", "Where the camera stands.", scene.camera->position);
     place(editor, "camera.target", "Target", "What is in the middle of the picture.", scene.camera->target);
-    number(editor, "camera.fov", "Field of view", "Degrees, from the bottom of the picture to its top.",
-           scene.camera->fov, {.min = kLeastFov, .max = kMostFov, .speed = 0.2});
+    number(editor, "camera.fov", "Field of view", "From the bottom of the picture to its top.",
+           scene.camera->fov, {.min = kLeastFov, .max = kMostFov, .speed = 0.2, .unit = "degrees"});
     number(editor, "camera.aperture", "Aperture",
-           "Metres across the lens: what is out of focus is blurred; 0: nothing.", scene.camera->aperture,
-           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.002});
-    number(editor, "camera.focus", "Focus", "Metres to what is sharp; 0: as far as the target.",
-           scene.camera->focus, {.min = 0.0, .max = kMostSceneNumber, .speed = 0.02});
+           "Across the lens: what is out of focus is blurred; 0: nothing.", scene.camera->aperture,
+           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.002, .unit = "m"});
+    number(editor, "camera.focus", "Focus", "How far what is sharp is; 0: as far as the target.",
+           scene.camera->focus, kLengthRange);
     number(editor, "camera.shutter", "Shutter",
-           "Degrees of a frame's 360 that it is open for: stills are blurred where they move.",
-           scene.camera->shutter, {.min = 0.0, .max = kMostShutter, .speed = 1.0});
+           "Of a frame's 360° those that it is open for: stills are blurred where they move.",
+           scene.camera->shutter, {.min = 0.0, .max = kMostShutter, .speed = 1.0, .unit = "degrees"});
     endProperties();
 }
 
 void showSun(Editor& editor, const Scene& scene) {
     if (!part(editor, "sun", "Sun", scene.sun.has_value()) || !scene.sun || !beginProperties("sun")) return;
-    number(editor, "sun.azimuth", "Azimuth", "Degrees from +z towards +x.", scene.sun->azimuth,
-           {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5});
-    number(editor, "sun.elevation", "Elevation", "Degrees above the horizon.", scene.sun->elevation,
-           {.min = -kMostElevation, .max = kMostElevation, .speed = 0.25});
+    number(editor, "sun.azimuth", "Azimuth", "From +z towards +x.", scene.sun->azimuth,
+           {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5, .unit = "degrees"});
+    number(editor, "sun.elevation", "Elevation", "Above the horizon.", scene.sun->elevation,
+           {.min = -kMostElevation, .max = kMostElevation, .speed = 0.25, .unit = "degrees"});
     color(editor, "sun.color", "Colour", scene.sun->color);
     number(editor, "sun.strength", "Strength", "Irradiance of a surface that faces it.", scene.sun->strength,
            kStrengthRange);
-    number(editor, "sun.size", "Size", "Degrees across: the larger, the softer its shadows.", scene.sun->size,
-           {.min = 0.0, .max = kMostSunSize, .speed = 0.05});
+    number(editor, "sun.size", "Size", "Across: the larger, the softer its shadows.", scene.sun->size,
+           {.min = 0.0, .max = kMostSunSize, .speed = 0.05, .unit = "degrees"});
     flag(editor, "sun.traced", "Traced", "Shadows through the field: sharp near and far.", scene.sun->traced);
     endProperties();
 }
@@ -170,16 +172,17 @@ void showSky(Editor& editor, const Scene& scene) {
                 text.empty() ? clearSceneValue(graph, "sky.image") : setSceneValue(graph, "sky.image", text));
         });
     if (scene.sky->isPicture())
-        number(editor, "sky.rotation", "Rotation", "Degrees that the map is turned, from +z towards +x.",
-               scene.sky->rotation, {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5});
+        number(editor, "sky.rotation", "Rotation", "How far the map is turned, from +z towards +x.",
+               scene.sky->rotation,
+               {.min = -kMostSceneNumber, .max = kMostSceneNumber, .speed = 0.5, .unit = "degrees"});
     endProperties();
 }
 
 void showAmbient(Editor& editor, const Scene& scene) {
     if (!part(editor, "ao", "Ambient occlusion", scene.ao.has_value()) || !scene.ao || !beginProperties("ao"))
         return;
-    number(editor, "ao.radius", "Radius", "Metres that its rays see; 0: as suits the solid's size.",
-           scene.ao->radius, kStrengthRange);
+    number(editor, "ao.radius", "Radius", "How far its rays see; 0: as suits the solid's size.",
+           scene.ao->radius, kLengthRange);
     number(editor, "ao.strength", "Strength", "0 to 1.", scene.ao->strength,
            {.min = 0.0, .max = 1.0, .speed = 0.005});
     endProperties();
@@ -195,16 +198,16 @@ void showGround(Editor& editor, const Scene& scene) {
         return;
     }
     if (foot || !beginProperties("ground")) return;
-    number(editor, "ground.height", "Height", "Metres.", *scene.ground->height, kPlaceRange);
+    number(editor, "ground.height", "Height", "Of the ground.", *scene.ground->height, kPlaceRange);
     endProperties();
 }
 
 void showFog(Editor& editor, const Scene& scene) {
     if (!part(editor, "fog", "Fog", scene.fog.has_value()) || !scene.fog || !beginProperties("fog")) return;
-    number(editor, "fog.density", "Density", "At the height of the ground, 1 / metre.", scene.fog->density,
-           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.001});
-    number(editor, "fog.height", "Height", "Metres in which it thins to 1 / e; 0: it does not.",
-           scene.fog->height, kStrengthRange);
+    number(editor, "fog.density", "Density", "At the height of the ground.", scene.fog->density,
+           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.001, .unit = "1/m"});
+    number(editor, "fog.height", "Height", "In which it thins to 1 / e; 0: it does not.", scene.fog->height,
+           kLengthRange);
     color(editor, "fog.color", "Colour", scene.fog->color);
     endProperties();
 }
@@ -229,7 +232,8 @@ void showLamp(Editor& editor, const Lamp& lamp, std::size_t index) {
             setSceneValue(editor.document.graph(), path + "type", lampTypes()[chosen]));
     const bool directional = lamp.type == Lamp::Type::directional;
     place(editor, path + "position", "Position",
-          directional ? "It shines along the way from here to the target." : "Metres.", lamp.position);
+          directional ? "It shines along the way from here to the target." : "Where it stands.",
+          lamp.position);
     if (lamp.type != Lamp::Type::point)
         place(editor, path + "target", "Target", "What it points at.", lamp.target);
     color(editor, path + "color", "Colour", lamp.color);
@@ -237,13 +241,13 @@ void showLamp(Editor& editor, const Lamp& lamp, std::size_t index) {
            directional ? "Irradiance of a surface that faces it." : "Radiant intensity.", lamp.strength,
            {.min = 0.0, .max = kMostSceneNumber, .speed = 0.1});
     if (lamp.type == Lamp::Type::spot) {
-        number(editor, path + "angle", "Angle", "Degrees, across the cone.", lamp.angle,
-               {.min = kLeastLampAngle, .max = kMostLampAngle, .speed = 0.2});
+        number(editor, path + "angle", "Angle", "Across the cone.", lamp.angle,
+               {.min = kLeastLampAngle, .max = kMostLampAngle, .speed = 0.2, .unit = "degrees"});
         number(editor, path + "blend", "Blend", "Share of the cone over which its edge fades.", lamp.blend,
                {.min = 0.0, .max = 1.0, .speed = 0.005});
     }
-    number(editor, path + "size", "Size", "Metres across: the larger, the softer its shadows.", lamp.size,
-           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.005});
+    number(editor, path + "size", "Size", "Across: the larger, the softer its shadows.", lamp.size,
+           {.min = 0.0, .max = kMostSceneNumber, .speed = 0.005, .unit = "m"});
     endProperties();
 }
 

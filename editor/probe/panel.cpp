@@ -17,13 +17,13 @@ namespace {
 
 constexpr const char* kAxisLetters[] = {"x", "y", "z"};
 
-constexpr double kFarthest = 1e9;  // metres from the origin that a place can be typed
+constexpr double kFarthest = 1e9;  // from the origin, that a place can be typed
 
 /// The three numbers of a place; `set` hears of another.
 void editPlace(Editor& editor, const char* id, const Point& point,
                const std::function<void(Probe&, const Point&)>& set) {
     ImGui::SetNextItemWidth(-FLT_MIN);
-    dragNumbers(editor, id, point, {.min = -kFarthest, .max = kFarthest},
+    dragNumbers(editor, id, point, {.min = -kFarthest, .max = kFarthest, .unit = "m"},
                 [&probe = editor.probe, set](std::span<const double> to) {
                     set(probe, {to[0], to[1], to[2]});
                 });
@@ -80,7 +80,7 @@ void showPlace(Editor& editor) {
     if (ImGui::IsMouseHoveringRect(
             from, {from.x + ImGui::GetContentRegionAvail().x, from.y + ImGui::GetFrameHeight()}) &&
         ImGui::IsWindowHovered())
-        ImGui::SetTooltip("x, y, z in metres: typed or dragged, they stay");
+        ImGui::SetTooltip("x, y, z: typed or dragged, they stay");
     if (ImGui::Checkbox("Pinned", &probe.pinned) && probe.pinned && !probe.point) probe.point = Point{};
     ImGui::SameLine();
     ImGui::Checkbox("Selected nodes only", &probe.selectedOnly);

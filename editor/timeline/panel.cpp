@@ -142,7 +142,7 @@ void showKeyValue(Editor& editor, const Timeline& timeline, const TimelineState&
     ImGui::SetNextItemWidth((2.0f + 3.0f * float(key.value.size())) * em);
     NumberRange range;
     if (const auto input = animatedInput(editor.document.graph(), track))
-        range.min = input->min, range.max = input->max;
+        range.min = input->min, range.max = input->max, range.unit = input->unit;
     editNumbers(editor, "##keyvalue", key.value, range, "Set Key",
                 [moved = movedBy(track), time = key.time](const Graph& graph, std::span<const double> to) {
                     return setKey(graph, moved, time, to);

@@ -9,6 +9,8 @@
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/projection.h"
+#include "graph/base/words.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -51,9 +53,9 @@ void drawBar(const Editor& editor, const Lens& lens, ImVec2 end) {
     const auto& t = editor.viewport.shown.seen.target;
     const double pixel = lens.metresPerPixel({t[0], t[1], t[2]});
     const double most = std::min(kMostBar * double(scale), kMostBarPart * double(lens.place.width()));
-    const double metres = roundDown125(most * pixel);
-    const std::string words = lengthWords(metres);
-    const float wide = float(metres / pixel), pad = 5.0f * scale;
+    const double length = roundDown125(most * pixel);
+    const std::string words = lengthWords(length, unitOf(*editor.graph));
+    const float wide = float(length / pixel), pad = 5.0f * scale;
     const ImVec2 text = ImGui::CalcTextSize(words.c_str());
     const float room = std::max(wide, text.x);
     if (end.y - text.y - tall - 2 * pad < lens.place.lo.y) return;  // there is none for it
@@ -108,7 +110,9 @@ Grid gridOf(const Lens& lens, const glm::dvec3& target, std::optional<Side> side
     return grid;
 }
 
-std::string lengthWords(double metres) {
+std::string lengthWords(double length, const LengthUnit& of) {
+    if (&of == lengthUnit("in")) return shortNumber(length) + " in";
+    const double metres = length * of.metres;
     constexpr std::pair<double, const char*> kUnits[] = {{1e3, "km"}, {1.0, "m"}, {1e-2, "cm"}, {1e-3, "mm"}};
     const auto unit =
         std::ranges::find_if(kUnits, [&](const auto& each) { return metres >= each.first * (1.0 - 1e-9); });

@@ -21,6 +21,12 @@ std::vector<double> inputNumbers(const Node& node, std::string_view input) {
     return index < 0 ? std::vector<double>{} : type->inputs[index].value.numbers;
 }
 
+std::string_view unitOfInput(const Node& node, std::string_view input) {
+    const NodeType* type = findNodeType(node.type);
+    const int index = type ? inputIndex(*type, input) : -1;
+    return index < 0 ? std::string_view("any") : type->inputs[std::size_t(index)].unit;
+}
+
 namespace {
 
 /// The number with as few digits as name it.
@@ -64,38 +70,6 @@ std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view
     for (const Node& node : graph.nodes)
         if (!name.empty() && parameterName(node) == name) return named(node);
     return std::nullopt;
-}
-
-Done setParameter(Graph& graph, const std::string& name, const std::string& text) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (at < end) {
-        double number = 0.0;
-        const auto [next, failure] = std::from_chars(at, end, number);
-        if (failure != std::errc{} || !std::isfinite(number) ||
-            (next < end && (*next != ',' || next + 1 == end)))
-            return errorAt(
-                graph, nullptr,
-                inQuotes(text) + " is no value for the parameter " + inQuotes(name) +
-                    (unitHint(text).empty() ? ": write a number, or numbers with commas between them"
-                                            : unitHint(text)));
-        numbers.push_back(number);
-        at = next < end ? next + 1 : next;
-    }
-    if (numbers.empty())
-        return errorAt(graph, nullptr,
-                       "the parameter " + inQuotes(name) + " is given no value: write name=value");
-    Done set = setParameter(graph, name, numbers);
-    const std::optional<NamedParameter> target = findParameter(graph, name);
-    const Node* node = target ? graph.node(target->node) : nullptr;
-    if (!set && numbers.size() == 2 && node && inputNumbers(*node, target->input).size() == 1) {
-        Error error = set.error();
-        error.message +=
-            "; the decimal sign is a point: " + std::string(text).replace(text.find(','), 1, ".");
-        return error;
-    }
-    return set;
 }
 
 Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers) {

@@ -32,10 +32,11 @@ std::optional<NamedParameter> findParameter(const Graph& graph, std::string_view
 /// The number or numbers that a node gives for an input, else its default; empty if there are none.
 std::vector<double> inputNumbers(const Node& node, std::string_view input);
 
-/// Sets the exposed parameter `name` to the numbers in `text` ("1.5" or "1,2,3"). Errors: no such parameter
-/// (with the nearest name), not a number, out of its range.
-Done setParameter(Graph& graph, const std::string& name, const std::string& text);
-/// The same with the numbers themselves.
+/// In what these are, as InputSpec::unit; "any" of an input that the table does not have: a group's, code's.
+std::string_view unitOfInput(const Node& node, std::string_view input);
+
+/// Sets the parameter `name` to the numbers. Errors: no such parameter (with the nearest name), another count
+/// of numbers than it has, out of its range. (As a text: check/typed_parameter.h.)
 Done setParameter(Graph& graph, const std::string& name, std::span<const double> numbers);
 
 }  // namespace fw

@@ -121,9 +121,9 @@ Json inputSchema(const InputSpec& spec) {
     const bool mayLink = componentCount(spec.type) > 0 || value.is_null();
     Json schema = Json::object();
     if (!spec.doc.empty())
-        schema["description"] = spec.file           ? spec.doc + rangeText(spec)
-                                : spec.unit.empty() ? spec.doc
-                                                    : spec.doc + " [" + spec.unit + "]";
+        schema["description"] = spec.file                                 ? spec.doc + rangeText(spec)
+                                : spec.unit.empty() || spec.unit == "any" ? spec.doc
+                                                                          : spec.doc + " [" + spec.unit + "]";
     if (const Json initial = defaultValue(spec); !initial.is_null()) schema["default"] = initial;
     if (value.is_null())
         schema.update(refer("link"));

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "graph/base/words.h"
+#include "graph/library/units.h"
 
 namespace fw {
 
@@ -22,11 +23,19 @@ struct SweepAxis {
     std::vector<std::vector<std::string>> rows;
 };
 
-std::optional<double> swept(std::string_view text) {
+struct Swept {
     double number = 0.0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool fine = problem == std::errc() && end == text.data() + text.size() && std::isfinite(number);
-    return fine ? std::optional(number) : std::nullopt;
+    std::string_view unit = {};  ///< behind it; what it means, only the graph can tell
+};
+std::optional<Swept> swept(std::string_view text) {
+    Swept value;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value.number);
+    if (problem != std::errc() || !std::isfinite(value.number)) return std::nullopt;
+    value.unit = text.substr(std::size_t(end - text.data()));
+    const bool fine =
+        value.unit.empty() || value.unit == "deg" || value.unit == "rad" ||
+        std::ranges::any_of(lengthUnits(), [&](const LengthUnit& each) { return value.unit == each.name; });
+    return fine ? std::optional(value) : std::nullopt;
 }
 
 std::string twelveDigits(double number) {
@@ -50,19 +59,24 @@ Result<SweepAxis> readRange(const std::string& text) {
         left.remove_prefix(colon + 1);
     }
     if (parts.size() != 3) return refused("is no range");
-    const std::optional<double> from = swept(parts[0]), to = swept(parts[1]), count = swept(parts[2]);
+    const std::optional<Swept> first = swept(parts[0]), last = swept(parts[1]), many = swept(parts[2]);
     for (std::size_t i = 0; i < 3; ++i)
-        if (!swept(parts[i])) return refused(inQuotes(parts[i]) + " is not a number" + unitHint(parts[i]));
-    if (*count != std::floor(*count) || *count < 1.0) return refused("the count is a whole number from 1");
-    if (*count > double(kMostVariants))
+        if (!swept(parts[i]))
+            return refused(inQuotes(parts[i]) + " is not a number, nor one in mm, cm, in or m");
+    const double from = first->number, to = last->number, count = many->number;
+    if (first->unit != last->unit) return refused("begins and ends in different units");
+    if (!many->unit.empty() || count != std::floor(count) || count < 1.0)
+        return refused("the count is a whole number from 1");
+    if (count > double(kMostVariants))
         return refused("has more than " + std::to_string(kMostVariants) + " values");
-    if (*count == 1.0 && *from != *to) return refused("one value has no way to go");
-    if (*count > 1.0 && *from == *to) return refused("all of its values are the same");
+    if (count == 1.0 && from != to) return refused("one value has no way to go");
+    if (count > 1.0 && from == to) return refused("all of its values are the same");
     SweepAxis axis{{text.substr(0, equals)}, {}};
-    const auto steps = static_cast<std::size_t>(*count) - 1;
+    const auto steps = static_cast<std::size_t>(count) - 1;
     for (std::size_t i = 0; i <= steps; ++i) {
         const double part = steps ? double(i) / double(steps) : 0.0;
-        axis.rows.push_back({twelveDigits(i == steps ? *to : *from + (*to - *from) * part)});
+        axis.rows.push_back(
+            {twelveDigits(i == steps ? to : from + (to - from) * part) + std::string(last->unit)});
     }
     return axis;
 }

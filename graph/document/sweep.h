@@ -1,10 +1,10 @@
 // A sweep: the values that parameters take one after the other, a variant of the graph for each.
 //
-// Written as a range, "hole=0.1:0.9:9": nine values from 0.1 to 0.9, evenly spaced, both ends among them. Or
-// as a table, the name of a .csv file (RFC 4180): its first line names the parameters, each further one is a
-// variant. Of several the sweep is every combination, the last of them changing soonest. Values are texts as
-// setParameter() takes them, those of ranges of up to twelve digits, so that a variant can be made again by
-// hand. Knows nothing of the graph: whether there are such parameters, only it can tell.
+// Written as a range, "hole=0.1:0.9:9" or "hole=1mm:9mm:9": nine values, evenly spaced, both ends among them.
+// Or as a table, the name of a .csv file (RFC 4180): its first line names the parameters, each further one is
+// a variant. Of several the sweep is every combination, the last of them changing soonest. Values are texts
+// as setParameter() takes them, those of ranges of up to twelve digits, so that a variant can be made again
+// by hand. Knows nothing of the graph: whether there are such parameters, only it can tell.
 #pragma once
 
 #include <span>

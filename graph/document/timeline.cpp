@@ -160,6 +160,7 @@ std::optional<AnimatedInput> animatedInput(const Graph& graph, const Track& trac
     }
     const Node* node = graph.node(found.node);
     if (!node) return std::nullopt;
+    found.unit = unitOfInput(*node, found.input);
     const NodeType* type = findNodeType(node->type);
     if (const int index = type ? inputIndex(*type, found.input) : -1; index >= 0) {
         const InputSpec& spec = type->inputs[static_cast<std::size_t>(index)];

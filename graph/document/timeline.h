@@ -140,7 +140,8 @@ double eased(Ease ease, double x);
 /// An input that a track moves.
 struct AnimatedInput {
     std::string node, input;
-    int component = -1;  ///< of a vector; all if negative
+    int component = -1;          ///< of a vector; all if negative
+    std::string_view unit = {};  ///< as unitOfInput()
     double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
 };
 

@@ -75,7 +75,9 @@ struct InputSpec {
     double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed, each component
     double max = std::numeric_limits<double>::infinity();
     std::vector<std::string> options = {};  ///< the allowed strings of an enum input
-    std::string unit = {};  ///< "m", "1/m", "degrees", "degrees/m", "color" (linear sRGB), "" for a number
+    /// "m", "1/m", "m/s", "degrees", "degrees/m" (units.h), "color" (linear sRGB), "" for a plain number,
+    /// "any" for one that is whatever its node is wired to.
+    std::string unit = {};
     std::string doc = {};
     bool positive = false;           ///< must be > 0 (min alone allows equality)
     bool known = false;              ///< of a number: it must be known when the graph is compiled

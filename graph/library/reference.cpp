@@ -70,7 +70,8 @@ std::string defaultText(const InputSpec& input) {
         if (i > 0) text += entry > 0 && i % entry == 0 ? "; " : ", ";
         text += numberText(value.numbers[i]);
     }
-    return text + (input.unit.empty() || input.unit == "color" ? "" : " " + input.unit);
+    return text +
+           (input.unit.empty() || input.unit == "color" || input.unit == "any" ? "" : " " + input.unit);
 }
 
 std::string rangeText(const InputSpec& input) {
@@ -133,7 +134,8 @@ std::string nodesMarkdown() {
     std::string text =
         "# Node reference\n\n"
         "This page is generated from the node library: `fieldwright nodes --markdown`.\n\n"
-        "Lengths are in metres and angles in degrees, y is up. A field is negative inside a surface and "
+        "Lengths are in metres, or in the unit that the document says, and angles in degrees, y is up. A "
+        "field is negative inside a surface and "
         "positive outside. An input of "
         "type float, vec2, vec3 or surface takes a value or a wire; it may differ from place to place. What "
         "is not wired has "

@@ -137,6 +137,15 @@ inline InputSpec scalar(std::string name, double value, std::string doc) {
     return {.name = std::move(name), .type = Type::scalar, .value = numbers({value}), .doc = std::move(doc)};
 }
 
+/// A number in another unit than its kind says.
+inline InputSpec measured(InputSpec input, std::string unit) {
+    input.unit = std::move(unit);
+    return input;
+}
+
+/// A number that is whatever its node is wired to: a length, an angle, a share.
+inline InputSpec anything(InputSpec input) { return measured(std::move(input), "any"); }
+
 /// A share between 0 and 1.
 inline InputSpec share(std::string name, double value, std::string doc) {
     return {.name = std::move(name),

@@ -8,10 +8,6 @@ namespace fw {
 std::vector<NodeType> particleNodes() {
     const InputSpec particles = {
         .name = "particles", .type = Type::particles, .value = {}, .doc = "The particles to take."};
-    const auto measured = [](InputSpec input, const char* unit) {
-        input.unit = unit;
-        return input;
-    };
     const auto amount = [&](std::string name, double value, const char* unit, std::string doc) {
         InputSpec input = scalar(std::move(name), value, std::move(doc));
         input.min = 0;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/check/typed_parameter.h"
 #include "graph/document/named_parameters.h"
 #include "graph/document/sweep.h"
 #include "runtime/cli/measured.h"

@@ -7,6 +7,7 @@
 
 #include "graph/base/words.h"
 #include "graph/check/check.h"
+#include "graph/check/typed_parameter.h"
 #include "graph/compile/cached_particles.h"
 #include "graph/compile/effort.h"
 #include "graph/document/json.h"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "graph/check/typed_parameter.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
 #include "graph/emit/glsl.h"

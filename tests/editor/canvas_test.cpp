@@ -10,6 +10,7 @@
 #include "editor/shortcuts.h"
 #include "graph/document/json.h"
 #include "graph/document/named_parameters.h"
+#include "graph/language/typed_number.h"
 #include "tests/editor/graphs.h"
 
 namespace fw::editor::canvas_test {
@@ -177,12 +178,12 @@ TEST(CanvasView, TheCursorStaysWhereItWasOnTheCanvas) {
 }
 
 TEST(Fields, NumbersAreTypedAsExpressions) {
-    EXPECT_NEAR(*numberOf("2*pi/3"), 2.0943951, 1e-6);
-    EXPECT_EQ(*numberOf("-1.5e3"), -1500.0);
-    EXPECT_EQ(*numberOf(" 7 "), 7.0);
-    EXPECT_NEAR(*numberOf("sqrt(2)"), 1.41421356, 1e-7);
+    EXPECT_NEAR(*constantOf("2*pi/3"), 2.0943951, 1e-6);
+    EXPECT_EQ(*constantOf("-1.5e3"), -1500.0);
+    EXPECT_EQ(*constantOf(" 7 "), 7.0);
+    EXPECT_NEAR(*constantOf("sqrt(2)"), 1.41421356, 1e-7);
     for (const char* bad : {"", "1,5", "two", "1/0", "p.x", "time", "1; return 2", "(", "1e999"})
-        EXPECT_FALSE(numberOf(bad)) << bad;
+        EXPECT_FALSE(constantOf(bad)) << bad;
 }
 
 TEST(Fields, ValuesStayInRange) {

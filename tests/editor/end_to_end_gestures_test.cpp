@@ -10,6 +10,7 @@
 #include "editor/canvas/fields.h"
 #include "graph/document/json.h"
 #include "graph/document/timeline.h"
+#include "graph/language/typed_number.h"
 #include "tests/editor/program.h"
 
 namespace fw::editor::test::end_to_end_gestures_test {
@@ -162,9 +163,9 @@ TEST_F(EndToEndGestures, Numbers) {
     // What is no number is refused with the reason, until Escape.
     program.click(program.field("ball", "radius"));
     program.type("2*what\n");
-    program.waitFor(numberOf("2*what").error().message);
+    program.waitFor(constantOf("2*what").error().message);
     program.keys("Escape");
-    program.waitUntilGone(numberOf("2*what").error().message);
+    program.waitUntilGone(constantOf("2*what").error().message);
     EXPECT_EQ(program.save(), original);
 
     // A drag of 60 pixels counts whole, however fast it was; a tenth of it with Shift.

@@ -9,6 +9,7 @@
 #include "editor/document/edits.h"
 #include "editor/document/frames.h"
 #include "graph/check/check.h"
+#include "graph/check/typed_parameter.h"
 #include "graph/compile/compile.h"
 #include "graph/document/named_parameters.h"
 #include "graph/document/timeline.h"
