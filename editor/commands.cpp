@@ -377,6 +377,10 @@ constexpr Command kCommands[] = {
     {"picture.scale", "Picture", "Scale", "R", picture, pictured, use<Tool::scale>},
     {"picture.measure", "Picture", "Measure a length", "Shift+M", picture, pictured,
      [](Editor& e) { useMeasure(e, Measure::length); }, true},
+    {"picture.angle", "Picture", "Measure an angle", "Shift+N", picture, pictured,
+     [](Editor& e) { useMeasure(e, Measure::angle); }},
+    {"picture.radius", "Picture", "Measure a radius", "Shift+R", picture, pictured,
+     [](Editor& e) { useMeasure(e, Measure::radius); }},
     {"picture.wall", "Picture", "Measure a wall", "Shift+T", picture, pictured,
      [](Editor& e) { useMeasure(e, Measure::wall); }},
     {"picture.line", "Picture", "Plot along a line", "Shift+K", picture, pictured,
@@ -495,6 +499,8 @@ bool shows(const Command& command, const Editor& editor) {
     if (id == "view.costs") return editor.canvas.costs;
     if (id == "view.exactness") return editor.canvas.exactness;
     if (id == "picture.measure") return editor.probe.tool == Measure::length;
+    if (id == "picture.angle") return editor.probe.tool == Measure::angle;
+    if (id == "picture.radius") return editor.probe.tool == Measure::radius;
     if (id == "picture.wall") return editor.probe.tool == Measure::wall;
     if (id == "picture.line") return editor.probe.tool == Measure::line;
     if (id == "picture.grid") return editor.viewport.grid;

@@ -175,6 +175,7 @@ bool exchange(Editor& editor) {
     wish.view = view.view;
     wish.slice = view.slice;
     wish.resolution = view.resolution;
+    wish.measures = editor.panels.statistics;
     if (wish.width > 0 && wish.height > 0) editor.preview.ask(std::move(wish));
     if (const Done kept = editor.files.recovery.keep(editor.graph, editor.drawn, editor.document.unsaved());
         !kept)

@@ -139,6 +139,7 @@ Result<ExportState> ExportJob::Shared::atOnce(Opened opened) {
     ExportState made{.phase = Phase::done, .stage = "done", .part = 1.0f};
     made.report = reportOnMesh(levels[0].positions, levels[0].indices);
     made.report.unit = unitOf(*wish.graph).name;
+    made.report.density = densityOf(*wish.graph);
     made.report.capped = meshed->mesh.capped;
     made.report.device = meshed->session.device().name();
     if (wish.file.textures) {
@@ -198,6 +199,7 @@ Result<ExportState> ExportJob::Shared::inTiles(Opened opened, int side) {
     if (!written) return written.error();
     made.files = std::move(*written);
     made.report.unit = unitOf(*wish.graph).name;
+    made.report.density = densityOf(*wish.graph);
     made.report.capped = tiles->capped;
     made.report.device = session.device().name();
     return made;

@@ -240,12 +240,8 @@ void showDone(const ExportState& state) {
                 "is not wanted.");
     if (!state.measured)
         return wrapped(themeColor(ThemeColor::warning), "There was not enough memory free to measure it.");
-    std::array<double, 3> size{};
-    for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = report.boundsMax[axis] - report.boundsMin[axis];
-    const char* const unit = report.unit.c_str();
-    wrapped(themeColor(ThemeColor::text),
-            printed("%.4g × %.4g × %.4g %s, volume %.4g %s³, area %.4g %s²", size[0], size[1], size[2], unit,
-                    report.volume, unit, report.area, unit));
+    for (const auto& [what, value] : sizeRows(report, report.lengths(), report.density))
+        wrapped(themeColor(ThemeColor::text), what + ": " + value);
     if (const std::string wrong = soundness(report); wrong.empty())
         wrapped(themeColor(ThemeColor::text), "Watertight: every edge has two triangles.");
     else

@@ -47,6 +47,8 @@ struct PanelState {
     std::string newSocket;
     int newSocketType = int(Type::scalar);
 
+    std::string otherUnit;  ///< that was chosen for the document, until it is said what stays
+
     ShownProblems problems;
     std::size_t historyAt = 0;  ///< the step of undo that the history showed as the present one
 

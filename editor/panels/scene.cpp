@@ -1,4 +1,5 @@
-// The document's scene: camera, sun, sky, lamps, ambient occlusion, ground, fog, bloom, exposure and tone.
+// The document's unit and density, and its scene: camera, sun, sky, lamps, ambient occlusion, ground, fog,
+// bloom, exposure and tone.
 //
 // What is shown is the scene as readScene() has it, defaults included; what is changed is one value of the
 // JSON, so that everything else in it stays as it was written. A value that the scene would refuse is not
@@ -9,6 +10,7 @@
 
 #include "editor/document/scene_edits.h"
 #include "editor/panels/properties.h"
+#include "editor/panels/unit.h"
 #include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/marks.h"
@@ -298,6 +300,7 @@ void showScene(Editor& editor) {
         fresh.scenePlaces.list.clear();
         return editor.document.apply("New Scene", std::move(fresh));
     }
+    showUnit(editor);
     if (beginProperties("exposure")) {
         number(editor, "exposure", "Exposure", "Stops: one more is twice as bright.", scene->exposure,
                {.min = -kMostExposure, .max = kMostExposure, .speed = 0.01});

@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "editor/editor.h"
+#include "editor/shell/letters.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -49,6 +51,31 @@ void showCosts(Editor& editor, const std::vector<NodeEffort>& efforts) {
     if (!goTo.empty()) reveal(editor, goTo);
 }
 
+/// How large the solid is, and what it weighs.
+void showSolid(const Editor& editor) {
+    const PreviewResult& shown = editor.viewport.shown;
+    if (!shown.size) return ImGui::TextDisabled("measuring …");
+    const Graph& graph = *editor.graph;
+    const auto rows = sizeRows(*shown.size, unitOf(graph), densityOf(graph));
+    if (!ImGui::BeginTable("size", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg)) return;
+    std::string all;
+    for (const auto& [name, value] : rows) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(name.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(fitted(value, ImGui::GetContentRegionAvail().x).c_str());
+        all += name + "\t" + value + "\n";
+    }
+    ImGui::EndTable();
+    if (ImGui::SmallButton("Copy##size")) ImGui::SetClipboardText(all.c_str());
+    if (!densityOf(graph)) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("The scene panel has the density, for the mass.");
+    }
+    ImGui::Spacing();
+}
+
 }  // namespace
 
 void showStatistics(Editor& editor) {
@@ -56,6 +83,7 @@ void showStatistics(Editor& editor) {
     const PreviewStatistics& statistics = shown.statistics;
     if (shown.picture.width == 0 && statistics.triangles == 0)
         return ImGui::TextDisabled("Nothing has been made yet.");
+    showSolid(editor);
     if (!ImGui::BeginTable("statistics", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg))
         return;
     row("Nodes", "%.0f", double(editor.graph->nodes.size()));

@@ -135,6 +135,7 @@ class Maker {
     Done aim(RenderOptions& options, const Sight& sight);
     void outdateAll();
     void adapt(double took);
+    bool measure();
     void coarsen();
     void tell();
     void refuse(Error error);
@@ -159,6 +160,15 @@ class Maker {
     bool compiled = true;  ///< all kernels were there for the last picture
     bool good = false;     ///< the graph can be drawn
     bool coarse = false;   ///< the mesh has few cells, that there be a picture soon
+    /// What the solid was measured of.
+    struct Measured {
+        uint64_t revision, document;
+        std::string pinned;
+        double seconds;
+        int cells;
+        bool operator==(const Measured&) const = default;
+    };
+    std::optional<Measured> measured;
     std::optional<uint64_t> playsOf;  ///< the document that the player has a graph of
     Clock::time_point since;          ///< what the picture came for
     Clock::time_point rests;          ///< when the wish was taken, or a picture drawn last
@@ -398,6 +408,17 @@ void Maker::draw(std::size_t which, bool urgent) {
     if (takeDrawn(sight)) tell();
 }
 
+/// Measures the mesh that is seen, unless it was; whether there is something to tell.
+bool Maker::measure() {
+    const Measured now{wish.revision, wish.document, wish.pinned, wish.seconds, player->resolution()};
+    if (!wish.measures || now == measured) return false;
+    measured = now;
+    result.size.reset();
+    if (const Result<Mesh> mesh = player->mesh(); mesh && !mesh->indices.empty())
+        result.size = sizeOf(mesh->positions, mesh->indices);
+    return true;
+}
+
 void Maker::tell() {
     result.picture = sights[0].told ? *sights[0].told : Picture{};
     result.seen = sights[0].seen;
@@ -425,13 +446,15 @@ bool Maker::work() {
         return nextSight(sights, wish.first, turned, refines, Clock::now() - since > kSettled);
     };
     const auto next = nextOne();
+    const bool stale = std::ranges::any_of(sights, &Sight::due);
+    if (refines && good && !coarse && !stale && measure()) return tell(), true;
     if (!next) return false;
     const bool urgent = sights[*next].due && *next == wish.first;
     draw(*next, urgent);
     rests = Clock::now();
     pausing = urgent && !wish.held.empty();
     if (urgent && rests - sketched > kSketchesApart * sketch)
-        if (const auto stale = staleSight(sights, wish.first, rests)) draw(*stale, true);
+        if (const auto old = staleSight(sights, wish.first, rests)) draw(*old, true);
     return nextOne().has_value();
 }
 

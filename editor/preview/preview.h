@@ -19,6 +19,7 @@
 #include "editor/preview/sights.h"
 #include "graph/compile/compile.h"
 #include "graph/compile/effort.h"
+#include "runtime/measure/mesh_size.h"
 #include "runtime/play/session.h"
 
 namespace fw::editor {
@@ -35,6 +36,7 @@ struct PreviewWish {
     uint32_t view = RENDER_PICTURE;     ///< or another of shaders/render/render.h
     Slice slice = {};                   ///< of the views on a plane
     int resolution = 0;                 ///< cells along the longest side; 0: the graph's
+    bool measures = false;              ///< how large the solid is, is wanted
     std::vector<PreviewEye> others = {};  ///< further pictures of the same
     std::size_t first =
         0;  ///< the one that is drawn before the rest: 0: this one, else of the others, from 1
@@ -71,7 +73,8 @@ struct PreviewResult {
     std::map<std::string, NodeExactness, std::less<>> exactness = {};  ///< as Program::nodeExactness
     std::vector<NodeEffort> efforts = {};  ///< effortByNode() of the program, the heaviest sample first
     PreviewStatistics statistics = {};
-    std::string failure = {};  ///< the device or the system failed; the next wish begins anew
+    std::optional<MeshSize> size = {};  ///< of the whole mesh, once the picture rests, if that is wanted
+    std::string failure = {};           ///< the device or the system failed; the next wish begins anew
 };
 
 class Preview {

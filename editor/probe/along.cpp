@@ -133,7 +133,7 @@ Plot plotOf(const Tape& tape, const Segment& line) {
 }
 
 std::string csvOf(const Plot& plot) {
-    std::string text = "metres,x,y,z,value,gradient\n";
+    std::string text = "along,x,y,z,value,gradient\n";
     for (std::size_t i = 0; i < plot.places.size(); ++i) {
         const Point p = plot.line.at(plot.places[i]);
         char line[200];

@@ -57,7 +57,7 @@ struct Plot {
     std::vector<Stretch> walls;
 };
 Plot plotOf(const Tape& tape, const Segment& line);
-/// "metres,x,y,z,value,gradient", a line each sample.
+/// "along,x,y,z,value,gradient", a line each sample.
 std::string csvOf(const Plot& plot);
 
 }  // namespace fw::editor

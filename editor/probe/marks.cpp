@@ -1,10 +1,11 @@
 // The probe's point, the line that is plotted and what is measured, over the picture.
 #include <cmath>
-#include <cstdio>
+#include <numbers>
 
 #include "editor/controls/plate.h"
 #include "editor/editor.h"
 #include "editor/shell/theme.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -54,17 +55,49 @@ struct Marker {
     }
 };
 
-std::string lengthWords(double length) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.4g m", length);
-    return text;
+constexpr int kPiecesOfCircle = 96;
+
+/// The points of a length, an angle or a radius, and what they come to.
+void showShape(const Marker& marker, const Probe& probe, const std::string& words, ImU32 color) {
+    const std::vector<Point>& points = probe.measured;
+    if (points.empty()) return;
+    const auto circle =
+        probe.what == Measure::radius && probe.three() ? circleThrough(*probe.three()) : std::nullopt;
+    if (circle) {
+        Point last{};
+        for (int i = 0; i <= kPiecesOfCircle; ++i) {
+            const double turn = 2.0 * std::numbers::pi * i / kPiecesOfCircle;
+            Point next;
+            for (std::size_t a = 0; a < 3; ++a)
+                next[a] = circle->centre[a] + circle->radius * (std::cos(turn) * circle->across[a] +
+                                                                std::sin(turn) * circle->along[a]);
+            if (i > 0) marker.line(last, next, color);
+            last = next;
+        }
+    } else if (probe.what != Measure::radius) {
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) marker.line(points[i], points[i + 1], color);
+    }
+    for (const Point& point : points) marker.dot(point, color, 3.5f);
+    if (words.empty()) return;
+    if (circle) return marker.label(circle->centre, circle->centre, words);
+    const Point& corner = probe.what == Measure::angle ? points[1] : points[0];
+    marker.label(corner, probe.what == Measure::length ? points[1] : corner, words);
 }
 
 /// What the tool waits for, at the picture's upper edge.
 std::string hintOf(const Probe& probe) {
+    // Points that are missing, of what was begun.
+    const std::size_t there = probe.what == probe.tool ? probe.measured.size() : 0, left = 3 - there;
     switch (probe.tool) {
-        case Measure::length:
-            return probe.measured.size() == 1 ? "Length: click its end" : "Length: click two points";
+        case Measure::length: return there == 1 ? "Length: click its end" : "Length: click two points";
+        case Measure::angle:
+            return left == 2   ? "Angle: click the corner"
+                   : left == 1 ? "Angle: click its other side"
+                               : "Angle: click a point of one side";
+        case Measure::radius:
+            return left == 2   ? "Radius: two more are a circle"
+                   : left == 1 ? "Radius: click the circle's last point"
+                               : "Radius: click the solid";
         case Measure::wall: return probe.wallProblem.empty() ? "Wall: click the solid" : probe.wallProblem;
         case Measure::line:
             return probe.ends.size() == 1 ? "Plot: click the line's end" : "Plot: click two points";
@@ -90,17 +123,13 @@ void showProbeMarks(Editor& editor) {
     if (plots && probe.ends.size() == 2) marker.line(probe.ends[0], probe.ends[1], line);
     if (plots)
         for (const Point& end : probe.ends) marker.dot(end, line, 3.5f);
-    for (const Point& point : probe.measured) marker.dot(point, active, 3.5f);
-    if (probe.measured.size() == 2) {
-        const Segment measured{probe.measured[0], probe.measured[1]};
-        marker.line(measured.from, measured.to, active);
-        marker.label(measured.from, measured.to, lengthWords(measured.length()));
-    }
+    const LengthUnit& lengths = unitOf(*editor.graph);
+    showShape(marker, probe, shapeWords(probe, sizeSeen(editor), lengths), active);
     if (probe.wall) {
         const Segment& wall = probe.wall->line;
         marker.line(wall.from, wall.to, active);
         marker.dot(wall.from, active, 3.5f), marker.dot(wall.to, active, 3.5f);
-        marker.label(wall.from, wall.to, lengthWords(wall.length()));
+        marker.label(wall.from, wall.to, withSign(wall.length(), "m", lengths));
     }
     if (on && probe.point) marker.cross(*probe.point, probe.pinned ? active : mark);
     if (probe.tool != Measure::nothing && probe.hovered && view.hovered)

@@ -8,7 +8,9 @@
 #include "editor/editor.h"
 #include "editor/panels/properties.h"
 #include "editor/probe/plot_view.h"
+#include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
+#include "graph/document/unit.h"
 #include "runtime/system/output_file.h"
 
 namespace fw::editor {
@@ -67,8 +69,8 @@ std::string allWords(const Editor& editor) {
                   (*probe.point)[2]);
     std::string words = line;
     for (const Reading& reading : probe.readings)
-        words += reading.node + "\t" + reading.output + "\t" + valueWords(reading, 9) + "\t" +
-                 slopeWords(reading) + "\t" + reading.part + "\n";
+        words += reading.node + "\t" + reading.output + "\t" + valueWords(reading, 9, unitOf(*editor.graph)) +
+                 "\t" + slopeWords(reading) + "\t" + reading.part + "\n";
     return words;
 }
 
@@ -109,6 +111,7 @@ void showReadings(Editor& editor, float height) {
         ImGui::TableSetupColumn(name, 0, weight);
     ImGui::TableHeadersRow();
     std::string goTo;
+    const LengthUnit& lengths = unitOf(*editor.graph);
     ImGuiListClipper clipper;
     clipper.Begin(int(listed.size()));
     while (clipper.Step())
@@ -136,7 +139,7 @@ void showReadings(Editor& editor, float height) {
                                    {side, side});
                 ImGui::SameLine();
             }
-            ImGui::TextUnformatted(valueWords(reading, 6).c_str());
+            ImGui::TextUnformatted(valueWords(reading, 6, lengths).c_str());
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(slopeWords(reading).c_str());
             ImGui::TableNextColumn();
@@ -162,10 +165,14 @@ void showMeasured(Editor& editor) {
     ImGui::SameLine();
     showTool(editor, "Length", Measure::length);
     ImGui::SameLine();
-    showTool(editor, "Wall", Measure::wall);
-    const std::string words = measuredWords(probe);
-    if (words.empty()) return;
+    showTool(editor, "Angle", Measure::angle);
     ImGui::SameLine();
+    showTool(editor, "Radius", Measure::radius);
+    ImGui::SameLine();
+    showTool(editor, "Wall", Measure::wall);
+    const std::string words = measuredWords(probe, sizeSeen(editor), unitOf(*editor.graph));
+    if (words.empty()) return;
+    besideIfFits("Copy##measured");
     if (ImGui::Button("Copy##measured")) ImGui::SetClipboardText(words.c_str());
     ImGui::TextUnformatted(words.c_str());
 }
@@ -211,7 +218,8 @@ void showLine(Editor& editor) {
         return ImGui::TextDisabled("%s", probe.plotted.empty() ? "Select a node: its output is plotted."
                                                                : "The selected node has no value to plot.");
     const Plot& plot = *probe.plot;
-    ImGui::Text("%s, %.4g m", nameAt(editor, probe.plotted).c_str(), plot.line.length());
+    const char* const unit = unitOf(*editor.graph).name;
+    ImGui::Text("%s, %.4g %s", nameAt(editor, probe.plotted).c_str(), plot.line.length(), unit);
     ImGui::SameLine();
     if (ImGui::SmallButton("Save as CSV …")) {
         probe.browser.endings = {".csv"};
@@ -220,13 +228,13 @@ void showLine(Editor& editor) {
              (std::filesystem::path(workFolder(editor)) / name).string());
     }
     for (std::size_t i = 0; i < std::min(plot.walls.size(), kMost); ++i)
-        ImGui::Text("%.6g m thick, from %.6g to %.6g m", plot.walls[i].thickness(), plot.walls[i].from,
-                    plot.walls[i].to);
+        ImGui::Text("%.6g %s thick, from %.6g to %.6g %s", plot.walls[i].thickness(), unit,
+                    plot.walls[i].from, plot.walls[i].to, unit);
     if (plot.walls.size() > kMost) ImGui::TextDisabled("and %zu more", plot.walls.size() - kMost);
     if (plot.walls.empty())
         for (std::size_t i = 0; i < std::min(plot.crossings.size(), kMost); ++i)
-            ImGui::Text("crosses zero at %.6g m", plot.crossings[i]);
-    showPlot(plot, editor.shell.scale());
+            ImGui::Text("crosses zero at %.6g %s", plot.crossings[i], unit);
+    showPlot(plot, unit, editor.shell.scale());
 }
 
 }  // namespace

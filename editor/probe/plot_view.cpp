@@ -58,7 +58,7 @@ struct PlotFrame {
 
 }  // namespace
 
-void showPlot(const Plot& plot, float scale) {
+void showPlot(const Plot& plot, const char* unit, float scale) {
     const double length = plot.line.length();
     if (!(length > 0.0)) return ImGui::TextDisabled("The line has no length.");
     double least = 0.0, most = 0.0;
@@ -90,7 +90,7 @@ void showPlot(const Plot& plot, float scale) {
     // Thicknesses where they have room; all of them are in the list below.
     float free = at.x;
     for (const Stretch& wall : plot.walls) {
-        const std::string words = plotNumber(wall.thickness()) + " m";
+        const std::string words = plotNumber(wall.thickness()) + " " + unit;
         const float size = ImGui::CalcTextSize(words.c_str()).x,
                     x = std::clamp(values.x(0.5 * (wall.from + wall.to)) - 0.5f * size, at.x + 2 * scale,
                                    at.x + wide - size - 2 * scale);
@@ -105,15 +105,16 @@ void showPlot(const Plot& plot, float scale) {
     slopes.curve(plot.places, plot.slopes, 1.0, themeColor(ThemeColor::plottedSlope), 1.5f * scale);
     slopes.word({at.x + 4 * scale, slopes.area.lo.y + 1 * scale}, "gradient - 1", quiet);
     list->PopClipRect();
-    values.word({at.x + 4 * scale, values.area.lo.y + 1 * scale}, plotNumber(most) + " m", quiet);
-    const std::string end = plotNumber(length) + " m";
+    values.word({at.x + 4 * scale, values.area.lo.y + 1 * scale}, plotNumber(most) + " " + unit, quiet);
+    const std::string end = plotNumber(length) + " " + unit;
     values.word({at.x, slopes.area.hi.y + 1 * scale}, "0", quiet);
     values.word({at.x + wide - ImGui::CalcTextSize(end.c_str()).x, slopes.area.hi.y + 1 * scale}, end, quiet);
     if (!hovered) return;
     const double part = std::clamp(double((ImGui::GetIO().MousePos.x - at.x) / wide), 0.0, 1.0);
     const auto i = std::size_t(std::lround(part * double(plot.places.size() - 1)));
     list->AddLine({values.x(plot.places[i]), at.y}, {values.x(plot.places[i]), slopes.area.hi.y}, quiet);
-    ImGui::SetTooltip("at %.4g m: %.6g, gradient %.4g", plot.places[i], plot.values[i], plot.slopes[i]);
+    ImGui::SetTooltip("at %.4g %s: %.6g, gradient %.4g", plot.places[i], unit, plot.values[i],
+                      plot.slopes[i]);
 }
 
 }  // namespace fw::editor

@@ -5,9 +5,9 @@
 
 namespace fw::editor {
 
-/// Values in metres against metres, the zero line with its crossings, walls with their thickness; below it
-/// how far the gradient's length is from 1. Under the mouse the numbers at a place. `scale` is the
+/// Values against lengths, both in `unit`, the zero line with its crossings, walls with their thickness;
+/// below it how far the gradient's length is from 1. Under the mouse the numbers at a place. `scale` is the
 /// interface's.
-void showPlot(const Plot& plot, float scale);
+void showPlot(const Plot& plot, const char* unit, float scale);
 
 }  // namespace fw::editor

@@ -6,21 +6,13 @@
 #include <set>
 
 #include "editor/editor.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
 namespace {
 
-std::string metres(double length) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g m", length);
-    return text;
-}
-
-double reachOf(const Seen& seen) {
-    const Segment diagonal{seen.region.lo, seen.region.hi};
-    return diagonal.length();
-}
+double diagonalOf(const Box& region) { return Segment{region.lo, region.hi}.length(); }
 
 void takeAnswer(Editor& editor, const ProbeAnswer& answer) {
     Probe& probe = editor.probe;
@@ -30,7 +22,7 @@ void takeAnswer(Editor& editor, const ProbeAnswer& answer) {
     if (answer.reads || !answer.problem.empty()) {
         probe.readings = answer.readings;
         probe.problem = answer.problem;
-        if (editor.boxes) probe.values = valuesOf(*editor.boxes, probe.readings);
+        if (editor.boxes) probe.values = valuesOf(*editor.boxes, probe.readings, unitOf(*editor.graph));
     }
     probe.plot = answer.plot;
 }
@@ -56,13 +48,17 @@ std::optional<ProbeWish> wishOf(const Editor& editor) {
     return wish;
 }
 
+std::size_t pointsOf(Measure what) { return what == Measure::length ? 2 : 3; }
+
 /// What a click asks, when it is its turn.
 Aside::Answer answerClick(ProbeWork& work, const Seen& seen, glm::dvec2 place, Measure tool) {
     const std::optional<Point> hit = work.picker.hit(seen, place.x, place.y);
     if (!hit) return nullptr;
     std::optional<WallAt> wall;
-    if (tool == Measure::wall) wall = wallAt(*work.picker.field(seen), *hit, reachOf(seen));
-    return [hit = *hit, wall, tool](Editor& editor) {
+    if (tool == Measure::wall) wall = wallAt(*work.picker.field(seen), *hit, diagonalOf(seen.region));
+    std::optional<Bend> bend;
+    if (tool == Measure::radius) bend = bendAt(*work.picker.field(seen), *hit, diagonalOf(seen.region));
+    return [hit = *hit, wall, bend, tool](Editor& editor) {
         Probe& probe = editor.probe;
         if (tool == Measure::nothing) {
             probe.point = hit, probe.pinned = true;
@@ -74,7 +70,12 @@ Aside::Answer answerClick(ProbeWork& work, const Seen& seen, glm::dvec2 place, M
             probe.wallProblem = wall ? "" : "The solid does not end behind this point.";
             return;
         }
-        if (points.size() >= 2) points.clear();
+        if (tool == Measure::line) {
+            if (points.size() >= 2) points.clear();
+            return points.push_back(hit);
+        }
+        if (points.size() >= pointsOf(tool) || std::exchange(probe.what, tool) != tool) points.clear();
+        if (points.empty()) probe.bend = bend;
         points.push_back(hit);
     };
 }
@@ -105,6 +106,11 @@ ProbeAnswer ProbeWork::answer(const ProbeWish& wish) {
     return answer;
 }
 
+std::optional<std::array<Point, 3>> Probe::three() const {
+    if (measured.size() < 3) return std::nullopt;
+    return std::array{measured[0], measured[1], measured[2]};
+}
+
 std::optional<Segment> Probe::line() const {
     if (ends.size() < 2) return std::nullopt;
     return Segment{ends[0], ends[1]};
@@ -113,7 +119,7 @@ std::optional<Segment> Probe::line() const {
 void Probe::forget() {
     aside.forget();
     asked.reset(), clicks.clear();
-    point.reset(), hovered.reset(), wall.reset(), plot.reset();
+    point.reset(), hovered.reset(), wall.reset(), plot.reset(), bend.reset();
     pinned = false;
     readings.clear(), problem.clear(), values.clear(), measured.clear(), wallProblem.clear(), ends.clear();
     plotted.clear();
@@ -176,7 +182,7 @@ void clearProbe(Editor& editor) {
     Probe& probe = editor.probe;
     const bool open = probe.tool == Measure::line && probe.ends.size() == 1;
     if (!probe.measured.empty() || probe.wall || !probe.wallProblem.empty() || open) {
-        probe.measured.clear(), probe.wall.reset(), probe.wallProblem.clear();
+        probe.measured.clear(), probe.wall.reset(), probe.wallProblem.clear(), probe.bend.reset();
         if (open) probe.ends.clear();
     } else if (probe.tool != Measure::nothing) {
         probe.tool = Measure::nothing;
@@ -186,27 +192,53 @@ void clearProbe(Editor& editor) {
     }
 }
 
-std::string measuredWords(const Probe& probe) {
-    std::string words;
-    if (probe.measured.size() == 2) {
+double sizeSeen(const Editor& editor) { return diagonalOf(editor.viewport.shown.region); }
+
+std::string shapeWords(const Probe& probe, double size, const LengthUnit& lengths) {
+    const auto length = [&](double number) { return withSign(number, "m", lengths); };
+    const std::optional<std::array<Point, 3>> three = probe.three();
+    switch (probe.what) {
+        case Measure::length:
+            return probe.measured.size() < 2 ? std::string()
+                                             : length(Segment{probe.measured[0], probe.measured[1]}.length());
+        case Measure::angle:
+            if (!three) return {};
+            if (const auto angle = angleOf(*three)) return withSign(*angle, "degrees", lengths);
+            return "no angle";
+        case Measure::radius:
+            if (const auto circle = three ? circleThrough(*three) : std::nullopt)
+                return "Radius " + length(circle->radius);
+            if (three) return "no circle";
+            return probe.measured.empty() || !probe.bend ? std::string()
+                                                         : bendWords(*probe.bend, size, lengths);
+        default: return {};
+    }
+}
+
+std::string measuredWords(const Probe& probe, double size, const LengthUnit& lengths) {
+    std::string words = shapeWords(probe, size, lengths);
+    if (!words.empty() && probe.what == Measure::length) {
         const Point &a = probe.measured[0], &b = probe.measured[1];
-        words = "Length " + metres(Segment{a, b}.length());
+        words = "Length " + words;
         constexpr const char* kAxes[] = {"dx", "dy", "dz"};
         for (std::size_t i = 0; i < 3; ++i)
-            words += std::string(i == 0 ? "\n" : "   ") + kAxes[i] + " " + metres(b[i] - a[i]);
+            words +=
+                std::string(i == 0 ? "\n" : "   ") + kAxes[i] + " " + withSign(b[i] - a[i], "m", lengths);
     }
-    if (probe.wall) words += (words.empty() ? "Wall " : "\nWall ") + metres(probe.wall->thickness());
+    if (!words.empty() && probe.what == Measure::angle) words = "Angle " + words;
+    if (probe.wall)
+        words += (words.empty() ? "Wall " : "\nWall ") + withSign(probe.wall->thickness(), "m", lengths);
     return words;
 }
 
-CanvasValues valuesOf(const Boxes& boxes, const std::vector<Reading>& readings) {
+CanvasValues valuesOf(const Boxes& boxes, const std::vector<Reading>& readings, const LengthUnit& lengths) {
     CanvasValues values;
     const auto colors = colorsAmong(boxes);
     for (const Reading& reading : readings) {
         const NodeBox* box = boxes.find(reading.node);
         const Row* row = box ? boxes.row({reading.node, reading.output}, true) : nullptr;
         if (!row) continue;
-        OutputValue value{reading.output, valueWords(reading, 3)};
+        OutputValue value{reading.output, valueWords(reading, 3, lengths)};
         std::optional<std::array<double, 3>> color = reading.color;
         const std::pair place(uint32_t(box - boxes.nodes.data()), uint32_t(row - box->rows.data()));
         if (reading.type == Type::vec3 && reading.numbers.size() == 3 && colors.contains(place))

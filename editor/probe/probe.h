@@ -1,16 +1,17 @@
 // Understanding what is seen: the probe, which reads every wire of the scope at one point of the picture; the
-// plot of a field along a line; and the tools that measure lengths and walls in the picture.
+// plot of a field along a line; and the tools that measure lengths, angles, radii and walls in the picture.
 //
 //     over the picture        does
 //     mouse, probe on         moves the point to what is hit; with Ctrl it stays
 //     click, probe on         pins the point there (and selects, as ever); Escape lets it go
-//     click with a tool       sets the next point of what is measured, a third one begins anew; Escape clears
+//     click with a tool       sets the next point of what is measured, one more begins anew; Escape clears
 //
 // The fields are compiled and evaluated on a thread of its own (viewport/aside.h): one wish at a time, the
 // newest; clicks of tools are answered in their order. Nothing here changes the document, so nothing of it is
 // one of the document's hands: what is measured stays while one goes on editing. Lifetime: one in an Editor.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -23,6 +24,7 @@
 #include "editor/files/browser.h"
 #include "editor/probe/along.h"
 #include "editor/probe/readings.h"
+#include "editor/probe/shapes.h"
 #include "editor/viewport/aside.h"
 #include "editor/viewport/pick.h"
 
@@ -31,7 +33,14 @@ namespace fw::editor {
 struct Editor;
 
 /// What a click in the picture measures.
-enum class Measure : unsigned char { nothing, length, wall, line };
+enum class Measure : unsigned char {
+    nothing,
+    length,  ///< between two points
+    angle,   ///< of three, at the second
+    radius,  ///< of the surface at the first, of a circle through three
+    wall,
+    line  ///< that is plotted
+};
 
 /// What is asked of the thread that works.
 struct ProbeWish {
@@ -73,7 +82,9 @@ struct Probe {
     CanvasValues values;        ///< the readings in words
 
     Measure tool = Measure::nothing;
-    std::vector<Point> measured;  ///< of a length, one or two points
+    Measure what = Measure::length;  ///< the points are of: a length, an angle or a radius
+    std::vector<Point> measured;     ///< two points at most of a length, three of the others
+    std::optional<Bend> bend;        ///< of the surface at the first point of a radius
     std::optional<WallAt> wall;
     std::string wallProblem;
     std::vector<Point> ends;  ///< of the line that is plotted, none, one or two
@@ -87,6 +98,8 @@ struct Probe {
     ProbeWork work;                                     ///< the thread's aside
     Aside aside{[] { Shell::wake(); }};
 
+    /// The three points, if there are as many.
+    std::optional<std::array<Point, 3>> three() const;
     /// The line, if it has both ends.
     std::optional<Segment> line() const;
     /// As it was at the beginning; what is under way has no answer.
@@ -109,9 +122,13 @@ void useMeasure(Editor& editor, Measure tool);
 bool canClearProbe(const Editor& editor);
 void clearProbe(Editor& editor);
 
-/// What was measured, as it is shown and copied: a line each.
-std::string measuredWords(const Probe& probe);
+/// What was measured, as it is shown and copied: a line each. `size` is about the solid's.
+std::string measuredWords(const Probe& probe, double size, const LengthUnit& lengths);
+/// Of a length, an angle or a radius whose points are there, in few words; empty if they are not.
+std::string shapeWords(const Probe& probe, double size, const LengthUnit& lengths);
+/// How large the solid that is seen is, about.
+double sizeSeen(const Editor& editor);
 /// The readings for the canvas: colours as linear RGB where a wire carries one.
-CanvasValues valuesOf(const Boxes& boxes, const std::vector<Reading>& readings);
+CanvasValues valuesOf(const Boxes& boxes, const std::vector<Reading>& readings, const LengthUnit& lengths);
 
 }  // namespace fw::editor

@@ -165,14 +165,14 @@ std::vector<Reading> ScopeFields::at(const Point& point) const {
     return readings;
 }
 
-std::string valueWords(const Reading& reading, int digits) {
+std::string valueWords(const Reading& reading, int digits, const LengthUnit& lengths) {
     if (reading.numbers.empty()) return "being made";
     if (reading.type == Type::boolean) return reading.numbers[0] != 0.0 ? "true" : "false";
     if (reading.type == Type::surface) {
         // On a surface its distance is 0 but for the last bits.
         const double distance = std::abs(reading.numbers[0]) < kNothing ? 0.0 : reading.numbers[0];
         const std::string words = numberWords(distance, digits);
-        return std::isfinite(reading.numbers[0]) ? words + " m" : words;
+        return std::isfinite(reading.numbers[0]) ? words + " " + lengths.name : words;
     }
     if (reading.numbers.size() == 1) return numberWords(reading.numbers[0], digits);
     std::string words;

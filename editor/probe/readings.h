@@ -16,6 +16,7 @@
 
 #include "editor/viewport/pick.h"
 #include "graph/compile/node_fields.h"
+#include "graph/library/units.h"
 
 namespace fw::editor {
 
@@ -63,6 +64,6 @@ class ScopeFields {
 };
 
 /// "0.25 m", "(1, 0.5, 0)", "true": with so many digits, and a word where it is not a number.
-std::string valueWords(const Reading& reading, int digits);
+std::string valueWords(const Reading& reading, int digits, const LengthUnit& lengths);
 
 }  // namespace fw::editor

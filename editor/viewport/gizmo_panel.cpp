@@ -7,6 +7,7 @@
 #include "editor/shell/theme.h"
 #include "editor/viewport/marks.h"
 #include "graph/document/input_value.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -334,7 +335,8 @@ void showOptions(Editor& editor, Gizmo& gizmo) {
     ImGui::Checkbox("Grid as seen", &snap.byZoom);
     if (!snap.byZoom) {
         ImGui::SameLine();
-        number("m##grid", snap.metres, 1e-4, "%.4g");
+        number((std::string(unitOf(editor.document.graph()).name) + "##grid").c_str(), snap.metres, 1e-4,
+               "%.4g");
     }
     for (const double degrees : {5.0, 15.0, 45.0}) {
         either((std::to_string(int(degrees)) + "°").c_str(), snap.degrees, degrees);

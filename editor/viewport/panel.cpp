@@ -8,6 +8,7 @@
 #include "editor/shell/theme.h"
 #include "editor/viewport/camera_path.h"
 #include "editor/viewport/ground.h"
+#include "graph/document/unit.h"
 
 namespace fw::editor {
 
@@ -24,7 +25,7 @@ constexpr float kPictureGap = 2.0f;  // pixels between pictures, times the scale
 constexpr int kResolutions[] = {0, 32, 64, 128, 192, 256, 384, 512};
 
 /// Where the plane is that the field is shown on.
-void showSlice(Viewport& view, float unit) {
+void showSlice(Viewport& view, const LengthUnit& lengths, float unit) {
     constexpr const char* kPlanes[] = {"Across the view", "Across x", "Across y", "Across z"};
     ImGui::SetNextItemWidth(140 * unit);
     int chosen = view.slice.axis + 1;
@@ -35,7 +36,8 @@ void showSlice(Viewport& view, float unit) {
             reach = std::max(reach, 0.5f * float(view.shown.region.hi[i] - view.shown.region.lo[i]));
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::SliderFloat("##place", &view.slice.at, -reach, reach, "%.3f m from the middle");
+    const std::string format = std::string("%.3f ") + lengths.name + " from the middle";
+    ImGui::SliderFloat("##place", &view.slice.at, -reach, reach, format.c_str());
 }
 
 void showChoices(Editor& editor) {
@@ -75,7 +77,8 @@ void showChoices(Editor& editor) {
         besideIfFits(words.c_str());
         if (ImGui::Button(words.c_str())) view.pinned.clear();
     }
-    if (view.view == RENDER_SLICE || view.view == RENDER_EXACTNESS) showSlice(view, unit);
+    if (view.view == RENDER_SLICE || view.view == RENDER_EXACTNESS)
+        showSlice(view, unitOf(editor.document.graph()), unit);
 }
 
 /// Words over the picture, top left.

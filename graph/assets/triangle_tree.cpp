@@ -53,6 +53,24 @@ struct Plane {
     glm::dvec3 corner, normal, size;
 };
 
+constexpr double kRounded = 1e-12;
+
+/// How far the triangle is along a ray (Möller and Trumbore, Fast, minimum storage ray/triangle intersection,
+/// 1997); its edges are a little wide, so that nothing slips through between two triangles.
+std::optional<double> meets(const glm::dvec3& from, const glm::dvec3& along, const Triangle& t) {
+    const glm::dvec3 ab = t[1] - t[0], ac = t[2] - t[0], across = glm::cross(along, ac);
+    const double determinant = glm::dot(ab, across);
+    if (determinant == 0.0) return std::nullopt;
+    const glm::dvec3 off = from - t[0];
+    const double u = glm::dot(off, across) / determinant;
+    if (!(u >= -kRounded && u <= 1.0 + kRounded)) return std::nullopt;
+    const glm::dvec3 turned = glm::cross(off, ab);
+    const double v = glm::dot(along, turned) / determinant;
+    if (!(v >= -kRounded && u + v <= 1.0 + kRounded)) return std::nullopt;
+    const double distance = glm::dot(ac, turned) / determinant;
+    return distance > 0.0 ? std::optional(distance) : std::nullopt;
+}
+
 /// Whether the open segment, whose ends are on both sides of the open triangle's plane, passes through it.
 bool passesThrough(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
     const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
@@ -279,6 +297,51 @@ uint32_t TriangleTree::nearest(const glm::dvec3& point, uint32_t guess, NearestP
         open[count++] = near;
     }
     return found;
+}
+
+std::optional<RayHit> TriangleTree::firstHit(const glm::dvec3& from, const glm::dvec3& along, double reach,
+                                             uint32_t but) const {
+    if (empty()) return std::nullopt;
+    const glm::dvec3 inverse = 1.0 / along;
+    // Where the ray comes into a box; infinite if it does not within the reach.
+    const auto entry = [&](const Box& box) {
+        double in = 0.0, out = reach;
+        for (int axis = 0; axis < 3; ++axis) {
+            double near = (double(box.lo[axis]) - from[axis]) * inverse[axis],
+                   far = (double(box.hi[axis]) - from[axis]) * inverse[axis];
+            if (inverse[axis] < 0.0) std::swap(near, far);
+            // Of a ray within a face the product is no number, and says nothing.
+            if (near > in) in = near;
+            if (far < out) out = far;
+        }
+        return in <= out * (1.0 + kRounded) ? in : std::numeric_limits<double>::infinity();
+    };
+    std::optional<RayHit> hit;
+    struct Open {
+        uint32_t node;
+        double entry;
+    };
+    std::array<Open, 64> open;  // the tree is balanced
+    std::size_t count = 0;
+    open[count++] = {0, entry(nodes[0].box)};
+    while (count > 0) {
+        const Open next = open[--count];
+        if (!(next.entry < reach)) continue;
+        const Node& node = nodes[next.node];
+        for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (order[i] == but) continue;
+            const Triangle t = corners(order[i]);
+            if (const auto distance = meets(from, along, t); distance && *distance < reach)
+                reach = *distance, hit = RayHit{reach, order[i]};
+        }
+        if (node.count > 0) continue;
+        Open near{next.node + 1, entry(nodes[next.node + 1].box)},
+            other{node.right, entry(nodes[node.right].box)};
+        if (other.entry < near.entry) std::swap(near, other);
+        open[count++] = other;
+        open[count++] = near;
+    }
+    return hit;
 }
 
 double TriangleTree::windingNumber(const glm::dvec3& point) const {

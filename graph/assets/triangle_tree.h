@@ -1,4 +1,5 @@
-// Triangles in a tree of boxes: which triangles are near, which cut each other, and what they go around.
+// Triangles in a tree of boxes: which triangles are near, which a ray meets, which cut each other, and what
+// they go around.
 //
 // A binary tree over the triangles' middles, halved along the longest side of their box until four are left;
 // the nodes stand in one array, a left child right behind its parent. Building sorts in place, O(n log n),
@@ -20,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,6 +45,12 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 /// in common do if they meet elsewhere too, those with two do not.
 bool trianglesCut(std::span<const glm::vec3> positions, const uint32_t* one, const uint32_t* other);
 
+/// What a ray meets first.
+struct RayHit {
+    double distance;
+    uint32_t triangle;
+};
+
 class TriangleTree {
   public:
     /// Only a tree that was made for them tells winding numbers.
@@ -60,6 +68,11 @@ class TriangleTree {
     /// The triangle that is nearest to the point; of those equally near, any. `guess` is one that may be
     /// near, or kNoGuess. Only for a tree that is not empty.
     uint32_t nearest(const glm::dvec3& point, uint32_t guess, NearestPoint& on) const;
+    /// The first triangle on the way from `from` along a direction of unit length, as far as `reach`,
+    /// whatever its side; `but` is not looked at. Through an edge between two of them it goes at most by
+    /// rounding.
+    std::optional<RayHit> firstHit(const glm::dvec3& from, const glm::dvec3& along, double reach,
+                                   uint32_t but = kNoGuess) const;
     /// The generalized winding number, to some 0.02.
     double windingNumber(const glm::dvec3& point) const;
     /// Pairs of triangles that cut each other, of which the first is one of those from `begin` to `end` in

@@ -58,8 +58,10 @@ class Reader {
                 return keep(value, key, Kind::object, graph.timeline, &graph.timelinePlaces);
             if (key == "frames") return keep(value, key, Kind::array, graph.frames);
             if (key == "unit") return readUnit(keyAt, value);
-            return unknown(keyAt, graph.extra,
-                           {"nodes", "groups", "parameters", "scene", "timeline", "frames", "unit"});
+            if (key == "density") return readDensity(keyAt, value);
+            return unknown(
+                keyAt, graph.extra,
+                {"nodes", "groups", "parameters", "scene", "timeline", "frames", "unit", "density"});
         });
         if (sound && !hasNodes)
             return fail(0, "the key \"nodes\" is missing: add \"nodes\": [...]") || leaveOut();
@@ -149,6 +151,14 @@ class Reader {
         for (const LengthUnit& unit : lengthUnits()) names.emplace_back(unit.name);
         if (!lengthUnit(name))
             return fail(value, "the unit " + inQuotes(name) + " is none of " + listed(names));
+        keepExtra(keyAt, graph.extra);
+        return true;
+    }
+
+    bool readDensity(uint32_t keyAt, uint32_t value) {
+        std::optional<double> density;
+        if (!read(value, "density", density)) return false;
+        if (!(*density > 0.0)) return fail(value, "the density must be above 0 g/cm³");
         keepExtra(keyAt, graph.extra);
         return true;
     }

@@ -396,7 +396,9 @@ std::string fileSchema() {
          {"frames", described("Comment boxes of the canvas.", {{"type", "array"}})},
          {"scene", described("Camera, lights, sky, post.", sceneSchema())},
          {"timeline", described("Length, and tracks of keys.", timelineSchema())},
-         {"unit", described("What a length of 1 is; a metre if absent.", {{"enum", unitNames()}})}},
+         {"unit", described("What a length of 1 is; a metre if absent.", {{"enum", unitNames()}})},
+         {"density", described("Of what the solid is made of, g/cm³: for its mass.",
+                               {{"type", "number"}, {"exclusiveMinimum", 0}})}},
         {"fieldwright", "nodes"}));
     schema["$defs"] = std::move(definitions);
     return schema.dump(2) + "\n";

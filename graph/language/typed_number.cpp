@@ -151,11 +151,12 @@ class Units {
         const double size = (found->size > 0 ? found->size : kDegreesOfRadian) * grown,
                      whole = found->angle ? 1.0 : std::round(lengths.metres * kMicrometres);
         char factor[80];
-        std::snprintf(factor, sizeof factor, ")*%.17g/%.17g)", size, whole);
+        std::snprintf(factor, sizeof factor, ")*%.17g", size);
         out += factor;
         term().measured = true;
-        operandEnds = !feet;
-        if (feet) out += "+", takeInches(whole);
+        if (feet) takeInches();
+        std::snprintf(factor, sizeof factor, feet ? ")/%.17g)" : "/%.17g)", whole);
+        out += factor;
         return done();
     }
 
@@ -166,14 +167,13 @@ class Units {
         const std::size_t end = endOfNumber(from);
         return end > from && (text.substr(end).starts_with('"') || text.substr(end).starts_with("in"));
     }
-    void takeInches(double whole) {
+    void takeInches() {
         while (text[at] == ' ') ++at;
         const std::size_t end = endOfNumber(at);
-        char inches[80];
-        std::snprintf(inches, sizeof inches, "*%.17g/%.17g)", 25'400 * grown, whole);
-        out += std::string(text.substr(at, end - at)) + inches;
+        char inches[40];
+        std::snprintf(inches, sizeof inches, "*%.17g", 25'400 * grown);
+        out += "+" + std::string(text.substr(at, end - at)) + inches;
         at = end + (text[end] == '"' ? 1 : 2);
-        operandEnds = true;
     }
 
     void takeSign(char c) {

@@ -157,6 +157,7 @@ int runExport(const ExportOptions& options) {
     const bool canTile = canBeTiled(options, *graph);
     fw::ExportOptions how = writingOf(options);
     how.placement = *placementOf(options.output, graph->unit, options.placement);
+    const std::optional<double> density = densityOf(graph->graph);
     Result<WholeMesh> whole = meshWhole(options, std::move(*graph), progress, options.measured());
     if (!whole && canTile && whole.error().code == Error::Code::tooMuchSurface) {
         graph.reset();
@@ -176,7 +177,7 @@ int runExport(const ExportOptions& options) {
     how.cellSize = static_cast<float>(meshed.cellSize);
     Report report;
     const MeshedFrom from{&meshed.session.program(), meshed.region, meshed.session.device().name(),
-                          how.placement};
+                          how.placement, density};
     how.examine = measuring(options, from, &progress, report);
     how.kept = [] { whenEnded({.said = "; the mesh was written"}); };
     const Result<ExportedFiles> written = exportWished(options, *made, options.output, how);

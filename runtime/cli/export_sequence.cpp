@@ -40,7 +40,7 @@ struct ManyMeshes {
 struct MeasuredMeshes {
     const MeshOutput& options;
     const ManyMeshes& many;
-    Placement placement = {};
+    MeshedFrom from = {};  ///< whatever the file
     std::map<long, Report> reports = {};
 
     /// Measures the files that were there, and says what is wrong with any; the exit status.
@@ -51,7 +51,7 @@ struct MeasuredMeshes {
         for (long number = files.frames.first; number < files.frames.last; ++number) {
             const std::string path = files.path(number);
             if (!reports.contains(number)) {
-                Result<Report> there = reportOnThere(path, placement);
+                Result<Report> there = reportOnThere(path, from);
                 if (!there) return print(there.error()), kSystemFailure;
                 reports.emplace(number, std::move(*there));
             }
@@ -92,7 +92,7 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         if (!wanted) return wanted.error();
         files = *wanted;
         how.placement = *placementOf("a" + ending, unitOf(graph), options.placement);
-        measured.placement = how.placement;
+        measured.from.placement = how.placement, measured.from.density = densityOf(graph);
         const Result<FrameRange> part = partOf(files.frames, options.sequence.frames.part);
         if (!part) return part.error();
         files.frames = *part;
@@ -116,7 +116,8 @@ int exportMany(const ExportOptions& options, const ManyMeshes& many, const std::
         std::shared_ptr<const Program> program;
         if (options.measured() || options.textures)
             program = std::make_shared<Program>(player.programOnHost());
-        const MeshedFrom from{program.get(), player.region(), player.device().name(), how.placement};
+        const MeshedFrom from{program.get(), player.region(), player.device().name(), how.placement,
+                              measured.from.density};
         auto write = [&, path, number, with, program, from, levels = std::move(*levels)]() mutable -> Done {
             Report report;
             if (!levels[0].indices.empty()) with.examine = measuring(options, from, nullptr, report);

@@ -124,8 +124,9 @@ void oneMomentOrMany(const CLI::App* command) {
 
 void addMeasures(CLI::App* command, MeshOutput& output) {
     command
-        ->add_option("--report", output.report,
-                     "Write what the mesh file holds, measured from it, as JSON to this file")
+        ->add_option(
+            "--report", output.report,
+            "Write what the mesh file holds, measured from it, to this file: as JSON, or as words to a .txt")
         ->check(something());
     command
         ->add_option_function<std::string>(

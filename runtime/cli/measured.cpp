@@ -11,13 +11,14 @@ namespace fw::cli {
 
 namespace {
 
-Result<Report> reportOnPlaced(Result<WeldedMesh> read, const Placement& placement, MeasureOptions measured) {
+Result<Report> reportOnPlaced(Result<WeldedMesh> read, const MeshedFrom& from, MeasureOptions measured) {
     if (!read) return read.error();
-    measured.selfIntersections = true;
-    for (glm::vec3& p : read->positions) p = placement.placeBack(p);
+    measured.selfIntersections = measured.widths = true;
+    for (glm::vec3& p : read->positions) p = from.placement.placeBack(p);
     Report report = reportOnWelded(*read, measured);
-    report.unit = placement.document.name;
-    report.fileLengths = placement.words();
+    report.unit = from.placement.document.name;
+    report.fileLengths = from.placement.words();
+    report.density = from.density;
     return report;
 }
 
@@ -34,7 +35,7 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
         });
     Result<WeldedMesh> read = readWelded(file);
     Result<Report> report =
-        reportOnPlaced(std::move(read), from.placement, compared.valid() ? compared.get() : MeasureOptions{});
+        reportOnPlaced(std::move(read), from, compared.valid() ? compared.get() : MeasureOptions{});
     if (!report) return report;
     if (progress) progress->finish(), report->stages = progress->stages;
     report->totalMs = total;
@@ -45,8 +46,8 @@ Result<Report> measure(const MeshOutput& options, const StoredMesh& file, const 
 
 }  // namespace
 
-Result<Report> reportOnThere(const std::string& path, const Placement& placement) {
-    return reportOnPlaced(readWelded({path, path}), placement, {});
+Result<Report> reportOnThere(const std::string& path, const MeshedFrom& from) {
+    return reportOnPlaced(readWelded({path, path}), from, {});
 }
 
 std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
@@ -84,7 +85,8 @@ int tellReport(const MeshOutput& options, const Report& report) {
     if (!options.report.empty()) {
         Result<OutputFile> file = OutputFile::open(options.report, nullptr);
         if (!file) return print(file.error()), kSystemFailure;
-        file->write(writeReport(report));
+        const bool words = lowerExtension(options.report) == ".txt";
+        file->write(words ? reportWords(report) : writeReport(report));
         if (const Done saved = file->commit(); !saved) return print(saved.error()), kSystemFailure;
     }
     return tellUnmet(options, options.output, report);

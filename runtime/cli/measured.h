@@ -15,6 +15,7 @@ struct MeshedFrom {
     Box region = {};
     std::string device = {};
     Placement placement = {};
+    std::optional<double> density = {};  ///< the document's
 };
 
 /// What fw::ExportOptions::examine has to be to measure the file into `report`: nothing, unless that is
@@ -23,8 +24,9 @@ struct MeshedFrom {
 std::function<Done(const StoredMesh&)> measuring(const MeshOutput& options, const MeshedFrom& from,
                                                  Progress* progress, Report& report);
 
-/// What a mesh file holds that was written before; its lengths are the graph's.
-Result<Report> reportOnThere(const std::string& path, const Placement& placement);
+/// What a mesh file holds that was written before; its lengths are the graph's. Of `from` the placement and
+/// the density count.
+Result<Report> reportOnThere(const std::string& path, const MeshedFrom& from);
 
 /// What levels of detail are, the finest first, held against the program's field in the region that was
 /// meshed; with their names in a file of that path.
@@ -34,7 +36,8 @@ std::vector<LevelReport> reportOnLevels(std::span<const Mesh> levels, const std:
 /// Says in what a mesh is not what it is required to be; the exit status.
 int tellUnmet(const MeshOutput& options, const std::string& file, const Report& report);
 
-/// Writes the report, and says in what the mesh is not what it is required to be; the exit status.
+/// Writes the report, as JSON or, to a .txt, in words, and says in what the mesh is not what it is required
+/// to be; the exit status.
 int tellReport(const MeshOutput& options, const Report& report);
 
 }  // namespace fw::cli

@@ -141,7 +141,7 @@ int writePieces(const MeshOutput& options, MeshPieces& mesh, const MeshedFrom& f
 
 /// All tiles straight into the mesh file.
 int exportWhole(const ExportOptions& options, Session& session, const MeshRequest& request,
-                const TilePlan& plan, const Placement& placement, bool givenRegion, Progress& progress) {
+                const TilePlan& plan, const MeshedFrom& from, bool givenRegion, Progress& progress) {
     // A tile's arrays go back to the system with the tile: by itself the allocator would keep some of each
     // thread.
     ::mallopt(M_MMAP_THRESHOLD, 4 << 20);
@@ -155,7 +155,6 @@ int exportWhole(const ExportOptions& options, Session& session, const MeshReques
     if (!tiles) return progress.finish(), notMeshed(options, tiles.error());
     if (tiles->mesh.triangleCount == 0)
         return badInput(options.mesh, nothingToSee(givenRegion, *request.region, request.resolution));
-    const MeshedFrom from{&session.program(), *request.region, session.device().name(), placement};
     const int status = writePieces(options, tiles->mesh, from, tiles->capped, 50, progress);
     if (tiles->capped && status != kSystemFailure) noteCapped(options);
     return status;
@@ -293,7 +292,10 @@ int exportTiles(const ExportOptions& options, OpenedGraph opened, Progress& prog
     const TilePlan plan = tilesOf(options, *grid);
     if (share.shares > plan.tiles.size()) return tooFewTiles(options, plan, share.shares);
     if (options.share.empty())
-        return exportWhole(options, session, opened.request, plan, placement, given, progress);
+        return exportWhole(
+            options, session, opened.request, plan,
+            {&session.program(), opened.region, session.device().name(), placement, densityOf(opened.graph)},
+            given, progress);
     return exportPart(options, session, opened.request, plan, share, progress);
 }
 

@@ -15,6 +15,7 @@
 
 #include "graph/assets/triangle_tree.h"
 #include "graph/base/parallel.h"
+#include "graph/base/words.h"
 #include "runtime/measure/read_back.h"
 #include "runtime/mesh/corners.h"
 
@@ -176,31 +177,24 @@ struct MeshAngle {
     double degrees() const { return std::atan2(sine, cosine) * (180.0 / 3.14159265358979323846); }
 };
 
-void measureSize(const WeldedMesh& mesh, Report& report) {
+/// Of the triangles that are degenerate, how many; of the others the angles.
+void measureShapes(const WeldedMesh& mesh, Report& report) {
     constexpr std::size_t kTriangles = 65536;
     struct Part {
-        double volume = 0, area = 0;
         MeshAngle smallest{0, 0, -std::numeric_limits<double>::infinity()},
             largest{0, 0, std::numeric_limits<double>::infinity()};
         uint64_t degenerate = 0;
     };
     if (mesh.indices.empty()) return;
-    glm::dvec3 low(mesh.positions[mesh.indices[0]]), high = low;
-    for (const uint32_t index : mesh.indices) {
-        low = glm::min(low, glm::dvec3(mesh.positions[index]));
-        high = glm::max(high, glm::dvec3(mesh.positions[index]));
-    }
-    // Volumes of tetrahedra to a far origin cancel; to the middle of the mesh they hardly do.
-    const glm::dvec3 middle = (low + high) * 0.5;
     const std::size_t count = mesh.indices.size() / 3;
     std::vector<Part> parts((count + kTriangles - 1) / kTriangles);
     forBlocks(count, kTriangles, [&](std::size_t block, std::size_t first, std::size_t last) {
         Part& part = parts[block];
         for (std::size_t t = first; t < last; ++t) {
             const uint32_t* triangle = &mesh.indices[t * 3];
-            const glm::dvec3 a = glm::dvec3(mesh.positions[triangle[0]]) - middle;
-            const glm::dvec3 ab = glm::dvec3(mesh.positions[triangle[1]]) - middle - a;
-            const glm::dvec3 ac = glm::dvec3(mesh.positions[triangle[2]]) - middle - a;
+            const glm::dvec3 a = glm::dvec3(mesh.positions[triangle[0]]);
+            const glm::dvec3 ab = glm::dvec3(mesh.positions[triangle[1]]) - a;
+            const glm::dvec3 ac = glm::dvec3(mesh.positions[triangle[2]]) - a;
             const glm::dvec3 normal = glm::cross(ab, ac);
             const double area = glm::length(normal) * 0.5;
             const glm::dvec3 bc = ac - ab;
@@ -213,8 +207,6 @@ void measureSize(const WeldedMesh& mesh, Report& report) {
                     if (corner.cotangent > part.smallest.cotangent) part.smallest = corner;
                     if (corner.cotangent < part.largest.cotangent) part.largest = corner;
                 }
-            part.area += area;
-            part.volume += glm::dot(a, normal) / 6.0;
         }
     });
     report.smallestAngle = 180;
@@ -223,13 +215,7 @@ void measureSize(const WeldedMesh& mesh, Report& report) {
             report.smallestAngle = std::min(report.smallestAngle, part.smallest.degrees());
             report.largestAngle = std::max(report.largestAngle, part.largest.degrees());
         }
-        report.volume += part.volume;
-        report.area += part.area;
         report.degenerateTriangles += part.degenerate;
-    }
-    for (int k = 0; k < 3; ++k) {
-        report.boundsMin[static_cast<std::size_t>(k)] = low[k];
-        report.boundsMax[static_cast<std::size_t>(k)] = high[k];
     }
 }
 
@@ -336,16 +322,18 @@ Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options) {
     Report report;
     report.triangles = mesh.indices.size() / 3;
     std::future<TriangleTree> growing;
-    if (options.selfIntersections || !options.surface.empty())
+    if (options.selfIntersections || options.widths || !options.surface.empty())
         growing = std::async(std::launch::async, [&mesh] {
             return TriangleTree(mesh.positions, mesh.indices, TriangleTree::Purpose::distances);
         });
     const Corners corners = cornersOf(mesh.indices, mesh.positions.size());
     measureTopology(mesh, corners, report);
-    measureSize(mesh, report);
+    measureShapes(mesh, report);
+    static_cast<MeshSize&>(report) = sizeOf(mesh.positions, mesh.indices);
     if (growing.valid()) {
         const TriangleTree tree = growing.get();
         if (options.selfIntersections) report.selfIntersections = selfIntersectionsOf(tree);
+        if (options.widths) report.widths = leastWidths(mesh.positions, mesh.indices, tree);
         if (!tree.empty()) measureFromSurface(tree, options.surface, report);
     }
     if (options.distance && report.area > 0.0) measureToSurface(mesh, options, report);
@@ -415,6 +403,21 @@ std::string writeReport(const Report& report) {
     out["area"] = report.area;
     out["boundsMin"] = report.boundsMin;
     out["boundsMax"] = report.boundsMax;
+    out["size"] = report.extent();
+    out["centreOfMass"] = report.centre;
+    out["density"] = known(report.density);
+    out["mass"] = known(report.mass());
+    const auto least = [](const std::optional<LeastWidth>& width) {
+        return width ? nlohmann::ordered_json({{"width", width->width}, {"place", width->place}})
+                     : nlohmann::ordered_json();
+    };
+    out["leastWall"] = least(report.widths ? report.widths->wall : std::nullopt);
+    out["leastGap"] = least(report.widths ? report.widths->gap : std::nullopt);
+    out["units"] = {{"volume", report.unit + "³"},
+                    {"area", report.unit + "²"},
+                    {"density", "g/cm³"},
+                    {"mass", "g"},
+                    {"angles", "degrees"}};
     const bool distances = report.errorNote.empty();
     out["maxError"] = known(distances ? report.maxError : std::nullopt);
     out["meanError"] = known(distances ? report.meanError : std::nullopt);
@@ -442,6 +445,29 @@ std::string writeReport(const Report& report) {
     out["peakMemoryBytes"] = report.peakMemoryBytes;
     out["device"] = report.device;
     return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string reportWords(const Report& report) {
+    std::vector<std::pair<std::string, std::string>> rows =
+        sizeRows(report, report.lengths(), report.density);
+    const auto length = [&](double number) { return withSign(number, "m", report.lengths()); };
+    const auto width = [&](const char* name, const std::optional<LeastWidth>& least) {
+        if (!least) return;
+        std::string place;
+        for (const double at : least->place) place += (place.empty() ? "" : ", ") + shortNumber(at);
+        rows.emplace_back(name, length(least->width) + " at " + place);
+    };
+    if (report.widths)
+        width("Thinnest wall", report.widths->wall), width("Narrowest gap", report.widths->gap);
+    rows.emplace_back("Triangles", std::to_string(report.triangles));
+    rows.emplace_back("Closed", report.closedManifold() ? "yes" : "no");
+    rows.emplace_back("Bodies", std::to_string(report.bodies()));
+    rows.emplace_back("Cavities", std::to_string(report.cavities));
+    if (report.meshToSurface) rows.emplace_back("From mesh to surface", length(report.meshToSurface->max));
+    if (report.surfaceToMesh) rows.emplace_back("From surface to mesh", length(report.surfaceToMesh->max));
+    std::string words;
+    for (const auto& [name, value] : rows) words += name + ": " + value + "\n";
+    return words;
 }
 
 Done checkMeasurable(uint64_t triangles, uint64_t freeBytes) {

@@ -21,7 +21,9 @@
 #include <vector>
 
 #include "graph/base/result.h"
+#include "runtime/measure/mesh_size.h"
 #include "runtime/measure/read_back.h"
+#include "runtime/measure/widths.h"
 #include "runtime/mesh/mesh.h"
 
 namespace fw {
@@ -38,7 +40,7 @@ struct SurfacePoint {
 
 /// What is measured besides topology and size; field_measure.h fills what compares with a field.
 struct MeasureOptions {
-    bool selfIntersections = false;
+    bool selfIntersections = false, widths = false;
     FieldError error = {};
     std::string errorNote = {};   ///< of the report
     FieldError distance = {};     ///< the same, but metres to a point of the surface nearby,
@@ -59,7 +61,8 @@ struct LevelReport {
     double error = 0;
 };
 
-struct Report {
+/// Lengths are in `unit`.
+struct Report : MeshSize {
     uint64_t vertices = 0;             ///< welded, used by a triangle that is not collapsed
     uint64_t triangles = 0;            ///< as the file lists them, collapsed ones included
     uint64_t shells = 0;               ///< parts connected across edges
@@ -71,9 +74,9 @@ struct Report {
     uint64_t degenerateTriangles =
         0;  ///< two corners at one place, or area below 1e-12 of the longest side squared
     int64_t eulerCharacteristic = 0;  ///< vertices - edges + triangles, the collapsed ones left out
-    double volume = 0;                ///< signed, cubic metres; meaningful for a closed mesh
-    double area = 0;                  ///< square metres
-    std::array<double, 3> boundsMin{}, boundsMax{};
+
+    std::optional<double> density;  ///< g/cm³, of what the document says it is made of
+    std::optional<Widths> widths;   ///< none: not measured
     std::optional<double> maxError,
         meanError;               ///< over vertices and triangle centroids; none without a field
     std::string errorNote = {};  ///< why these two are no distances and are not told; empty if they are
@@ -94,6 +97,11 @@ struct Report {
     uint64_t peakMemoryBytes = 0;
     std::string device;
 
+    const LengthUnit& lengths() const { return *lengthUnit(unit); }
+    /// Grams; none without a density.
+    std::optional<double> mass() const {
+        return density ? std::optional(grams(volume, lengths(), *density)) : std::nullopt;
+    }
     /// The shells that are no cavities: pieces that hang together.
     uint64_t bodies() const { return shells - cavities; }
     bool closedManifold() const {
@@ -116,9 +124,12 @@ Report reportOnWelded(const WeldedMesh& mesh, const MeasureOptions& options = {}
 Report reportOnMesh(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
                     const MeasureOptions& options = {});
 
-/// One flat JSON object with the keys named as the members of Report; an unknown error is null, and so is one
-/// that is no distance. Ends with a newline.
+/// One JSON object with the keys named as the members of Report; an unknown error is null, and so is one that
+/// is no distance. Lengths are in `unit`; of what is none `units` has the unit. Ends with a newline.
 std::string writeReport(const Report& report);
+
+/// The same for a person: what counts, a line each. Ends with a newline.
+std::string reportWords(const Report& report);
 
 /// Refuses to measure a file of so many triangles with `freeBytes` of memory: what is read of it is held as a
 /// whole.

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "graph/language/typed_number.h"
+
 namespace fw {
 
 namespace {
@@ -65,14 +67,32 @@ Reason angle(const Report& report, double least) {
                                          : "its smallest angle is " + text(report.smallestAngle) + " degrees";
 }
 
+Reason tooNarrow(const std::optional<LeastWidth>& there, const char* what, const Report& report,
+                 double least) {
+    if (!there || there->width >= least) return {};
+    std::string place;
+    for (const double at : there->place) place += (place.empty() ? "" : ", ") + text(at);
+    return std::string(what) + " of " + withSign(there->width, "m", report.lengths()) + " at (" + place + ")";
+}
+
+Reason wall(const Report& report, double least) {
+    return tooNarrow(report.widths ? report.widths->wall : std::nullopt, "it has a wall", report, least);
+}
+
+Reason gap(const Report& report, double least) {
+    return tooNarrow(report.widths ? report.widths->gap : std::nullopt, "it has a gap", report, least);
+}
+
 Reason error(const Report& report, double most) {
     const auto far = [&](const std::optional<SampledDistance>& distance) {
         return distance && !(distance->max <= most);
     };
     if (far(report.meshToSurface))
-        return "a point of it is " + text(report.meshToSurface->max) + " m from the surface";
+        return "a point of it is " + withSign(report.meshToSurface->max, "m", report.lengths()) +
+               " from the surface";
     if (far(report.surfaceToMesh))
-        return "a point of the surface is " + text(report.surfaceToMesh->max) + " m from it";
+        return "a point of the surface is " + withSign(report.surfaceToMesh->max, "m", report.lengths()) +
+               " from it";
     return {};
 }
 
@@ -80,7 +100,8 @@ struct Rule {
     std::string_view name;
     const char* number;  ///< what its number is; null: it takes none
     Reason (*broken)(const Report& report, double number);
-    bool whole = false;  ///< only whole numbers make sense
+    bool whole = false;   ///< only whole numbers make sense
+    bool length = false;  ///< it may have a unit
 };
 
 constexpr Rule kRules[] = {{"closed", nullptr, closed},
@@ -91,13 +112,26 @@ constexpr Rule kRules[] = {{"closed", nullptr, closed},
                            {"cavities", "COUNT", cavities, true},
                            {"triangles", "COUNT", triangles, true},
                            {"angle", "DEGREES", angle},
-                           {"error", "METRES", error}};
+                           {"wall", "LENGTH", wall, false, true},
+                           {"gap", "LENGTH", gap, false, true},
+                           {"error", "LENGTH", error, false, true}};
 
-std::optional<double> numberIn(std::string_view words) {
+Result<double> numberIn(std::string_view words, const Rule& rule, const LengthUnit& lengths) {
     double number = 0.0;
-    const auto [end, problem] = std::from_chars(words.data(), words.data() + words.size(), number);
-    const bool whole = problem == std::errc() && end == words.data() + words.size();
-    return whole && std::isfinite(number) && number >= 0.0 ? std::optional(number) : std::nullopt;
+    if (rule.length) {
+        const Result<double> typed = typedNumber(words, "m", lengths);
+        if (!typed)
+            return Error{.message = "needs a number that is not negative" +
+                                    (words.empty() ? "" : ": " + typed.error().message)};
+        number = *typed;
+    } else {
+        const auto [end, problem] = std::from_chars(words.data(), words.data() + words.size(), number);
+        if (problem != std::errc() || end != words.data() + words.size()) number = NAN;
+    }
+    if (!(std::isfinite(number) && number >= 0.0))
+        return Error{.message = "needs a number that is not negative"};
+    if (rule.whole && number != std::floor(number)) return Error{.message = "needs a whole number"};
+    return number;
 }
 
 Error refused(std::string_view word, const std::string& why) {
@@ -124,15 +158,14 @@ Result<std::vector<Requirement>> parseRequirements(std::string_view list) {
         if (more) list.remove_prefix(comma + 1);
         const auto rule = std::ranges::find(kRules, name, &Rule::name);
         if (rule == std::end(kRules)) return refused(word, "is no requirement");
-        Requirement required{std::size_t(rule - kRules)};
+        Requirement required{std::size_t(rule - kRules), {}};
         const bool given = name.size() < word.size();
         if (given != (rule->number != nullptr))
             return refused(word, given ? "takes no number" : "needs a number");
         if (given) {
-            const std::optional<double> number = numberIn(word.substr(name.size() + 1));
-            if (!number) return refused(word, "needs a number that is not negative");
-            if (rule->whole && *number != std::floor(*number)) return refused(word, "needs a whole number");
-            required.number = *number;
+            required.number = word.substr(name.size() + 1);
+            const Result<double> number = numberIn(required.number, *rule, *lengthUnit("m"));
+            if (!number) return refused(word, number.error().message);
         }
         requirements.push_back(required);
     }
@@ -148,9 +181,10 @@ std::vector<std::string> unmet(const std::vector<Requirement>& requirements, con
     std::vector<std::string> reasons;
     for (const auto& [at, number] : requirements) {
         const Rule& rule = kRules[at];
-        const Reason reason = rule.broken(report, number);
+        const double of = rule.number ? *numberIn(number, rule, report.lengths()) : 0.0;
+        const Reason reason = rule.broken(report, of);
         if (reason.empty()) continue;
-        reasons.push_back("not " + std::string(rule.name) + (rule.number ? "=" + text(number) : "") + ": " +
+        reasons.push_back("not " + std::string(rule.name) + (rule.number ? "=" + number : "") + ": " +
                           reason);
     }
     return reasons;

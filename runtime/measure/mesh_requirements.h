@@ -1,4 +1,4 @@
-// What a mesh must be to be kept: "closed,manifold,error=0.001", held against the report of it.
+// What a mesh must be to be kept: "closed,manifold,wall=0.8mm", held against the report of it.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@ namespace fw {
 
 struct Requirement {
     std::size_t rule = 0;  ///< which of the names that requirementNames() lists
-    double number = 0.0;   ///< of those that take one
+    std::string
+        number;  ///< of those that take one, as it was typed; of lengths with a unit, or in the report's
 };
 
 /// Requirements parted by commas. Error: what is not one, and which there are.
 Result<std::vector<Requirement>> parseRequirements(std::string_view text);
 
-/// "closed manifold … error=METRES": each name, with what its number is.
+/// "closed manifold … error=LENGTH": each name, with what its number is.
 std::string requirementNames();
 
 /// Whether one of them can be told only from the field that the mesh was made of.

@@ -12,6 +12,8 @@
 
 namespace fw::editor::test::probe_test {
 
+const LengthUnit &metre = *lengthUnit("m"), &mm = *lengthUnit("mm");
+
 Seen seenOf(Graph graph) {
     Seen seen{.graph = std::make_shared<const Graph>(std::move(graph)), .region = {{-3, -3, -3}, {3, 3, 3}}};
     seen.camera = {.position = {0, 0, 9}, .target = {0, 0, 0}, .fov = 45};
@@ -92,7 +94,7 @@ TEST(Probe, ReadsEveryWireAtAPoint) {
 TEST(Probe, ColoursAreKnownByWhereTheyGo) {
     const Seen seen = seenOf(graphOf(kTwo));
     const Boxes boxes(*seen.graph, "");
-    const CanvasValues values = valuesOf(boxes, readingsAt(seen, {1, 0, 0}));
+    const CanvasValues values = valuesOf(boxes, readingsAt(seen, {1, 0, 0}), metre);
     ASSERT_TRUE(values.contains("ink"));
     ASSERT_TRUE(values.at("ink")[0].color);
     EXPECT_DOUBLE_EQ((*values.at("ink")[0].color)[1], 0.25);
@@ -182,7 +184,7 @@ TEST(Probe, AnswersWhatIsWished) {
     ASSERT_TRUE(answer.hit);
     EXPECT_NEAR((*answer.hit)[2], 0.5, 1e-9) << "the ball's front";
     EXPECT_NEAR(of(answer.readings, "ball")->numbers[0], 0.0, 1e-9);
-    EXPECT_EQ(valueWords(*of(answer.readings, "ball"), 3), "0 m");
+    EXPECT_EQ(valueWords(*of(answer.readings, "ball"), 3, metre), "0 m");
     // A point that is known stays, wherever the mouse is.
     wish.point = Point{0, 0, 2}, wish.line = Segment{{-3, 0, 0}, {3, 0, 0}}, wish.plotted = "both";
     answer = work.answer(wish);
@@ -213,7 +215,7 @@ TEST(Probe, ALineCrossesTheWallsOfAShell) {
         EXPECT_NEAR(plot.slopes[i], 1.0, 1e-9) << i;
     }
     const std::string table = csvOf(plot);
-    EXPECT_TRUE(table.starts_with("metres,x,y,z,value,gradient\n0,-2,0,0,0.95,1\n")) << table.substr(0, 80);
+    EXPECT_TRUE(table.starts_with("along,x,y,z,value,gradient\n0,-2,0,0,0.95,1\n")) << table.substr(0, 80);
     EXPECT_EQ(std::ranges::count(table, '\n'), kSamples + 1);
     // Begun within the wall, or ended there, a stretch has no thickness.
     EXPECT_TRUE(plotOf(shell, {{-1, 0, 0}, {0, 0, 0}}).walls.empty());
@@ -250,13 +252,74 @@ TEST(Probe, WallsAreMeasuredAlongTheInwardNormal) {
 
 TEST(Probe, WhatWasMeasuredIsToldInNumbers) {
     Probe probe;
-    EXPECT_EQ(measuredWords(probe), "");
+    EXPECT_EQ(measuredWords(probe, 1, metre), "");
     probe.measured = {{1, 2, 3}};
-    EXPECT_EQ(measuredWords(probe), "");
+    EXPECT_EQ(measuredWords(probe, 1, metre), "");
     probe.measured.push_back({1, 5, 7});
-    EXPECT_EQ(measuredWords(probe), "Length 5 m\ndx 0 m   dy 3 m   dz 4 m");
+    EXPECT_EQ(measuredWords(probe, 1, metre), "Length 5 m\ndx 0 m   dy 3 m   dz 4 m");
     probe.wall = WallAt{{{0, 0, 1}, {0, 0, 0.875}}};
-    EXPECT_EQ(measuredWords(probe), "Length 5 m\ndx 0 m   dy 3 m   dz 4 m\nWall 0.125 m");
+    EXPECT_EQ(measuredWords(probe, 1, metre), "Length 5 m\ndx 0 m   dy 3 m   dz 4 m\nWall 0.125 m");
+    EXPECT_EQ(measuredWords(probe, 1, mm), "Length 5 mm\ndx 0 mm   dy 3 mm   dz 4 mm\nWall 0.125 mm");
+    probe.wall.reset();
+    probe.what = Measure::angle;
+    EXPECT_EQ(measuredWords(probe, 1, mm), "") << "two points are no angle";
+    probe.measured = {{1, 0, 0}, {0, 0, 0}, {0, 1, 0}};
+    EXPECT_EQ(measuredWords(probe, 1, mm), "Angle 90°");
+    probe.what = Measure::radius;
+    EXPECT_EQ(measuredWords(probe, 1, mm), "Radius 0.707107 mm");
+    probe.measured = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+    EXPECT_EQ(measuredWords(probe, 1, mm), "no circle");
+    probe.measured.resize(1);
+    EXPECT_EQ(measuredWords(probe, 1, mm), "");
+    probe.bend = Bend{0.25, 0.25};
+    EXPECT_EQ(measuredWords(probe, 1, mm), "Radius 4 mm");
+}
+
+TEST(Probe, AnglesAndCirclesGoThroughTheirPoints) {
+    EXPECT_NEAR(*angleOf({Point{1, 0, 0}, Point{}, Point{0, 2, 0}}), 90.0, 1e-12);
+    EXPECT_NEAR(*angleOf({Point{1, 1, 1}, Point{1, 1, 0}, Point{1, 3, 2}}), 45.0, 1e-12);
+    EXPECT_NEAR(*angleOf({Point{1, 0, 0}, Point{}, Point{-3, 1e-9, 0}}), 180.0, 1e-6);
+    EXPECT_FALSE(angleOf({Point{1, 0, 0}, Point{1, 0, 0}, Point{0, 2, 0}}));
+    // Of a circle of radius 2.5 about (1, 2, 3) in a slanted plane.
+    std::array<Point, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double turn = 0.4 + 1.7 * double(i), x = 2.5 * std::cos(turn), y = 2.5 * std::sin(turn);
+        points[i] = {1 + 0.6 * x, 2 + y, 3 + 0.8 * x};
+    }
+    const auto circle = circleThrough(points);
+    ASSERT_TRUE(circle);
+    EXPECT_NEAR(circle->radius, 2.5, 1e-12);
+    for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(circle->centre[a], double(a + 1), 1e-12);
+    EXPECT_NEAR(circle->across[0] * circle->along[0] + circle->across[1] * circle->along[1] +
+                    circle->across[2] * circle->along[2],
+                0.0, 1e-12);
+    EXPECT_FALSE(circleThrough({Point{0, 0, 0}, Point{1, 1, 1}, Point{2, 2, 2}}));
+}
+
+TEST(Probe, TheSurfaceTellsItsOwnRadius) {
+    const auto bent = [](const char* shape, const Point& at) {
+        const Tape tape = tapeOf(graphOf(std::string(shape) + R"(,
+          {"id": "out", "type": "output", "inputs": {"surface": {"from": "s"}}})"));
+        const auto bend = bendAt(tape, at, 30);
+        return bend ? bendWords(*bend, 30, mm) : "none";
+    };
+    constexpr const char* kBall = R"({"id": "s", "type": "sphere", "inputs": {"radius": 5}})";
+    EXPECT_EQ(bent(kBall, {3, 4, 0}), "Radius 5 mm");
+    EXPECT_EQ(bent(R"({"id": "s", "type": "box", "inputs": {"half_extents": [5, 5, 5]}})", {5, 1, 2}),
+              "Flat");
+    EXPECT_EQ(
+        bent(R"({"id": "s", "type": "cylinder", "inputs": {"radius": 4, "half_height": 9}})", {0, 1, 4}),
+        "Radius 4 mm, straight across");
+    EXPECT_EQ(bent(R"({"id": "s", "type": "torus", "inputs": {"major_radius": 10, "minor_radius": 2}})",
+                   {12, 0, 0}),
+              "Radii 2 mm and 12 mm");
+    EXPECT_EQ(
+        bent(R"({"id": "s", "type": "torus", "inputs": {"major_radius": 10, "minor_radius": 2}})", {8, 0, 0}),
+        "Radii 2 mm and 8 mm hollow");
+    // No distance, and three times too steep: the surface is the same.
+    EXPECT_EQ(
+        bent(R"({"id": "s", "type": "expression", "code": "return (dot(p, p) - 25.0) * 3.0;"})", {0, 3, 4}),
+        "Radius 5 mm");
 }
 
 TEST(Probe, WiresAreTrustedAsFarAsTheirDistance) {

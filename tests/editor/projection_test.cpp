@@ -72,10 +72,12 @@ TEST(Projection, RoundLengthsAreOneTwoOrFive) {
     EXPECT_DOUBLE_EQ(roundDown125(0.19), 0.1);
     EXPECT_DOUBLE_EQ(roundDown125(9.9), 5.0);
     EXPECT_DOUBLE_EQ(roundDown125(1000.0), 1000.0);
-    EXPECT_EQ(lengthWords(0.5), "50 cm");
-    EXPECT_EQ(lengthWords(2000.0), "2 km");
-    EXPECT_EQ(lengthWords(0.001), "1 mm");
-    EXPECT_EQ(lengthWords(1.0), "1 m");
+    EXPECT_EQ(lengthWords(0.5, *lengthUnit("m")), "50 cm");
+    EXPECT_EQ(lengthWords(2000.0, *lengthUnit("m")), "2 km");
+    EXPECT_EQ(lengthWords(0.001, *lengthUnit("m")), "1 mm");
+    EXPECT_EQ(lengthWords(1.0, *lengthUnit("m")), "1 m");
+    EXPECT_EQ(lengthWords(50.0, *lengthUnit("mm")), "5 cm") << "as a part in millimetres is";
+    EXPECT_EQ(lengthWords(0.5, *lengthUnit("in")), "0.5 in");
 }
 
 TEST(Ground, LinesLieOnThePlaneThatIsLookedAt) {

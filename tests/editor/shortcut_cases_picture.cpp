@@ -181,6 +181,12 @@ const Cases& pictureCases() {
          }},
         {"picture.measure",
          [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Length: click two points"); }},
+        {"picture.angle",
+         [](Program& p, const std::string& keys) {
+             takeUpMeasure(p, keys, "Angle: click a point of one side");
+         }},
+        {"picture.radius",
+         [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Radius: click the solid"); }},
         {"picture.wall",
          [](Program& p, const std::string& keys) { takeUpMeasure(p, keys, "Wall: click the solid"); }},
         {"picture.line",

@@ -223,6 +223,13 @@ TEST(MeshReport, JsonHasTheDocumentedKeysInOrder) {
                                               "area",
                                               "boundsMin",
                                               "boundsMax",
+                                              "size",
+                                              "centreOfMass",
+                                              "density",
+                                              "mass",
+                                              "leastWall",
+                                              "leastGap",
+                                              "units",
                                               "maxError",
                                               "meanError",
                                               "selfIntersections",
@@ -246,6 +253,35 @@ TEST(MeshReport, JsonHasTheDocumentedKeysInOrder) {
     EXPECT_EQ(json["capped"], true);
     EXPECT_EQ(json["stages"]["mesh"], 2.25);
     EXPECT_EQ(json["peakMemoryBytes"], 123);
+}
+
+TEST(MeshReport, TellsSizeMassAndWhereTheMiddleIs) {
+    // A cube of side 2 about (10, 0, 0) with one of side 1 about (10.5, 0, 0) taken out, in centimetres.
+    Mesh hollow = test::cube();
+    for (std::size_t i = 0; i < hollow.indices.size(); i += 3)
+        std::swap(hollow.indices[i], hollow.indices[i + 1]);
+    for (glm::vec3& p : hollow.positions) p = p * 0.5f + glm::vec3(0.25f, 0, 0);
+    Report report = reportOf(test::moved(test::join(test::cube(), hollow), glm::vec3(10, 0, 0)));
+    EXPECT_NEAR(report.volume, 7.0, 1e-12);
+    EXPECT_NEAR(report.centre[0], 10 - 0.25 / 7.0, 1e-12);
+    EXPECT_NEAR(report.centre[1], 0.0, 1e-12);
+    EXPECT_EQ(report.extent(), (std::array<double, 3>{2, 2, 2}));
+    EXPECT_FALSE(report.mass());
+    report.density = 2.5;
+    report.unit = "cm";
+    EXPECT_NEAR(*report.mass(), 17.5, 1e-12);
+    const auto json = nlohmann::json::parse(writeReport(report));
+    EXPECT_NEAR(json["mass"].get<double>(), 17.5, 1e-12);
+    EXPECT_EQ(json["units"]["volume"], "cm³");
+    EXPECT_EQ(json["units"]["mass"], "g");
+    const std::string words = reportWords(report);
+    for (const char* line : {"Size: 2 × 2 × 2 cm\n", "Volume: 7 cm³\n", "Mass: 17.5 g at 2.5 g/cm³\n",
+                             "Centre of mass: 9.96429, 0, 0 cm\n", "Closed: yes\n", "Cavities: 1\n"})
+        EXPECT_NE(words.find(line), std::string::npos) << words;
+    report.unit = "in";
+    EXPECT_NEAR(*report.mass(), 17.5 * std::pow(2.54, 3), 1e-9);
+    report.unit = "m";
+    EXPECT_NE(reportWords(report).find("Mass: 17500 kg"), std::string::npos) << reportWords(report);
 }
 
 TEST(MeshReport, IsRefusedWhereThereIsNoMemoryForIt) {
