@@ -89,8 +89,8 @@ TEST(EndToEndUnits, ClicksOnTheSolidMeasureInTheDocumentsUnit) {
     };
 
     // The ball's own radius where it is clicked, and that of a circle through three of its points.
-    toPicture();
-    program.keys("Shift+R");
+    const Area side{{program.view.panel.hi.x, 470}, {1276, 790}};
+    program.clickOn("Radius", side);
     program.waitFor("Radius: click the solid");
     program.click(middle);
     program.waitFor("Radius: two more are a circle");
@@ -106,8 +106,7 @@ TEST(EndToEndUnits, ClicksOnTheSolidMeasureInTheDocumentsUnit) {
     EXPECT_GT(radius, 1.0);
 
     // The corner is the second of three points.
-    toPicture();
-    program.keys("Shift+N");
+    program.clickOn("Angle", side);
     program.waitFor("Angle: click a point of one side");
     program.click({middle.x + 50, middle.y});
     program.waitFor("Angle: click the corner");
