@@ -17,13 +17,25 @@ struct NamedTable {
 };
 // Tables of processes come first: the system counts this process's memory at a spawn towards that of the new
 // one.
-const NamedTable kTables[] = {
-    {"process", processTable},     {"export", exportTable},     {"large", largeTable},
-    {"mesher", mesherTable},       {"prune", pruneTable},       {"outlines", outlinesTable},
-    {"decimate", decimateTable},   {"textures", texturesTable}, {"mesh-to-field", meshFieldTable},
-    {"particles", particlesTable}, {"talk", talkTable},         {"tapes", tapesTable},
-    {"live", liveTable},           {"compile", compileTable},   {"editor", editorTable},
-    {"interface", interfaceTable}, {"light", lightTable},       {"peaks", peaksTable}};
+const NamedTable kTables[] = {{"process", processTable},
+                              {"export", exportTable},
+                              {"large", largeTable},
+                              {"mesher", mesherTable},
+                              {"prune", pruneTable},
+                              {"outlines", outlinesTable},
+                              {"implicit3mf", implicit3mfTable},
+                              {"decimate", decimateTable},
+                              {"textures", texturesTable},
+                              {"mesh-to-field", meshFieldTable},
+                              {"particles", particlesTable},
+                              {"talk", talkTable},
+                              {"tapes", tapesTable},
+                              {"live", liveTable},
+                              {"compile", compileTable},
+                              {"editor", editorTable},
+                              {"interface", interfaceTable},
+                              {"light", lightTable},
+                              {"peaks", peaksTable}};
 
 /// The value behind the first "key : value" of a file of such lines; empty if there is none.
 std::string lineValue(const char* path, const std::string& key) {

@@ -26,25 +26,26 @@ struct Bench {
     }
 };
 
-void mesherTable(Bench& bench);     ///< ours against the baseline, four fields
-void pruneTable(Bench& bench);      ///< a thousand shapes
-void decimateTable(Bench& bench);   ///< a million triangles to a tenth, beside meshoptimizer
-void meshFieldTable(Bench& bench);  ///< triangle meshes to fields
-void particlesTable(Bench& bench);  ///< particles to fields, and then the next
-void fluidTable(Bench& bench);      ///< steps of a fluid
-void texturesTable(Bench& bench);   ///< meshes unwrapped, and baked
-void talkTable(Bench& bench);       ///< the slide's table
-void exportTable(Bench& bench);     ///< sequences, sweeps, compressed files
-void processTable(Bench& bench);    ///< the command itself, from graph file to mesh file
-void tapesTable(Bench& bench);      ///< fields on the host
-void outlinesTable(Bench& bench);   ///< drawings and letters beside a rectangle
-void largeTable(Bench& bench);      ///< fields that a driver compiles for long
-void liveTable(Bench& bench);       ///< a live parameter changes
-void compileTable(Bench& bench);    ///< a graph's structure changes
-void editorTable(Bench& bench);     ///< the editor's preview: a hand moves, a structure changes
-void interfaceTable(Bench& bench);  ///< the editor in a window: frames, opening, undo, rest
-void lightTable(Bench& bench);      ///< ambient occlusion, beside the slide
-void peaksTable(Bench& bench);      ///< what the device can do at most
+void mesherTable(Bench& bench);       ///< ours against the baseline, four fields
+void pruneTable(Bench& bench);        ///< a thousand shapes
+void decimateTable(Bench& bench);     ///< a million triangles to a tenth, beside meshoptimizer
+void meshFieldTable(Bench& bench);    ///< triangle meshes to fields
+void particlesTable(Bench& bench);    ///< particles to fields, and then the next
+void fluidTable(Bench& bench);        ///< steps of a fluid
+void texturesTable(Bench& bench);     ///< meshes unwrapped, and baked
+void talkTable(Bench& bench);         ///< the slide's table
+void exportTable(Bench& bench);       ///< sequences, sweeps, compressed files
+void processTable(Bench& bench);      ///< the command itself, from graph file to mesh file
+void tapesTable(Bench& bench);        ///< fields on the host
+void implicit3mfTable(Bench& bench);  ///< 3MF files of functions: import, compile, mesh
+void outlinesTable(Bench& bench);     ///< drawings and letters beside a rectangle
+void largeTable(Bench& bench);        ///< fields that a driver compiles for long
+void liveTable(Bench& bench);         ///< a live parameter changes
+void compileTable(Bench& bench);      ///< a graph's structure changes
+void editorTable(Bench& bench);       ///< the editor's preview: a hand moves, a structure changes
+void interfaceTable(Bench& bench);    ///< the editor in a window: frames, opening, undo, rest
+void lightTable(Bench& bench);        ///< ambient occlusion, beside the slide
+void peaksTable(Bench& bench);        ///< what the device can do at most
 
 /// A graph of about `nodes` nodes: boxes, each moved to its place, joined and cut from one another in turn.
 /// `difference` enters a size, so that no cache knows the code.
