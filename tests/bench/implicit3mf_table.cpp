@@ -42,7 +42,7 @@ std::string manyFunctions() {
     for (int f = 0; f < kFunctions; ++f) {
         std::string nodes, last = "first.result";
         nodes += nodeText("constvec", "step", "", "<i:vector identifier=\"vector\"/>",
-                          " x=\"4\" y=\"0.5\" z=\"3\"");
+                          " x=\"0.3\" y=\"0.04\" z=\"0.2\"");
         nodes += nodeText("length", "first", vector("A", "inputs.pos"), result);
         for (int i = 0; i < kBalls / 3; ++i) {
             const std::string n = std::to_string(i);

@@ -41,7 +41,7 @@ void checkMesh(Bench& bench, const char* what, const MesherBuffers& buffers, con
 void playedTable(Bench& bench) {
     Table table{.title = "A frame that is played, a tenth of a second on (640x360, 64 cells)",
                 .header = {"sample", "ms", "submissions", "awaited"}};
-    constexpr int kFrames = 12;
+    constexpr int kPlayedFrames = 12;
     for (const char* sample : {"dam_break", "fountain", "moving_booleans"}) {
         PlayerOptions options{.device = bench.options.device, .resolution = 64};
         Result<Player> player = Player::open(benchSample(sample), options);
@@ -51,7 +51,7 @@ void playedTable(Bench& bench) {
         Figure figure;
         const DeviceRecord& device = *player->device().record;
         uint64_t submitted = 0, awaited = 0;
-        for (int frame = -4; frame < kFrames; ++frame) {
+        for (int frame = -4; frame < kPlayedFrames; ++frame) {
             if (frame == 0) submitted = device.submissions, awaited = device.waits;
             const auto start = Clock::now();
             player->seek(0.1 * (frame + 4));
@@ -60,8 +60,9 @@ void playedTable(Bench& bench) {
             if (frame >= 0) figure.runs.push_back(millisecondsSince(start));
         }
         std::ranges::sort(figure.runs);
-        table.rows.push_back({sample, text(figure), number(double(device.submissions - submitted) / kFrames),
-                              number(double(device.waits - awaited) / kFrames)});
+        table.rows.push_back({sample, text(figure),
+                              number(double(device.submissions - submitted) / kPlayedFrames),
+                              number(double(device.waits - awaited) / kPlayedFrames)});
     }
     table.notes = {
         "Steps, samples, mesh and picture are sent one behind the other. Awaited are the mesh, for its "

@@ -297,11 +297,38 @@ TEST_F(Command, HelpOfEveryCommandSaysWhatThereIs) {
           "--report", "--device", "--tiles", "--tile", ".part", "Exit status"});
     help({"merge"}, {"PART...", "-o,--output", ".glb .gltf .stl .ply"});
     help({"check"}, {"GRAPH...", "file:line:column"});
+    help({"import"}, {"FILE", "-o,--output", ".3mf", "--overwrite"});
     help({"eval"}, {"--at", "--gradient", "--interval", "negative inside"});
     help({"compile"}, {"--emit", "glsl", "spirv", "--live", "node.input"});
     help({"nodes"}, {"--json", "--markdown"});
     help({"info"}, {"Show the version"});
     help({"bench"}, {"mesher", "--repeats"});
+}
+
+TEST_F(Command, FieldsGoInto3mfFilesAndComeBack) {
+    const std::string file = folder.path("ball.3mf"), again = folder.path("again.field.json");
+    const CommandResult exported = runCommand({"export", graph, "-o", file, "--implicit"});
+    EXPECT_EQ(exported.status, 0) << exported.errors;
+    EXPECT_EQ(exported.output, "");
+    const CommandResult imported = runCommand({"import", file, "-o", again});
+    EXPECT_EQ(imported.status, 0) << imported.errors;
+    EXPECT_EQ(imported.output, again + "\n");
+    for (const std::string place : {"0.3", "1.7", "2.01"}) {
+        const std::string there = runCommand({"eval", again, "--at", place, "0", "0"}).output;
+        EXPECT_NEAR(std::atof(there.c_str()), valueAt({"--at", place, "0", "0"}), 1e-9) << place;
+    }
+    expectRefusal(runCommand({"import", file, "-o", again}), 1, {"is there already", "--overwrite"});
+    EXPECT_EQ(runCommand({"import", file, "-o", again, "--overwrite"}).status, 0);
+    expectRefusal(runCommand({"import", graph}), 1, {"is of no format that is read", ".3mf"});
+    expectRefusal(runCommand({"import", folder.path("gone.3mf")}), 1, {"gone.3mf", "is not there"});
+    test::writeText(file, "PK but no archive");
+    expectRefusal(runCommand({"import", file, "-o", folder.path("b.field.json")}), 1,
+                  {"ball.3mf: error", "damaged"});
+    expectRefusal(runCommand({"export", graph, "-o", mesh, "--implicit"}), 2,
+                  {"functions go into a .3mf file"});
+    expectRefusal(runCommand({"export", graph, "-o", file, "--implicit", "--lods", "2"}), 2,
+                  {"--lods excludes --implicit"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"again.field.json", "ball.3mf", "ball.field.json"}));
 }
 
 TEST_F(Command, ResultsAloneGoToStandardOutput) {
