@@ -74,7 +74,8 @@ Aside::Answer answerClick(ProbeWork& work, const Seen& seen, glm::dvec2 place, M
             if (points.size() >= 2) points.clear();
             return points.push_back(hit);
         }
-        if (points.size() >= pointsOf(tool) || std::exchange(probe.what, tool) != tool) points.clear();
+        const bool another = std::exchange(probe.what, tool) != tool;
+        if (another || points.size() >= pointsOf(tool)) points.clear();
         if (points.empty()) probe.bend = bend;
         points.push_back(hit);
     };

@@ -81,20 +81,22 @@ TEST(EndToEndUnits, ClicksOnTheSolidMeasureInTheDocumentsUnit) {
         program.moveTo({middle.x + float(++rested % 2 * 5), middle.y});
         program.save();  // keys count over the picture once the mouse is seen there
     };
+    const Area side{{program.view.panel.hi.x, 470}, {1276, 790}};
     const auto copied = [&](const std::string& begins) {
-        const Area words = program.waitFor(begins, Area{{program.view.panel.hi.x, 470}, {1276, 790}});
-        program.clickOn("Copy", Area{{program.view.panel.hi.x, words.lo.y - 40}, {1280, words.lo.y}});
+        program.clipboard("nothing yet");
+        const Area tool = program.waitFor("Wall", side);  // the last of its row
+        program.clickOn("Copy", Area{{tool.hi.x, tool.lo.y - 10}, {1280, tool.hi.y + 10}});
         eventually([&] { return program.clipboard().starts_with(begins); });
         return program.clipboard();
     };
 
     // The ball's own radius where it is clicked, and that of a circle through three of its points.
-    const Area side{{program.view.panel.hi.x, 470}, {1276, 790}};
     program.clickOn("Radius", side);
     program.waitFor("Radius: click the solid");
     program.click(middle);
     program.waitFor("Radius: two more are a circle");
-    EXPECT_EQ(copied("Radius"), "Radius 50 mm");
+    program.waitFor("Radius 50 mm", side);
+    EXPECT_EQ(copied("Radius 50 mm"), "Radius 50 mm");
     program.click({middle.x + 40, middle.y});
     program.waitFor("Radius: click the circle's last point");
     program.click({middle.x, middle.y + 40});
@@ -122,7 +124,7 @@ TEST(EndToEndUnits, ClicksOnTheSolidMeasureInTheDocumentsUnit) {
     // Escape clears what was measured, then puts the tool down.
     toPicture();
     program.keys("Escape");
-    program.waitUntilGone("Angle ");
+    program.waitFor("Angle: click a point of one side");
     toPicture();
     program.keys("Escape");
     program.waitUntilGone("Angle: click a point of one side");
