@@ -17,8 +17,10 @@ bool isVector(const InputSpec& input) {
     return input.type == Type::vec3 && input.value.kind == InputDefault::Kind::numbers;
 }
 
-/// Whether the body looks this surface up at another position.
+/// Whether the body looks this surface up at another position. What combines surfaces does so for their
+/// slopes alone.
 bool looksUpElsewhere(const NodeType& type, const std::string& surface) {
+    if (type.category == Category::combine) return false;
     const auto isLetter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
     for (std::size_t at = type.body.find(surface + "("); at != std::string::npos;
          at = type.body.find(surface + "(", at + 1))

@@ -188,7 +188,7 @@ std::vector<NodeType> latticeNodes() {
          .category = Category::shape,
          .doc = "Closed cells of all shapes about scattered points, with walls between them, without end.",
          .inputs =
-             {positionInput(), gripped(kRight, positiveLength("cell", 0.5, "Size of a cell, on average.")),
+             {positionInput(), positiveLength("cell", 0.5, "Size of a cell, on average."),
               length("thickness", 0.05,
                      "Of the walls, from side to side, below 0.3 of a cell; any field, for what is graded."),
               integer("seed", 0, 0, 1 << 24, "Another one scatters other points.")},
