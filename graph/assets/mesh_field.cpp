@@ -12,6 +12,7 @@
 #include <mutex>
 #include <utility>
 
+#include "graph/assets/grid_around.h"
 #include "graph/assets/image.h"
 #include "graph/base/hash.h"
 #include "graph/base/parallel.h"
@@ -20,9 +21,6 @@ namespace fw {
 
 namespace {
 
-// Cells between the mesh's box and the grid's end. No whole number, so that the sides of a box do not go
-// through samples, where the edges between them would have no gradient.
-constexpr double kPadding = 2.37;
 constexpr double kThin = 2.5;  // cells: what is thinner loses parts
 constexpr int kCoarse = 4;     // cells between the samples from which membranes are looked for
 constexpr float kCrossing =
@@ -40,22 +38,14 @@ void boundsOf(const TriangleMesh& mesh, glm::dvec3& lo, glm::dvec3& hi) {
 Result<VolumeGrid> gridOf(const MeshFieldRecipe& recipe) {
     glm::dvec3 lo, hi;
     boundsOf(*recipe.mesh, lo, hi);
-    const glm::dvec3 size = hi - lo + 2.0 * recipe.margin;
-    const double longest = std::max({size.x, size.y, size.z});
-    VolumeGrid grid;
-    grid.cell = longest / (recipe.resolution - 1 - 2 * kPadding);
-    // Below, squares of lengths leave the range of single precision.
-    if (!(grid.cell >= 1e-15) || !(grid.cell <= 1e14))
+    const VolumeGrid grid = gridAround(lo, hi, recipe.resolution, recipe.margin);
+    if (!hasUsableCells(grid)) {
+        const glm::dvec3 size = hi - lo;
         return Error{.message = meshName(*recipe.mesh) + " is " +
                                 (!(grid.cell > 1.0) ? "a single point, or nearly: scale it"
-                                 : recipe.margin > 0.5 * (longest - 2.0 * recipe.margin)
+                                 : recipe.margin > 0.5 * std::max({size.x, size.y, size.z})
                                      ? "lost in its margin: lower that"
                                      : "too large: scale it")};
-    for (int axis = 0; axis < 3; ++axis) {
-        const int cells = int(std::ceil(size[axis] / grid.cell + 2.0 * kPadding - 1e-9));
-        grid.size[axis] = std::min(cells + 1, recipe.resolution);
-        grid.origin[axis] = 0.5 * (lo[axis] + hi[axis]) - 0.5 * grid.cell * (grid.size[axis] - 1);
-        grid.inset[axis] = 0.5 * (grid.cell * (grid.size[axis] - 1) - (hi[axis] - lo[axis]));
     }
     if (kTexelBytes * grid.samples() > kMostVolumeBytes)
         return Error{.message = meshName(*recipe.mesh) + " would take more than " +

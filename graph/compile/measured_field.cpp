@@ -9,6 +9,7 @@
 #include <mutex>
 #include <utility>
 
+#include "graph/assets/grid_around.h"
 #include "graph/assets/mesh_field.h"
 #include "graph/base/hash.h"
 #include "graph/base/parallel.h"
@@ -18,11 +19,10 @@ namespace fw {
 
 namespace {
 
-constexpr double kPadding = 2.37;  // cells between the solid's box and the grid's end, as of meshes
-constexpr int kBlock = 8;          // samples along a side of what is looked at with one tape
-constexpr double kReach = 4.0;     // cells around a block in which nearest points are looked for
-constexpr int kSteps = 16;         // towards a nearest point
-constexpr double kRefined = 8.0;   // cells from the surface, where points are sought after the sweeps too
+constexpr int kBlock = 8;         // samples along a side of what is looked at with one tape
+constexpr double kReach = 4.0;    // cells around a block in which nearest points are looked for
+constexpr int kSteps = 16;        // towards a nearest point
+constexpr double kRefined = 8.0;  // cells from the surface, where points are sought after the sweeps too
 constexpr int kRefiningSteps = 6;
 constexpr float kCreased = 0.15f;    // between the direction to the nearest point and the distances' slope
 constexpr double kOnSurface = 1e-3;  // cells
@@ -245,24 +245,6 @@ class Measuring {
     NearestPoints nearest;
 };
 
-Result<VolumeGrid> gridAround(const Box& box, int resolution, double margin) {
-    glm::dvec3 lo, hi;
-    for (int axis = 0; axis < 3; ++axis)
-        lo[axis] = box.lo[std::size_t(axis)], hi[axis] = box.hi[std::size_t(axis)];
-    const glm::dvec3 size = hi - lo + 2.0 * margin;
-    VolumeGrid grid;
-    grid.cell = std::max({size.x, size.y, size.z}) / (resolution - 1 - 2 * kPadding);
-    if (!(grid.cell >= 1e-15) || !(grid.cell <= 1e14))
-        return Error{.message = "the solid is too small or too large for distances to be measured: scale it"};
-    for (int axis = 0; axis < 3; ++axis) {
-        const int cells = int(std::ceil(size[axis] / grid.cell + 2.0 * kPadding - 1e-9));
-        grid.size[axis] = std::clamp(cells + 1, 2, resolution);
-        grid.origin[axis] = 0.5 * (lo[axis] + hi[axis]) - 0.5 * grid.cell * (grid.size[axis] - 1);
-        grid.inset[axis] = 0.5 * (grid.cell * (grid.size[axis] - 1) - (hi[axis] - lo[axis]));
-    }
-    return grid;
-}
-
 }  // namespace
 
 Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish) {
@@ -282,11 +264,13 @@ Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish) {
         return Error{.message =
                          "has no end, so that its distances cannot be measured: intersect it with "
                          "what bounds it first"};
-    const Result<VolumeGrid> grid =
-        gridAround(region.box, std::min(wish.resolution, wish.finest), wish.margin);
-    if (!grid) return grid.error();
+    const auto& [lo, hi] = region.box;
+    const VolumeGrid grid = gridAround({lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]},
+                                       std::min(wish.resolution, wish.finest), wish.margin);
+    if (!hasUsableCells(grid))
+        return Error{.message = "the solid is too small or too large for distances to be measured: scale it"};
     const Tape tape = makeTape(ir, wish.distance, {});
-    const FieldVolumePtr volume = Measuring(tape, *grid).measure();
+    const FieldVolumePtr volume = Measuring(tape, grid).measure();
     if (wish.finest >= wish.resolution) {
         const std::lock_guard lock(mutex);
         known[key] = volume;

@@ -210,15 +210,18 @@ class ModelReader {
 
     // ---- functions
 
+    /// None, told, if there is no such type.
+    auto typeOf(const Xml& node, const std::string& whose) {
+        const auto type = valueTypeOf(nameOf(node));
+        if (!type) fail(whose + " has a value of the unknown type " + inQuotes(nameOf(node)));
+        return type;
+    }
     std::vector<Socket> sockets(const Xml& list, const std::string& whose) {
         std::vector<Socket> result;
         for (const Xml& node : list.children()) {
             if (nameOf(node).empty()) continue;
-            const auto type = valueTypeOf(nameOf(node));
-            if (!type) {
-                fail(whose + " has a value of the unknown type " + inQuotes(nameOf(node)));
-                continue;
-            }
+            const auto type = typeOf(node, whose);
+            if (!type) continue;
             result.push_back({std::string(get(node, "identifier")), *type});
         }
         return result;
@@ -228,11 +231,8 @@ class ModelReader {
         std::vector<Reference> result;
         for (const Xml& node : list.children()) {
             if (nameOf(node).empty()) continue;
-            const auto type = valueTypeOf(nameOf(node));
-            if (!type) {
-                fail(whose + " has a value of the unknown type " + inQuotes(nameOf(node)));
-                continue;
-            }
+            const auto type = typeOf(node, whose);
+            if (!type) continue;
             const std::string_view ref = get(node, "ref");
             const std::size_t dot = ref.find('.');
             Reference& made =

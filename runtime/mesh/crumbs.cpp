@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
-#include <numbers>
 
+#include "graph/assets/triangle_tree.h"
 #include "runtime/mesh/joined_sets.h"
 
 namespace fw {
@@ -28,32 +28,22 @@ struct Sheet {
     }
 };
 
-/// Whether a sheet goes around a place, by its solid angle there (Van Oosterom and Strackee 1983).
+/// Whether a sheet goes around a place, by its solid angle there.
 bool encloses(const Mesh& mesh, const Sheet& sheet, const glm::dvec3& place) {
-    double angle = 0.0;
+    double share = 0.0;
     for (const uint32_t triangle : sheet.triangles) {
-        std::array<glm::dvec3, 3> a;
-        for (std::size_t k = 0; k < 3; ++k)
-            a[k] = glm::dvec3(mesh.positions[mesh.indices[3 * std::size_t(triangle) + k]]) - place;
-        const double l0 = glm::length(a[0]), l1 = glm::length(a[1]), l2 = glm::length(a[2]);
-        angle += 2.0 * std::atan2(glm::dot(a[0], glm::cross(a[1], a[2])),
-                                  l0 * l1 * l2 + glm::dot(a[0], a[1]) * l2 + glm::dot(a[1], a[2]) * l0 +
-                                      glm::dot(a[2], a[0]) * l1);
+        const auto corner = [&](std::size_t k) {
+            return glm::dvec3(mesh.positions[mesh.indices[3 * std::size_t(triangle) + k]]) - place;
+        };
+        share += solidAngle(corner(0), corner(1), corner(2));
     }
-    return std::abs(angle) > 2.0 * std::numbers::pi;
+    return std::abs(share) > 0.5;
 }
 
 /// Those of a mesh whose vertices at one place are one, or doubled at creases.
 std::vector<Sheet> sheetsOf(const Mesh& mesh) {
     JoinedSets sets(mesh.positions.size());
-    std::vector<uint32_t> order(mesh.positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](uint32_t v) {
-        return std::array{mesh.positions[v].x, mesh.positions[v].y, mesh.positions[v].z};
-    };
-    std::ranges::sort(order, {}, key);
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (mesh.positions[order[i - 1]] == mesh.positions[order[i]]) sets.join(order[i - 1], order[i]);
+    joinPlaces(mesh.positions, sets);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) sets.join(mesh.indices[i], mesh.indices[i - i % 3]);
     std::map<uint32_t, std::size_t> numbers;
     std::vector<Sheet> sheets;

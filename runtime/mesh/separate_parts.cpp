@@ -1,28 +1,10 @@
 #include "runtime/mesh/separate_parts.h"
 
-#include <algorithm>
-#include <numeric>
+#include <cstdint>
 
 #include "runtime/mesh/joined_sets.h"
 
 namespace fw {
-
-namespace {
-
-/// Joins the vertices that lie at one place.
-void joinPlaces(const std::vector<glm::vec3>& positions, JoinedSets& sets) {
-    std::vector<uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto before = [&](uint32_t a, uint32_t b) {
-        const glm::vec3 p = positions[a], q = positions[b];
-        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
-    };
-    std::sort(order.begin(), order.end(), before);
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (positions[order[i - 1]] == positions[order[i]]) sets.join(order[i - 1], order[i]);
-}
-
-}  // namespace
 
 std::vector<Mesh> separateParts(const Mesh& mesh) {
     JoinedSets sets(mesh.positions.size());
