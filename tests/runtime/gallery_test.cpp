@@ -53,7 +53,7 @@ class GalleryLight : public Gallery {};
 
 std::vector<fs::path> someSamples() {
     std::vector<fs::path> some = samples();
-    const std::set<std::string> quick = {"figure", "table_and_stool", "talk_5_holes", "tower"};
+    const std::set<std::string> quick = {"figure", "table_and_stool", "talk_5_holes"};
     if (!std::getenv("FIELDWRIGHT_LONG"))
         std::erase_if(some, [&](const fs::path& sample) { return !quick.contains(nameOf(sample)); });
     return some;
@@ -62,10 +62,10 @@ std::vector<fs::path> someSamples() {
 /// But for those that take the longest, of which other tests make pictures; all with FIELDWRIGHT_LONG.
 std::vector<fs::path> mostSamples() {
     std::vector<fs::path> most = samples();
-    const std::set<std::string> slow = {"breaker",       "tap",          "glass_of_water", "wet_city",
-                                        "tidal_wave",    "drop_in_bowl", "mesh_morph",     "eroded_duck",
-                                        "camera_flight", "blobs",        "cornell_box",    "leaf_relief",
-                                        "light_part",    "goblet",       "mushroom",       "menger"};
+    const std::set<std::string> slow = {
+        "breaker",    "tap",         "glass_of_water", "wet_city", "tidal_wave",  "drop_in_bowl",
+        "mesh_morph", "eroded_duck", "camera_flight",  "blobs",    "cornell_box", "leaf_relief",
+        "light_part", "goblet",      "mushroom",       "menger",   "gear_pair",   "engraved_sign"};
     if (!std::getenv("FIELDWRIGHT_LONG"))
         std::erase_if(most, [&](const fs::path& sample) { return slow.contains(nameOf(sample)); });
     return most;

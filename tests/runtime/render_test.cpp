@@ -202,6 +202,7 @@ TEST(Render, FromBelowThereIsNoGround) {
 }
 
 TEST(Render, WhatIsOutOfFocusIsBlurredAsTheLensSays) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     // The edge of a plate four metres away. Of a disc's blur, half as wide as the disc is far from the focus,
     // nine tenths less a tenth of the change lie within 0.687 of its width.
     RenderOptions options{.width = 320, .height = 40, .samples = 128, .show = RENDER_BASE};
@@ -510,6 +511,7 @@ std::vector<Camera> comingFrom(double step, int frames) {
 }
 
 TEST(Render, AViewThatMovesIsAntialiased) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     // A leaning black fence before the sky that moves by less than a pixel a frame: its edges are grey.
     const char* nodes = R"(
         {"id": "bar", "type": "box", "inputs": {"half_extents": [0.1, 1, 0.1]}},

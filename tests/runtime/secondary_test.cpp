@@ -59,6 +59,7 @@ double difference(const Picture& a, const Picture& b) {
 }
 
 TEST_F(Secondary, AWhiteBallInAWhiteSkyVanishes) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     // 0.5 is grey in the picture, so that more and less light show.
     const std::string furnace =
         R"("sun": false, "ground": false, "bounce": true, "reflections": true,
@@ -161,6 +162,7 @@ Camera turned(const Player& player, double degrees) {
 }
 
 TEST_F(Secondary, AfterFiveDegreesThereAreNoGhosts) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     for (const char* name : {"cornell_box", "wet_city"}) {
         if (name == std::string("wet_city") && !std::getenv("FIELDWRIGHT_LONG")) continue;
         SCOPED_TRACE(name);

@@ -109,6 +109,7 @@ TEST(Sprites, FollowWhatMovesTurnsAndScalesTheirField) {
 }
 
 TEST(Sprites, BeyondTheGridAreLitAndBelowTheGroundHidden) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "a quarter of a minute: with FIELDWRIGHT_LONG";
     const double inside = blueOf(Drawn("0.7 0 0\n").picture(RENDER_SPHERES)).count;
     EXPECT_NEAR(blueOf(Drawn("1.1 0 0\n").picture(RENDER_SPHERES)).count, inside, 0.08 * inside);
     const Picture none = Drawn("0 -9 0\n").picture(RENDER_SPHERES),

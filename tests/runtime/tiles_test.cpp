@@ -296,9 +296,11 @@ struct TilesCommand : testing::Test {
     }
 };
 
+/// Of one format without FIELDWRIGHT_LONG.
 TEST_F(TilesCommand, FilesHoldTheSameMeshAsWithoutTiles) {
     fs::create_directory(folder.path("whole"));
     for (const char* name : {"a.ply", "a.stl", "a.glb", "a.gltf", "a.obj"}) {
+        if (name != std::string("a.gltf") && !std::getenv("FIELDWRIGHT_LONG")) continue;
         SCOPED_TRACE(name);
         const std::string path = folder.path(name), other = folder.path(std::string("whole/") + name);
         expectDone(to(name));
