@@ -103,8 +103,12 @@ bool staysAsItIs(const Node& node) {
 
 void reckon(InputValue& value, int power, double factor) {
     if (auto* number = std::get_if<double>(&value.value)) *number = reckonedInto(*number, power, factor);
-    if (auto* list = std::get_if<std::vector<double>>(&value.value))
-        for (double& number : *list) number = reckonedInto(number, power, factor);
+    auto* list = std::get_if<std::vector<double>>(&value.value);
+    if (!list) return;
+    // Of knots only the places are lengths.
+    const std::size_t size = value.entry == entrySize(Type::knots) ? 5 : 1, lengths = size == 5 ? 3 : 1;
+    for (std::size_t i = 0; i < list->size(); ++i)
+        if (i % size < lengths) (*list)[i] = reckonedInto((*list)[i], power, factor);
 }
 
 class Reckoning {

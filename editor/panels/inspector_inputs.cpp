@@ -7,6 +7,7 @@
 #include "editor/panels/inspector.h"
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
+#include "editor/splines/edits.h"
 #include "editor/timeline/fields_in_time.h"
 #include "graph/document/input_value.h"
 #include "graph/document/named_parameters.h"
@@ -122,6 +123,63 @@ void showPoints(const Input& input) {
     }
 }
 
+/// Each knot's place in one line, and what else it has in the next.
+void showKnots(const Input& input) {
+    const std::optional<splines::Knots> knots = splines::knotsOf(*input.box.node);
+    if (!knots) return;
+    if (!ImGui::TreeNode("knots", "%zu points", knots->count())) return;
+    const float line = 2 * ImGui::GetFrameHeightWithSpacing();
+    ImGui::BeginChild("##knots",
+                      {0, line * float(std::clamp<std::size_t>(knots->count(), 1, kPointsShown / 2))});
+    std::optional<splines::Knots> changed;
+    const auto part = [&](const char* id, std::size_t at, std::size_t many, const char* unit) {
+        std::vector<double> now(knots->numbers.begin() + std::ptrdiff_t(at),
+                                knots->numbers.begin() + std::ptrdiff_t(at + many));
+        editNumbers(input.editor, id, now, {.unit = unit}, input.setName(),
+                    [numbers = knots->numbers, at, scope = std::string(input.scope()), plug = input.plug](
+                        const Graph& graph, std::span<const double> to) mutable {
+                        std::ranges::copy(to, numbers.begin() + std::ptrdiff_t(at));
+                        return setInput(graph, scope, plug, listValue(Type::knots, numbers));
+                    });
+    };
+    ImGuiListClipper clipper;
+    clipper.Begin(int(knots->count()), line);
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const auto knot = std::size_t(i);
+            ImGui::PushID(i);
+            ImGui::SetNextItemWidth(-2.6f * ImGui::GetFrameHeight());
+            part("##place", 5 * knot, 3, "m");
+            ImGui::SameLine();
+            if (ImGui::SmallButton("+")) {
+                const SplinePtr spline = splines::splineOf(*knots);
+                const bool last = knot + 1 == knots->count() && !knots->closed;
+                std::optional<splines::Inserted> with;
+                if (last)
+                    with = splines::extended(*knots, true);
+                else if (spline && knots->kind != SplineKind::bezier && knot + 1 < spline->knots.size())
+                    with = splines::inserted(*knots, 0.5 * (spline->knots[knot] + spline->knots[knot + 1]));
+                if (with) changed = with->knots;
+            }
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add a point behind this one");
+            ImGui::SameLine();
+            if (ImGui::SmallButton("×")) changed = splines::removed(*knots, knot);
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Remove the point");
+            const float third = 0.3f * ImGui::GetContentRegionAvail().x;
+            ImGui::SetNextItemWidth(third);
+            part("##radius", 5 * knot + 3, 1, "");
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Radius: a share of that of what is made along it");
+            ImGui::SameLine();
+            ImGui::SetNextItemWidth(third);
+            part("##twist", 5 * knot + 4, 1, "degrees");
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("Twist, degrees");
+            ImGui::PopID();
+        }
+    ImGui::EndChild();
+    ImGui::TreePop();
+    if (changed) input.set(listValue(Type::knots, changed->numbers));
+}
+
 /// What a word among the node's inputs says; the default where it is wired, or is none.
 std::string wordOf(const NodeBox& box, std::string_view name) {
     const auto row = std::ranges::find(box.rows, name, &Row::name);
@@ -220,6 +278,7 @@ void showValue(const Input& input, const Track* track, float room, std::string& 
     if (row.type == Type::string || row.type == Type::image) return showText(input, room);
     if (row.type == Type::stops || (row.spec && row.spec->ordered)) return showEntries(input, room);
     if (row.type == Type::points) return showPoints(input);
+    if (row.type == Type::knots) return showKnots(input);
     if (row.type == Type::boolean) {
         bool on = numbersOf(row).at(0) != 0.0;
         if (ImGui::Checkbox("##on", &on)) input.set(InputValue{.value = on});

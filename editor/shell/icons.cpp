@@ -44,6 +44,12 @@ void drawIcon(ImDrawList& list, Category category, ImVec2 centre, float side, Im
             }
             return closed(corners);
         }
+        case Category::spline:  // a wave
+            for (int i = -6; i < 6; ++i) {
+                const float x = 0.16f * float(i), y = 0.16f * float(i + 1);
+                line(x, 0.6f * std::sin(3.4f * x), y, 0.6f * std::sin(3.4f * y));
+            }
+            return;
         case Category::combine: ring(-0.35f, 0, 0.6f), ring(0.35f, 0, 0.6f); return;
         case Category::domain:  // one thing at four places
             for (const float x : {-0.55f, 0.55f})

@@ -51,6 +51,7 @@ struct Handle {
     glm::dmat3 bases{0.0};     ///< from the origin to where each axis of an extent begins
     std::string refusal = {};  ///< why it cannot be dragged; empty: it can
     std::string scene = {};    ///< a value of the scene in place of a node's: its path
+    int knot = -1;             ///< of a list of knots: the one whose place it is
 
     /// Where the box of an extent or a factor stands, or the tip of an arrow; `length` in metres.
     glm::dvec3 tip(int axis, double length) const;

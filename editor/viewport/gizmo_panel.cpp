@@ -27,8 +27,9 @@ void followDocument(Editor& editor, Gizmo& gizmo) {
     // Another node is chosen, or the marks are gone: no part of the scene is held any more.
     if (active != gizmo.made.node || selection != gizmo.made.selection || !marksAreShown(editor))
         gizmo.part.clear();
+    if (active != gizmo.made.node || scope != gizmo.made.scope) gizmo.knot = -1;
     const Gizmo::Made made{editor.drawn, scope,      active,      view.pinned, view.seconds, gizmo.tool,
-                           selection,    gizmo.axes, gizmo.pivot, gizmo.point, gizmo.part};
+                           selection,    gizmo.axes, gizmo.pivot, gizmo.point, gizmo.part,   gizmo.knot};
     // What moves several stays as it was taken.
     if (made == gizmo.made || (gizmo.drag && gizmo.start)) return;
     gizmo.made = made;
@@ -44,6 +45,9 @@ void followDocument(Editor& editor, Gizmo& gizmo) {
         return;
     }
     gizmo.grips = gripsOf(*editor.graph, made.scope, made.node, made.pinned, made.seconds, made.tool);
+    for (Handle& handle : gizmo.grips.handles)
+        if (handle.knot >= 0 && handle.knot == gizmo.knot) handle.count = 3;
+    if (gizmo.grips.spline) return;
     const bool alone = selection.size() < 2 && gizmo.pivot == PivotAt::own;
     if (alone && (gizmo.axes == AxesOf::numbers || gizmo.tool == Tool::scale)) return;
     gizmo.placings = placingsOf(*editor.graph, scope, selection, made.pinned, made.seconds, made.tool);
@@ -79,6 +83,14 @@ std::string doing(const Editor& editor, const Handle& handle) {
     return verb + nameOf(editor, editor.canvas.active);
 }
 
+std::string whichKnot(const Gizmo& gizmo, int knot) {
+    const splines::Knots& knots = gizmo.grips.spline->knots;
+    if (knots.isHandle(std::size_t(knot))) return "Handle";
+    const bool end = !knots.closed && (knot == 0 || std::size_t(knot) + 1 == knots.count());
+    return "Point " + std::to_string(knots.kind == SplineKind::bezier ? knot / 3 + 1 : knot + 1) +
+           "; double-click removes it" + (end ? ", Ctrl and drag adds one" : "");
+}
+
 void tell(const Editor& editor, const Gizmo& gizmo, const HandleHit& hit) {
     const Handle& handle = gizmo.grips.handles[hit.handle];
     std::string words = doing(editor, handle);
@@ -87,6 +99,8 @@ void tell(const Editor& editor, const Gizmo& gizmo, const HandleHit& hit) {
         words += handle.input.empty() ? "" : "\n" + readable(handle.input);
     else if (!gizmo.placings.empty())
         words += gizmo.pivot == PivotAt::own ? "\nEach about its own place" : "";
+    else if (handle.knot >= 0)
+        words += "\n" + whichKnot(gizmo, handle.knot);
     else if (handle.node.empty())
         words += "\nAdds a node: " + typeFor(gizmo.tool).label;
     else
@@ -175,6 +189,11 @@ void aimAtPlace(Editor& editor, Gizmo& gizmo, const Lens& lens) {
     });
 }
 
+Graph withKnots(const Editor& editor, const Plug& plug, const splines::Knots& knots) {
+    return setInput(editor.document.graph(), editor.canvas.scope, plug,
+                    listValue(Type::knots, knots.numbers));
+}
+
 void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
     const ImGuiIO& io = ImGui::GetIO();
     HandleDrag& drag = *gizmo.drag;
@@ -191,6 +210,11 @@ void go(Editor& editor, Gizmo& gizmo, const Lens& lens) {
         if (!drag.handle.scene.empty())
             editor.document.update(drag.hand,
                                    withSceneNumbers(editor.document.graph(), drag.handle, numbers));
+        else if (drag.handle.knot >= 0)
+            editor.document.update(
+                drag.hand,
+                withKnots(editor, {drag.handle.node, drag.handle.input},
+                          splines::moved(gizmo.knots, std::size_t(drag.handle.knot), vectorOf(numbers))));
         else if (gizmo.start)
             editor.document.update(drag.hand, moved(*gizmo.start, editor.canvas.scope, gizmo.placings,
                                                     motionOf(drag.handle, drag.axis, numbers, gizmo.pivot)));
@@ -215,6 +239,8 @@ void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
     gizmo.asked = gizmo.answered = 0;
     if (!drag.handle.scene.empty()) {
         // Its numbers are the scene's: nothing is added.
+    } else if (drag.handle.knot >= 0) {
+        gizmo.knot = drag.handle.knot;
     } else if (!gizmo.placings.empty()) {
         gizmo.start = withPlacings(editor.document.graph(), editor.canvas.scope, gizmo.placings);
         if (!gizmo.start) return editor.document.cancel(drag.hand);  // the document is full
@@ -234,6 +260,54 @@ void take(Editor& editor, Gizmo& gizmo, HandleDrag drag) {
     gizmo.numbers = drag.handle.numbers;
     gizmo.drag = std::move(drag);
     editor.viewport.takeCamera();  // else a picture that is framed anew would move what is seen
+}
+
+/// What the mouse does with a spline's points and with the spline; nothing where it is on neither.
+std::optional<bool> followSpline(Editor& editor, Gizmo& gizmo, const Lens& lens) {
+    const splines::Shown& shown = *gizmo.grips.spline;
+    const Plug plug{shown.node, shown.input};
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const double scale = double(editor.shell.scale());
+    const auto takeKnot = [&](const splines::Inserted& with) {
+        const glm::dvec3 at = with.knots.at(with.knot);
+        Handle handle{.node = shown.node, .input = shown.input, .numbers = {at.x, at.y, at.z}};
+        handle.knot = int(with.knot);
+        handle.origin = shown.placement.of(at);
+        handle.axes = shown.placement.linear;
+        gizmo.knots = with.knots;
+        take(editor, gizmo, takeHandle(handle, kAcrossView, lens, mouse, scale));
+        return true;
+    };
+    if (gizmo.hovered) {
+        const Handle& handle = gizmo.grips.handles[gizmo.hovered->handle];
+        if (handle.knot < 0 || !handle.refusal.empty()) return std::nullopt;
+        gizmo.knots = shown.knots;
+        const auto knot = std::size_t(handle.knot);
+        if (ImGui::IsMouseDoubleClicked(0)) {
+            splines::Knots rest = splines::removed(shown.knots, knot);
+            if (rest != shown.knots) {
+                gizmo.knot = -1;
+                editor.document.apply("Remove Point", withKnots(editor, plug, rest));
+            }
+            return true;
+        }
+        const bool end = knot == 0 || knot + 1 == shown.knots.count();
+        if (end && ImGui::IsMouseClicked(0) && ImGui::GetIO().KeyCtrl)
+            if (auto with = splines::extended(shown.knots, knot != 0)) {
+                // It begins at the end that it is pulled out of.
+                const glm::dvec3 at = shown.knots.at(knot);
+                with->knots = splines::moved(std::move(with->knots), with->knot, at);
+                return takeKnot(*with);
+            }
+        return std::nullopt;
+    }
+    constexpr double kNearSpline = 7.0;  // pixels, times the scale
+    const auto along = splines::alongAt(shown, lens, mouse, kNearSpline * scale);
+    if (!along) return std::nullopt;
+    ImGui::SetTooltip("Drag: a new point");
+    if (!ImGui::IsMouseClicked(0)) return false;
+    if (const auto with = splines::inserted(shown.knots, *along)) return takeKnot(*with);
+    return std::nullopt;
 }
 
 struct Brush {
@@ -288,9 +362,12 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->PushClipRect(view.place.lo, view.place.hi, true);
     const Brush brush{list, lens, editor.shell.scale()};
+    if (gizmo.grips.spline && gizmo.grips.handles.size() > 0 && gizmo.grips.handles[0].knot >= 0)
+        splines::draw(*gizmo.grips.spline, lens, *list, brush.scale);
     for (std::size_t i = 0; i < gizmo.grips.handles.size(); ++i) {
         const Handle& handle = gizmo.grips.handles[i];
         const bool dragged = gizmo.drag && gizmo.drag->handle.input == handle.input &&
+                             gizmo.drag->handle.knot == handle.knot &&
                              gizmo.drag->handle.scene == handle.scene;
         const auto lit = [&](int axis) {
             return gizmo.drag ? dragged && gizmo.drag->axis == axis : gizmo.hovered == HandleHit{i, axis};
@@ -303,7 +380,9 @@ void draw(const Editor& editor, const Gizmo& gizmo, const Lens& lens) {
                        colorOf(axis, handle.count == 1 ? kAtOnce : axisColor(std::size_t(axis))), lit(axis));
         const auto at = lens.project(handle.origin);
         if (handle.kind == Kind::move && at) {
-            const float radius = (lit(kAcrossView) ? 7.0f : 5.0f) * brush.scale;
+            const bool small = handle.knot >= 0 && gizmo.grips.spline &&
+                               gizmo.grips.spline->knots.isHandle(std::size_t(handle.knot));
+            const float radius = (lit(kAcrossView) ? 7.0f : small ? 3.5f : 5.0f) * brush.scale;
             list->AddCircleFilled(*at, radius + brush.scale, kShadow);
             list->AddCircleFilled(*at, radius, colorOf(kAcrossView, kAtOnce));
         }
@@ -427,6 +506,8 @@ bool followGizmo(Editor& editor) {
     if (!view.hovered || view.drag.busy()) return false;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     gizmo.hovered = handleAt(gizmo.grips.handles, lens, mouse, scale);
+    if (gizmo.grips.spline && gizmo.part.empty() && gizmo.tool == Tool::move && !editor.document.held())
+        if (const std::optional<bool> taken = followSpline(editor, gizmo, lens)) return *taken;
     if (!gizmo.hovered) return followMarks(editor);
     tell(editor, gizmo, *gizmo.hovered);
     if (!ImGui::IsMouseClicked(0)) return false;

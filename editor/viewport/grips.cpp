@@ -76,7 +76,10 @@ Grips gripsOf(const Graph& graph, const std::string& scope, const std::string& n
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Node& each = *findNode(nodes, all[i]);
         if (i > 0 && !passesAlone(each)) break;
-        const Placement placement = placed(std::span(all).subspan(i + 1));
+        // What is made along a spline leaves that where it is.
+        const std::size_t next = std::min(i + (madeBy(each) == Type::spline ? 2 : 1), all.size());
+        const Placement placement = placed(std::span(all).subspan(next));
+        if (i == 0) grips.spline = splines::shownOf(each, placement);
         for (Handle& handle : handlesOf(each, placement, animated)) {
             // What moves particles does not move a surface that they meet.
             if (i > 0 && madeBy(each) != Type::surface) continue;

@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "editor/splines/shown.h"
 #include "editor/viewport/gizmo.h"
 
 namespace fw::editor {
@@ -15,10 +16,11 @@ namespace fw::editor {
 enum class Tool : unsigned char { move, turn, scale };
 
 struct Grips {
-    std::set<Tool> tools;         ///< that there is something for
-    std::vector<Handle> handles;  ///< of the tool; those of a node that is to be added name none
-    std::string why;              ///< they are not where they should be: how they are, for a person
-    std::optional<Plug> ahead;    ///< the input whose wire the added node is put in
+    std::set<Tool> tools;                  ///< that there is something for
+    std::vector<Handle> handles;           ///< of the tool; those of a node that is to be added name none
+    std::string why;                       ///< they are not where they should be: how they are, for a person
+    std::optional<Plug> ahead;             ///< the input whose wire the added node is put in
+    std::optional<splines::Shown> spline;  ///< of which the handles are knots
 };
 
 /// For a node of the scope, as it is when `seconds` have passed; nothing if it is not in the picture of

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "editor/splines/edits.h"
 #include "editor/viewport/gizmo.h"
 #include "graph/document/named_parameters.h"
 
@@ -12,6 +13,7 @@ namespace {
 using Kind = Handle::Kind;
 
 constexpr double kLeastSide = 1e-3;  // metres of a box whose corner is dragged to the other one
+constexpr std::size_t kMostKnotHandles = 500;
 
 glm::dvec3 asVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -115,7 +117,22 @@ void grip(Handle& handle, const Node& node, const NodeType& type, const InputSpe
 bool hasHandles(const NodeType& type) {
     if (type.outputs.empty()) return false;
     const Type made = type.outputs.front().type;
-    return made == Type::surface || made == Type::particles || made == Type::mesh;
+    return made == Type::surface || made == Type::particles || made == Type::mesh || made == Type::spline;
+}
+
+/// One for each of the node's knots, to be moved across the view.
+void addKnots(const Node& node, const Placement& placement, std::vector<Handle>& handles) {
+    const std::optional<splines::Knots> knots = splines::knotsOf(node);
+    for (std::size_t i = 0; knots && i < std::min(knots->count(), kMostKnotHandles); ++i) {
+        const glm::dvec3 at = knots->at(i);
+        Handle handle{.node = node.id, .input = splines::knotsInput(node), .numbers = {at.x, at.y, at.z}};
+        handle.count = 0;
+        handle.knot = int(i);
+        handle.origin = placement.of(at);
+        handle.axes = placement.linear;
+        if (node.muted) handle.refusal = "The node is muted.";
+        handles.push_back(std::move(handle));
+    }
 }
 
 }  // namespace
@@ -163,6 +180,7 @@ std::vector<Handle> handlesOf(const Node& node, const Placement& placement,
         }
         handles.push_back(std::move(handle));
     }
+    addKnots(node, placement, handles);
     return handles;
 }
 

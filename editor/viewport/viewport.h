@@ -89,6 +89,8 @@ struct Gizmo {
     std::optional<HandleHit> hovered;
     std::optional<HandleDrag> drag;  ///< with a hand of the document
     std::vector<double> numbers;     ///< that the drag gave last
+    int knot = -1;                   ///< of the spline: the one that was taken last, which has arrows
+    splines::Knots knots;            ///< in which the drag moves one
 
     /// What the grips were made for.
     struct Made {
@@ -101,6 +103,7 @@ struct Gizmo {
         PivotAt pivot = PivotAt::own;
         glm::dvec3 point{0.0};
         std::string part = {};
+        int knot = -1;
         bool operator==(const Made&) const = default;
     } made;
 

@@ -172,5 +172,8 @@ Lowered lowerTrueDistance(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at);
 /// The body of `offset` and `shell`, with a warning about distances that are not true.
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at);
+// splines.cpp:
+/// The body of `sweep`, with a bound that tells intervals where nothing is.
+Lowered lowerSweep(GraphLowering& lowering, const NodeAt& at);
 
 }  // namespace fw

@@ -26,12 +26,24 @@ bool isKind(Type type, const InputValue& value) {
         case Type::string:
         case Type::image: return std::holds_alternative<std::string>(value.value);
         case Type::points:
-        case Type::stops: return array && value.entry == entrySize(type);
+        case Type::stops:
+        case Type::knots: return array && value.entry == entrySize(type);
         case Type::surface:
         case Type::mesh:
-        case Type::particles: return false;
+        case Type::particles:
+        case Type::spline: return false;
     }
     return false;
+}
+
+/// What is wrong with the radii of knots.
+std::optional<std::string> radiusProblem(std::span<const double> knots) {
+    const auto size = std::size_t(entrySize(Type::knots));
+    for (std::size_t i = 0; i < knots.size(); i += size)
+        if (knots[i + 3] < 0)
+            return "the radius of knot " + std::to_string(i / size + 1) + " is " + shortNumber(knots[i + 3]) +
+                   ": it must be at least 0";
+    return {};
 }
 
 std::optional<std::string> optionProblem(const InputSpec& spec, const std::string& word) {
@@ -75,6 +87,7 @@ std::optional<std::string> valueProblem(Type type, const InputSpec* spec, const 
         if (auto problem = rangeProblem(*spec, number)) return problem;
     }
     if (type == Type::stops || (spec && spec->ordered)) return orderProblem(type, numbers);
+    if (type == Type::knots) return radiusProblem(numbers);
     return {};
 }
 
@@ -89,9 +102,11 @@ std::string_view expectedOf(Type type) {
         case Type::string: return "a string";
         case Type::points: return "an array of [x, y] pairs";
         case Type::stops: return "an array of stops [position, red, green, blue]";
+        case Type::knots: return "an array of knots [x, y, z, radius, twist]";
         case Type::image: return "the path of a picture, a string";
         case Type::mesh: return "a link to a node with a mesh, {\"from\": \"node\"}";
         case Type::particles: return "a link to a node with particles, {\"from\": \"node\"}";
+        case Type::spline: return "a link to a node with a spline, {\"from\": \"node\"}";
     }
     return "";
 }
@@ -106,7 +121,9 @@ std::string describe(const InputValue& input) {
             if (numbers.empty()) return "an empty array";
             if (input.entry == 0) return "an array of " + plural(numbers.size(), "number");
             return "an array of " + plural(numbers.size() / std::size_t(input.entry),
-                                           input.entry == entrySize(Type::points) ? "pair" : "stop");
+                                           input.entry == entrySize(Type::points)  ? "pair"
+                                           : input.entry == entrySize(Type::stops) ? "stop"
+                                                                                   : "knot");
         }
         std::string operator()(const Link& link) const { return "a link to " + inQuotes(link.node); }
     } text{input};

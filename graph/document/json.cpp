@@ -313,7 +313,8 @@ class Reader {
         return fail(
             value,
             "an input is a number, true or false, a string, an array of numbers, an array of [x, y] "
-            "pairs or of [position, red, green, blue] stops, or a link {\"from\": \"node\"}; this is " +
+            "pairs, of [position, red, green, blue] stops or of [x, y, z, radius, twist] knots, or a link "
+            "{\"from\": \"node\"}; this is " +
                 std::string(given) + " (leave the input out for its default)");
     }
 
@@ -322,22 +323,24 @@ class Reader {
         const uint32_t last = list[value].next;
         const bool entries = value + 1 < last && list[value + 1].kind == Kind::array;
         if (entries)
-            to.entry = list[value + 1].next == value + 6 ? entrySize(Type::stops) : entrySize(Type::points);
+            to.entry = entrySize(listOf(int(list[value + 1].next - value) - 2).value_or(Type::points));
         for (uint32_t i = value + 1; i < last; i = list[i].next) {
             if (list[i].kind != (entries ? Kind::array : Kind::number))
                 return failInput(i, std::string(kindName(list[i].kind)) + " inside an array of " +
                                         (!entries        ? "numbers"
                                          : to.entry == 2 ? "pairs"
-                                                         : "stops"));
+                                         : to.entry == 4 ? "stops"
+                                                         : "knots"));
             if (entries) {
                 const uint32_t end = i + 1 + uint32_t(to.entry);
                 if (list[i].next != end ||
                     !std::all_of(list.begin() + i + 1, list.begin() + end,
                                  [](const JsonToken& token) { return token.kind == Kind::number; }))
                     return failInput(i, i == value + 1 && to.entry == 2
-                                            ? "an array of something other than two numbers, or four"
+                                            ? "an array of something other than two numbers, four or five"
                                         : to.entry == 2 ? "an array of something other than two numbers"
-                                                        : "an array of something other than four numbers");
+                                        : to.entry == 4 ? "an array of something other than four numbers"
+                                                        : "an array of something other than five numbers");
                 for (uint32_t k = i + 1; k < end; ++k) numbers.push_back(numberOf(list[k]));
             } else {
                 numbers.push_back(numberOf(list[i]));

@@ -80,7 +80,8 @@ Json valueSchema(const InputSpec& spec) {
             return schema;
         }
         case Type::points:
-        case Type::stops: {
+        case Type::stops:
+        case Type::knots: {
             Json schema = {{"type", "array"}, {"items", array({{"type", "number"}}, entrySize(spec.type))}};
             if (spec.type == Type::stops || spec.ordered)
                 schema["minItems"] = 1, schema["maxItems"] = kMostStops;
@@ -89,7 +90,8 @@ Json valueSchema(const InputSpec& spec) {
         case Type::image: return {{"type", "string"}};
         case Type::surface:
         case Type::mesh:
-        case Type::particles: return nullptr;
+        case Type::particles:
+        case Type::spline: return nullptr;
     }
     return nullptr;
 }

@@ -99,16 +99,17 @@ class Emitter : GlslStatements {
         }
         if (paint) text += "#endif\n";
     }
-    /// The same for volumes and outlines, which lie in one buffer of texels.
+    /// The same for volumes, outlines and splines, which lie in one buffer of texels.
     void texels() {
-        if (ir.volumes().empty() && ir.outlines().empty()) return;
-        const bool paint = paintOnly(Op::volume) && paintOnly(Op::outline);
+        if (ir.volumes().empty() && ir.outlines().empty() && ir.splines().empty()) return;
+        const bool paint = paintOnly(Op::volume) && paintOnly(Op::outline) && paintOnly(Op::spline);
         if (paint) text += "#ifdef FIELD_MATERIAL\n";
         text += "layout(set = 0, binding = " + std::to_string(kFieldVolumesBinding) +
                 ", rgba32ui) restrict readonly uniform uimageBuffer fieldVolumes;\n";
         std::size_t first = 0;
         if (!ir.volumes().empty()) volumes(first);
         if (!ir.outlines().empty()) outlines(first);
+        if (!ir.splines().empty()) splines(first);
         if (paint) text += "#endif\n";
     }
     /// Of a colour, only the value is asked for in shaders.
@@ -153,7 +154,7 @@ class Emitter : GlslStatements {
             first += texelCount(volume);
         }
     }
-    void outlines(std::size_t first) {
+    void outlines(std::size_t& first) {
         text +=
             "#define OUTLINE_LEVELS " + std::to_string(kOutlineLevels) + "\n#include \"lib/outline.glsl\"\n";
         for (std::size_t number = 0; number < ir.outlines().size(); ++number) {
@@ -167,6 +168,54 @@ class Emitter : GlslStatements {
                     "(vec2 p) { return outlineSample(" + grid + ", p); }\nvec2 fieldOutlineRange" + name +
                     "(vec2 x, vec2 y) { return outlineRange(" + grid + ", x, y); }\n";
             first += outline.texels.size();
+        }
+    }
+    /// The coordinates beside a spline are found once for those that are asked for at one place.
+    void splines(std::size_t first) {
+        text += "#define SPLINE_LEVELS " + std::to_string(kSplineLevels) + "\n#define SPLINE_ARC_TEXELS " +
+                std::to_string(kArcTexels) + "\n#include \"lib/spline.glsl\"\n";
+        const std::vector<bool> sampled = layersOf(Op::spline, ir.splines().size() * kSplineChannels);
+        const auto triple = [](const auto& v, auto literal) {
+            return "(" + literal(v[0]) + ", " + literal(v[1]) + ", " + literal(v[2]) + ")";
+        };
+        for (std::size_t s = 0; s < ir.splines().size(); ++s) {
+            const SplineTable& table = *ir.splines()[s];
+            const std::string own = std::to_string(s), grid = "fieldSplineGrid" + own;
+            const std::size_t count = table.spline->arcs.size(),
+                              arcs = first + table.texels.size() - kArcTexels * count,
+                              runs = arcs - (table.runs.size() + 3) / 4;
+            text += "const SplineGrid " + grid + " = SplineGrid(" + std::to_string(first) + ", " +
+                    std::to_string(runs) + ", " + std::to_string(arcs) + ", ivec3" +
+                    triple(table.cells, [](int n) { return std::to_string(n); }) + ", " +
+                    std::to_string(table.farCells) + ", vec3" + triple(table.centre, glslLiteral) + ", vec3" +
+                    triple(table.half, glslLiteral) + ", " + glslLiteral(table.radius) + ", " +
+                    (table.tapered ? "true" : "false") + ", " + (table.spline->closed ? "true" : "false") +
+                    ", " + glslLiteral(table.least) + ", " + glslLiteral(table.spline->length) + ", vec3(" +
+                    glslLiteral(table.leastShare) + ", " + glslLiteral(table.mostShare) + ", " +
+                    glslLiteral(table.shareSlope) + "));\n";
+            const auto function = [&](int channel, const std::string& value, const std::string& range) {
+                const std::string name = std::to_string(int(s) * kSplineChannels + channel);
+                if (!sampled[s * kSplineChannels + std::size_t(channel)]) return;
+                text += "vec4 fieldSpline" + name + "(vec3 p) { return " + value +
+                        "; }\nvec2 fieldSplineRange" + name + "(vec2 x, vec2 y, vec2 z) { return " + range +
+                        ", x, y, z); }\n";
+            };
+            function(0, "splineDistance(" + grid + ", p)", "splineDistanceRange(" + grid);
+            const auto from = sampled.begin() + std::ptrdiff_t(s) * kSplineChannels;
+            if (std::none_of(from + 1, from + kSplineChannels, [](bool is) { return is; })) {
+                first += table.texels.size();
+                continue;
+            }
+            text += "vec3 fieldSplineAt" + own + " = vec3(1e38);\nSplineBeside fieldSplineBeside" + own +
+                    ";\nSplineBeside fieldSplineThere" + own + "(vec3 p) {\n    if (p != fieldSplineAt" +
+                    own + ") {\n        fieldSplineAt" + own + " = p;\n        fieldSplineBeside" + own +
+                    " = splineBeside(" + grid + ", splineCell(" + grid +
+                    ", p).words, p);\n    }\n    return fieldSplineBeside" + own + ";\n}\n";
+            constexpr const char* kNames[] = {"", "across", "up", "along", "share"};
+            for (int channel = 1; channel < kSplineChannels; ++channel)
+                function(channel, "fieldSplineThere" + own + "(p)." + kNames[channel],
+                         "splineRange(" + grid + ", " + std::to_string(channel));
+            first += table.texels.size();
         }
     }
     static std::string pair(double a, double b) {
@@ -266,12 +315,14 @@ class Emitter : GlslStatements {
 }  // namespace
 
 std::vector<uint32_t> fieldTexels(const Ir& ir) {
-    if (ir.outlines().empty()) return volumeTexels(ir.volumes());
+    if (ir.outlines().empty() && ir.splines().empty()) return volumeTexels(ir.volumes());
     std::vector<uint32_t> words;
     if (!ir.volumes().empty()) words = volumeTexels(ir.volumes());
     for (const OutlinePtr& outline : ir.outlines())
         for (const OutlineTexel& texel : outline->texels)
             words.insert(words.end(), texel.begin(), texel.end());
+    for (const SplineTablePtr& spline : ir.splines())
+        for (const SplineTexel& texel : spline->texels) words.insert(words.end(), texel.begin(), texel.end());
     return words;
 }
 

@@ -253,12 +253,23 @@ IrId Ir::sample(uint32_t outline, IrId x, IrId y) {
     return make(Op::outline, double(outline), std::array{x, y});
 }
 
+uint32_t Ir::addSpline(const SplineTablePtr& spline) { return placeIn(curves, spline); }
+
+IrId Ir::sample(uint32_t spline, SplineChannel channel, std::array<IrId, 3> place) {
+    assert(spline < curves.size());
+    return make(Op::spline, double(spline * kSplineChannels + uint32_t(channel)), place);
+}
+
 SampledLayer Ir::layer(const IrNode& node) const {
     const auto number = static_cast<std::size_t>(node.number);
     SampledLayer layer;
     if (node.op == Op::image) layer.image = &pictures[number / kImageLayers]->layers[number % kImageLayers];
     if (node.op == Op::volume) layer.volume = &grids[number / kVolumeLayers]->layers[number % kVolumeLayers];
     if (node.op == Op::outline) layer.outline = polygons[number].get();
+    if (node.op == Op::spline) {
+        layer.spline = curves[number / kSplineChannels].get();
+        layer.channel = SplineChannel(number % kSplineChannels);
+    }
     return layer;
 }
 
@@ -356,6 +367,11 @@ Ir Ir::compact(std::span<IrId> roots) const {
         }
         if (node.op == Op::outline)
             node.number = double(result.addOutline(polygons[static_cast<std::size_t>(node.number)]));
+        if (node.op == Op::spline) {
+            const auto number_ = static_cast<std::size_t>(node.number);
+            const uint32_t spline = result.addSpline(curves[number_ / kSplineChannels]);
+            node.number = double(spline) * kSplineChannels + double(number_ % kSplineChannels);
+        }
         for (int i = 0; i < opInfo(node.op).arity; ++i) node.operands[i] = renumbered[node.operands[i]];
         result.setOrigin(origins[id]);
         renumbered[id] = result.intern(node);
@@ -375,6 +391,7 @@ uint64_t Ir::hash(std::span<const IrId> roots) const {
     for (const FieldImagePtr& image : pictures) hash = mix(hash, image->hash);
     for (const FieldVolumePtr& volume : grids) hash = mix(hash, volume->hash);
     for (const OutlinePtr& outline : polygons) hash = mix(hash, outline->hash);
+    for (const SplineTablePtr& spline : curves) hash = mix(hash, spline->hash);
     for (IrId root : roots) hash = mix(hash, root);
     return hash;
 }

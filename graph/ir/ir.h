@@ -41,7 +41,9 @@ struct IrNode {
 };
 
 /// Whether an operation samples what its node's own number names.
-constexpr bool samplesLayer(Op op) { return op == Op::image || op == Op::volume || op == Op::outline; }
+constexpr bool samplesLayer(Op op) {
+    return op == Op::image || op == Op::volume || op == Op::outline || op == Op::spline;
+}
 
 /// Whether a node's own number is part of what it is.
 constexpr bool ownsNumber(Op op) {
@@ -74,6 +76,11 @@ class Ir {
     const std::vector<OutlinePtr>& outlines() const { return polygons; }
     /// The distance to an outline of outlines() at (x, y); see outline.h.
     IrId sample(uint32_t outline, IrId x, IrId y);
+    /// The number of the spline's table among splines(), which it joins if it is new.
+    uint32_t addSpline(const SplineTablePtr& spline);
+    const std::vector<SplineTablePtr>& splines() const { return curves; }
+    /// What a spline of splines() tells of a place; see spline_table.h.
+    IrId sample(uint32_t spline, SplineChannel channel, std::array<IrId, 3> place);
     /// What a node samples.
     SampledLayer layer(const IrNode& node) const;
 
@@ -155,6 +162,7 @@ class Ir {
     std::vector<FieldImagePtr> pictures;
     std::vector<FieldVolumePtr> grids;
     std::vector<OutlinePtr> polygons;
+    std::vector<SplineTablePtr> curves;
     std::unordered_map<Key, IrId, KeyHash> known;
     std::unordered_map<Key, std::unordered_map<IrId, IrId>, KeyHash> substitutions;
     std::size_t remembered = 0;  ///< entries in `substitutions`

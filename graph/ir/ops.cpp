@@ -474,6 +474,19 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
         },
         "fieldOutline%i(vec2(%a, %b)).w", "fieldOutlineRange%i(%a, %b)", "dot(%s.xy, vec2(%A, %B))",
         "fieldOutline%i(vec2(%a, %b))", 60),
+
+    row(
+        Op::spline, "spline", Arity<3>(), false, false,
+        []<class T>(const T* x, L layer) {
+            return sampleSpline(*layer.spline, layer.channel, {x[0], x[1], x[2]}).value;
+        },
+        [](I x, L layer) { return sampleSpline(*layer.spline, layer.channel, x); },
+        []<class T>(const T* x, T, const T* d, L layer) {
+            const glm::dvec3 slope = sampleSpline(*layer.spline, layer.channel, {x[0], x[1], x[2]}).slope;
+            return slope.x * d[0] + slope.y * d[1] + slope.z * d[2];
+        },
+        "fieldSpline%i(vec3(%a, %b, %c)).w", "fieldSplineRange%i(%a, %b, %c)", kChainRule,
+        "fieldSpline%i(vec3(%a, %b, %c))", 120),
 }};
 
 constexpr bool inOrder() {

@@ -23,6 +23,7 @@
 #include "graph/assets/image.h"
 #include "graph/assets/volume.h"
 #include "graph/base/interval.h"
+#include "graph/curves/spline_table.h"
 #include "graph/outlines/outline.h"
 
 namespace fw {
@@ -86,16 +87,20 @@ enum class Op : uint8_t {
     volume,
     // two operands: x, y; of which outline is part of the node
     outline,
+    // three operands: x, y, z; which channel of which spline is part of the node
+    spline,
     count
 };
 
 inline constexpr int kMaxArity = 4;
 
-/// What an operation samples: nothing, but for `image`, `volume` and `outline`.
+/// What an operation samples: nothing, but for `image`, `volume`, `outline` and `spline`.
 struct SampledLayer {
     const ImageLayer* image = nullptr;
     const VolumeLayer* volume = nullptr;
     const Outline* outline = nullptr;
+    const SplineTable* spline = nullptr;
+    SplineChannel channel = {};
 };
 
 /// An operation over rows of `count` numbers. An operand is a row, or a single number where its bit in the

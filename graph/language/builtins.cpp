@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "graph/language/ramps.h"
+#include "graph/language/splines.h"
 #include "graph/outlines/drawing.h"
 #include "graph/outlines/gear.h"
 #include "graph/outlines/letters.h"
@@ -566,6 +567,11 @@ const std::vector<Builtin>& table() {
         {"metre", 0, 0, fixed<Type::scalar>, [](S s, A) -> R { return scalar(number(s, s.metre)); }},
         {"gear_outline", 5, 5, fixed<Type::scalar, Type::vec2, Type::scalar, Type::scalar, Type::scalar, Type::scalar>, gearAt},
         {"letters", 9, 9, fixed<Type::scalar, Type::vec2, Type::string, Type::string, Type::string, Type::string, Type::string, Type::scalar, Type::scalar, Type::scalar>, lettersAt},
+        {"spline_through", 4, 4, fixed<Type::spline, Type::knots, Type::string, Type::boolean, Type::scalar>, splineThroughKnots},
+        {"spline_of_helix", 5, 5, fixed<Type::spline, Type::scalar, Type::scalar, Type::scalar, Type::scalar, Type::boolean>, splineOfHelixAt},
+        {"spline_of_drawing", 5, 5, fixed<Type::spline, Type::string, Type::string, Type::integer, Type::scalar, Type::boolean>, splineOfDrawing},
+        {"spline_distance", 3, 3, fixed<Type::scalar, Type::vec3, Type::spline, Type::scalar>, splineDistance}, {"spline_place", 2, 2, fixed<Type::vec3, Type::vec3, Type::spline>, splinePlace},
+        {"spline_radius", 2, 2, fixed<Type::scalar, Type::vec3, Type::spline>, splineShare}, {"spline_length", 1, 1, fixed<Type::scalar, Type::spline>, splineLength}, {"spline_closed", 1, 1, fixed<Type::boolean, Type::spline>, splineClosed},
         {"color_ramp", 2, 3, fixed<Type::vec3, Type::scalar, Type::stops, Type::string>, colorRamp}, {"curve", 2, 4, fixed<Type::scalar, Type::scalar, Type::points, Type::string, Type::string>, curveThrough},
         {"image_color", 2, 3, imageType<Type::vec3, true>, imageColor}, {"image_grey", 2, 3, imageType<Type::scalar, true>, imageGrey}, {"image_size", 1, 1, imageType<Type::vec2, false>, imageSize},
         {"image_range", 1, 1, imageType<Type::vec2, false>, [](S s, A a) -> R { return imageBounds(s, a, false); }},
@@ -636,10 +642,10 @@ Result<Value> choose(Lowering& state, IrId condition, const Value& a, const Valu
     }
     if (componentCount(type) == 0) {
         if (state.ir.isConstant(condition)) return state.ir.number(condition) != 0.0 ? x : y;
-        if (x.text == y.text && x.points == y.points && x.image == y.image) return x;
+        if (x.text == y.text && x.points == y.points && x.image == y.image && x.spline == y.spline) return x;
         return Error{
             .message =
-                "texts, points and images can only be chosen by a condition that is known when the graph "
+                "texts, lists, images and splines can only be chosen by a condition that is known when the graph "
                 "is compiled"};
     }
     for (int i = 0; i < componentCount(type); ++i)

@@ -321,7 +321,7 @@ void Resolver::returned(const Stmt& s) {
                                            : std::nullopt;
     if (value.type && wanted && !standsFor(*value.type, *wanted))
         error(value.place, "expected " + aType(*wanted) + " to return, found " + aType(*value.type));
-    if (value.type && !own && componentCount(*value.type) == 0)
+    if (value.type && !own && componentCount(*value.type) == 0 && wanted != value.type)
         error(value.place, "expected a number, a vector or a surface to return, found " + aType(*value.type));
     else if (value.type && !own && !wanted) {
         const std::optional<Type> common = returnType ? commonType(*returnType, *value.type) : value.type;

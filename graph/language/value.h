@@ -1,7 +1,7 @@
 // The values that code computes with, as it is lowered: each a function of the position.
 //
 // A value is typed, and made of ids of an Ir: one for each scalar that represents it. What is no function of
-// the position (texts, points, stops, an image) is known when the graph is compiled, and stands beside the
+// the position (texts, lists, an image, a spline) is known when the graph is compiled, and stands beside the
 // ids.
 #pragma once
 
@@ -17,6 +17,7 @@
 namespace fw {
 struct MeshRecipe;
 struct ParticleRecipe;
+struct Spline;
 }  // namespace fw
 
 namespace fw::language {
@@ -26,12 +27,13 @@ struct Value {
     Type type = Type::scalar;
     std::array<IrId, kSurfaceComponents> ids{};
     std::string text{};
-    std::shared_ptr<const std::vector<double>> points{};  ///< of points and stops, entry by entry
+    std::shared_ptr<const std::vector<double>> points{};  ///< of a list, entry by entry
     std::vector<IrId> livePoints{};                       ///< the same where they are live; else empty
     uint32_t image = 0;                                   ///< number among Ir::images()
     std::shared_ptr<const MeshRecipe> mesh{};  ///< of a surface that stands for a mesh: how that is made
     /// Of particles: their stages, whose numbers are ids of the Lowering's ir.
     std::shared_ptr<const ParticleRecipe> particles{};
+    std::shared_ptr<const Spline> spline{};  ///< null: of no length
 
     IrId id() const { return ids[0]; }
 };

@@ -29,6 +29,7 @@ std::string_view categoryName(Category category) {
     switch (category) {
         case Category::shape: return "Shapes";
         case Category::shape2d: return "2-D shapes";
+        case Category::spline: return "Splines";
         case Category::combine: return "Combine";
         case Category::domain: return "Domain";
         case Category::field: return "Fields";

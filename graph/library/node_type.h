@@ -30,6 +30,7 @@ namespace fw {
 enum class Category : unsigned char {
     shape,
     shape2d,
+    spline,
     combine,
     domain,
     field,

@@ -15,9 +15,11 @@ std::string_view typeName(Type type) {
         case Type::string: return "string";
         case Type::points: return "points";
         case Type::stops: return "stops";
+        case Type::knots: return "knots";
         case Type::image: return "image";
         case Type::mesh: return "mesh";
         case Type::particles: return "particles";
+        case Type::spline: return "spline";
     }
     assert(!"every type has a name");
     return "";

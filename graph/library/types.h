@@ -9,7 +9,7 @@
 
 namespace fw {
 
-/// What flows through a socket. All but the last rows are functions of position.
+/// What flows through a socket. Those before `string` are functions of position.
 enum class Type : unsigned char {
     boolean,
     integer,
@@ -20,11 +20,13 @@ enum class Type : unsigned char {
     string,     ///< an enum choice, a path or a text; known when the graph is compiled
     points,     ///< a list of vec2, known when the graph is compiled
     stops,      ///< a list of positions with a colour each, likewise
+    knots,      ///< a list of places in space with a radius and a twist each, likewise
     image,      ///< the path of a picture; read when the graph is compiled (image.h)
     mesh,       ///< triangles: the result of a stage
     particles,  ///< places that move: what a simulation makes
+    spline,     ///< a curve in space, known when the graph is compiled (curves/spline.h)
 };
-inline constexpr int kTypes = int(Type::particles) + 1;
+inline constexpr int kTypes = int(Type::spline) + 1;
 
 /// Scalars of a surface.
 inline constexpr int kSurfaceComponents = 15;
@@ -43,13 +45,16 @@ constexpr int componentCount(Type type) {
     }
 }
 
-/// Numbers of an entry of a list of this type: x and y of points; position, red, green and blue of stops. 0
-/// for all that is no list.
-constexpr int entrySize(Type type) { return type == Type::points ? 2 : type == Type::stops ? 4 : 0; }
+/// Numbers of an entry of a list of this type: x and y of points; position, red, green and blue of stops; x,
+/// y, z, radius and twist of knots. 0 for all that is no list.
+constexpr int entrySize(Type type) {
+    return type == Type::points ? 2 : type == Type::stops ? 4 : type == Type::knots ? 5 : 0;
+}
 /// The list whose entries have so many numbers; empty if there is none.
 constexpr std::optional<Type> listOf(int entrySize) {
     if (entrySize == 2) return Type::points;
     if (entrySize == 4) return Type::stops;
+    if (entrySize == 5) return Type::knots;
     return {};
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 std::vector<NodeType> gatherNodeTypes() {
     std::vector<NodeType> all;
-    for (auto family : {shapeNodes, shape2dNodes, partNodes, latticeNodes, combineNodes, domainNodes,
+    for (auto family : {shapeNodes, shape2dNodes, splineNodes, partNodes, latticeNodes, combineNodes, domainNodes,
                         fieldNodes, mathsNodes, materialNodes, meshNodes, stageNodes, particleNodes}) {
         std::vector<NodeType> nodes = family();
         std::move(nodes.begin(), nodes.end(), std::back_inserter(all));

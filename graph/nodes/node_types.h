@@ -7,6 +7,7 @@ namespace fw {
 
 std::vector<NodeType> shapeNodes();
 std::vector<NodeType> shape2dNodes();
+std::vector<NodeType> splineNodes();
 std::vector<NodeType> partNodes();
 std::vector<NodeType> latticeNodes();
 std::vector<NodeType> combineNodes();

@@ -107,7 +107,7 @@ float coil = length(vec2(r - radius, along));
 vec3 tip = vec3(radius * sin(half * TAU), half * pitch, radius * cos(half * TAU));
 float ends = min(length(p - tip), length(p - vec3(-tip.x, -tip.y, tip.z)));
 return (least <= most ? min(coil, ends) : ends) - wire;)",
-         .aliases = {"helix", "coil"}},
+         .aliases = {"coil"}},
     };
 }
 

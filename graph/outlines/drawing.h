@@ -11,6 +11,7 @@
 // `Outline::scale` says how large it is by its own units. A DXF file's page is its contents' box.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ namespace fw {
 /// What is painted, brought to a unit; see above.
 struct Drawing {
     Painting painting;
+    std::vector<Contour> paths = {};        ///< along which it is drawn, in their order
     double scale = 1;                       ///< of a unit by its file, metres
     std::vector<std::string> remarks = {};  ///< what was left away, a sentence each, no full stop
 };
@@ -31,11 +33,23 @@ struct Drawing {
 /// layer; all if `part` is empty. Errors, with a message only: what is damaged or beyond the limits; nothing
 /// is painted; no such part.
 Result<Drawing> readSvg(const std::string& bytes, const std::string& part);
-Result<Drawing> readDxf(const std::string& bytes, const std::string& part);
+/// `open`: lines that close no outline will do.
+Result<Drawing> readDxf(const std::string& bytes, const std::string& part, bool open = false);
 
 /// Reads a file of the kind kSvgFile or kDxfFile (file_kind.h), told by its ending. `path` is relative to the
 /// folder of the file `graphPath`, as openAsset() has it. The Error has a message only.
 Result<OutlinePtr> readDrawing(const std::string& graphPath, const std::string& path,
                                const std::string& part);
+
+/// The paths of a drawing, brought to a unit.
+struct DrawnPaths {
+    std::vector<Contour> paths;  ///< in the order in which they are painted
+    double scale = 1;            ///< of a unit by its file, metres
+    std::string file;            ///< absolute path
+};
+using DrawnPathsPtr = std::shared_ptr<const DrawnPaths>;
+/// The same of the lines along which it is drawn, open ones too. Of a DXF file those that close come first.
+Result<DrawnPathsPtr> readPaths(const std::string& graphPath, const std::string& path,
+                                const std::string& part);
 
 }  // namespace fw

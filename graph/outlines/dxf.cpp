@@ -103,7 +103,7 @@ double forwardTurn(double angle) {
 
 class DxfReader {
   public:
-    explicit DxfReader(const std::string& layer_) : layer(layer_) {}
+    DxfReader(const std::string& layer_, bool open_) : layer(layer_), open(open_) {}
 
     Result<Drawing> run(std::string_view bytes) {
         if (bytes.starts_with("AutoCAD Binary DXF"))
@@ -354,20 +354,24 @@ class DxfReader {
     /// Lines joined end to end into closed contours, and all brought to a unit.
     Result<Drawing> finished() {
         join();
-        if (closed.empty()) return Error{"has lines but none of them close an outline: join their ends"};
+        if (closed.empty() && !(open && !lines.empty()))
+            return Error{"has lines but none of them close an outline: join their ends"};
+        const std::vector<Contour>& all = closed.empty() ? lines : closed;
         glm::dvec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
-        for (const Contour& contour : closed)
+        for (const Contour& contour : all)
             for (const Arc& arc : contour.arcs)
                 for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
                     const glm::dvec2 p = placeOn(arc, share);
                     lo = glm::min(lo, p), hi = glm::max(hi, p);
                 }
         const double longer = std::max(hi.x - lo.x, hi.y - lo.y);
-        if (!(longer > 0)) return Error{"has no outline with an area"};
+        if (!(longer > 0)) return Error{"has no line with a length"};
         Drawing drawing;
         const glm::dvec2 centre = 0.5 * (lo + hi);
         const PlaneTransform toUnit{{1 / longer, 0}, {0, 1 / longer}, -centre / longer};
-        drawing.painting.fills.push_back({moved(closed, toUnit, kDxfTolerance), true});
+        drawing.paths = moved(closed, toUnit, kDxfTolerance);
+        if (!closed.empty()) drawing.painting.fills.push_back({drawing.paths, true});
+        for (Contour& line : moved(lines, toUnit, kDxfTolerance)) drawing.paths.push_back(std::move(line));
         // $INSUNITS; a drawing that says none is taken to be in millimetres.
         const std::map<int, double> units = {{1, 0.0254},  {2, 0.3048},  {3, 1609.344}, {4, 1e-3},
                                              {5, 1e-2},    {6, 1},       {7, 1e3},      {8, 2.54e-8},
@@ -376,13 +380,14 @@ class DxfReader {
         drawing.scale = longer * (found == units.end() ? 1e-3 : found->second);
         for (const std::string& what : remarked)
             drawing.remarks.push_back("what it has of " + what + " is left away");
-        if (open > 0)
-            drawing.remarks.push_back(std::to_string(open) +
-                                      (open == 1 ? " line that closes" : " lines that close") +
-                                      " no outline " + (open == 1 ? "is" : "are") + " left away");
+        if (!lines.empty())
+            drawing.remarks.push_back(std::to_string(lines.size()) +
+                                      (lines.size() == 1 ? " line that closes" : " lines that close") +
+                                      " no outline " + (lines.size() == 1 ? "is" : "are") + " left away");
         return drawing;
     }
 
+    /// `lines` are those that are left, each as long as it can be.
     void join() {
         // Ends by cells as large as what is taken for one place.
         const double cell = kJoins * std::max(extent, 1e-9);
@@ -409,32 +414,42 @@ class DxfReader {
                     }
             return std::nullopt;
         };
+        std::vector<Contour> left;
         for (std::size_t first = 0; first < lines.size(); ++first) {
             if (used[first]) continue;
             used[first] = true;
             Contour whole = lines[first];
+            bool turned = false;
             while (glm::distance(whole.arcs.back().b, whole.arcs.front().a) > cell ||
                    whole.arcs.size() == 1) {
                 const auto follower = next(whole.arcs.back().b);
-                if (!follower) break;
+                if (!follower && turned) break;
+                if (!follower) {
+                    turned = true;
+                    reverse(whole.arcs);
+                    continue;
+                }
                 const auto [line, isEnd] = *follower;
                 used[line] = true;
                 std::vector<Arc> arcs = lines[line].arcs;
-                if (isEnd) {
-                    std::ranges::reverse(arcs);
-                    for (Arc& arc : arcs) arc = reversed(arc);
-                }
+                if (isEnd) reverse(arcs);
                 // Its first end is brought to where the last one ended.
                 arcs.front() = arcBetween(whole.arcs.back().b, arcs.front().b, arcs.front().bend);
                 whole.arcs.insert(whole.arcs.end(), arcs.begin(), arcs.end());
             }
+            if (turned) reverse(whole.arcs);
             whole.closed =
                 glm::distance(whole.arcs.back().b, whole.arcs.front().a) <= cell && whole.arcs.size() > 1;
             if (whole.closed)
                 closed.push_back(std::move(whole));
             else
-                ++open;
+                left.push_back(std::move(whole));
         }
+        lines = std::move(left);
+    }
+    static void reverse(std::vector<Arc>& arcs) {
+        std::ranges::reverse(arcs);
+        for (Arc& arc : arcs) arc = reversed(arc);
     }
 
     void fail(std::string message) {
@@ -446,20 +461,21 @@ class DxfReader {
         std::vector<Entity> entities;
     };
     const std::string& layer;
+    const bool open;  ///< lines that close no outline will do
     std::vector<Entity> entities;
     std::map<std::string_view, Block> blocks;
     std::set<std::string> layers, remarked;
     std::vector<Contour> lines, closed;
     std::optional<Error> problem;
     double extent = 0, tolerance = kDxfTolerance;
-    std::size_t drawn = 0, open = 0;
+    std::size_t drawn = 0;
     int unit = 0, inserts = 0;
 };
 
 }  // namespace
 
-Result<Drawing> readDxf(const std::string& bytes, const std::string& part) {
-    return DxfReader(part).run(bytes);
+Result<Drawing> readDxf(const std::string& bytes, const std::string& part, bool open) {
+    return DxfReader(part, open).run(bytes);
 }
 
 }  // namespace fw

@@ -482,12 +482,16 @@ class SvgReader {
             fill.clips = here.clips;
             drawing.painting.fills.push_back(std::move(fill));
         };
-        if (clipping ||
-            isSeen(opacityOf(here["fill"].empty() ? "black" : here["fill"], here["fill-opacity"])))
-            add({moved(contours, here.toPage, tolerance),
-                 here[clipping ? "clip-rule" : "fill-rule"] == "evenodd"});
-        if (clipping || here["stroke"].empty() || !isSeen(opacityOf(here["stroke"], here["stroke-opacity"])))
-            return;
+        const bool filled = clipping || isSeen(opacityOf(here["fill"].empty() ? "black" : here["fill"],
+                                                         here["fill-opacity"])),
+                   stroked = !clipping && !here["stroke"].empty() &&
+                             isSeen(opacityOf(here["stroke"], here["stroke-opacity"]));
+        if (filled || stroked) {
+            const std::vector<Contour> paths = moved(contours, here.toPage, tolerance);
+            if (!clipping) drawing.paths.insert(drawing.paths.end(), paths.begin(), paths.end());
+            if (filled) add({paths, here[clipping ? "clip-rule" : "fill-rule"] == "evenodd"});
+        }
+        if (!stroked) return;
         const double diagonal = std::sqrt(0.5 * glm::dot(here.viewport, here.viewport));
         StrokeStyle style;
         style.width = lengthIn(here["stroke-width"], diagonal).value_or(1);

@@ -133,10 +133,12 @@ void checkUnconnected(const Scope& scope, uint32_t i, Findings& findings) {
         place.input = name;
         if (wanted == Type::surface)
             findings.warning(place, "the input is not connected: it counts as empty space");
-        if (wanted == Type::mesh || wanted == Type::particles)
+        if (wanted == Type::mesh || wanted == Type::particles || wanted == Type::spline)
             findings.error(place,
                            "the input is not connected: link a node that gives " +
-                               std::string(wanted == Type::mesh ? "a mesh" : "particles"),
+                               std::string(wanted == Type::mesh        ? "a mesh"
+                                           : wanted == Type::particles ? "particles"
+                                                                       : "a spline"),
                            Error::Code::unfinished);
     };
     if (type.role == NodeRole::output) {

@@ -209,6 +209,8 @@ std::vector<std::string> Player::files() const {
         if (!image->file.empty()) list.push_back(image->file);
     for (const OutlinePtr& outline : session.program().ir.outlines())
         if (!outline->file.empty()) list.push_back(outline->file);
+    for (const SplineTablePtr& table : session.program().ir.splines())
+        if (!table->spline->file.empty()) list.push_back(table->spline->file);
     if (now.environment) list.push_back(now.environment->file);
     for (const FieldVolumePtr& volume : session.program().ir.volumes()) {
         if (volume->mesh) list.push_back(volume->mesh->file);

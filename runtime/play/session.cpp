@@ -122,7 +122,8 @@ void Session::take(Program program) {
     finish(*gpu);  // what runs may be of the program before
     const bool sameImages = images && program.ir.images() == current.ir.images();
     const bool sameVolumes = volumes && program.ir.volumes() == current.ir.volumes() &&
-                             program.ir.outlines() == current.ir.outlines();
+                             program.ir.outlines() == current.ir.outlines() &&
+                             program.ir.splines() == current.ir.splines();
     std::vector<uint32_t> words, texels;
     if (!sameImages) words = imageWords(program.ir.images());
     if (!sameVolumes) texels = fieldTexels(program.ir);

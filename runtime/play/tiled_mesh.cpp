@@ -207,6 +207,7 @@ uint64_t tileKey(const Session& session, const MeshRequest& request, const TileP
     hash.add(imageWords(program.ir.images()));
     for (const FieldVolumePtr& volume : program.ir.volumes()) hash.add(volume->words);
     for (const OutlinePtr& outline : program.ir.outlines()) hash.add(outline->texels);
+    for (const SplineTablePtr& spline : program.ir.splines()) hash.add(spline->texels);
     for (const Family& family : program.families.all) hash.add(family.table);
     const glm::vec3 baseColor = session.baseColor();
     const Material material = session.material();

@@ -351,7 +351,8 @@ TEST(Together, BehindAFactorOfZeroNothingBecomesNoNumber) {
         if (!way) continue;
         for (const Handle& handle : handlesOf(node, placementAlong(graph, "", *way), {}))
             for (int axis = 0; axis <= handle.count; ++axis) {
-                if (axis == handle.count && axis != kAcrossView) break;
+                // Only what is moved can be held across the view.
+                if (axis == handle.count && (axis != kAcrossView || handle.kind != Handle::Kind::move)) break;
                 HandleDrag drag = takeHandle(handle, axis, lens, {300, 300}, 1.0);
                 for (const double step : {0.0, 0.1}) {
                     const Steps steps(step > 0.0);

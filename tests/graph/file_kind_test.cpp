@@ -46,13 +46,11 @@ Result<OutlinePtr> readWholeDrawing(const std::string& graph, const std::string&
 Result<Painting> readFont(const std::string& graph, const std::string& path) {
     return paintText(graph, "x", {.fontFile = path});
 }
-const std::map<const FileKind*, Refusal> kReaders = {{&kPictureFile, refusal(readImage)},
-                                                     {&kMeshFile, refusal(readTriangleMesh)},
-                                                     {&kParticleFile, refusal(readParticlePlaces)},
-                                                     {&kParticleCacheFile, refusal(readParticleCache)},
-                                                     {&kSvgFile, refusal(readWholeDrawing)},
-                                                     {&kDxfFile, refusal(readWholeDrawing)},
-                                                     {&kFontFile, refusal(readFont)}};
+const std::map<const FileKind*, Refusal> kReaders = {
+    {&kPictureFile, refusal(readImage)},           {&kMeshFile, refusal(readTriangleMesh)},
+    {&kParticleFile, refusal(readParticlePlaces)}, {&kParticleCacheFile, refusal(readParticleCache)},
+    {&kDrawingFile, refusal(readWholeDrawing)},    {&kSvgFile, refusal(readWholeDrawing)},
+    {&kDxfFile, refusal(readWholeDrawing)},        {&kFontFile, refusal(readFont)}};
 
 TEST(FileKinds, EveryInputOfTheLibraryHasOneWithAReader) {
     std::size_t inputs = 0;

@@ -45,6 +45,10 @@ struct Applied {
         else if (op == Op::outline)
             root = ir.sample(ir.addOutline(outlineThrough(std::array{-0.5, -0.4, 0.6, -0.3, 0.1, 0.7})),
                              ir.position(0), ir.position(1));
+        else if (op == Op::spline)
+            root = ir.sample(
+                ir.addSpline(splineTable(*splineOfHelix({.radius = 0.6, .topRadius = 0.4, .turns = 1.2}), 0)),
+                SplineChannel::distance, {ir.position(0), ir.position(1), ir.position(2)});
         else if (op == Op::select)
             root = ir.add(op, isPositive, ir.position(1), ir.position(2));
         else if (op == Op::logicalNot)

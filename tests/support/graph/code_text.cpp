@@ -90,7 +90,9 @@ void collect(const Graph& graph, const std::string& group, const std::vector<Nod
     }
 }
 
-bool isFieldOrText(Type type) { return type != Type::mesh && type != Type::particles; }
+bool isFieldOrText(Type type) {
+    return type != Type::mesh && type != Type::particles && type != Type::spline && type != Type::knots;
+}
 
 }  // namespace
 
@@ -120,7 +122,8 @@ const std::vector<CodeText>& knownCodes() {
                                        .linked = input.type == Type::surface,
                                        .number = input.type == Type::integer ? 3.0 : 0.75});
             }
-            const bool sound = std::ranges::all_of(code.inputs, isFieldOrText, &CodeInput::type);
+            const bool sound = std::ranges::all_of(code.inputs, isFieldOrText, &CodeInput::type) &&
+                               std::ranges::all_of(type.outputs, isFieldOrText, &OutputSpec::type);
             if (!type.body.empty() && sound) codes.push_back(std::move(code));
         }
         return codes;
