@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <random>
+#include <regex>
 #include <sstream>
 
 #include "tests/support/graph/temp_dir.h"
@@ -204,111 +204,75 @@ TEST(Svg, BadFilesAreRefused) {
     EXPECT_NE(whyNot(deep + "</svg>").find("deep"), std::string::npos);
 }
 
-/// Distances to curves, by many places on them and Newton's method from the nearest.
-TEST(Svg, DistancesAreThoseToTheCurves) {
-    std::mt19937 random(12);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<std::array<dvec2, 4>> curves;
-    std::string path = "M50 10";
-    dvec2 at{50, 10};
-    for (int i = 0; i < 8; ++i) {  // a wavy ring
-        const double angle = 2 * kPi * (i + 1) / 8 - kPi / 2;
-        const dvec2 next =
-            i == 7 ? dvec2(50, 10)
-                   : dvec2(50, 50) + (30 + 15 * unit(random)) * dvec2(std::cos(angle), std::sin(angle));
-        const dvec2 along = next - at, out{along.y, -along.x};
-        const dvec2 b = at + 0.3 * along + (0.6 * unit(random)) * out,
-                    c = at + 0.7 * along + (0.6 * unit(random) - 0.2) * out;
-        curves.push_back({at, b, c, next});
-        std::ostringstream words;
-        words.precision(17);
-        words << " C" << b.x << " " << b.y << " " << c.x << " " << c.y << " " << next.x << " " << next.y;
-        path += words.str();
-        at = next;
-    }
-    const Result<Drawing> drawing = readSvg("<svg viewBox='0 0 100 100'><path d='" + path + "z'/></svg>", "");
-    ASSERT_TRUE(drawing);
-    const Result<OutlinePtr> outline = outlineOf(drawing->painting, "", "");
-    ASSERT_TRUE(outline && *outline);
-    const auto place = [](const std::array<dvec2, 4>& p, double t) {
-        const double s = 1 - t;
-        return s * s * s * p[0] + 3 * s * s * t * p[1] + 3 * s * t * t * p[2] + t * t * t * p[3];
-    };
-    double worst = 0;
-    for (int i = 0; i < 100'000; ++i) {
-        const dvec2 p{120 * unit(random) - 10, 120 * unit(random) - 10};
-        double nearest = 1e300;
-        for (const auto& curve : curves) {
-            int best = 0;
-            double least = 1e300;
-            for (int k = 0; k <= 48; ++k)
-                if (const double distance = glm::distance(place(curve, k / 48.0), p); distance < least)
-                    least = distance, best = k;
-            double lo = std::max(0, best - 1) / 48.0, hi = std::min(48, best + 1) / 48.0;
-            for (int k = 0; k < 40; ++k) {  // by thirds
-                const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-                (glm::distance(place(curve, a), p) < glm::distance(place(curve, b), p) ? hi : lo) =
-                    glm::distance(place(curve, a), p) < glm::distance(place(curve, b), p) ? b : a;
-            }
-            nearest = std::min({nearest, least, glm::distance(place(curve, 0.5 * (lo + hi)), p)});
-        }
-        const double found = sampleOutline(**outline, (p.x - 50) / 100, (50 - p.y) / 100).value;
-        worst = std::max(worst, std::abs(std::abs(found) - nearest / 100));
-    }
-    EXPECT_LT(worst, 1e-5);
-}
-
-/// Icons that others drew, against the pictures that librsvg makes of them.
-TEST(Svg, IconsAreWhatLibrsvgPaints) {
-    const fs::path icons = "/usr/share/icons/Adwaita/scalable";
+/// Icons that others drew, against the pictures that librsvg makes of them. All of it is made opaque first:
+/// what is half seen is another question.
+void expectWhatLibrsvgPaints(const fs::path& icons, const std::string& ending, std::size_t wanted) {
     if (!fs::exists(icons) || std::system("command -v rsvg-convert >/dev/null") != 0)
-        GTEST_SKIP() << "needs adwaita-icon-theme and rsvg-convert: run ./.install test";
+        GTEST_SKIP() << "needs " << icons << " and rsvg-convert: run ./.install test";
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(icons))
-        if (entry.path().filename().string().ends_with("-symbolic.svg")) files.push_back(entry.path());
+        if (entry.path().filename().string().ends_with(ending) && !entry.is_symlink())
+            files.push_back(entry.path());
     std::ranges::sort(files);
-    const bool all = std::getenv("FIELDWRIGHT_LONG") != nullptr;
-    const std::size_t wanted = all ? 60 : 20;
-    const int side = all ? 2048 : 256;
     ASSERT_GT(files.size(), wanted);
+    const int side = std::getenv("FIELDWRIGHT_LONG") ? 2048 : 256;
     const test::TempDir folder;
-    int seen = 0;
-    for (std::size_t i = 0; i < wanted; ++i) {
-        const fs::path& file = files[i * files.size() / wanted];
+    const std::string copy = folder.path("icon.svg"), picture = folder.path("icon.png");
+    // About turns that are much tighter than a stroke is wide librsvg paints polygons; its picture at many
+    // times the scale has the round that ours has.
+    constexpr const char* kPolygonal = "user-trash-full";
+    const std::regex seenThrough(R"re((fill-|stroke-|stop-|\b)opacity(:[^;"]*;?|="[^"]*")|filter:[^;"]*)re");
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < wanted + 2; ++i) {
+        const fs::path& file = files[i * files.size() / (wanted + 2)];
         SCOPED_TRACE(file);
-        std::stringstream text;
-        text << std::ifstream(file).rdbuf();
-        // What is half seen is another question.
-        if (text.str().find("opacity") != std::string::npos || text.str().find("filter") != std::string::npos)
-            continue;
-        const Result<Drawing> drawing = readSvg(text.str(), "");
+        std::stringstream read;
+        read << std::ifstream(file).rdbuf();
+        if (read.str().find("<text") != std::string::npos || file.stem() == kPolygonal) continue;
+        const std::string text = std::regex_replace(read.str(), seenThrough, "");
+        test::writeText(copy, text);
+        const Result<Drawing> drawing = readSvg(text, "");
         ASSERT_TRUE(drawing) << drawing.error().message;
+        EXPECT_TRUE(drawing->remarks.empty()) << drawing->remarks.front();
         const Result<OutlinePtr> outline = outlineOf(drawing->painting, "", "");
         ASSERT_TRUE(outline && *outline);
-        const std::string picture = folder.path("icon.png");
-        ASSERT_EQ(
-            std::system(("rsvg-convert -w " + std::to_string(side) + " '" + file.string() + "' -o " + picture)
-                            .c_str()),
-            0);
+        ASSERT_EQ(std::system(
+                      ("rsvg-convert -w " + std::to_string(side) + " '" + copy + "' -o " + picture).c_str()),
+                  0);
         int width = 0, height = 0, channels = 0;
         stbi_uc* const pixels = stbi_load(picture.c_str(), &width, &height, &channels, 4);
         ASSERT_TRUE(pixels);
         const double longer = std::max(width, height);
+        const auto inPixels = [&](double x, double y) {
+            return longer *
+                   sampleOutline(**outline, (x - 0.5 * width) / longer, (0.5 * height - y) / longer).value;
+        };
+        constexpr int kBlock = 8;  // pixels on a side, all on one side of an outline that is far
         int wrong = 0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const double value = sampleOutline(**outline, (x + 0.5 - 0.5 * width) / longer,
-                                                   (0.5 * height - y - 0.5) / longer)
-                                         .value;
-                const bool painted = pixels[4 * (y * width + x) + 3] > 127;
-                wrong += painted != (value < 0) &&
-                         std::abs(value) * longer > 0.75;  // half a pixel, along its diagonal
+        for (int top = 0; top < height; top += kBlock)
+            for (int left = 0; left < width; left += kBlock) {
+                const double middle = inPixels(left + 0.5 * kBlock, top + 0.5 * kBlock);
+                for (int y = top; y < std::min(top + kBlock, height); ++y)
+                    for (int x = left; x < std::min(left + kBlock, width); ++x) {
+                        const double value = std::abs(middle) > kBlock ? middle : inPixels(x + 0.5, y + 0.5);
+                        const bool painted = pixels[4 * (y * width + x) + 3] > 127;
+                        wrong += painted != (value < 0) && std::abs(value) > 0.5;
+                    }
             }
         stbi_image_free(pixels);
         EXPECT_EQ(wrong, 0);
         ++seen;
     }
-    EXPECT_GE(seen, int(wanted) * 2 / 3);
+    EXPECT_GE(seen, wanted);
+}
+
+TEST(Svg, IconsAreWhatLibrsvgPaints) {
+    expectWhatLibrsvgPaints("/usr/share/icons/Adwaita/scalable", "-symbolic.svg", 20);
+}
+
+// These have strokes, gradients, clips and a hundred layers.
+TEST(Svg, DrawingsOfManyLayersAreWhatLibrsvgPaints) {
+    expectWhatLibrsvgPaints("/usr/share/icons/Tango/scalable", ".svg", 20);
 }
 
 // ---- DXF

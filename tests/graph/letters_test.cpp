@@ -85,8 +85,7 @@ TEST(Letters, AreWhatFreeTypePaints) {
                 const bool painted = within && glyph->bitmap.buffer[y * glyph->bitmap.pitch + x] > 127;
                 const dvec2 p = dvec2(glyph->bitmap_left + x + 0.5, glyph->bitmap_top - y - 0.5) / double(em);
                 const double value = sampleOutline(**outline, p.x, p.y).value;
-                wrong += painted != (value < 0) &&
-                         std::abs(value) * em > 0.75;  // half a pixel, along its diagonal
+                wrong += painted != (value < 0) && std::abs(value) * em > 0.5;
             }
         EXPECT_EQ(wrong, 0);
     }
