@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 
@@ -15,33 +16,39 @@ namespace fw::part_nodes_test {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// The field of one node, or of code.
+/// The field of one node, of the last of several, or of code.
 class Field {
   public:
     Field(const std::string& type, const std::string& inputs, const std::string& unit = "m")
-        : Field(R"("type": ")" + type + R"(", "inputs": {)" + inputs + "}", unit, 0) {}
+        : Field(R"({"id": "n", "type": ")" + type + R"(", "inputs": {)" + inputs + "}}", unit, 0) {}
+    /// `nodes`: their objects; what is shown is called n.
+    static Field ofNodes(const std::string& nodes) { return {nodes, "m", 0}; }
     static Field ofCode(const std::string& code) {
-        return {R"("type": "expression", "code": ")" + code + "\"", "m", 0};
+        return {R"({"id": "n", "type": "expression", "code": ")" + code + "\"}", "m", 0};
     }
     double operator()(double x, double y, double z) const {
         const Point p{x, y, z};
         double value = 0;
-        evaluate(program.ir, program.distance(), {}, std::span(&p, 1), std::span(&value, 1));
+        machine.evaluate(tape, std::span(&p, 1), std::span(&value, 1));
         return value;
     }
 
   private:
-    Field(const std::string& node, const std::string& unit, int) {
+    Field(const std::string& nodes, const std::string& unit, int) {
         const Result<Graph> graph =
-            parseGraph(R"({"fieldwright": 1, "unit": ")" + unit + R"(", "nodes": [{"id": "n", )" + node +
-                           R"(}, {"id": "out", "type": "output", "inputs": {"surface": {"from": "n"}}}]})",
+            parseGraph(R"({"fieldwright": 1, "unit": ")" + unit + R"(", "nodes": [)" + nodes +
+                           R"(, {"id": "out", "type": "output", "inputs": {"surface": {"from": "n"}}}]})",
                        "part.field.json", nullptr);
         EXPECT_TRUE(graph) << format(graph.error());
         Result<Program> made = compile(*graph);
         EXPECT_TRUE(made) << format(made.error());
-        if (made) program = std::move(*made);
+        if (!made) return;
+        program = std::move(*made);
+        tape = makeTape(program.ir, program.distance(), {});
     }
     Program program;
+    Tape tape;
+    mutable TapeMachine<double> machine;
 };
 
 /// Where the field leaves the solid, on the way out from the axis at a height and an angle.
@@ -55,20 +62,29 @@ double radiusAt(const Field& field, double y, double angle, double most) {
 }
 
 TEST(Thread, HasTheDiametersOfTheStandard) {
-    // ISO 724: nominal, pitch and minor diameter, and the pitch, millimetres.
+    // ISO 724, of the coarse threads of ISO 261: nominal, pitch and minor diameter, and the pitch,
+    // millimetres.
     struct Row {
-        const char* name;
         double major, middle, minor, pitch;
     };
-    for (const Row& row : {Row{"M3", 3, 2.675, 2.459, 0.5}, Row{"M8", 8, 7.188, 6.647, 1.25},
-                           Row{"M10", 10, 9.026, 8.376, 1.5}, Row{"M20", 20, 18.376, 17.294, 2.5},
-                           Row{"M36", 36, 33.402, 31.670, 4}, Row{"M64", 64, 60.103, 57.505, 6}}) {
-        SCOPED_TRACE(row.name);
-        const Field field("thread", R"("size": ")" + std::string(row.name) + R"(", "height": 100)", "mm");
+    constexpr Row kTable[] = {
+        {3, 2.675, 2.459, 0.5},     {4, 3.545, 3.242, 0.7},    {5, 4.480, 4.134, 0.8},
+        {6, 5.350, 4.917, 1},       {8, 7.188, 6.647, 1.25},   {10, 9.026, 8.376, 1.5},
+        {12, 10.863, 10.106, 1.75}, {14, 12.701, 11.835, 2},   {16, 14.701, 13.835, 2},
+        {18, 16.376, 15.294, 2.5},  {20, 18.376, 17.294, 2.5}, {22, 20.376, 19.294, 2.5},
+        {24, 22.051, 20.752, 3},    {27, 25.051, 23.752, 3},   {30, 27.727, 26.211, 3.5},
+        {33, 30.727, 29.211, 3.5},  {36, 33.402, 31.670, 4},   {39, 36.402, 34.670, 4},
+        {42, 39.077, 37.129, 4.5},  {45, 42.077, 40.129, 4.5}, {48, 44.752, 42.587, 5},
+        {52, 48.752, 46.587, 5},    {56, 52.428, 50.046, 5.5}, {60, 56.428, 54.046, 5.5},
+        {64, 60.103, 57.505, 6}};
+    for (const Row& row : kTable) {
+        const std::string name = "M" + std::to_string(int(row.major));
+        SCOPED_TRACE(name);
+        const Field field("thread", R"("size": ")" + name + R"(", "height": 100)", "mm");
         const double angle = 0.7;
         double most = 0, least = 1e9;
         int above = 0;
-        constexpr int kSteps = 2000;
+        constexpr int kSteps = 512;
         for (int i = 0; i < kSteps; ++i) {
             const double radius = radiusAt(field, row.pitch * i / kSteps, angle, row.major);
             most = std::max(most, radius), least = std::min(least, radius);
@@ -127,6 +143,65 @@ TEST(Gear, TeethTurnInEachOtherWithoutMeeting) {
             if (a > 10) { EXPECT_LT(close, 0.01) << "two teeth always touch"; }
         }
         EXPECT_GT(deepest, -3e-5) << "of a module";
+    }
+}
+
+/// The area where a field is below 0 within a square, found by quarters of it: no value changes by more than
+/// the way to it. `deepest` becomes the least value.
+double areaInside(const Field& field, double x, double y, double half, double least, double& deepest) {
+    const double value = field(x, y, 0);
+    deepest = std::min(deepest, value);
+    if (value > half * std::numbers::sqrt2) return 0;
+    if (value < -half * std::numbers::sqrt2 || half < least) return value < 0 ? 4 * half * half : 0;
+    double area = 0;
+    for (const double dx : {-0.5, 0.5})
+        for (const double dy : {-0.5, 0.5})
+            area += areaInside(field, x + dx * half, y + dy * half, 0.5 * half, least, deepest);
+    return area;
+}
+
+TEST(Gear, NodesThatTurnTogetherHaveNothingInCommon) {
+    struct Pair {
+        int a, b;
+        double angle;
+    };
+    for (const Pair& pair : {Pair{12, 20, 20},
+                             {20, 20, 20},
+                             {17, 53, 20},
+                             {18, 40, 14.5},
+                             {32, 32, 14.5},
+                             {10, 24, 25},
+                             {8, 9, 30},
+                             {13, 60, 17.5},
+                             {5, 35, 20}}) {
+        SCOPED_TRACE(std::to_string(pair.a) + " and " + std::to_string(pair.b) + " at " +
+                     std::to_string(pair.angle));
+        const auto gear = [&](const char* id, int teeth) {
+            return R"({"id": ")" + std::string(id) +
+                   R"(", "type": "gear", "inputs": {"module": 1, "teeth": )" + std::to_string(teeth) +
+                   R"(, "pressure_angle": )" + std::to_string(pair.angle) + "}}, ";
+        };
+        const auto turned = [](const std::string& id, const std::string& what, double degrees) {
+            return R"({"id": ")" + id + R"(", "type": "rotate", "inputs": {"surface": {"from": ")" + what +
+                   R"("}, "angles": [0, 0, )" + std::to_string(degrees) + "]}}, ";
+        };
+        // A turn of the first: at every tooth another place of the mesh, so that all of a pitch is seen.
+        const int steps = std::getenv("FIELDWRIGHT_LONG") ? 60 : 8;
+        double deepest = 1, most = 0;
+        for (int step = 0; step < steps; ++step) {
+            const double turn = 360.0 * step / steps + 360.0 / pair.a * step / steps,
+                         back = 180 + 180.0 / pair.b - turn * pair.a / pair.b;
+            const Field common = Field::ofNodes(
+                gear("a", pair.a) + gear("b", pair.b) + turned("one", "a", turn) +
+                turned("other", "b", back) +
+                R"({"id": "apart", "type": "translate", "inputs": {"surface": {"from": "other"}, "offset": [)" +
+                std::to_string(0.5 * (pair.a + pair.b)) + R"(, 0, 0]}},
+                       {"id": "n", "type": "intersect", "inputs": {"a": {"from": "one"}, "b": {"from": "apart"}}})");
+            // Within two modules of the line through the centres both gears are; beyond five nothing meets.
+            most = std::max(most, areaInside(common, 0.5 * pair.a, 0, 6, 2e-5, deepest));
+        }
+        EXPECT_GT(deepest, -3e-5) << "of a module";
+        EXPECT_LT(most, 3e-5) << "of a module's square";
     }
 }
 
