@@ -92,7 +92,7 @@ class ModelReader {
         unit(root);
         for (const Xml& resource : root.child("resources").children()) read(resource);
         for (const Xml& item : root.child("build").children())
-            if (nameOf(item) == "item") model.items.push_back(component(item, "a build item"));
+            if (nameOf(item) == "item") build(component(item, "a build item"));
         if (problem) return *problem;
         for (const std::string& what : left) model.left.push_back(what);
         return std::move(model);
@@ -157,6 +157,13 @@ class ModelReader {
         if (found == std::end(kUnits))
             return fail("its unit " + inQuotes(get(root, "unit")) + " is not known");
         model.unit = found->second;
+    }
+
+    /// What is no part of the model, though it stands beside it, is not built.
+    void build(const Component& item) {
+        const auto other = noModels.find(item.object);
+        if (other == noModels.end()) return model.items.push_back(item);
+        leave("the object " + std::to_string(item.object) + ", of the type " + inQuotes(other->second) + ",");
     }
 
     /// A positive number; 0 where there is none.
@@ -338,6 +345,8 @@ class ModelReader {
         to.id = idOf(from, "id");
         to.name = get(from, "name");
         const std::string whose = "the object " + std::to_string(to.id);
+        const std::string_view type = get(from, "type");
+        if (type == "support" || type == "solidsupport" || type == "other") noModels.emplace(to.id, type);
         to.color = colorOf(idOf(from, "pid"), get(from, "pindex"));
         if (!get(from, "pid").empty() && !to.color) leave("the material of " + whose);
         for (const Xml& child : from.children()) {
@@ -363,6 +372,8 @@ class ModelReader {
             const std::string_view kind = nameOf(child);
             if (kind == "vertices") {
                 for (const Xml& v : child.children()) {
+                    for (const char* axis : {"x", "y", "z"})
+                        if (get(v, axis).empty()) return fail("a vertex of " + whose + " has no " + axis);
                     glm::dvec3& p = to.positions.emplace_back();
                     p.x = numberIn(v, "x", 0.0, whose), p.y = numberIn(v, "y", 0.0, whose);
                     p.z = numberIn(v, "z", 0.0, whose);
@@ -375,7 +386,7 @@ class ModelReader {
                         to.indices.push_back(*index);
                         painted |= !get(t, "p1").empty();
                     }
-            } else if (!kind.empty() && kind != "trianglesets") {
+            } else if (!kind.empty()) {
                 leave(inQuotes(kind) + " of " + whose);
             }
         }
@@ -450,6 +461,7 @@ class ModelReader {
     std::optional<Error> problem;
     std::set<int> ids;
     std::set<std::string> left;
+    std::map<int, std::string> noModels;  ///< types of objects that are none
     std::map<int, std::vector<glm::dvec3>> palettes;
 };
 

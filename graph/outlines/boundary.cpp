@@ -13,6 +13,10 @@ namespace {
 // place beside an arc is nearer to it than that.
 constexpr double kSame = 1e-7;
 constexpr double kBeside = 0.2 * kSame;
+constexpr double kMostListed = 4e6;  // numbers of arcs in rows
+// Looks at an arc, for who meets whom and for what a place is in: a second or so of them. Drawings, and pages
+// of letters, take a hundredth.
+constexpr std::size_t kMostLooks = 100'000'000;
 
 /// The plain arcs of all fills, those of clips behind the others, with the fill that each is of.
 struct AllArcs {
@@ -66,7 +70,11 @@ class Windings {
   public:
     Windings(const AllArcs& all_, const Painting& painting)
         : all(all_), fillsPainted(uint32_t(painting.fills.size())) {
-        count = std::clamp<std::size_t>(all.items.size() / 4, 1, 4096);
+        // So that all rows together do not list arcs much more often than there are any.
+        double tall = 0;
+        for (const AllArcs::Item& item : all.items) tall += std::abs(item.arc.b.y - item.arc.a.y);
+        const double height = all.hi.y - all.lo.y, most = tall > 0 ? kMostListed * height / tall : 1;
+        count = std::size_t(std::clamp(0.25 * double(all.items.size()), 1.0, std::clamp(most, 1.0, 4096.0)));
         rows.resize(count);
         for (uint32_t i = 0; i < all.items.size(); ++i) {
             const Arc& arc = all.items[i].arc;
@@ -78,20 +86,26 @@ class Windings {
     }
 
     bool isInside(glm::dvec2 p) {
-        std::ranges::fill(turns, 0);
-        for (const uint32_t i : rows[rowOf(p.y)]) {
+        const std::vector<uint32_t>& row = rows[rowOf(p.y)];
+        looked += row.size();
+        for (const uint32_t fill : crossed) turns[fill] = 0;
+        crossed.clear();
+        for (const uint32_t i : row) {
             const Arc& arc = all.items[i].arc;
             const bool rises = arc.b.y > arc.a.y;
-            if ((arc.a.y <= p.y) != (arc.b.y <= p.y) && isLeft(arc, p) == rises)
-                turns[all.items[i].fill] += rises ? 1 : -1;
+            if ((arc.a.y <= p.y) == (arc.b.y <= p.y) || isLeft(arc, p) != rises) continue;
+            turns[all.items[i].fill] += rises ? 1 : -1;
+            crossed.push_back(all.items[i].fill);
         }
-        for (uint32_t fill = 0; fill < fillsPainted; ++fill)
-            if (has(fill) && std::ranges::all_of(all.fills[fill]->clips, [&](uint32_t clip) {
-                    return std::ranges::any_of(all.clips[clip], [&](uint32_t of) { return has(of); });
-                }))
-                return true;
-        return false;
+        return std::ranges::any_of(crossed, [&](uint32_t fill) {
+            return fill < fillsPainted && has(fill) &&
+                   std::ranges::all_of(all.fills[fill]->clips, [&](uint32_t clip) {
+                       looked += all.clips[clip].size();
+                       return std::ranges::any_of(all.clips[clip], [&](uint32_t of) { return has(of); });
+                   });
+        });
     }
+    std::size_t looks() const { return looked; }
 
   private:
     std::size_t rowOf(double y) const {
@@ -106,9 +120,10 @@ class Windings {
 
     const AllArcs& all;
     uint32_t fillsPainted;
-    std::size_t count;
+    std::size_t count, looked = 0;
     std::vector<std::vector<uint32_t>> rows;
-    std::vector<int> turns;
+    std::vector<int> turns;         ///< of each fill
+    std::vector<uint32_t> crossed;  ///< fills that have some
 };
 
 /// Where the whole circles or lines of two arcs meet: at most two places.
@@ -154,15 +169,19 @@ class Parter {
         // Cells with about as many arcs as there are cells.
         const glm::dvec2 size = all.hi - all.lo;
         cell = std::max({std::sqrt(size.x * size.y / double(all.items.size())), all.extent / 4096, 1e-300});
-        for (uint32_t i = 0; i < all.items.size(); ++i) {
+        for (uint32_t i = 0; i < all.items.size() && looked <= kMostLooks; ++i) {
             const auto [lo, hi] = cellsOf(all.items[i].arc);
+            looked += std::size_t(10 * (hi.first - lo.first + 1) * (hi.second - lo.second + 1));
             for (int64_t y = lo.second; y <= hi.second; ++y)
                 for (int64_t x = lo.first; x <= hi.first; ++x) cells[x << 32 | y].push_back(i);
         }
         for (const auto& [where, list] : cells)
-            for (std::size_t i = 0; i < list.size(); ++i)
+            for (std::size_t i = 0; i < list.size() && looked <= kMostLooks; ++i) {
+                looked += list.size() - i;
                 for (std::size_t j = i + 1; j < list.size(); ++j) meet(list[i], list[j], where);
+            }
     }
+    std::size_t looks() const { return looked; }
 
     /// In order from its first end to its last.
     std::vector<Arc> partsOf(uint32_t i) {
@@ -200,6 +219,7 @@ class Parter {
         // In the first of the cells that both are in.
         const auto first = [&](double x) { return int64_t(std::max(0.0, std::floor((x - same) / cell))); };
         if ((first(lo.x - all.lo.x) << 32 | first(lo.y - all.lo.y)) != where) return;
+        looked += 20;  // so much longer does it take from here on
         const bool follows = all.items[i].next == j, precedes = all.items[j].next == i;
         const auto isEnd = [&](const Arc& arc, glm::dvec2 p) {
             return glm::distance(p, arc.a) <= same || glm::distance(p, arc.b) <= same;
@@ -231,6 +251,7 @@ class Parter {
     std::vector<Parting> partings;
     std::vector<bool> touched;
     bool any = false;
+    std::size_t looked = 0;
     std::unordered_map<int64_t, std::vector<uint32_t>> cells;
 };
 
@@ -248,11 +269,12 @@ Painted::~Painted() = default;
 
 bool Painted::has(glm::dvec2 p) const { return inner->windings.isInside(p); }
 
-std::vector<Arc> Painted::boundary() const {
+std::optional<std::vector<Arc>> Painted::boundary() const {
     const AllArcs& all = inner->all;
     Windings& windings = inner->windings;
-    if (all.items.empty() || !(all.extent > 0)) return {};
+    if (all.items.empty() || !(all.extent > 0)) return std::vector<Arc>();
     Parter parter(all);
+    if (parter.looks() > kMostLooks) return std::nullopt;
     std::vector<Arc> boundary, chain;
     const double beside = kBeside * all.extent;
     // A chain ends where another contour comes to it.
@@ -284,6 +306,7 @@ std::vector<Arc> Painted::boundary() const {
                 if (k > 0) end();
                 if (parts[k].a != parts[k].b) chain.push_back(parts[k]);
             }
+            if (windings.looks() > kMostLooks) return std::nullopt;
         }
         end();
     }
@@ -307,13 +330,14 @@ std::vector<Arc> Painted::boundary() const {
 
 Result<OutlinePtr> outlineOf(const Painting& painting, const std::string& what, const std::string& remedy) {
     const Painted painted(painting);
-    std::vector<Arc> arcs = painted.boundary();
-    if (arcs.empty()) return OutlinePtr();
-    if (arcs.size() > kMostArcs)
-        return Error{what + " has an outline of " + std::to_string(arcs.size()) + " arcs: at most " +
+    std::optional<std::vector<Arc>> arcs = painted.boundary();
+    if (!arcs) return Error{what + " crosses itself or lies upon itself far too often, so " + remedy};
+    if (arcs->empty()) return OutlinePtr();
+    if (arcs->size() > kMostArcs)
+        return Error{what + " has an outline of " + std::to_string(arcs->size()) + " arcs: at most " +
                      std::to_string(kMostArcs) + " can be used, so " + remedy};
     return OutlinePtr(
-        std::make_shared<const Outline>(std::move(arcs), [&](glm::dvec2 p) { return painted.has(p); }));
+        std::make_shared<const Outline>(std::move(*arcs), [&](glm::dvec2 p) { return painted.has(p); }));
 }
 
 }  // namespace fw

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ class Painted {
 
     /// Whether a place is in the painting, counted along a ray.
     bool has(glm::dvec2 p) const;
-    /// Plain arcs that together make closed contours. None if nothing is painted.
-    std::vector<Arc> boundary() const;
+    /// Plain arcs that together make closed contours; empty if nothing is painted. None if so much crosses or
+    /// lies upon each other that to find them would take longer than a second or two.
+    std::optional<std::vector<Arc>> boundary() const;
 
   private:
     struct Inner;
@@ -48,7 +50,7 @@ class Painted {
 };
 
 /// What is painted as an outline; null if there is nothing. The Error, with a message only, says that it has
-/// too many arcs, after `what` ("the text") and before `remedy`.
+/// too many arcs or crossings, after `what` ("the text") and before `remedy`.
 Result<OutlinePtr> outlineOf(const Painting& painting, const std::string& what, const std::string& remedy);
 
 }  // namespace fw

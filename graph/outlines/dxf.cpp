@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 #include <numbers>
@@ -22,6 +23,7 @@ constexpr double kJoins = 1e-5;                // of the same: ends that are nea
 constexpr std::size_t kMostDxfArcs = 400'000;  // arcs
 constexpr int kMostBlocksDeep = 16;            // blocks within blocks
 constexpr int kMostInserts = 20'000;
+constexpr std::size_t kMostGroups = 2'000'000;  // a code with its value each
 
 /// A line with a code, and a line with its value.
 struct Group {
@@ -77,8 +79,8 @@ struct Spline {
     double to() const { return knots[controls.size()]; }
     glm::dvec2 operator()(double t) const {
         const auto p = std::size_t(degree);
-        std::size_t span = p;
-        while (span + 1 < controls.size() && t >= knots[span + 1]) ++span;
+        const auto first = knots.begin() + degree + 1, last = knots.begin() + std::ptrdiff_t(controls.size());
+        const auto span = std::size_t(std::upper_bound(first, last, t) - knots.begin()) - 1;
         std::vector<glm::dvec3> d(p + 1);
         for (std::size_t i = 0; i <= p; ++i) {
             const std::size_t at = span - p + i;
@@ -157,6 +159,9 @@ class DxfReader {
                 break;
             }
             if (code != 999) groups.push_back({code, *value});
+            if (groups.size() > kMostGroups)
+                return Error{"has more than " + std::to_string(kMostGroups) +
+                             " values: leave away what is no outline"};
         }
         if (groups.empty() || groups.front().code != 0 || groups.front().value != "SECTION")
             return Error{"is no DXF file: it does not begin with a section"};
@@ -333,7 +338,8 @@ class DxfReader {
         for (std::size_t k = std::size_t(curve.degree); k < curve.controls.size(); ++k)
             if (curve.knots[k + 1] > curve.knots[k]) {
                 // Its end belongs to the next span: just before it is this one's.
-                pen.along(curve, curve.knots[k], std::nextafter(curve.knots[k + 1], curve.knots[k]));
+                pen.along(std::cref(curve), curve.knots[k],
+                          std::nextafter(curve.knots[k + 1], curve.knots[k]));
                 if (pen.arcs() >= kMostDxfArcs) return;
             }
         if ((int(entity.number(70, 0)) & 1) != 0) pen.close();

@@ -7,7 +7,7 @@ namespace fw {
 
 namespace {
 
-constexpr std::size_t kMostDashes = 10'000;  // of a contour: with more it has none
+constexpr double kMostDashes = 50'000;  // of all contours: those for which none are left have none
 
 /// Makes the pieces of one contour.
 class Stroker {
@@ -101,15 +101,17 @@ class Stroker {
     std::vector<Contour>& to;
 };
 
-/// The dashes of a contour: open ones, of which the last goes on into the first where a closed one begins
-/// within a dash.
-std::vector<Contour> dashed(const Contour& contour, const StrokeStyle& style) {
+/// The dashes of a contour, fewer than `most`, which becomes so many less: open ones, of which the last goes
+/// on into the first where a closed one begins within a dash.
+std::vector<Contour> dashed(const Contour& contour, const StrokeStyle& style, double& most) {
     std::vector<double> pattern = style.dashes;
     if (pattern.size() % 2 != 0) pattern.insert(pattern.end(), style.dashes.begin(), style.dashes.end());
     double period = 0, length = 0;
     for (const double dash : pattern) period += dash;
     for (const Arc& arc : contour.arcs) length += lengthOf(arc);
-    if (!(period > 0) || !(length / period * double(pattern.size()) < double(kMostDashes))) return {contour};
+    const double count = length / period * double(pattern.size());
+    if (!(period > 0) || !(count < most)) return {contour};
+    most -= count;
     std::size_t at = 0;
     double rest = std::fmod(style.dashOffset, period);
     if (rest < 0) rest += period;
@@ -146,12 +148,13 @@ std::vector<Contour> dashed(const Contour& contour, const StrokeStyle& style) {
 std::vector<Contour> strokeOf(const std::vector<Contour>& contours, const StrokeStyle& style) {
     std::vector<Contour> pieces;
     Stroker stroker(style, pieces);
+    double mostDashes = kMostDashes;
     for (const Contour& contour : contours) {
         if (contour.arcs.empty()) continue;
         if (style.dashes.empty())
             stroker.run(contour);
         else
-            for (const Contour& dash : dashed(contour, style))
+            for (const Contour& dash : dashed(contour, style, mostDashes))
                 if (!dash.arcs.empty()) stroker.run(dash);
     }
     return pieces;

@@ -19,11 +19,12 @@ namespace fw {
 
 namespace {
 
-constexpr double kSvgTolerance = 2e-6;         // of the page's longer side
-constexpr double kPixel = 0.0254 / 96;         // metres
-constexpr int kMostNested = 64;                // elements within elements, with what `use` leads to
-constexpr int kMostElements = 50'000;          // that are gone through, again for each `use`
-constexpr std::size_t kMostSvgArcs = 400'000;  // arcs, before those that are covered go
+constexpr double kSvgTolerance = 2e-6;          // of the page's longer side
+constexpr double kPixel = 0.0254 / 96;          // metres
+constexpr int kMostNested = 64;                 // elements within elements, with what `use` leads to
+constexpr int kMostElements = 50'000;           // that are gone through, again for each `use`
+constexpr std::size_t kMostRuled = 20'000'000;  // rules of styles held against elements
+constexpr std::size_t kMostSvgArcs = 400'000;   // arcs, before those that are covered go
 
 /// What an element has from those about it.
 struct Inherited {
@@ -184,6 +185,10 @@ class SvgReader {
         std::set<std::string, std::less<>> classes;
         std::istringstream words{std::string(get(node, "class"))};
         for (std::string word; words >> word;) classes.insert(word);
+        ruled += rules.size();
+        if (ruled > kMostRuled)
+            return fail("has too many styles for its many elements (" + std::to_string(rules.size()) +
+                        " for each): write them as attributes");
         for (const SvgRule& rule : rules)
             if ((rule.element.empty() || rule.element == nameOf(node)) &&
                 (rule.id.empty() || rule.id == get(node, "id")) &&
@@ -475,10 +480,16 @@ class SvgReader {
         std::erase_if(contours, [](const Contour& contour) { return contour.arcs.empty(); });
         if (contours.empty()) return;
         const auto isSeen = [&](double opacity) { return opacity * here.opacity >= 0.5 - 1e-9; };
+        const auto hasRoomFor = [&](const std::vector<Contour>& more, std::size_t each) {
+            std::size_t count = drawn;
+            for (const Contour& contour : more) count += each * contour.arcs.size();
+            if (count >= kMostSvgArcs)
+                fail("draws more than " + std::to_string(kMostSvgArcs) + " arcs: simplify its paths");
+            return !problem;
+        };
         const auto add = [&](Fill fill) {
+            if (!hasRoomFor(fill.contours, 1)) return;
             for (const Contour& contour : fill.contours) drawn += contour.arcs.size();
-            if (drawn >= kMostSvgArcs)
-                return fail("draws more than " + std::to_string(kMostSvgArcs) + " arcs: simplify its paths");
             fill.clips = here.clips;
             drawing.painting.fills.push_back(std::move(fill));
         };
@@ -516,7 +527,9 @@ class SvgReader {
             }
             if (!(sum > 0)) style.dashes.clear();
         }
-        add({moved(strokeOf(contours, style), here.toPage, tolerance)});
+        constexpr std::size_t kArcsOfAStroke = 4;  // at least, for each of its path
+        if (hasRoomFor(contours, kArcsOfAStroke))
+            add({moved(strokeOf(contours, style), here.toPage, tolerance)});
     }
 
     void fail(std::string message) {
@@ -531,7 +544,7 @@ class SvgReader {
     std::optional<Error> problem;
     std::string ownClip;  ///< of the element whose style was applied last
     double tolerance = kSvgTolerance;
-    std::size_t drawn = 0;
+    std::size_t drawn = 0, ruled = 0;
     int elements = 0;
     bool found = false, clipping = false;
 };

@@ -21,7 +21,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     }
     require(drawing->scale > 0 && std::isfinite(drawing->scale), "it has a size");
     const fw::Painted painted(drawing->painting);
-    const std::vector<fw::Arc> arcs = painted.boundary();
+    const std::optional<std::vector<fw::Arc>> found = painted.boundary();
+    if (!found) return 0;  // too much crosses
+    const std::vector<fw::Arc>& arcs = *found;
     for (const fw::Arc& arc : arcs)
         for (const double number : {arc.a.x, arc.a.y, arc.b.x, arc.b.y, arc.bend, arc.normal.x, arc.normal.y})
             require(std::isfinite(number), "arcs are finite");

@@ -24,7 +24,8 @@ constexpr double kPi = std::numbers::pi;
 
 double areaOf(const Painting& painting) {
     double twice = 0;
-    for (const Arc& arc : Painted(painting).boundary()) twice += twiceAreaBeside(arc);
+    const std::vector<Arc> arcs = Painted(painting).boundary().value();
+    for (const Arc& arc : arcs) twice += twiceAreaBeside(arc);
     return 0.5 * twice;
 }
 

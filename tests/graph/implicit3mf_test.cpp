@@ -541,6 +541,17 @@ TEST(Implicit3mf, WhatIsLeftAwayIsNamed) {
     for (const Error& warning : shape.imported.warnings) all += format(warning) + "\n";
     EXPECT_NE(all.find("warning: the resource 'texture2d' is left away"), all.npos) << all;
     EXPECT_NE(all.find("normalizedistance"), all.npos) << all;
+    // Objects that stand beside the model, and what a mesh is parted in.
+    std::string other =
+        modelText(kBallFunction + std::string(kLevelSet), "<item objectid='9'/><item objectid='1'/>");
+    other.replace(other.find("<object id='1'>"), 15, "<object id='1' type='support'>");
+    other.replace(other.find("</triangles>"), 12, "</triangles><trianglesets/>");
+    const Shape beside(modelPackage(other));
+    ASSERT_EQ(beside.error, "");
+    all.clear();
+    for (const Error& warning : beside.imported.warnings) all += format(warning) + "\n";
+    EXPECT_NE(all.find("warning: the object 1, of the type 'support', is left away"), all.npos) << all;
+    EXPECT_NE(all.find("warning: 'trianglesets' of the object 1 is left away"), all.npos) << all;
 }
 
 // ---- files of another program

@@ -22,7 +22,7 @@ constexpr const char* kDejaVu = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
 std::vector<Arc> boundaryOf(const std::string& text, const TextLayout& layout = {}) {
     const Result<Painting> painting = paintText("", text, layout);
     EXPECT_TRUE(painting) << painting.error().message;
-    return painting ? Painted(*painting).boundary() : std::vector<Arc>();
+    return painting ? Painted(*painting).boundary().value() : std::vector<Arc>();
 }
 double areaOf(const std::vector<Arc>& arcs) {
     double twice = 0;
