@@ -23,6 +23,7 @@ constexpr double kSvgTolerance = 2e-6;          // of the page's longer side
 constexpr double kPixel = 0.0254 / 96;          // metres
 constexpr int kMostNested = 64;                 // elements within elements, with what `use` leads to
 constexpr int kMostElements = 50'000;           // that are gone through, again for each `use`
+constexpr double kMostPages = 10'000;           // from its page's centre, in longer sides of the page
 constexpr std::size_t kMostRuled = 20'000'000;  // rules of styles held against elements
 constexpr std::size_t kMostSvgArcs = 400'000;   // arcs, before those that are covered go
 
@@ -489,7 +490,13 @@ class SvgReader {
         };
         const auto add = [&](Fill fill) {
             if (!hasRoomFor(fill.contours, 1)) return;
-            for (const Contour& contour : fill.contours) drawn += contour.arcs.size();
+            for (const Contour& contour : fill.contours) {
+                drawn += contour.arcs.size();
+                for (const Arc& arc : contour.arcs)
+                    if (!(std::max(std::abs(arc.a.x), std::abs(arc.a.y)) < kMostPages))
+                        return fail("draws more than " + std::to_string(int(kMostPages)) +
+                                    " times as far away as its page is long: bring it onto its page");
+            }
             fill.clips = here.clips;
             drawing.painting.fills.push_back(std::move(fill));
         };

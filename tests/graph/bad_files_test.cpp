@@ -107,6 +107,8 @@ TEST(BadFiles, SvgBombs) {
     expectSvgRefused(
         "draws more than 400000 arcs",
         svg("<g fill='none' stroke='red' stroke-linejoin='round'>" + scribble(300'000) + "</g>"));
+    expectSvgRefused("bring it onto its page",
+                     svg("<path stroke='red' stroke-width='1e20' d='M0 0L1 1C1e9 1e9 -1e9 4 5 5'/>"));
     std::string styles;
     for (int i = 0; i < 50'000; ++i) styles += ".c" + std::to_string(i) + "{fill:red}";
     expectSvgRefused("too many styles", svg("<style>" + styles + "</style>" +
@@ -172,7 +174,7 @@ TEST(BadFiles, FontsThatAreNone) {
     };
     expectFontRefused("is none, or is damaged", "");
     expectFontRefused("is none, or is damaged", std::string(60'000'000, '\0'));
-    for (const std::size_t length : {100u, 1000u, 10'000u, 300'000u, 700'000u})
+    for (const std::size_t length : {100u, 1000u, 10'000u, 300'000u})
         expectFontRefused("'bad.ttf'", whole.substr(0, length));
     expectFontRefused("has no letter for '\u6F22' (U+6F22)", whole, "\u6F22");
     expectFontRefused("has no letter for 'A' (U+0041)",  // the letters' numbers are gone
@@ -194,11 +196,9 @@ TEST(BadFiles, ThreeMfBombs) {
     };
     using test::modelPackage;
     using test::modelText;
-    expect3mfRefused("unpacks to more than 64 MB", modelPackage(std::string(300'000'000, ' ')));
+    expect3mfRefused("unpacks to more than 64 MB", modelPackage(std::string(100'000'000, ' ')));
     expect3mfRefused("elements: at most as many are read",
                      modelPackage("<model>" + times(15'000'000, "<b/>")));
-    expect3mfRefused("elements: at most as many are read",
-                     modelPackage("<model " + times(12'000'000, "a='' ") + "/>"));
     const std::string ring =
         "<object id='8'><components><component objectid='9'/></components></object>"
         "<object id='9'><components><component objectid='8'/></components></object>";
