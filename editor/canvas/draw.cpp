@@ -190,6 +190,8 @@ void drawSocket(const Pen& pen, ImVec2 at, const std::optional<Type>& type, bool
             return polygon({{-0.85f, -0.85f}, {0.85f, -0.85f}, {0.85f, 0.85f}, {-0.85f, 0.85f}});
         case SocketShape::diamond: return polygon({{0, -1.2f}, {1.2f, 0}, {0, 1.2f}, {-1.2f, 0}});
         case SocketShape::triangle: return polygon({{-0.8f, -1.1f}, {1.2f, 0}, {-0.8f, 1.1f}});
+        case SocketShape::pentagon:
+            return polygon({{0, -1.15f}, {1.1f, -0.35f}, {0.68f, 0.95f}, {-0.68f, 0.95f}, {-1.1f, -0.35f}});
         case SocketShape::hexagon:
             return polygon({{-0.55f, -1}, {0.55f, -1}, {1.1f, 0}, {0.55f, 1}, {-0.55f, 1}, {-1.1f, 0}});
     }

@@ -102,11 +102,11 @@ constexpr TypeStyle kTypeStyles[] = {
     {{rgb(0xd8dce2), rgb(0x23282e)}, SocketShape::square},    // string
     {{rgb(0xf0e442), rgb(0x3a3000)}, SocketShape::triangle},  // points: yellow
     {{rgb(0xe69f00), rgb(0x7a3b00)}, SocketShape::square},    // stops: orange, darker
-    {{rgb(0x009e73), rgb(0x00935f)}, SocketShape::triangle},  // knots: bluish green
+    {{rgb(0x009e73), rgb(0x00935f)}, SocketShape::pentagon},  // knots: bluish green
     {{rgb(0xf4f4f4), rgb(0x22262c)}, SocketShape::hexagon},   // image
     {{rgb(0x3d8fd1), rgb(0x1a5ca8)}, SocketShape::hexagon},   // mesh: blue
     {{rgb(0xf4f4f4), rgb(0x30363d)}, SocketShape::circle},    // particles
-    {{rgb(0x009e73), rgb(0x00735a)}, SocketShape::diamond},   // spline: bluish green
+    {{rgb(0x8fe3c6), rgb(0x00523c)}, SocketShape::pentagon},  // spline: bluish green, lighter, or darker
 };
 static_assert(std::size(kTypeStyles) == kTypes);
 constexpr TypeStyle kUnknown = {{rgb(0x8c939c), rgb(0x707780)}, SocketShape::circle};

@@ -72,7 +72,7 @@ ImU32 categoryColor(Category category);
 /// Of a socket and its wires; grey where the type is unknown.
 ImU32 typeColor(std::optional<Type> type);
 
-enum class SocketShape : unsigned char { circle, square, diamond, triangle, hexagon };
+enum class SocketShape : unsigned char { circle, square, diamond, triangle, hexagon, pentagon };
 /// Of x, y and z, wherever they are drawn; text for anything beyond.
 ImU32 axisColor(std::size_t axis);
 SocketShape socketShape(std::optional<Type> type);

@@ -353,8 +353,7 @@ Result<SplinePtr> splineOfHelix(const Helix& helix) {
     const double turn = 2 * std::numbers::pi, angle = turn * helix.turns, sign = helix.right ? -1 : 1,
                  size = std::max({2 * helix.radius, 2 * helix.topRadius, std::abs(helix.height)});
     if (!(size > 0) || !(helix.turns > 0)) return SplinePtr();
-    if (helix.turns > kMostTurns)
-        return Error{.message = "a helix of more than 200 turns: take fewer"};
+    if (helix.turns > kMostTurns) return Error{.message = "a helix of more than 200 turns: take fewer"};
     Drawing3d drawing(size);
     const double grows = helix.topRadius - helix.radius;
     const auto place = [&](double t) {

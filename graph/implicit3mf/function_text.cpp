@@ -46,8 +46,7 @@ const char* refusalOf(Op op) {
         case Op::outline:
             return "is of letters, a drawing or points, which 3MF's functions have no node for: export a "
                    "mesh";
-        case Op::spline:
-            return "is along a spline, which 3MF's functions have no node for: export a mesh";
+        case Op::spline: return "is along a spline, which 3MF's functions have no node for: export a mesh";
         case Op::parameter:
         case Op::column: return "is live: export it at one time";
         default: return nullptr;

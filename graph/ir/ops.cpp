@@ -486,7 +486,7 @@ constexpr std::array<OpInfo, static_cast<size_t>(Op::count)> kTable = {{
             return slope.x * d[0] + slope.y * d[1] + slope.z * d[2];
         },
         "fieldSpline%i(vec3(%a, %b, %c)).w", "fieldSplineRange%i(%a, %b, %c)", kChainRule,
-        "fieldSpline%i(vec3(%a, %b, %c))", 120),
+        "fieldSpline%i(vec3(%a, %b, %c))", 70),
 }};
 
 constexpr bool inOrder() {

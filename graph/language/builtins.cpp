@@ -643,10 +643,10 @@ Result<Value> choose(Lowering& state, IrId condition, const Value& a, const Valu
     if (componentCount(type) == 0) {
         if (state.ir.isConstant(condition)) return state.ir.number(condition) != 0.0 ? x : y;
         if (x.text == y.text && x.points == y.points && x.image == y.image && x.spline == y.spline) return x;
-        return Error{
-            .message =
-                "texts, lists, images and splines can only be chosen by a condition that is known when the graph "
-                "is compiled"};
+        return Error{.message =
+                         "texts, lists, images and splines can only be chosen by a condition that is known "
+                         "when the graph "
+                         "is compiled"};
     }
     for (int i = 0; i < componentCount(type); ++i)
         x.ids[i] = state.ir.add(Op::select, condition, x.ids[i], y.ids[i]);
