@@ -21,6 +21,7 @@ namespace {
 constexpr double kDxfTolerance = 2e-6;         // of the drawing's extent
 constexpr double kJoins = 1e-5;                // of the same: ends that are nearer meet
 constexpr std::size_t kMostDxfArcs = 400'000;  // arcs
+constexpr std::size_t kMostLines = 100'000;    // that are joined
 constexpr int kMostBlocksDeep = 16;            // blocks within blocks
 constexpr int kMostInserts = 20'000;
 constexpr std::size_t kMostGroups = 2'000'000;  // a code with its value each
@@ -354,6 +355,9 @@ class DxfReader {
                 closed.push_back(std::move(contour));
             else if (!contour.arcs.empty())
                 lines.push_back(std::move(contour));
+            if (lines.size() > kMostLines)
+                return fail("has more than " + std::to_string(kMostLines) +
+                            " lines to be joined: simplify it");
         }
     }
 
@@ -411,12 +415,16 @@ class DxfReader {
             const auto [x, y] = cellOf(p);
             for (int64_t dy = -1; dy <= 1; ++dy)
                 for (int64_t dx = -1; dx <= 1; ++dx)
-                    for (auto [at, last] = ends.equal_range({x + dx, y + dy}); at != last; ++at) {
+                    for (auto [at, last] = ends.equal_range({x + dx, y + dy}); at != last;) {
                         const auto [line, isEnd] = at->second;
                         const Contour& contour = lines[line];
-                        if (!used[line] &&
-                            glm::distance(isEnd ? contour.arcs.back().b : contour.arcs.front().a, p) <= cell)
+                        if (used[line])
+                            at = ends.erase(at);  // so that none is passed over twice
+                        else if (glm::distance(isEnd ? contour.arcs.back().b : contour.arcs.front().a, p) <=
+                                 cell)
                             return at->second;
+                        else
+                            ++at;
                     }
             return std::nullopt;
         };
