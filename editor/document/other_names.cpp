@@ -44,7 +44,7 @@ constexpr std::pair<std::string_view, std::string_view> kNames[] = {
     {"spring", "helix coil wire spiral"},
     {"extrude", "linear_extrude polyextrude solidify thickness"},
     {"revolve", "rotate_extrude spin screw sweep"},
-    {"union", "join merge add boolean combine opunion smooth_union smin minimum bevel fillet chamfer"},
+    {"union", "join merge add boolean combine opunion smooth_union smin minimum bevel fillet chamfer groove"},
     {"intersect", "boolean opintersection common maximum smooth_intersection"},
     {"subtract", "difference boolean cut opdifference minus hole smooth_subtraction"},
     {"xor", "boolean difference exclude"},

@@ -6,6 +6,11 @@
 // stairs follow the stepped blend of the hg_sdf library. Materials blend as the quadratic smooth minimum
 // does.
 //
+// The groove takes away what is within the radius of the seam, the curve on which both distances are 0: where
+// sqrt(a^2 + b^2) is less, the hg_sdf library's pipe along it. Of faces that are square to each other that is
+// the distance to the seam, and the groove round; of others it is as much deeper or flatter as two slopes
+// with a . b = c make it, which grow together to at most sqrt(1 + |c|).
+//
 // The exact profile is a ball of that radius rolled along the corner, whatever the angle of the faces. Their
 // normals m, n are slopes of the two fields, by differences over a hundredth of the radius; with c = m . n
 // the ball's centre, where both distances are the radius r, lies at y = s m + t n from a place whose
@@ -28,7 +33,8 @@ ExactnessRule blendRule(Exactness (*sharp)(Exactness a, Exactness b)) {
         result.lipschitz = lipschitz;
         if (node.constant("radius", 0) == 0.0) return result;
         if (node.option("profile") == "exact") return distorted();
-        if (node.option("profile") == "chamfer") return distorted(lipschitz * std::sqrt(2.0));
+        if (node.option("profile") == "chamfer" || node.option("profile") == "groove")
+            return distorted(lipschitz * std::sqrt(2.0));
         return distorted(lipschitz);
     };
 }
@@ -49,7 +55,13 @@ std::string blendedMin(const std::string& signA, const std::string& signB) {
     return "float d;\nif (profile == \"chamfer\") d = chamferMin" + arguments +
            ");\nelse if (profile == \"stairs\") d = stairsMin" + arguments +
            ", steps);\nelse if (profile == \"exact\") d = rolledMin" + arguments + ", " + signA + "slopeA, " +
-           signB + "slopeB);\nelse d = smooth_min" + arguments + ");\n";
+           signB + "slopeB);\nelse if (profile == \"groove\") d = min(" + signA + "a.distance, " + signB +
+           "b.distance);\nelse d = smooth_min" + arguments + ");\n";
+}
+/// made = this distance, with the groove cut out.
+std::string grooved(const std::string& distance) {
+    return "float made = " + distance +
+           ";\nif (profile == \"groove\") made = max(made, radius - length(vec2(a.distance, b.distance)));\n";
 }
 
 NodeType blendNode(std::string id, std::string label, std::string doc, ExactnessRule rule, std::string body,
@@ -61,11 +73,12 @@ NodeType blendNode(std::string id, std::string label, std::string doc, Exactness
         .doc = std::move(doc),
         .inputs = {surfaceInput("a", "The first surface."), surfaceInput("b", "The second surface."),
                    length("radius", 0,
-                          "Width of the blend where the two meet, or the radius of an exact round; 0 keeps "
-                          "the edge sharp."),
-                   choice("profile", {"round", "chamfer", "stairs", "exact"},
+                          "Width of the blend where the two meet, or the radius of an exact round or of a "
+                          "groove; 0 keeps the edge sharp."),
+                   choice("profile", {"round", "chamfer", "stairs", "exact", "groove"},
                           "Shape of the blend. Exact is the round of a ball of that radius, also between "
-                          "faces that are not square to each other; it asks both surfaces four times."),
+                          "faces that are not square to each other; it asks both surfaces four times. A "
+                          "groove is cut along the seam, round where the faces are square to each other."),
                    integer("steps", 4, 1, 64, "Number of steps of the stairs profile.")},
         .outputs = {{"surface", Type::surface}},
         .exactness = std::move(rule),
@@ -87,8 +100,9 @@ std::vector<NodeType> combineNodes() {
                       return Exactness{a.outside && b.outside, false, 1};
                   }),
                   std::string("if (radius <= 0.0) return min(a, b);\n") + kSlopes + blendedMin("", "") +
+                      grooved("d") +
                       "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (a.distance - b.distance) / "
-                      "max(radius, 1e-9), 0.0, 1.0)), d);",
+                      "max(radius, 1e-9), 0.0, 1.0)), made);",
                   {"join"}),
         blendNode("intersect", "Intersect",
                   "What lies inside both surfaces. Light passes through it unless both are opaque.",
@@ -96,8 +110,9 @@ std::vector<NodeType> combineNodes() {
                       return Exactness{false, a.inside && b.inside, 1};
                   }),
                   std::string("if (radius <= 0.0) return max(a, b);\n") + kSlopes + blendedMin("-", "-") +
+                      grooved("-d") +
                       "return with_distance(mix(a, b, clamp(0.5 + 0.5 * (b.distance - a.distance) / "
-                      "max(radius, 1e-9), 0.0, 1.0)), -d);",
+                      "max(radius, 1e-9), 0.0, 1.0)), made);",
                   {"intersection"}),
         cutting(blendNode(
             "subtract", "Subtract",
@@ -106,7 +121,7 @@ std::vector<NodeType> combineNodes() {
                 return Exactness{false, a.inside && b.outside, 1};
             }),
             std::string("if (radius <= 0.0) return with_distance(a, max(a.distance, -b.distance));\n") +
-                kSlopes + blendedMin("-", "") + "return with_distance(a, -d);",
+                kSlopes + blendedMin("-", "") + grooved("-d") + "return with_distance(a, made);",
             {"difference", "cut"})),
         // Rounds the creases where the two meet: union blended, minus intersection blended.
         blendNode(
@@ -115,10 +130,10 @@ std::vector<NodeType> combineNodes() {
             std::string("if (radius <= 0.0) return with_distance(abs(a.distance) < abs(b.distance) ? a : b,\n"
                         "    max(min(a.distance, b.distance), min(-a.distance, -b.distance)));\n") +
                 kSlopes + blendedMin("", "") + "float either = d;\n" +
-                blendedMin("-", "-").substr(std::string("float d;\n").size()) +
+                blendedMin("-", "-").substr(std::string("float d;\n").size()) + grooved("max(either, d)") +
                 "float nearer = abs(a.distance) - abs(b.distance);\n"
                 "return with_distance(mix(a, b, clamp(0.5 + 0.5 * nearer / max(radius, 1e-9), 0.0, 1.0)), "
-                "max(either, d));",
+                "made);",
             {"symmetric_difference"}),
         {.id = "morph",
          .label = "Morph",

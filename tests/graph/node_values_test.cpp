@@ -314,6 +314,28 @@ TEST(NodeValues, SignsAndOrdersAreAsDocumented) {
     EXPECT_EQ(redAt("intersect", {0.5, 0.1, 0}), 0);
 }
 
+TEST(NodeValues, AGrooveIsCutAlongTheSeamOfEveryBoolean) {
+    const std::string walls = node("x", "plane", R"("normal": [1, 0, 0])") + "," +
+                              node("y", "plane", R"("normal": [0, 1, 0])") + ",";
+    const auto joined = [&](const std::string& type, const std::string& blend) {
+        return show(walls + node("it", type, R"("a": {"from": "x"}, "b": {"from": "y"})" + blend));
+    };
+    for (const char* type : {"union", "intersect", "subtract", "xor"}) {
+        SCOPED_TRACE(type);
+        const Program sharp = joined(type, ""), cut = joined(type, R"(, "radius": 0.4, "profile": "groove")");
+        EXPECT_FALSE(cut.exactness.exact());
+        EXPECT_NEAR(cut.exactness.lipschitz, std::sqrt(2.0), 1e-12);
+        for (int i = 0; i < 64; ++i) {
+            const double angle = (i + 0.5) * pi / 32, x = std::cos(angle), y = std::sin(angle);
+            for (const double within : {1e-9, 0.1, 0.3999})
+                EXPECT_GT(valueAt(cut, {within * x, within * y, 0}), 0);
+            const Point on{0.4 * x, 0.4 * y, 3}, beyond{0.41 * x, 0.41 * y, -2};
+            if (valueAt(sharp, on) < 0) EXPECT_NEAR(valueAt(cut, on), 0, 1e-15);
+            EXPECT_EQ(valueAt(cut, beyond) < 0, valueAt(sharp, beyond) < 0) << beyond[0] << " " << beyond[1];
+        }
+    }
+}
+
 TEST(NodeValues, MathsAgreesWithTheLibrary) {
     const auto value = [](const std::string& inputs) { return valueAt(shape("math", inputs), {0, 0, 0}); };
     EXPECT_DOUBLE_EQ(value(R"("op": "modulo", "a": -0.25, "b": 1)"), 0.75);
