@@ -12,6 +12,7 @@
 #include "editor/shell/letters.h"
 #include "editor/shell/theme.h"
 #include "editor/timeline/fields_in_time.h"
+#include "editor/viewport/widths.h"
 #include "graph/document/named_parameters.h"
 
 namespace fw::editor {
@@ -174,6 +175,7 @@ bool exchange(Editor& editor) {
     wishPictures(view, wish);
     wish.view = view.view;
     wish.slice = view.slice;
+    wish.leastWidth = leastWidth(view);
     wish.resolution = view.resolution;
     wish.measures = editor.panels.statistics;
     if (wish.width > 0 && wish.height > 0) editor.preview.ask(std::move(wish));

@@ -41,7 +41,8 @@ bool sameWish(const PreviewWish& a, const PreviewWish& b) {
     return a.graph == b.graph && a.revision == b.revision && a.document == b.document &&
            a.pinned == b.pinned && a.held == b.held && a.seconds == b.seconds && a.camera == b.camera &&
            a.width == b.width && a.height == b.height && a.view == b.view && a.slice == b.slice &&
-           a.resolution == b.resolution && a.others == b.others && a.first == b.first;
+           a.leastWidth == b.leastWidth && a.resolution == b.resolution && a.others == b.others &&
+           a.first == b.first;
 }
 
 std::vector<PreviewEye> eyesOf(const PreviewWish& wish) {
@@ -188,7 +189,7 @@ PlayerOptions Maker::playerOptions() const {
         if (many) simulating(double(done) / all);
         return !overtaken.byOther && !(many && overtaken.byEarlier);
     };
-    options.fieldViews = showsField(wish.view);
+    options.view = wish.view;
     return options;
 }
 
@@ -273,8 +274,8 @@ void Maker::take(PreviewWish newer) {
     const bool sameGraph =
         !first && newer.graph == wish.graph && newer.revision == wish.revision && newer.pinned == wish.pinned;
     const bool sameHeld = newer.held == wish.held, sameMesh = newer.resolution == wish.resolution;
-    const bool sameLook =
-        newer.seconds == wish.seconds && newer.view == wish.view && newer.slice == wish.slice;
+    const bool sameLook = newer.seconds == wish.seconds && newer.view == wish.view &&
+                          newer.slice == wish.slice && newer.leastWidth == wish.leastWidth;
     if (!first && newer.document != wish.document) {
         for (Sight& sight : sights) sight.forget(since);
         result = {};
@@ -336,7 +337,8 @@ void Maker::draw(std::size_t which, bool urgent) {
                           .height = side(sight.eye.height),
                           .primary = Primary::measured,
                           .show = wish.view,
-                          .slice = wish.slice};
+                          .slice = wish.slice,
+                          .leastWidth = wish.leastWidth};
     // What is asked for on and on, as while a hand moves, gets its pictures nevertheless.
     if (!urgent)
         options.cancel = &overtaken.byAny;
@@ -360,7 +362,7 @@ void Maker::draw(std::size_t which, bool urgent) {
     }
     if (const Done aimed = aim(options, sight); !aimed) return refuseAll(aimed.error());
     const SightOf of{player->contentNumber(), options.scene, player->environment(), wish.view, wish.slice,
-                     options.width,           options.height};
+                     wish.leastWidth,         options.width, options.height};
     const auto saysSo = [&] {
         result.findings = checked;
         if (std::optional<Error> note = player->coarser()) result.findings.push_back(std::move(*note));

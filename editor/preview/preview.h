@@ -35,6 +35,7 @@ struct PreviewWish {
     int width = 800, height = 600;      ///< pixels
     uint32_t view = RENDER_PICTURE;     ///< or another of shaders/render/render.h
     Slice slice = {};                   ///< of the views on a plane
+    float leastWidth = 0.0f;            ///< of the views of widths, metres; 0: the usual one
     int resolution = 0;                 ///< cells along the longest side; 0: the graph's
     bool measures = false;              ///< how large the solid is, is wanted
     std::vector<PreviewEye> others = {};  ///< further pictures of the same

@@ -34,6 +34,7 @@ struct SightOf {
     EnvironmentMapPtr environment = {};
     uint32_t view = 0;
     Slice slice = {};
+    float leastWidth = 0.0f;
     int width = 0, height = 0;
     bool operator==(const SightOf&) const = default;
 };

@@ -124,6 +124,7 @@ void Viewport::forget(Shell& shell) {
     pinned.clear();
     resetEyes(*this);
     slice = {};
+    leastWidth = 0.0f;
     seconds = 0.0;
     kept = {};
     playing = false;

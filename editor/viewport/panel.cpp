@@ -8,6 +8,7 @@
 #include "editor/shell/theme.h"
 #include "editor/viewport/camera_path.h"
 #include "editor/viewport/ground.h"
+#include "editor/viewport/widths.h"
 #include "graph/document/unit.h"
 
 namespace fw::editor {
@@ -19,7 +20,8 @@ constexpr std::pair<uint32_t, const char*> kViews[] = {
     {RENDER_NORMALS, "Normals"}, {RENDER_BASE, "Colours"},
     {RENDER_SHADOW, "Shadow"},   {RENDER_STEPS, "Steps"},
     {RENDER_SLICE, "Slice"},     {RENDER_EXACTNESS, "Exactness"},
-    {RENDER_CELLS, "Cells"},     {RENDER_WIREFRAME, "Wireframe"},
+    {RENDER_CELLS, "Cells"},     {RENDER_THICKNESS, "Thickness"},
+    {RENDER_GAP, "Gap"},         {RENDER_WIREFRAME, "Wireframe"},
     {RENDER_POINTS, "Points"},   {RENDER_SPHERES, "Spheres"}};
 constexpr float kPictureGap = 2.0f;  // pixels between pictures, times the scale
 constexpr int kResolutions[] = {0, 32, 64, 128, 192, 256, 384, 512};
@@ -79,6 +81,7 @@ void showChoices(Editor& editor) {
     }
     if (view.view == RENDER_SLICE || view.view == RENDER_EXACTNESS)
         showSlice(view, unitOf(editor.document.graph()), unit);
+    if (showsWidths(view.view)) chooseLeastWidth(editor);
 }
 
 /// Words over the picture, top left.
@@ -124,6 +127,7 @@ void showPicture(Editor& editor) {
     else
         list->AddRectFilled(view.place.lo, view.place.hi, themeColor(ThemeColor::canvas));
     showGround(editor);
+    showWidthScale(editor);
     showGizmo(editor);
     showCameraPath(editor);
     showProbeMarks(editor);

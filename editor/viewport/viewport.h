@@ -118,6 +118,7 @@ struct DocumentLook : Eye {
     uint32_t view = RENDER_PICTURE;
     std::string pinned;    ///< the nodes shown, as in pinned.h; empty: the output
     Slice slice;           ///< of the views on a plane
+    float leastWidth = 0;  ///< of the views of widths; 0: the usual one
     int resolution = 0;    ///< cells; 0: the graph's
     double seconds = 0.0;  ///< on the timeline
     KeptViews kept;

@@ -395,10 +395,16 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
             "--view", renderOptions.view,
             "What is shown: picture, or a look inside: ao, normals, color, shadow, steps (of sphere "
             "tracing), slice (the field with lines of equal distance), exactness (red where the field "
-            "is steeper than a distance, blue where flatter), cells (of the mesher), wireframe; or particles "
-            "as points or spheres, in place of their surface")
+            "is steeper than a distance, blue where flatter), cells (of the mesher), thickness (of walls), "
+            "gap (between walls), wireframe; or particles as points or spheres, in place of their surface")
         ->check(oneOf(renderViews()))
         ->default_str(renderOptions.view);
+    renderCommand
+        ->add_option("--least", renderOptions.picture.leastWidth,
+                     "Of the views thickness and gap: what is narrower is red, with a unit or in the "
+                     "document's (default: a power of ten that suits the solid)")
+        ->type_name("LENGTH")
+        ->check(length());
     renderCommand->add_flag(
         "--transparent", renderOptions.picture.transparent,
         "The solid alone, with alpha: no sky, wall or ground behind it, nor its shadow there");

@@ -4,6 +4,7 @@
 
 #include "graph/base/result.h"
 #include "graph/base/words.h"
+#include "graph/language/typed_number.h"
 
 namespace fw::cli {
 
@@ -32,6 +33,16 @@ CLI::Validator whole(int least, int greatest) {
 CLI::Validator something() {
     return CLI::Validator(
         [](const std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
+}
+
+CLI::Validator length() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            const Result<double> number = typedNumber(text, "m", *lengthUnit("m"));
+            if (!number) return number.error().message;
+            return *number > 0.0 ? std::string() : inQuotes(text) + " is not above 0";
+        },
+        "");
 }
 
 CLI::Validator assignment() {

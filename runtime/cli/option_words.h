@@ -15,6 +15,8 @@ CLI::Validator finite();
 CLI::Validator whole(int least, int greatest);
 /// Accepts anything but nothing.
 CLI::Validator something();
+/// Accepts a length above 0, with or without a unit.
+CLI::Validator length();
 /// Accepts "name=value".
 CLI::Validator assignment();
 /// Accepts one of these words.

@@ -34,7 +34,14 @@ PictureWish wishOf(const RenderCommandOptions& options, std::pair<int, int> size
 
 }  // namespace
 
-void noteDraft(Player& player, const PictureWish& wish, const std::string& output) {
+void notePicture(Player& player, const PictureWish& wish, const std::string& output) {
+    if (showsWidths(wish.view)) {
+        const double least = double(renderOptions(wish, player).leastWidth);
+        const auto words = [&](double times) { return withSign(times * least, "m", unitOf(player.graph())); };
+        std::fprintf(stderr, "%s: note: red is narrower than %s, green %s, blue %s or more%s\n",
+                     output.c_str(), words(1).c_str(), words(2).c_str(),
+                     words(double(RENDER_MOST_WIDTHS)).c_str(), wish.leastWidth.empty() ? " (--least)" : "");
+    }
     const std::string why = player.whyDraft();
     if (!why.empty() && wish.quality == FieldBy::sooner)
         std::fprintf(stderr, "%s: note: a draft, of the mesh alone: %s; --quality full waits for it\n",
@@ -64,6 +71,11 @@ int runRender(const RenderCommandOptions& options) {
     }
     if (wish.transparent && wish.view != RENDER_PICTURE) {
         std::fprintf(stderr, "fieldwright render: --transparent is of the picture: leave out --view\n");
+        return kBadUsage;
+    }
+    if (!wish.leastWidth.empty() && !showsWidths(wish.view)) {
+        std::fprintf(stderr,
+                     "fieldwright render: --least is of widths: give --view thickness or --view gap too\n");
         return kBadUsage;
     }
     if (options.sequence.frames.asked() || options.turntable) return renderSequence(options, wish);
@@ -128,7 +140,7 @@ int runRender(const RenderCommandOptions& options) {
     if (const Done written = save(*picture, light, wish.format, options.output, isThere); !written)
         return print(written.error()), kSystemFailure;
     progress.finish();
-    noteDraft(*player, wish, options.output);
+    notePicture(*player, wish, options.output);
     if (const std::optional<Error> coarser = player->coarser()) print(*coarser);
     if (mesh->capped)
         std::fprintf(stderr, "%s: note: the surface leaves the region and was closed at its boundary\n",

@@ -155,7 +155,7 @@ int renderSequence(const RenderCommandOptions& options, const PictureWish& pictu
         if (picture.format == PictureFormat::exr) render.light = &light;
         const Result<Picture> drawn = drawFrame(player, wish, frame, render);
         if (!drawn) return badInput(options.mesh, drawn.error());
-        if (std::exchange(first, false)) noteDraft(player, picture, options.output);
+        if (std::exchange(first, false)) notePicture(player, picture, options.output);
         if (const Done written = save(*drawn, light, picture.format, path, kept); !written)
             return print(written.error()), kSystemFailure;
         return kDone;

@@ -46,8 +46,9 @@ struct FrameWork {
 /// Makes the frames that are not there yet into the folder; the exit status.
 int makeFrames(const FrameWork& work, const std::string& folder);
 
-/// Says of a picture that is a draft for lack of a quick compiler why it is one.
-void noteDraft(Player& player, const PictureWish& wish, const std::string& output);
+/// Says of a picture that is a draft for lack of a quick compiler why it is one; of one of widths what its
+/// colours are.
+void notePicture(Player& player, const PictureWish& wish, const std::string& output);
 
 /// `render` with --from, --to, --fps, --range or --turntable: `wish` is what each of its pictures is to be.
 int renderSequence(const RenderCommandOptions& options, const PictureWish& wish);

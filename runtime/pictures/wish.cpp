@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "graph/document/unit.h"
+#include "graph/language/typed_number.h"
 #include "runtime/render/light_picture.h"
 #include "runtime/render/renderer.h"
 
@@ -37,9 +39,9 @@ std::optional<std::pair<int, int>> sizeOfPng(const std::string& path) {
 std::string nameOf(PictureFormat format) { return format == PictureFormat::exr ? "exr" : "png"; }
 
 const std::vector<std::string>& renderViews() {
-    static const std::vector<std::string> names = {"picture", "ao",        "normals", "color",
-                                                   "shadow",  "steps",     "slice",   "exactness",
-                                                   "cells",   "wireframe", "points",  "spheres"};
+    static const std::vector<std::string> names = {"picture", "ao",        "normals",   "color",  "shadow",
+                                                   "steps",   "slice",     "exactness", "cells",  "thickness",
+                                                   "gap",     "wireframe", "points",    "spheres"};
     return names;
 }
 
@@ -53,6 +55,11 @@ RenderOptions renderOptions(const PictureWish& wish, const Player& player) {
                                                                  : 0;
     render.show = wish.view;
     render.cutout = wish.transparent;
+    const Box region = player.region();
+    const auto side = [&](std::size_t axis) { return float(region.hi[axis] - region.lo[axis]); };
+    render.leastWidth = wish.leastWidth.empty()
+                            ? usualWidth({side(0), side(1), side(2)})
+                            : float(*typedNumber(wish.leastWidth, "m", unitOf(player.graph())));
     return render;
 }
 

@@ -19,6 +19,8 @@ struct PictureWish {
     int width = 1280, height = 720;  ///< pixels
     int samples = 16;                ///< frames that it is the mean of, or paths of light
     uint32_t view = RENDER_PICTURE;  ///< index in renderViews()
+    std::string leastWidth = {};     ///< red below it, where the view is of widths: a length as it is typed
+                                     ///< ("0.8mm"); empty: the usual one
     FieldBy quality = FieldBy::sooner;
     PictureFormat format = PictureFormat::png;
     bool transparent = false;  ///< the solid alone, with alpha

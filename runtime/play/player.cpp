@@ -47,8 +47,8 @@ MeshFieldBaker toldBaker(const Device& device, const std::function<void(double)>
 }
 
 /// The kernels that the document's scene asks for.
-FieldKernelOptions kernelsFor(const Graph& graph, const Program& program, bool show) {
-    FieldKernelOptions kernels{.lamps = false, .show = show};
+FieldKernelOptions kernelsFor(const Graph& graph, const Program& program, uint32_t view) {
+    FieldKernelOptions kernels{.lamps = false, .view = view};
     const Result<Scene> scene = readScene(*graph.scene);
     if (!scene) return kernels;
     kernels.lamps = !scene->lights.empty();
@@ -185,7 +185,7 @@ void Player::adopt(Prepared prepared) {
 
 void Player::give() {
     if (options.compileBehind)
-        session.replaceProgram(now.program, kernelsFor(now.graph, now.program, options.fieldViews));
+        session.replaceProgram(now.program, kernelsFor(now.graph, now.program, options.view));
     else
         session.setProgram(now.program);
 }

@@ -54,8 +54,8 @@ struct PlayerOptions {
     /// pictures are drafts (Session::replaceProgram).
     bool compileBehind = false;
     FieldBy fieldBy = FieldBy::sooner;  ///< of the player's creation, as its device
-    bool checked = false;     ///< check() was called: only what the output needs must be free of errors
-    bool fieldViews = false;  ///< pictures will be of the views that showsField()
+    bool checked = false;  ///< check() was called: only what the output needs must be free of errors
+    uint32_t view = RENDER_PICTURE;  ///< that pictures will be of
     /// Called while a mesh is made a field, with what is done of it: from 0 to 1. That of a player's creation
     /// stays; reload() takes no other.
     std::function<void(double share)> baking = {};

@@ -41,6 +41,20 @@ void drawWireframe(Commands& commands, Renderer& renderer, const RenderScene& sc
     barrier(commands);
 }
 
+/// Widths of walls or gaps, over the picture.
+void drawWidths(Commands& commands, Renderer& renderer, const RenderScene& scene) {
+    if (!renderer.widths)
+        renderer.widths =
+            createComputePipeline(*renderer.device, {.name = "render/widths.comp", .field = renderer.field});
+    std::vector<Descriptor> bound = {{0, renderer.frame},
+                                     storage(2, renderer.gbuffer.now()),
+                                     {3, renderer.gbuffer.tileLists},
+                                     storage(10, renderer.pixels)};
+    addField(bound, fieldOf(renderer, scene));
+    dispatchTiles(commands, renderer.widths, renderer.gbuffer, RENDER_SOLID, nullptr, 0, bound);
+    barrier(commands);
+}
+
 }  // namespace
 
 std::vector<std::string> lampDefines(bool tracesSun) {
@@ -183,6 +197,7 @@ void showView(Commands& commands, Renderer& renderer, const RenderScene& scene) 
     }
     if (!showsField(view) || scene.draft) return;
     beginStage(commands, "view");
+    if (showsWidths(view)) return drawWidths(commands, renderer, scene);
     if (!renderer.show)
         renderer.show =
             createComputePipeline(*renderer.device, {.name = "render/show.comp", .field = renderer.field});

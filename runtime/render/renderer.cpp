@@ -94,7 +94,10 @@ std::optional<FieldKernels> createFieldKernels(const Device& device, std::string
     if (hasFamilies(kernels.field)) add(kernels.places, "render/places.comp");
     if (options.lamps || options.sun) add(kernels.lamps, "render/lamps.comp", lampDefines(options.sun));
     kernels.tracesSun = options.sun;
-    if (options.show) add(kernels.show, "render/show.comp");
+    if (showsWidths(options.view))
+        add(kernels.widths, "render/widths.comp");
+    else if (showsField(options.view))
+        add(kernels.show, "render/show.comp");
     if (options.secondary) {
         shaders.push_back(secondaryShader(kernels.field, *options.secondary));
         places.push_back(&kernels.secondary);
@@ -139,6 +142,7 @@ void setField(Renderer& renderer, FieldKernels kernels) {
     renderer.lamps = std::move(kernels.lamps);
     renderer.tracesSun = kernels.tracesSun;
     renderer.show = std::move(kernels.show);
+    renderer.widths = std::move(kernels.widths);
     renderer.secondary.trace = std::move(kernels.secondary);
     renderer.secondary.filter = {};
     renderer.secondary.kinds = kernels.kinds;
@@ -270,14 +274,15 @@ Result<bool> renderLive(Renderer& renderer, const RenderScene& scene, const Rend
                          scene.content,
                          {uint32_t(options.width), uint32_t(options.height), 1},
                          options.show,
-                         options.slice};
+                         options.slice,
+                         options.leastWidth};
     const std::optional<Shown>& shown = renderer.shown;
     useEnvironment(*renderer.device, renderer.environment, options.environment);
     const bool sameField = shown && shown->content == shows.content;
     const bool rests = sameField && shown->scene == shows.scene && shown->environment == shows.environment &&
                        sameView(shown->view, shows.view) && shown->extent.width == shows.extent.width &&
                        shown->extent.height == shows.extent.height && shown->show == shows.show &&
-                       shown->slice == shows.slice;
+                       shown->slice == shows.slice && shown->leastWidth == shows.leastWidth;
     if (rests && renderer.rested >= kRestFrames) return false;
     renderer.rested = rests ? renderer.rested + 1 : 0;
     if (!shown || shown->scene.ao != shows.scene.ao || shown->scene.ground != shows.scene.ground)

@@ -69,7 +69,9 @@ struct RenderScene {
 enum class Primary { drawn, traced, measured };
 
 /// Views into the field: of those that shaders/render/render.h lists.
-constexpr bool showsField(uint32_t view) { return view >= RENDER_STEPS && view <= RENDER_CELLS; }
+constexpr bool showsField(uint32_t view) { return view >= RENDER_STEPS && view <= RENDER_GAP; }
+/// Those of how wide walls and gaps are.
+constexpr bool showsWidths(uint32_t view) { return view == RENDER_THICKNESS || view == RENDER_GAP; }
 /// Views that no light is in: what surfaces are, and how open to the sky and the sun.
 constexpr bool showsNoLight(uint32_t view) { return view >= RENDER_AMBIENT && view <= RENDER_SHADOW; }
 /// Views of particles in place of their surface.
@@ -105,6 +107,8 @@ struct RenderOptions {
     LightPicture* light = nullptr;        ///< gets a still picture as light, if given
     uint32_t show = RENDER_PICTURE;       ///< or one of the views that shaders/render/render.h lists
     Slice slice = {};
+    /// What walls and gaps are to be at least in their views, metres; 0: usualWidth() of the mesh's grid.
+    float leastWidth = 0.0f;
     /// Looked at within a frame; that of a live view can be drawn again as if this one had not begun.
     const std::atomic<bool>* cancel = nullptr;
     std::function<void(int percent)> progress = {};
@@ -138,6 +142,7 @@ struct Shown {
     VkExtent3D extent = {};
     uint32_t show = RENDER_PICTURE;
     Slice slice = {};
+    float leastWidth = 0.0f;
 };
 
 /// The kernels that evaluate the field.
@@ -145,16 +150,17 @@ struct FieldKernels {
     std::string field;
     Pipeline cones, trace, surface, ambient, ambientHoles;
     Pipeline places;         ///< only if the field has families
-    Pipeline lamps, show;    ///< only if asked for
+    Pipeline lamps;          ///< only if asked for
+    Pipeline show, widths;   ///< the one that FieldKernelOptions::view asks for
     bool tracesSun = false;  ///< `lamps` does
     Pipeline secondary;      ///< ditto
     SecondaryKinds kinds;    ///< of that
 };
 
 struct FieldKernelOptions {
-    bool lamps = false;  ///< the scene has some
-    bool sun = false;    ///< its shadows are traced
-    bool show = false;   ///< for showsField()
+    bool lamps = false;              ///< the scene has some
+    bool sun = false;                ///< its shadows are traced
+    uint32_t view = RENDER_PICTURE;  ///< that pictures will be of
     std::optional<SecondaryKinds> secondary = {};
     Compile when = Compile::now;
     const std::atomic<bool>* cancel = nullptr;  ///< looked at between kernels if they are compiled behind
@@ -181,7 +187,7 @@ struct Renderer {
     FogLight fog;
     Antialias antialias;
     std::map<std::vector<std::string>, Pipeline> light;  ///< by what light.comp defines; made when needed
-    Pipeline lamps, reference, show, wireframe;          ///< ditto
+    Pipeline lamps, reference, show, widths, wireframe;  ///< ditto
     bool tracesSun = false;                              ///< `lamps` does
 
     DepthTarget seen, shadow;

@@ -14,6 +14,11 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
+float usualWidth(glm::vec3 size) {
+    const float longest = std::max({size.x, size.y, size.z, std::numeric_limits<float>::min()});
+    return std::pow(10.0f, std::floor(std::log10(longest / 50.0f)));
+}
+
 SeenBounds boundsOf(std::span<const gpu::MeshVertex> points) {
     if (points.empty()) return {};
     glm::vec3 lo(kInfinity), hi(-kInfinity);

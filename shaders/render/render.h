@@ -3,7 +3,11 @@
 #define FW_RENDER_H
 
 #ifdef __cplusplus
+#include <cmath>
+#include <glm/common.hpp>
+
 namespace fw::gpu {
+using std::log2;
 #endif
 
 #define RENDER_TILE 16       // pixels along each side of a tile: one work group of most kernels
@@ -40,9 +44,26 @@ namespace fw::gpu {
 #define RENDER_SLICE 6      // the field on an upright plane, with lines of equal distance
 #define RENDER_EXACTNESS 7  // there: how far the gradient's length is from 1
 #define RENDER_CELLS 8      // of the mesher that hold surface
-#define RENDER_WIREFRAME 9
-#define RENDER_POINTS 10   // particles, in place of their surface
-#define RENDER_SPHERES 11  // ditto, each as large as its surface would be were it alone
+#define RENDER_THICKNESS 9  // of the solid's walls
+#define RENDER_GAP 10       // between its walls
+#define RENDER_WIREFRAME 11
+#define RENDER_POINTS 12   // particles, in place of their surface
+#define RENDER_SPHERES 13  // ditto, each as large as its surface would be were it alone
+
+#define RENDER_MOST_WIDTHS 4.0f  // times RenderFrame::leastWidth: where the scale of the last two ends
+
+// What a wall or a gap is shown in that is so many times as wide as it is to be at least: red below 1,
+// yellow, green at 2, blue at RENDER_MOST_WIDTHS and beyond. As a display has it.
+#ifdef __cplusplus
+inline
+#endif
+    vec3
+    widthColor(float times) {
+    if (times < 1.0f) return mix(vec3(0.4f, 0.0f, 0.08f), vec3(0.95f, 0.2f, 0.15f), times);
+    float doubled = times < RENDER_MOST_WIDTHS ? log2(times) : 2.0f;
+    vec3 yellow = vec3(1.0f, 0.85f, 0.2f), green = vec3(0.25f, 0.75f, 0.35f), blue = vec3(0.25f, 0.45f, 0.9f);
+    return doubled < 1.0f ? mix(yellow, green, doubled) : mix(green, blue, doubled - 1.0f);
+}
 
 // How a picture is seen. A place in it is (x, y), each from -1 to 1, y upwards. It shows what lies along
 // forward + x right + y up; its depth is near / (distance along forward): 1 is near, 0 is nothing at all.
@@ -113,9 +134,10 @@ struct RenderFrame {
     float exposure;  // factor
     uint neutral;    // 1: Khronos' tone map; 0: ACES
     uint show;
-    uint sliceAxis;  // that the plane of the slice stands across; 3: x or z, whichever the view is along
-    float sliceAt;   // from the centre, metres
-    uint mean;       // frames that the picture is the mean of, before this one
+    uint sliceAxis;    // that the plane of the slice stands across; 3: x or z, whichever the view is along
+    float sliceAt;     // from the centre, metres
+    float leastWidth;  // that walls and gaps are to have, metres
+    uint mean;         // frames that the picture is the mean of, before this one
 
     vec3 fogColor;
     float fogDensity;  // at the ground, 1 / metre

@@ -124,6 +124,10 @@ TEST(Preview, AnotherViewOrSliceIsDrawnThoughThePictureRests) {
     EXPECT_GT(difference(lit, middle), 2.0);
     EXPECT_GT(difference(middle, level), 2.0);
     EXPECT_GT(difference(level, higher), 1.0);
+    wish.leastWidth = 0.01f;
+    const Picture thick = with(RENDER_THICKNESS, {});
+    wish.leastWidth = 10.0f;
+    EXPECT_GT(difference(thick, with(RENDER_THICKNESS, {})), 2.0);
 }
 
 TEST(Preview, ThePictureIsThatOfThePlayer) {

@@ -77,6 +77,10 @@ TEST_F(Command, MissingArgumentsAndUnknownOptionsAreUsage) {
     }
     expectRefusal(runCommand({"render", graph, "-o", "a.png", "--view", "normal"}), 2,
                   {"'normal' is none of picture, ao, normals", "did you mean 'normals'?"});
+    expectRefusal(runCommand({"render", graph, "-o", "a.png", "--least", "1mm"}), 2, {"--view thickness"});
+    for (const char* none : {"0", "-1mm", "1kg", "wide"})
+        expectRefusal(runCommand({"render", graph, "-o", "a.png", "--view", "gap", "--least", none}), 2,
+                      {"--least", none});
     expectBadUsage({"extra"}, {"not expected: extra"});
     expectBadUsage({"-o", mesh}, {"--output"});
     expectBadUsage({"--method", "dual"}, {"--method", "marching-cubes"});

@@ -79,8 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& about) { return std::string(about.param); });
 
 TEST(CompiledOnce, TheViewsOfAField) {
-    Result<Player> player = Player::open(FIELDWRIGHT_SOURCE_DIR "/samples/csg_part.field.json",
-                                         {.resolution = 32, .fieldBy = FieldBy::kernels, .fieldViews = true});
+    Result<Player> player =
+        Player::open(FIELDWRIGHT_SOURCE_DIR "/samples/csg_part.field.json",
+                     {.resolution = 32, .fieldBy = FieldBy::kernels, .view = RENDER_SLICE});
     ASSERT_TRUE(player) << format(player.error());
     Picture picture;
     std::size_t before = 0;
