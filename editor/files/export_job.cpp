@@ -1,17 +1,20 @@
 #include "editor/files/export_job.h"
 
 #include <atomic>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "editor/files/attempt.h"
 #include "graph/document/unit.h"
+#include "graph/implicit3mf/export.h"
 #include "runtime/bake/mesh_field_baker.h"
 #include "runtime/export/outputs.h"
 #include "runtime/play/mesh_program.h"
 #include "runtime/play/tiled_mesh.h"
 #include "runtime/system/clock.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::editor {
 
@@ -34,6 +37,7 @@ constexpr Stage kStages[] = {{"check", "checking the graph", 0.0f},
                              {"unwrap", "laying the mesh flat for its textures", 0.68f},
                              {"bake", "baking textures", 0.7f},
                              {"write", "writing the file", 0.8f},
+                             {"functions", "writing the field as functions", 0.5f},
                              {"count", "counting the triangles of the tiles", 0.2f},
                              {"tiles", "writing the tiles", 0.5f},
                              {"examine", "measuring the file", 0.9f}};
@@ -87,9 +91,11 @@ struct ExportJob::Shared {
         how.cancel = &cancel;
         return how;
     }
+    Done check();
     Result<Opened> open();
     Result<ExportState> atOnce(Opened opened);
     Result<ExportState> inTiles(Opened opened, int side);
+    Result<ExportState> asFunctions();
     Result<ExportState> make();
     void run();
     std::vector<Error> findings;  ///< errors of the graph, where they ended it
@@ -97,16 +103,22 @@ struct ExportJob::Shared {
     inline static const Error kStopped;
 };
 
-/// Everything that comes before the mesh.
-Result<ExportJob::Shared::Opened> ExportJob::Shared::open() {
-    if (const Done known = checkWish(wish.file, wish.path); !known) return known.error();
+/// Whether the graph can be exported to the files that there will be.
+Done ExportJob::Shared::check() {
     const std::vector<std::string> outputs = wishedPaths(wish.file, wish.path);
-    if (const Done distinct = checkDistinct(wish.graph->path, outputs); !distinct) return distinct.error();
-    if (const Done kept = checkReplacesNone(filesRead(*wish.graph), outputs); !kept) return kept.error();
-    OpeningDevice opening(std::launch::async, wish.device);
+    if (const Done distinct = checkDistinct(wish.graph->path, outputs); !distinct) return distinct;
+    if (const Done kept = checkReplacesNone(filesRead(*wish.graph), outputs); !kept) return kept;
     if (!start("check")) return kStopped;
     findings = errorsOf(*wish.graph);
     if (!findings.empty()) return findings.front();
+    return done();
+}
+
+/// Everything that comes before the mesh.
+Result<ExportJob::Shared::Opened> ExportJob::Shared::open() {
+    if (const Done known = checkWish(wish.file, wish.path); !known) return known.error();
+    OpeningDevice opening(std::launch::async, wish.device);
+    if (const Done fine = check(); !fine) return fine.error();
     if (!start("compile")) return kStopped;
     CompileOptions options;
     options.triangles = wish.triangles;
@@ -205,7 +217,34 @@ Result<ExportState> ExportJob::Shared::inTiles(Opened opened, int side) {
     return made;
 }
 
+/// The steps of `fieldwright export --implicit`.
+Result<ExportState> ExportJob::Shared::asFunctions() {
+    if (const Done fine = check(); !fine) return fine.error();
+    if (!start("compile")) return kStopped;
+    const Result<Program> program = compileAtTime(*wish.graph, wish.seconds);
+    if (!program) return program.error();
+    if (!start("region")) return kStopped;
+    const Result<Box> region = meshRegion(*program, wish.mesh, &*wish.graph);
+    if (!region) return region.error();
+    if (!start("functions")) return kStopped;
+    const std::string file = std::filesystem::path(wish.path).filename().string();
+    Result<Exported3mf> functions =
+        export3mf(*program, *region, unitOf(*wish.graph), file.substr(0, file.find('.')));
+    if (!functions) return functions.error();
+    if (!start("write")) return kStopped;
+    Result<OutputFile> out = OutputFile::open(wish.path, &cancel);
+    if (!out) return out.error();
+    out->write(functions->bytes);
+    if (const Done written = out->commit(); !written) return written.error();
+    ExportState made{.phase = Phase::done, .stage = "done", .part = 1.0f};
+    made.files = {.paths = {wish.path}, .bytes = functions->bytes.size()};
+    made.functions = functions->nodes;
+    made.notes = std::move(functions->warnings);
+    return made;
+}
+
 Result<ExportState> ExportJob::Shared::make() {
+    if (wish.functions) return asFunctions();
     Result<Opened> opened = open();
     if (!opened) return opened.error();
     const Program& program = opened->program;

@@ -1,4 +1,4 @@
-// One export to a mesh file, made beside the interface.
+// One export to a mesh file, or of the field itself as functions, made beside the interface.
 //
 // A thread of its own with a device of its own does what `fieldwright export` does, with the same functions,
 // so that the file has the same bytes, in tiles too where that is the way; editing and preview go on
@@ -28,6 +28,7 @@ struct ExportWish {
     double seconds = 0.0;       ///< on the timeline
     MeshWish file = {};         ///< what the file is to be like
     int triangles = 0;          ///< at most; 0: as many as there are
+    bool functions = false;     ///< the field itself goes into the file, in place of a mesh: as --implicit
     DeviceOptions device = {};  ///< that meshes
 };
 
@@ -43,6 +44,8 @@ struct ExportState {
                                        ///< document's unit; with what it took and the device
     bool measured = true;              ///< if not, the report has but counts: there was no memory for more
     bool tiled = false;                ///< it was meshed in tiles
+    std::size_t functions = 0;         ///< nodes of those in the file; 0: it has a mesh
+    std::vector<Error> notes = {};     ///< what of the solid the functions lack
 };
 
 class ExportJob {

@@ -12,6 +12,7 @@
 #include "editor/panels/properties.h"
 #include "editor/shell/theme.h"
 #include "graph/document/unit.h"
+#include "runtime/system/output_file.h"
 
 namespace fw::editor {
 
@@ -77,6 +78,20 @@ bool chooseWord(const char* id, std::vector<std::string> names, const char* none
     if (!chooseName(id, names, chosen)) return false;
     word = chosen == 0 ? std::string() : names[chosen];
     return true;
+}
+
+/// Whether the file is to hold the field itself.
+bool wantsFunctions(const Editor& editor) {
+    return editor.exporting.functions && lowerExtension(exportPath(editor)) == ".3mf";
+}
+
+void showContents(Editor& editor) {
+    if (lowerExtension(exportPath(editor)) != ".3mf") return;
+    propertyRow(
+        "Contents",
+        "The field itself, for programs that read 3MF's volumetric and implicit extensions, in place of "
+        "triangles.");
+    ImGui::Checkbox("functions, not a mesh##functions", &editor.exporting.functions);
 }
 
 /// In which unit and with which axis up the file is, where its format leaves that open.
@@ -163,26 +178,32 @@ MeshWish wishFor(const Editor& editor, const std::string& path) {
     return wish;
 }
 
+void showResolution(ExportDialog& dialog) {
+    propertyRow("Resolution");
+    bool own = !dialog.givesResolution;
+    if (ImGui::Checkbox("as the output node says##resolution", &own)) dialog.givesResolution = !own;
+    if (!dialog.givesResolution) return;
+    propertyRow("   cells",
+                "Along the longest side of the region: twice as many take four to eight times "
+                "the time and the memory.");
+    if (ImGui::InputInt("##cells", &dialog.resolution, 32, 128))
+        dialog.resolution = std::clamp(dialog.resolution, 1, kMostResolution);
+}
+
 void showSettings(Editor& editor) {
     ExportDialog& dialog = editor.exporting;
     if (!beginProperties("export")) return;
     showFormat(editor);
     showFile(editor);
-    showPlacement(editor);
-    showForm(editor);
-    propertyRow("Resolution");
-    bool own = !dialog.givesResolution;
-    if (ImGui::Checkbox("as the output node says##resolution", &own)) dialog.givesResolution = !own;
-    if (dialog.givesResolution) {
-        propertyRow("   cells",
-                    "Along the longest side of the region: twice as many take four to eight times "
-                    "the time and the memory.");
-        if (ImGui::InputInt("##cells", &dialog.resolution, 32, 128))
-            dialog.resolution = std::clamp(dialog.resolution, 1, kMostResolution);
+    showContents(editor);
+    if (!wantsFunctions(editor)) {
+        showPlacement(editor);
+        showForm(editor);
+        showResolution(dialog);
     }
     propertyRow("Region");
     ExportDialog::OfDocument& of = dialog.of;
-    own = !of.givesRegion;
+    bool own = !of.givesRegion;
     if (ImGui::Checkbox("found from the solid##region", &own)) of.givesRegion = !own;
     if (of.givesRegion) {
         propertyRow("   least corner");
@@ -211,7 +232,9 @@ void begin(Editor& editor) {
     const std::array<double, 6>& r = of.region;
     wish.file = wishFor(editor, wish.path);
     wish.triangles = dialog.triangles.value_or(0);
-    if (dialog.givesResolution) wish.mesh.resolution = dialog.resolution;
+    wish.functions = wantsFunctions(editor);
+    if (wish.functions) wish.file = {};
+    if (dialog.givesResolution && !wish.functions) wish.mesh.resolution = dialog.resolution;
     if (of.givesRegion) wish.mesh.region = Box{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}};
     dialog.job.reset();
     dialog.job = std::make_unique<ExportJob>(std::move(wish), [] { Shell::wake(); });
@@ -224,6 +247,11 @@ void showDone(const ExportState& state) {
     wrapped(themeColor(ThemeColor::text),
             printed("%s: %.2f MB in %.2f s", name.c_str(), double(state.files.bytes) / kMegabyte,
                     report.totalMs / 1e3));
+    if (state.functions > 0) {
+        wrapped(themeColor(ThemeColor::text), "The field itself, in " + grouped(state.functions) + " nodes.");
+        for (const Error& note : state.notes) wrapped(themeColor(ThemeColor::warning), format(note));
+        return;
+    }
     wrapped(
         themeColor(ThemeColor::text),
         grouped(report.triangles) + " triangles, " + grouped(report.vertices) + " vertices" +
@@ -291,8 +319,9 @@ void showButtons(Editor& editor) {
 /// What is said in the status line of an export that nobody watches.
 std::string outcome(const ExportState& state) {
     if (state.phase == Phase::done)
-        return "exported " + state.files.paths.front() + ": " + grouped(state.report.triangles) +
-               " triangles";
+        return "exported " + state.files.paths.front() + ": " +
+               (state.functions > 0 ? grouped(state.functions) + " nodes of functions"
+                                    : grouped(state.report.triangles) + " triangles");
     if (state.phase == Phase::failed) return "the export failed: " + state.problems.front().message;
     return "the export was cancelled";
 }

@@ -29,6 +29,7 @@ struct ExportDialog : StayingDialog {
     std::string ending = ".glb";        ///< of what is proposed
     bool givesResolution = false;       ///< else the output node's
     int resolution = 256;               ///< cells along the longest side
+    bool functions = false;             ///< in place of a mesh, where the format has them
     MeshWish file = {};                 ///< what files are to be like; of it a format takes what it has
     std::optional<int> triangles = {};  ///< at most
     FileBrowser browser;

@@ -41,6 +41,26 @@ ExportState finish(const ExportJob& job) {
     return job.state();
 }
 
+TEST(Export, OfFunctionsGivesTheBytesOfTheCommandAndNamesWhatTheyCannotSay) {
+    const TempDir folder;
+    const auto exported = [&](const std::string& name) {
+        const ExportJob job({.graph = read(sample(name)), .path = folder.path("ours.3mf"), .functions = true},
+                            {});
+        return finish(job);
+    };
+    const ExportState part = exported("csg_part");
+    ASSERT_EQ(part.phase, Phase::done) << part.stage;
+    EXPECT_GT(part.functions, 10u);
+    const std::string theirs = folder.path("ours.3MF");  // the file's name is in the file
+    const auto command = test::runCommand({"export", sample("csg_part"), "-o", theirs, "--implicit"});
+    ASSERT_EQ(command.status, 0) << command.errors;
+    EXPECT_EQ(readText(part.files.paths.front()), readText(theirs));
+    const ExportState noisy = exported("landscape");
+    ASSERT_EQ(noisy.phase, Phase::failed);
+    EXPECT_NE(noisy.problems.front().message.find("random"), std::string::npos)
+        << format(noisy.problems.front());
+}
+
 TEST(Export, GivesTheBytesOfTheCommand) {
     const TempDir folder;
     struct Case {
