@@ -38,6 +38,7 @@ void exportTable(Bench& bench);       ///< sequences, sweeps, compressed files
 void processTable(Bench& bench);      ///< the command itself, from graph file to mesh file
 void tapesTable(Bench& bench);        ///< fields on the host
 void implicit3mfTable(Bench& bench);  ///< 3MF files of functions: import, compile, mesh
+void latticesTable(Bench& bench);     ///< struts in a part beside a gyroid of the same surface
 void outlinesTable(Bench& bench);     ///< drawings and letters beside a rectangle
 void largeTable(Bench& bench);        ///< fields that a driver compiles for long
 void liveTable(Bench& bench);         ///< a live parameter changes
