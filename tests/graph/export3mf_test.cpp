@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "graph/compile/compile.h"
@@ -131,6 +132,25 @@ TEST(Export3mf, SamplesAreTheSameOrRefusedByName) {
     }
     EXPECT_GE(written, 15u);
     EXPECT_GE(refused, 2u);
+}
+
+TEST(Export3mf, TheImportedSampleIsWhatItsFileHolds) {
+    const std::string folder = std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/";
+    const Result<Graph> design = readGraph(folder + "implicit/hub.field.json", nullptr),
+                        sample = readGraph(folder + "imported_part.field.json", nullptr);
+    ASSERT_TRUE(design && sample);
+    const Result<Program> program = compile(*design);
+    ASSERT_TRUE(program) << format(program.error());
+    std::ifstream file(folder + "implicit/hub.3mf", std::ios::binary);
+    const Again again(std::string(std::istreambuf_iterator<char>(file), {}));
+    ASSERT_TRUE(again.fine);
+    EXPECT_LE(differences(*program, again.program, findRegion(*program).box, 20'000), 2u);
+    const auto functions = [](const Graph& graph) {
+        Graph bare;
+        bare.groups = graph.groups;
+        return writeGraph(bare);
+    };
+    EXPECT_EQ(functions(again.graph), functions(*sample));
 }
 
 TEST(Export3mf, RandomGraphsAreTheSameOrRefusedByName) {

@@ -330,7 +330,7 @@ TEST(NodeValues, AGrooveIsCutAlongTheSeamOfEveryBoolean) {
             for (const double within : {1e-9, 0.1, 0.3999})
                 EXPECT_GT(valueAt(cut, {within * x, within * y, 0}), 0);
             const Point on{0.4 * x, 0.4 * y, 3}, beyond{0.41 * x, 0.41 * y, -2};
-            if (valueAt(sharp, on) < 0) EXPECT_NEAR(valueAt(cut, on), 0, 1e-15);
+            if (valueAt(sharp, on) < 0) { EXPECT_NEAR(valueAt(cut, on), 0, 1e-15); }
             EXPECT_EQ(valueAt(cut, beyond) < 0, valueAt(sharp, beyond) < 0) << beyond[0] << " " << beyond[1];
         }
     }
