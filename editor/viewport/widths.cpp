@@ -17,7 +17,7 @@ namespace {
 constexpr float kScaleWide = 210.0f, kScaleHigh = 8.0f;  // pixels at scale 1
 constexpr double kDragged = 0.02;                        // of the width, by a pixel
 
-ImU32 colorOf(float times) {
+ImU32 scaleColor(float times) {
     const glm::vec3 color = gpu::widthColor(times);
     return ImGui::GetColorU32({color.x, color.y, color.z, 1.0f});
 }
@@ -63,7 +63,7 @@ void showWidthScale(const Editor& editor) {
     const LengthUnit& unit = unitOf(editor.document.graph());
     for (int i = 0; i < 3; ++i) {
         const float left = at.x + float(i) * third;
-        const ImU32 from = colorOf(kTimes[i]), to = colorOf(i == 0 ? 0.999f : kTimes[i + 1]);
+        const ImU32 from = scaleColor(kTimes[i]), to = scaleColor(i == 0 ? 0.999f : kTimes[i + 1]);
         list->AddRectFilledMultiColor({left, top}, {left + third, top + bar}, from, to, to, from);
         const std::string words = lengthWords(double(kTimes[i + 1] * leastWidth(view)), unit);
         const ImVec2 wide = ImGui::CalcTextSize(words.c_str());
