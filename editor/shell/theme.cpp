@@ -73,7 +73,7 @@ ImU32 now(const Shade& shade) { return current == Theme::light ? shade.light : s
 constexpr ImU32 kCategoryColors[] = {
     rgb(0x1771a0),  // shape
     rgb(0x597286),  // shape2d
-    rgb(0x1f6f6b),  // spline
+    rgb(0x002060),  // spline
     rgb(0xa85824),  // combine
     rgb(0x4a4593),  // domain
     rgb(0x0a5c39),  // field
@@ -106,7 +106,7 @@ constexpr TypeStyle kTypeStyles[] = {
     {{rgb(0xf4f4f4), rgb(0x22262c)}, SocketShape::hexagon},   // image
     {{rgb(0x3d8fd1), rgb(0x1a5ca8)}, SocketShape::hexagon},   // mesh: blue
     {{rgb(0xf4f4f4), rgb(0x30363d)}, SocketShape::circle},    // particles
-    {{rgb(0x8fe3c6), rgb(0x00523c)}, SocketShape::pentagon},  // spline: bluish green, lighter, or darker
+    {{rgb(0x40f0e0), rgb(0x004030)}, SocketShape::pentagon},  // spline: turquoise; a dark green
 };
 static_assert(std::size(kTypeStyles) == kTypes);
 constexpr TypeStyle kUnknown = {{rgb(0x8c939c), rgb(0x707780)}, SocketShape::circle};

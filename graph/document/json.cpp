@@ -322,8 +322,11 @@ class Reader {
         std::vector<double> numbers;
         const uint32_t last = list[value].next;
         const bool entries = value + 1 < last && list[value + 1].kind == Kind::array;
+        constexpr int kPlain = 3;  // of knots, whose radius is 1 and whose twist is 0 then
+        const int given = entries ? int(list[value + 1].next - value) - 2 : 0;
         if (entries)
-            to.entry = entrySize(listOf(int(list[value + 1].next - value) - 2).value_or(Type::points));
+            to.entry =
+                given == kPlain ? entrySize(Type::knots) : entrySize(listOf(given).value_or(Type::points));
         for (uint32_t i = value + 1; i < last; i = list[i].next) {
             if (list[i].kind != (entries ? Kind::array : Kind::number))
                 return failInput(i, std::string(kindName(list[i].kind)) + " inside an array of " +
@@ -332,16 +335,20 @@ class Reader {
                                          : to.entry == 4 ? "stops"
                                                          : "knots"));
             if (entries) {
-                const uint32_t end = i + 1 + uint32_t(to.entry);
-                if (list[i].next != end ||
+                const uint32_t end = list[i].next;
+                const int own = int(end - i) - 1;
+                const bool plain = to.entry == entrySize(Type::knots) && own == kPlain;
+                if ((own != to.entry && !plain) ||
                     !std::all_of(list.begin() + i + 1, list.begin() + end,
                                  [](const JsonToken& token) { return token.kind == Kind::number; }))
-                    return failInput(i, i == value + 1 && to.entry == 2
-                                            ? "an array of something other than two numbers, four or five"
-                                        : to.entry == 2 ? "an array of something other than two numbers"
-                                        : to.entry == 4 ? "an array of something other than four numbers"
-                                                        : "an array of something other than five numbers");
+                    return failInput(
+                        i, i == value + 1 && to.entry == 2
+                               ? "an array of something other than two, three, four or five numbers"
+                           : to.entry == 2 ? "an array of something other than two numbers"
+                           : to.entry == 4 ? "an array of something other than four numbers"
+                                           : "an array of something other than three numbers or five");
                 for (uint32_t k = i + 1; k < end; ++k) numbers.push_back(numberOf(list[k]));
+                if (plain) numbers.insert(numbers.end(), {1.0, 0.0});
             } else {
                 numbers.push_back(numberOf(list[i]));
             }

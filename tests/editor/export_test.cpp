@@ -52,7 +52,7 @@ TEST(Export, OfFunctionsGivesTheBytesOfTheCommandAndNamesWhatTheyCannotSay) {
     ASSERT_EQ(part.phase, Phase::done) << part.stage;
     EXPECT_GT(part.functions, 10u);
     const std::string theirs = folder.path("ours.3MF");  // the file's name is in the file
-    const auto command = test::runCommand({"export", sample("csg_part"), "-o", theirs, "--implicit"});
+    const auto command = fw::test::runCommand({"export", sample("csg_part"), "-o", theirs, "--implicit"});
     ASSERT_EQ(command.status, 0) << command.errors;
     EXPECT_EQ(readText(part.files.paths.front()), readText(theirs));
     const ExportState noisy = exported("landscape");

@@ -47,6 +47,7 @@ const std::map<std::string, std::string> kWithout = {
     {"true_distance.margin", "it is everywhere around the solid"},
     {"round_edges.radius", "it is along all edges"},
     {"lattice.thickness", "of struts or walls that are everywhere"},
+    {"tube.radius", "its ball is all along the spline"},
     {"voronoi_foam.cell", "its walls are where chance has them"},
     {"voronoi_foam.thickness", "of walls that are everywhere"},
     {"displace.amount", "it is everywhere on the surface"},

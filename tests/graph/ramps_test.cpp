@@ -277,7 +277,9 @@ TEST(Ramps, ListsThatCannotBeAreNamedWithARemedy) {
     expect(said("[[0, 0, -1, 0]]"), "the colour of stop 1 has the component -1: it must be at least 0");
     expect(said("[[0, 0, 0, \"a\"]]"), "an array of something other than four numbers");
     expect(said("[[0, 0, 0, 0], [1, 1]]"), "an array of something other than four numbers");
-    expect(said("[[0, 0, 0]]"), "an array of something other than two numbers, four or five");
+    expect(said("[[0, 0, 0]]"),
+           "expected an array of stops [position, red, green, blue], not an array of 1 knot");
+    expect(said("[[0, 0, 0, 0, 0, 0]]"), "an array of something other than two, three, four or five numbers");
     expect(said("[[0, 0], [1, 1]]"), "not an array of 2 pairs");
     expect(said("[0, 1]"), "not an array of 2 numbers");
     expect(said("{\"from\": \"heat\"}"), "but this input takes stops");

@@ -114,9 +114,17 @@ Graph alone(const NodeType& type) {
     add("second", "sphere").set("radius", {1.2});
     Node& node = add("node", type.id);
     int fed = 0;
-    for (const InputSpec& input : type.inputs)
+    bool along = false;
+    for (const InputSpec& input : type.inputs) {
         if (input.type == Type::surface) node.set(input.name, {Link{fed++ ? "second" : "first", ""}});
+        if (input.type == Type::spline) node.set(input.name, {Link{"curve", ""}}), along = true;
+    }
+    if (along) add("curve", "spline");
     std::string shown = "node", output;
+    if (type.outputs[0].type == Type::spline) {
+        add("tube", "tube").set("spline", {Link{"node", ""}});
+        shown = "tube";
+    }
     if (type.outputs[0].type == Type::vec3) {
         Node& length = add("length", "vector_math");
         length.set("op", {std::string("length")});

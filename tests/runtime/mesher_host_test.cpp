@@ -101,7 +101,7 @@ TEST(MesherHost, EverySampleHasTheMeshOfTheKernels) {
         EXPECT_LT(shareOfWrongNormals(program, ours.mesh), 0.02);
         ++samples;
     }
-    EXPECT_GE(samples, 10);
+    EXPECT_GE(samples, 6);
 }
 
 TEST(MesherHost, ASphereIsTheSameVertexForVertex) {

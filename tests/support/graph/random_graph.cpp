@@ -48,7 +48,9 @@ class Generator {
         static const std::vector<const NodeType*> types = [] {
             std::vector<const NodeType*> list;
             for (const NodeType& type : nodeTypes())
-                if (!type.outputs.empty() && !type.body.empty() && !type.open) list.push_back(&type);
+                if (!type.outputs.empty() && !type.body.empty() && !type.open &&
+                    type.category != Category::spline)  // which take nothing but each other
+                    list.push_back(&type);
             return list;
         }();
         return types;
@@ -115,7 +117,7 @@ class Generator {
             node.set(spec.name, listValue(spec.type, std::move(list)));
             return;
         }
-        if (spec.type == Type::points) return;
+        if (spec.type == Type::points || spec.type == Type::knots) return;
         if (spec.type == Type::boolean) {
             node.set(spec.name, {chance(0.5)});
         } else if (spec.type == Type::integer || spec.type == Type::scalar) {
