@@ -8,7 +8,7 @@ namespace {
 std::vector<NodeType> gatherNodeTypes() {
     std::vector<NodeType> all;
     for (auto family :
-         {shapeNodes, shape2dNodes, splineNodes, partNodes, latticeNodes, combineNodes, domainNodes,
+         {shapeNodes, shape2dNodes, partNodes, latticeNodes, splineNodes, combineNodes, domainNodes,
           fieldNodes, mathsNodes, materialNodes, meshNodes, stageNodes, particleNodes}) {
         std::vector<NodeType> nodes = family();
         std::move(nodes.begin(), nodes.end(), std::back_inserter(all));

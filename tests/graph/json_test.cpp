@@ -99,7 +99,7 @@ TEST(Json, ReadsEveryShapeOfInput) {
 }
 
 TEST(Json, RefusesWhatIsNoInput) {
-    for (const char* value : {"null", "[1, true]", "[[1, 2], 3]", "[1, [2, 3]]", "[[1, 2, 3]]", "[[1]]",
+    for (const char* value : {"null", "[1, true]", "[[1, 2], 3]", "[1, [2, 3]]", "[[1, 2, 3, 4, 5, 6]]", "[[1]]",
                               "[[]]", "[\"a\"]", "{}", "{\"node\": \"a\"}", "[[[1, 2]]]", "[null]"}) {
         const std::string error = refusal(withInput(value));
         EXPECT_NE(error.find("node 'n', input 'x'"), std::string::npos) << error;
