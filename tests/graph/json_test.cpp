@@ -99,8 +99,9 @@ TEST(Json, ReadsEveryShapeOfInput) {
 }
 
 TEST(Json, RefusesWhatIsNoInput) {
-    for (const char* value : {"null", "[1, true]", "[[1, 2], 3]", "[1, [2, 3]]", "[[1, 2, 3, 4, 5, 6]]", "[[1]]",
-                              "[[]]", "[\"a\"]", "{}", "{\"node\": \"a\"}", "[[[1, 2]]]", "[null]"}) {
+    for (const char* value :
+         {"null", "[1, true]", "[[1, 2], 3]", "[1, [2, 3]]", "[[1, 2, 3, 4, 5, 6]]", "[[1]]", "[[]]",
+          "[\"a\"]", "{}", "{\"node\": \"a\"}", "[[[1, 2]]]", "[null]"}) {
         const std::string error = refusal(withInput(value));
         EXPECT_NE(error.find("node 'n', input 'x'"), std::string::npos) << error;
         EXPECT_NE(error.find("an input is a number, true or false, a string, an array of numbers"),
