@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "graph/document/named_parameters.h"
 #include "graph/library/node_type.h"
@@ -43,10 +42,7 @@ std::optional<Knots> knotsOf(const Node& node) {
     const NodeType& type = *findNodeType(node.type);
     const InputValue* kind = node.input("kind");
     const std::string* word = kind ? std::get_if<std::string>(&kind->value) : nullptr;
-    if (word)
-        knots.kind = *word == "straight" ? SplineKind::straight
-                     : *word == "bezier" ? SplineKind::bezier
-                                         : SplineKind::smooth;
+    if (word) knots.kind = splineKindNamed(*word);
     const auto number = [&](const char* name) {
         const std::vector<double> given =
             inputIndex(type, name) < 0 ? std::vector<double>() : inputNumbers(node, name);
@@ -59,11 +55,8 @@ std::optional<Knots> knotsOf(const Node& node) {
 }
 
 SplinePtr splineOf(const Knots& knots) {
-    std::vector<Knot> list;
-    for (std::size_t i = 0; i < knots.count(); ++i)
-        list.push_back({knots.at(i), std::max(knots.numbers[kSize * i + 3], 0.0),
-                        knots.numbers[kSize * i + 4] * std::numbers::pi / 180});
-    const Result<SplinePtr> spline = splineThrough(list, knots.kind, knots.closed, knots.bend);
+    const Result<SplinePtr> spline =
+        splineThrough(knotsFrom(knots.numbers), knots.kind, knots.closed, knots.bend);
     return spline ? *spline : nullptr;
 }
 

@@ -8,6 +8,7 @@
 #include "editor/shell/theme.h"
 #include "editor/viewport/ground.h"
 #include "graph/document/unit.h"
+#include "graph/evaluate/region.h"
 #include "runtime/render/view.h"
 
 namespace fw::editor {
@@ -27,9 +28,7 @@ ImU32 scaleColor(float times) {
 float leastWidth(const Viewport& viewport) {
     if (!showsWidths(viewport.view)) return 0.0f;
     if (viewport.leastWidth > 0.0f) return viewport.leastWidth;
-    const Box& region = viewport.shown.region;
-    const auto side = [&](std::size_t axis) { return float(region.hi[axis] - region.lo[axis]); };
-    return usualWidth({side(0), side(1), side(2)});
+    return usualWidth(float(longestSide(viewport.shown.region)));
 }
 
 void chooseLeastWidth(Editor& editor) {

@@ -121,9 +121,12 @@ bool GraphLowering::receivesTransmission(const NodeAt& at) {
 
 Lowered GraphLowering::lowerBody(const NodeAt& at) {
     const std::optional<std::vector<NodeInput>> given = inputs(at);
-    if (!given) return failure(at.type.outputs);
+    return given ? lowerBody(at, *given) : failure(at.type.outputs);
+}
+
+Lowered GraphLowering::lowerBody(const NodeAt& at, const std::vector<NodeInput>& given) {
     std::vector<Value> values;
-    for (const NodeInput& input : *given) values.push_back(input.value);
+    for (const NodeInput& input : given) values.push_back(input.value);
     Result<std::vector<Value>> made = language::lowerNode(state, at.type, std::move(values));
     for (std::string& remark : std::exchange(state.remarks, {})) warn(at, "", std::move(remark));
     if (!made) {
@@ -136,9 +139,22 @@ Lowered GraphLowering::lowerBody(const NodeAt& at) {
     for (std::size_t i = 0; i < at.type.outputs.size(); ++i) {
         NodeOutput& output = result.outputs.emplace_back(
             NodeOutput{at.type.outputs[i].name, at.type.outputs[i].type, std::move((*made)[i])});
-        if (output.type == Type::surface) classify(at, *given, output);
+        if (output.type == Type::surface) classify(at, given, output);
     }
     return result;
+}
+
+const IrNode* movingIn(const Ir& ir, IrId root) {
+    std::vector<bool> needed(root + 1);
+    needed[root] = true;
+    for (IrId id = root + 1; id-- > 0;) {
+        if (!needed[id]) continue;
+        const IrNode& node = ir[id];
+        if (node.op == Op::parameter || (node.op == Op::volume && !ir.layer(node).volume->volume->made()))
+            return &node;
+        for (int i = 0; i < opInfo(node.op).arity; ++i) needed[node.operands[std::size_t(i)]] = true;
+    }
+    return nullptr;
 }
 
 // ---- findings

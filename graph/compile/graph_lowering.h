@@ -98,6 +98,7 @@ class GraphLowering {
     Lowered passOn(const NodeAt& at, const std::vector<OutputSpec>* outputs);
     /// By the body of the node's type.
     Lowered lowerBody(const NodeAt& at);
+    Lowered lowerBody(const NodeAt& at, const std::vector<NodeInput>& inputs);
     /// Class of the node's surface by its type's rule, given its inputs.
     void classify(const NodeAt& at, const std::vector<NodeInput>& inputs, NodeOutput& surface);
 
@@ -130,6 +131,9 @@ class GraphLowering {
     void keepInRange(const NodeAt& at, const InputSpec& spec, language::Value& value, bool& fine);
 };
 
+/// The operation of a field that moves, a live parameter or particles; nullptr if all of it is known when the
+/// graph is compiled.
+const IrNode* movingIn(const Ir& ir, IrId root);
 /// The named one of a node's inputs, which it has.
 const language::Value& inputOf(const std::vector<NodeInput>& inputs, std::string_view name);
 /// A mesh is known by the surface that it is made from.

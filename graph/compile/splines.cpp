@@ -18,14 +18,9 @@ constexpr double kSmallest = 0.01;  // of how far the solid reaches
 
 /// How far a solid reaches from the z axis at most, metres; none if that is not known: it moves, or has no
 /// end.
-std::optional<double> reachOf(const Ir& whole, IrId distance) {
-    std::array<IrId, 1> root = {distance};
-    const Ir ir = whole.compact(root);
-    for (IrId id = 0; id < ir.size(); ++id)
-        if (ir[id].op == Op::parameter || ir[id].op == Op::column ||
-            (ir[id].op == Op::volume && !ir.layer(ir[id]).volume->volume->made()))
-            return std::nullopt;
-    const Tape tape = makeTape(ir, root[0], {});
+std::optional<double> reachOf(const Ir& ir, IrId distance) {
+    if (movingIn(ir, distance)) return std::nullopt;
+    const Tape tape = makeTape(ir, distance, {});
     TapeMachine<double> machine;
     struct Square {
         double x, y, half;
@@ -59,10 +54,10 @@ std::optional<double> reachOf(const Ir& whole, IrId distance) {
 /// A place is never nearer to the shape than to the spline less the shape's reach; of true distances this
 /// changes no value.
 Lowered lowerSweep(GraphLowering& lowering, const NodeAt& at) {
-    Lowered result = lowering.lowerBody(at);
-    if (result.failed) return result;
     const auto inputs = lowering.inputs(at);
     if (!inputs) return lowering.failure(at.type.outputs);
+    Lowered result = lowering.lowerBody(at, *inputs);
+    if (result.failed) return result;
     const SplinePtr& spline = inputOf(*inputs, "spline").spline;
     if (!spline) return result;
     Ir& ir = lowering.state.ir;

@@ -17,21 +17,13 @@ constexpr double kEven = 1.01;  // Lipschitz constants up to which walls pass fo
 
 /// Why a field cannot be measured when the graph is compiled; empty if it can.
 std::string unmeasurable(const GraphLowering& lowering, IrId root) {
-    const Ir& ir = lowering.state.ir;
-    std::vector<bool> needed(root + 1);
-    needed[root] = true;
-    for (IrId id = root + 1; id-- > 0;) {
-        if (!needed[id]) continue;
-        const IrNode& node = ir[id];
-        if (node.op == Op::parameter)
-            return "depends on '" + lowering.live[std::size_t(node.number)].name +
-                   "', which moves, and distances are measured once: move what is behind this node instead";
-        if (node.op == Op::volume && !ir.layer(node).volume->volume->made())
-            return "is made of particles, which move, and distances are measured once: set the distance of "
-                   "particles_to_field to true instead";
-        for (int i = 0; i < opInfo(node.op).arity; ++i) needed[node.operands[std::size_t(i)]] = true;
-    }
-    return {};
+    const IrNode* moving = movingIn(lowering.state.ir, root);
+    if (!moving) return {};
+    if (moving->op == Op::parameter)
+        return "depends on '" + lowering.live[std::size_t(moving->number)].name +
+               "', which moves, and distances are measured once: move what is behind this node instead";
+    return "is made of particles, which move, and distances are measured once: set the distance of "
+           "particles_to_field to true instead";
 }
 
 /// The same field as distances that were measured. None, reported, if that cannot be; none, not reported, if

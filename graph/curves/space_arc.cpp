@@ -73,28 +73,28 @@ glm::dvec3 frameOn(const SpaceArc& arc, double s, int direction) {
                           : std::cos(angle) * across - std::sin(angle) * towards;
 }
 
-SpaceFoot nearestOn(const SpaceArc& arc, const glm::dvec3& p) {
+SpaceFoot nearestOn(const SpaceArc& arc, const glm::dvec3& p, double times) {
     const glm::dvec3 q = p - arc.middle;
-    const double k = arc.bend, x = glm::dot(q, arc.along), y = glm::dot(q, arc.towards),
-                 z = glm::dot(q, arc.across()), c = 1 - k * y, h = std::hypot(c, k * x),
-                 beside = (k * (x * x + y * y) - 2 * y) / (1 + h), off2 = beside * beside + z * z;
+    const double radius = times * arc.radius, m = times * arc.radiusSlope, k = arc.bend,
+                 x = glm::dot(q, arc.along), y = glm::dot(q, arc.towards), z = glm::dot(q, arc.across()),
+                 c = 1 - k * y, h = std::hypot(c, k * x), beside = (k * (x * x + y * y) - 2 * y) / (1 + h),
+                 off2 = beside * beside + z * z;
     const glm::dvec2 end = offsetOn(k, arc.half);
     const auto distanceToEnd = [&](double side) {
         return std::sqrt((x - side * end.x) * (x - side * end.x) + (y - end.y) * (y - end.y) + z * z);
     };
     const double at = k * arc.half < 1e-9 ? x : std::atan2(k * x, c) / k;  // of the circle's nearest place
-    if (arc.radiusSlope == 0) {
+    if (m == 0) {
         const double side = x < 0 ? -1 : 1;
-        if (std::abs(at) <= arc.half) return {at, std::sqrt(off2) - arc.radius, false};
-        return {side * arc.half, distanceToEnd(side) - arc.radius, true};
+        if (std::abs(at) <= arc.half) return {at, std::sqrt(off2) - radius, false};
+        return {side * arc.half, distanceToEnd(side) - radius, true};
     }
     // The distance squared to the place u metres on is off2 + h t with t = (2 sin(k u / 2) / k)^2. Less the
     // radius it is the least where h h t (1 - k k t / 4) = m m (off2 + h t), m the radius' slope: of the two
     // t the smaller one.
-    const double m = arc.radiusSlope;
     SpaceFoot best{0, 1e300, true};
     for (const double side : {-1.0, 1.0})
-        if (const double distance = distanceToEnd(side) - arc.radius - m * side * arc.half;
+        if (const double distance = distanceToEnd(side) - radius - m * side * arc.half;
             distance < best.distance)
             best = {side * arc.half, distance, true};
     const double b = h * (h - m * m), root = b * b - k * k * h * h * m * m * off2;
@@ -103,7 +103,7 @@ SpaceFoot nearestOn(const SpaceArc& arc, const glm::dvec3& p) {
                      u = std::copysign(
                          k * chord < 1e-9 ? chord : 2 / k * std::asin(std::min(0.5 * k * chord, 1.0)), m),
                      s = at + u;
-        const double distance = std::sqrt(off2 + h * t) - arc.radius - m * s;
+        const double distance = std::sqrt(off2 + h * t) - radius - m * s;
         if (std::abs(s) <= arc.half && distance < best.distance) best = {s, distance, false};
     }
     return best;

@@ -46,12 +46,13 @@ glm::dvec3 towardsOn(const SpaceArc& arc, double s);
 /// The frame's two directions there, of unit length, across where it leads.
 glm::dvec3 frameOn(const SpaceArc& arc, double s, int direction);
 
-/// Where on an arc a place's nearest is, metres from the middle; and what is left of the distance to it.
+/// Where on an arc a place's nearest is, metres from the middle; and what is left of the distance to it;
+/// `times`: the balls are so many times as large.
 struct SpaceFoot {
     double s = 0;
     double distance = 0;  ///< less the ball's radius, metres
     bool beyond = false;  ///< an end is the nearest
 };
-SpaceFoot nearestOn(const SpaceArc& arc, const glm::dvec3& p);
+SpaceFoot nearestOn(const SpaceArc& arc, const glm::dvec3& p, double times = 1);
 
 }  // namespace fw

@@ -142,13 +142,12 @@ void finish(Spline& spline) {
     spline.length = s;
     // What was given as `turn` is the twist; the frame's own turn goes beneath it.
     const SpaceArc& first = spline.arcs.front();
-    glm::dvec3 carried = towardsOn(first, -first.half);
     glm::dvec3 leads = directionOn(first, -first.half);
     // Of a frame that is at rest the first direction is up as far as it can, so that shapes stand upright.
     const glm::dvec3 up = std::abs(leads.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
-    const glm::dvec3 second = glm::normalize(up - leads * glm::dot(up, leads));
-    carried = glm::cross(second, leads);
-    const glm::dvec3 firstCarried = carried, firstLeads = leads;
+    const glm::dvec3 second = glm::normalize(up - leads * glm::dot(up, leads)),
+                     firstCarried = glm::cross(second, leads), firstLeads = leads;
+    glm::dvec3 carried = firstCarried;
     std::vector<double> own;
     for (const SpaceArc& arc : spline.arcs) {
         carried = turnedWith(carried, leads, directionOn(arc, -arc.half));
@@ -268,7 +267,34 @@ void drawLines(Drawing3d& drawing, std::span<const Knot> knots, bool closed, dou
     }
 }
 
+/// Of arcs whose balls are all alike; null if there are none.
+Result<SplinePtr> evenSpline(std::vector<SpaceArc> arcs, bool closed) {
+    if (arcs.size() > kMostSpaceArcs) return tooManyArcs();
+    if (arcs.empty()) return SplinePtr();
+    auto spline = std::make_shared<Spline>();
+    spline->arcs = std::move(arcs);
+    spline->closed = closed;
+    for (SpaceArc& arc : spline->arcs) arc.radius = 1;
+    finish(*spline);
+    return SplinePtr(std::move(spline));
+}
+
 }  // namespace
+
+std::vector<Knot> knotsFrom(std::span<const double> numbers) {
+    std::vector<Knot> knots;
+    for (std::size_t i = 0; i + 4 < numbers.size(); i += 5)
+        knots.push_back({{numbers[i], numbers[i + 1], numbers[i + 2]},
+                         std::max(numbers[i + 3], 0.0),
+                         numbers[i + 4] * std::numbers::pi / 180});
+    return knots;
+}
+
+SplineKind splineKindNamed(std::string_view word) {
+    return word == "straight" ? SplineKind::straight
+           : word == "bezier" ? SplineKind::bezier
+                              : SplineKind::smooth;
+}
 
 Result<SplinePtr> splineThrough(std::span<const Knot> given, SplineKind kind, bool closed, double bend) {
     if (given.size() > kMostKnots)
@@ -367,17 +393,11 @@ Result<SplinePtr> splineOfHelix(const Helix& helix) {
     };
     const int parts = std::max(1, int(std::ceil(8 * helix.turns)));
     for (int i = 0; i < parts; ++i) drawing.follow(place, slope, double(i) / parts, double(i + 1) / parts);
-    if (drawing.tooMany()) return tooManyArcs();
-    if (drawing.arcs.empty()) return SplinePtr();
-    auto spline = std::make_shared<Spline>();
-    spline->arcs = std::move(drawing.arcs);
-    for (SpaceArc& arc : spline->arcs) arc.radius = 1;
-    finish(*spline);
-    return SplinePtr(std::move(spline));
+    return evenSpline(std::move(drawing.arcs), false);
 }
 
 Result<SplinePtr> splineAlong(const Contour& contour) {
-    auto spline = std::make_shared<Spline>();
+    std::vector<SpaceArc> arcs;
     for (const Arc& arc : contour.arcs) {
         const int parts = std::max(1, int(std::ceil(std::abs(turnOf(arc)) / (0.499 * std::numbers::pi))));
         for (int i = 0; i < parts; ++i) {
@@ -385,15 +405,10 @@ Result<SplinePtr> splineAlong(const Contour& contour) {
             if (!(lengthOf(part) > 0)) continue;
             const glm::dvec2 leads = tangentAtStart(part);
             const glm::dvec3 a(part.a, 0), b(part.b, 0);
-            spline->arcs.push_back(part.bend == 0 ? spaceLine(a, b) : spaceArc(a, glm::dvec3(leads, 0), b));
+            arcs.push_back(part.bend == 0 ? spaceLine(a, b) : spaceArc(a, glm::dvec3(leads, 0), b));
         }
     }
-    if (spline->arcs.empty()) return SplinePtr();
-    if (spline->arcs.size() > kMostSpaceArcs) return tooManyArcs();
-    spline->closed = contour.closed;
-    for (SpaceArc& arc : spline->arcs) arc.radius = 1;
-    finish(*spline);
-    return SplinePtr(std::move(spline));
+    return evenSpline(std::move(arcs), contour.closed);
 }
 
 }  // namespace fw

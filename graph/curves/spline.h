@@ -16,6 +16,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "graph/base/result.h"
@@ -52,6 +53,11 @@ enum class SplineKind : unsigned char {
     straight,  ///< lines from one to the next
     bezier     ///< cubic Bézier curves: a place, two handles, a place, two handles, …
 };
+
+/// Those of a list of numbers, five each: x, y, z, radius and twist, which are degrees there.
+std::vector<Knot> knotsFrom(std::span<const double> numbers);
+/// "straight" and "bezier"; smooth for any other word.
+SplineKind splineKindNamed(std::string_view word);
 
 /// The spline through knots; null if there are fewer than two places. Radii and twists change smoothly from
 /// knot to knot, never beyond what they are there. `bend`: of straight ones, the radius of the arcs that

@@ -51,9 +51,7 @@ struct Beside {
 /// One arc's ball at a place, closer than what was found.
 void take(const SplineTable& table, uint32_t number, const glm::dvec3& p, Beside& best) {
     const SpaceArc& arc = table.spline->arcs[number];
-    SpaceArc ball = arc;
-    ball.radius *= table.radius, ball.radiusSlope *= table.radius;
-    const SpaceFoot foot = nearestOn(ball, p);
+    const SpaceFoot foot = nearestOn(arc, p, table.radius);
     if (foot.distance < best.foot.distance) best = {&arc, foot};
 }
 

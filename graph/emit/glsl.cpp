@@ -120,12 +120,9 @@ class Emitter : GlslStatements {
             const FieldVolume& volume = *ir.volumes()[v];
             const VolumeGrid& grid = volume.grid;
             const std::string gridName = "fieldVolumeGrid" + std::to_string(v);
-            const auto list = [&](const auto& of, auto literal) {
-                return "(" + literal(of[0]) + ", " + literal(of[1]) + ", " + literal(of[2]) + ")";
-            };
             text += "const VolumeGrid " + gridName + " = VolumeGrid(" + std::to_string(first) + ", ivec3" +
-                    list(grid.size, [](int n) { return std::to_string(n); }) + ", vec3" +
-                    list(grid.origin, glslLiteral) + ", vec3" + list(grid.inset, glslLiteral) + ", " +
+                    triple(grid.size, [](int n) { return std::to_string(n); }) + ", vec3" +
+                    triple(grid.origin, glslLiteral) + ", vec3" + triple(grid.inset, glslLiteral) + ", " +
                     glslLiteral(grid.cell) + ", " + glslLiteral(1.0 / grid.cell) + ");\n";
             for (const VolumeLayer& layer : volume.layers) {
                 const std::size_t number = v * kVolumeLayers + std::size_t(layer.channel);
@@ -175,9 +172,6 @@ class Emitter : GlslStatements {
         text += "#define SPLINE_LEVELS " + std::to_string(kSplineLevels) + "\n#define SPLINE_ARC_TEXELS " +
                 std::to_string(kArcTexels) + "\n#include \"lib/spline.glsl\"\n";
         const std::vector<bool> sampled = layersOf(Op::spline, ir.splines().size() * kSplineChannels);
-        const auto triple = [](const auto& v, auto literal) {
-            return "(" + literal(v[0]) + ", " + literal(v[1]) + ", " + literal(v[2]) + ")";
-        };
         for (std::size_t s = 0; s < ir.splines().size(); ++s) {
             const SplineTable& table = *ir.splines()[s];
             const std::string own = std::to_string(s), grid = "fieldSplineGrid" + own;
@@ -201,11 +195,9 @@ class Emitter : GlslStatements {
                         ", x, y, z); }\n";
             };
             function(0, "splineDistance(" + grid + ", p)", "splineDistanceRange(" + grid);
+            first += table.texels.size();
             const auto from = sampled.begin() + std::ptrdiff_t(s) * kSplineChannels;
-            if (std::none_of(from + 1, from + kSplineChannels, [](bool is) { return is; })) {
-                first += table.texels.size();
-                continue;
-            }
+            if (std::find(from + 1, from + kSplineChannels, true) == from + kSplineChannels) continue;
             text += "vec3 fieldSplineAt" + own + " = vec3(1e38);\nSplineBeside fieldSplineBeside" + own +
                     ";\nSplineBeside fieldSplineThere" + own + "(vec3 p) {\n    if (p != fieldSplineAt" +
                     own + ") {\n        fieldSplineAt" + own + " = p;\n        fieldSplineBeside" + own +
@@ -215,8 +207,12 @@ class Emitter : GlslStatements {
             for (int channel = 1; channel < kSplineChannels; ++channel)
                 function(channel, "fieldSplineThere" + own + "(p)." + kNames[channel],
                          "splineRange(" + grid + ", " + std::to_string(channel));
-            first += table.texels.size();
         }
+    }
+    /// Three of anything that is counted, as a vector's arguments.
+    template <class Of, class Literal>
+    static std::string triple(const Of& of, Literal literal) {
+        return "(" + literal(of[0]) + ", " + literal(of[1]) + ", " + literal(of[2]) + ")";
     }
     static std::string pair(double a, double b) {
         return "vec2(" + glslLiteral(a) + ", " + glslLiteral(b) + ")";

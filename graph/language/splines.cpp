@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "graph/curves/spline_table.h"
 #include "graph/outlines/drawing.h"
@@ -46,16 +45,8 @@ IrId sampled(Lowering& state, const SplineTablePtr& table, SplineChannel channel
 Result<Value> splineThroughKnots(Lowering& state, std::span<const Value> a) {
     const auto numbers = knownNumbers(state, a.subspan(2));
     if (!numbers) return notKnown();
-    const std::vector<double>& list = *a[0].points;
-    std::vector<Knot> knots;
-    for (std::size_t i = 0; i + 4 < list.size(); i += 5)
-        knots.push_back({{list[i], list[i + 1], list[i + 2]},
-                         std::max(list[i + 3], 0.0),
-                         list[i + 4] * std::numbers::pi / 180});
-    const SplineKind kind = a[1].text == "straight" ? SplineKind::straight
-                            : a[1].text == "bezier" ? SplineKind::bezier
-                                                    : SplineKind::smooth;
-    return asValue(splineThrough(knots, kind, (*numbers)[0] != 0, std::max((*numbers)[1], 0.0)));
+    return asValue(splineThrough(knotsFrom(*a[0].points), splineKindNamed(a[1].text), (*numbers)[0] != 0,
+                                 std::max((*numbers)[1], 0.0)));
 }
 
 Result<Value> splineOfHelixAt(Lowering& state, std::span<const Value> a) {
@@ -77,10 +68,7 @@ Result<Value> splineOfDrawing(Lowering& state, std::span<const Value> a) {
         return Error{.message = "the drawing has no path " + shortNumber(n[0]) + ": it has " +
                                 std::to_string(paths.size()) + ", the first of which is 1"};
     Contour path = paths[std::size_t(n[0]) - 1];
-    if (n[2] != 0) {
-        std::ranges::reverse(path.arcs);
-        for (Arc& arc : path.arcs) arc = reversed(arc);
-    }
+    if (n[2] != 0) { reverse(path.arcs); }
     const double unit = n[1] > 0 ? n[1] : (*drawn)->scale * state.metre;
     const Result<SplinePtr> made = splineAlong(moved({path}, {{unit, 0}, {0, unit}, {0, 0}}, 1e-6 * unit)[0]);
     if (!made || !*made) return asValue(made);

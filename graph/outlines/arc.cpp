@@ -33,6 +33,10 @@ Arc arcAlong(glm::dvec2 a, glm::dvec2 tangent, glm::dvec2 b) {
 }
 
 Arc reversed(const Arc& arc) { return {arc.b, arc.a, -arc.bend, -normalAtEnd(arc)}; }
+void reverse(std::vector<Arc>& arcs) {
+    std::ranges::reverse(arcs);
+    for (Arc& arc : arcs) arc = reversed(arc);
+}
 
 glm::dvec2 normalAtEnd(const Arc& arc) { return arc.normal - arc.bend * (arc.b - arc.a); }
 

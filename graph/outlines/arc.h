@@ -34,6 +34,8 @@ Arc arcBetween(glm::dvec2 a, glm::dvec2 b, double bend = 0);
 /// is half of one.
 Arc arcAlong(glm::dvec2 a, glm::dvec2 tangent, glm::dvec2 b);
 Arc reversed(const Arc& arc);
+/// Arcs that follow each other, the other way round.
+void reverse(std::vector<Arc>& arcs);
 
 glm::dvec2 normalAtEnd(const Arc& arc);
 inline glm::dvec2 tangentAtStart(const Arc& arc) { return rightOf(arc.normal); }

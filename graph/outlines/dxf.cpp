@@ -461,10 +461,6 @@ class DxfReader {
         }
         lines = std::move(left);
     }
-    static void reverse(std::vector<Arc>& arcs) {
-        std::ranges::reverse(arcs);
-        for (Arc& arc : arcs) arc = reversed(arc);
-    }
 
     void fail(std::string message) {
         if (!problem) problem = Error{std::move(message)};

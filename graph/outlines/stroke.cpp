@@ -61,10 +61,7 @@ class Stroker {
         const glm::dvec2 a = p + side * leftOf(from), b = p + side * leftOf(along);
         const bool forth = turn > 0;  // from the first normal to the second is to the left about p
         const auto wound = [&](std::vector<Arc> arcs) {
-            if (!forth) {
-                std::ranges::reverse(arcs);
-                for (Arc& arc : arcs) arc = reversed(arc);
-            }
+            if (!forth) reverse(arcs);
             piece(std::move(arcs));
         };
         if (style.join == StrokeStyle::Join::round)

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "graph/document/unit.h"
+#include "graph/evaluate/region.h"
 #include "graph/language/typed_number.h"
 #include "runtime/render/light_picture.h"
 #include "runtime/render/renderer.h"
@@ -55,10 +56,8 @@ RenderOptions renderOptions(const PictureWish& wish, const Player& player) {
                                                                  : 0;
     render.show = wish.view;
     render.cutout = wish.transparent;
-    const Box region = player.region();
-    const auto side = [&](std::size_t axis) { return float(region.hi[axis] - region.lo[axis]); };
     render.leastWidth = wish.leastWidth.empty()
-                            ? usualWidth({side(0), side(1), side(2)})
+                            ? usualWidth(float(longestSide(player.region())))
                             : float(*typedNumber(wish.leastWidth, "m", unitOf(player.graph())));
     return render;
 }

@@ -140,7 +140,9 @@ gpu::RenderFrame describeFrame(const Renderer& renderer, const RenderScene& scen
     frame.show = options.show;
     frame.sliceAxis = options.slice.axis < 0 ? 3 : uint32_t(options.slice.axis);
     frame.sliceAt = options.slice.at;
-    frame.leastWidth = options.leastWidth > 0.0f ? options.leastWidth : usualWidth(frame.hi - frame.lo);
+    const glm::vec3 size = frame.hi - frame.lo;
+    frame.leastWidth =
+        options.leastWidth > 0.0f ? options.leastWidth : usualWidth(std::max({size.x, size.y, size.z}));
     if (look.fog) {
         frame.fogColor = vector(look.fog->color);
         frame.fogDensity = float(look.fog->density);

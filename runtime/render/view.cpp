@@ -14,9 +14,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-float usualWidth(glm::vec3 size) {
-    const float longest = std::max({size.x, size.y, size.z, std::numeric_limits<float>::min()});
-    return std::pow(10.0f, std::floor(std::log10(longest / 50.0f)));
+float usualWidth(float longest) {
+    const float size = std::max(longest, std::numeric_limits<float>::min());
+    return std::pow(10.0f, std::floor(std::log10(size / 50.0f)));
 }
 
 SeenBounds boundsOf(std::span<const gpu::MeshVertex> points) {

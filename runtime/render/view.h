@@ -23,9 +23,9 @@ struct SeenBounds {
     float foot = -1.0f;
 };
 
-/// What walls and gaps are to be at least in a picture of a solid of this size where nobody says: a power of
-/// ten, up to a fiftieth of its longest side.
-float usualWidth(glm::vec3 size);
+/// What walls and gaps are to be at least in a picture where nobody says: a power of ten, up to a fiftieth of
+/// the solid's longest side.
+float usualWidth(float longest);
 
 /// Bounds of the points; those of a unit ball if there are none.
 SeenBounds boundsOf(std::span<const gpu::MeshVertex> points);
