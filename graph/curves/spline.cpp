@@ -127,7 +127,9 @@ class Along {
         const auto above = std::size_t(std::ranges::upper_bound(at, x) - at.begin());
         const std::size_t i = std::clamp<std::size_t>(above, 1, last) - 1;
         const double width = at[i + 1] - at[i], t = std::clamp((x - at[i]) / width, 0.0, 1.0), u = 1 - t;
-        return values[i] * u * u * (1 + 2 * t) + values[i + 1] * t * t * (1 + 2 * u) +
+        // What is the same at both ends is so between, to the last bit: of balls that do not change much less
+        // is to be computed.
+        return values[i] + (values[i + 1] - values[i]) * t * t * (1 + 2 * u) +
                width * t * u * (slopes[i] * u - slopes[i + 1] * t);
     }
 

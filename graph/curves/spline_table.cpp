@@ -26,13 +26,16 @@ constexpr double kStraightOn = 1e-3;      // sine of an angle that is no corner
 uint32_t wordFor(double x) { return std::bit_cast<uint32_t>(float(x)); }
 
 glm::ivec3 cellsAt(const SplineTable& table, int level) {
-    return level == 0 ? table.cells : glm::ivec3(table.farCells);
+    return level == 0 ? table.cells
+                      : glm::ivec3(level <= kSplineNearLevels ? kSplineNearCells : kSplineFarCells);
 }
 std::size_t firstAt(const SplineTable& table, int level) {
-    const auto far = std::size_t(table.farCells);
-    return level == 0 ? 0
-                      : std::size_t(table.cells.x) * std::size_t(table.cells.y) * std::size_t(table.cells.z) +
-                            std::size_t(level - 1) * far * far * far;
+    std::size_t first = 0;
+    for (int k = 0; k < level; ++k) {
+        const glm::ivec3 cells = cellsAt(table, k);
+        first += std::size_t(cells.x) * std::size_t(cells.y) * std::size_t(cells.z);
+    }
+    return first;
 }
 double widest(const SplineTable& table) { return std::max({table.half.x, table.half.y, table.half.z}); }
 glm::dvec3 halfAt(const SplineTable& table, int level) {
@@ -48,11 +51,12 @@ struct Beside {
     SpaceFoot foot;
 };
 
-/// One arc's ball at a place, closer than what was found.
-void take(const SplineTable& table, uint32_t number, const glm::dvec3& p, Beside& best) {
+/// One arc's ball, if it is closer than what was found; and where it is on the arc, metres from its middle.
+double take(const SplineTable& table, uint32_t number, const glm::dvec3& p, Beside& best) {
     const SpaceArc& arc = table.spline->arcs[number];
     const SpaceFoot foot = nearestOn(arc, p, table.radius);
     if (foot.distance < best.foot.distance) best = {&arc, foot};
+    return foot.s;
 }
 
 /// Of a run the arc at whose place the spline comes the closest, by halves.
@@ -244,13 +248,17 @@ class TableMaker {
                      sag = 1 + arc.bend * lean;  // half of the squared distance's second derivative
         if (sag < kLeastSag) return false;
         if (!table.tapered) return true;
-        double swells = 0;
+        double swells = 0, steep = std::abs(arc.radiusSlope);
         for (const uint32_t k : {i, std::min(i + 1, uint32_t(all.size()) - 1)})
-            if (k > 0)
+            if (k > 0) {
                 swells = std::max(swells, std::abs(all[k].radiusSlope - all[k - 1].radiusSlope) /
                                               (all[k].half + all[k - 1].half));
-        const double steep = table.radius * arc.radiusSlope;
-        return (1 - steep * steep) / far - arc.bend > kMostSwelling * table.radius * swells;
+                steep = std::max({steep, std::abs(all[k].radiusSlope), std::abs(all[k - 1].radiusSlope)});
+            }
+        // Where a ball is the nearest the distance grows along the arc as its radius does, and its second
+        // derivative is what the squared distance's half leaves, over the distance.
+        const double rises = table.radius * steep;
+        return (sag - rises * rises) / far > kMostSwelling * table.radius * swells;
     }
 
     SplineTable& table;
@@ -294,11 +302,12 @@ Beside besideOf(const SplineTable& table, const SplineTexel& cell, const glm::dv
     for (uint32_t k = 0; k < count; ++k) {
         const SplineTable::Run& run = table.runs[cell[0] + k];
         const uint32_t at = halved(table, run, p);
-        // Of balls that change it may be the one beside.
-        const uint32_t around = table.tapered ? 1 : 0;
-        for (uint32_t arc = std::max(at, run.first + around) - around;
-             arc <= std::min(at + around, run.first + run.count - 1); ++arc)
-            take(table, arc, p, best);
+        const double s = take(table, at, p, best);
+        if (!table.tapered) continue;
+        // Of balls that change it may be the one beside, on the side of what was found.
+        const uint32_t beside =
+            s < 0 ? std::max(at, run.first + 1) - 1 : std::min(at + 1, run.first + run.count - 1);
+        take(table, beside, p, best);
     }
     return best;
 }

@@ -7,7 +7,7 @@
 // (its second derivative, 2 + 2 k n.(c - p), is above 0 for every place of the cell), make a run: in a run
 // the nearest arc is found by halves, for at the end of each the spline leads either towards the place or
 // away from it. The first grid is a box about the spline; each further one of kSplineLevels is a cube twice
-// as wide as the one before, of fewer cells. Beyond the last, its outermost cells are used, in the same
+// as wide as the one before. Beyond the last, its outermost cells are used, in the same
 // direction.
 //
 // Beside a spline a place has the coordinates of a frame that is carried along (spline.h): across, up and
@@ -36,6 +36,8 @@
 namespace fw {
 
 inline constexpr int kSplineLevels = 12;
+/// How many cells a side of each further level has: most of what is looked at lies in the first two.
+inline constexpr int kSplineNearLevels = 2, kSplineNearCells = 20, kSplineFarCells = 10;
 
 /// What is asked of a place.
 enum class SplineChannel : unsigned char {
@@ -78,7 +80,6 @@ struct SplineTable {
     std::vector<Joint> joints;
     glm::dvec3 centre, half;  ///< of the first level, metres
     glm::ivec3 cells{1};      ///< of the first level
-    int farCells = 10;        ///< along a side of each other
     double least, leastShare, mostShare, shareSlope;
     bool tapered;  ///< the ball changes
     uint64_t hash;

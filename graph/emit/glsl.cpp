@@ -169,8 +169,13 @@ class Emitter : GlslStatements {
     }
     /// The coordinates beside a spline are found once for those that are asked for at one place.
     void splines(std::size_t first) {
-        text += "#define SPLINE_LEVELS " + std::to_string(kSplineLevels) + "\n#define SPLINE_ARC_TEXELS " +
-                std::to_string(kArcTexels) + "\n#include \"lib/spline.glsl\"\n";
+        for (const auto& [name, number] : {std::pair("LEVELS", kSplineLevels),
+                                           {"NEAR_LEVELS", kSplineNearLevels},
+                                           {"NEAR_CELLS", kSplineNearCells},
+                                           {"FAR_CELLS", kSplineFarCells},
+                                           {"ARC_TEXELS", kArcTexels}})
+            text += std::string("#define SPLINE_") + name + " " + std::to_string(number) + "\n";
+        text += "#include \"lib/spline.glsl\"\n";
         const std::vector<bool> sampled = layersOf(Op::spline, ir.splines().size() * kSplineChannels);
         for (std::size_t s = 0; s < ir.splines().size(); ++s) {
             const SplineTable& table = *ir.splines()[s];
@@ -180,13 +185,12 @@ class Emitter : GlslStatements {
                               runs = arcs - (table.runs.size() + 3) / 4;
             text += "const SplineGrid " + grid + " = SplineGrid(" + std::to_string(first) + ", " +
                     std::to_string(runs) + ", " + std::to_string(arcs) + ", ivec3" +
-                    triple(table.cells, [](int n) { return std::to_string(n); }) + ", " +
-                    std::to_string(table.farCells) + ", vec3" + triple(table.centre, glslLiteral) + ", vec3" +
-                    triple(table.half, glslLiteral) + ", " + glslLiteral(table.radius) + ", " +
-                    (table.tapered ? "true" : "false") + ", " + (table.spline->closed ? "true" : "false") +
-                    ", " + glslLiteral(table.least) + ", " + glslLiteral(table.spline->length) + ", vec3(" +
-                    glslLiteral(table.leastShare) + ", " + glslLiteral(table.mostShare) + ", " +
-                    glslLiteral(table.shareSlope) + "));\n";
+                    triple(table.cells, [](int n) { return std::to_string(n); }) + ", vec3" +
+                    triple(table.centre, glslLiteral) + ", vec3" + triple(table.half, glslLiteral) + ", " +
+                    glslLiteral(table.radius) + ", " + (table.tapered ? "true" : "false") + ", " +
+                    (table.spline->closed ? "true" : "false") + ", " + glslLiteral(table.least) + ", " +
+                    glslLiteral(table.spline->length) + ", vec3(" + glslLiteral(table.leastShare) + ", " +
+                    glslLiteral(table.mostShare) + ", " + glslLiteral(table.shareSlope) + "));\n";
             const auto function = [&](int channel, const std::string& value, const std::string& range) {
                 const std::string name = std::to_string(int(s) * kSplineChannels + channel);
                 if (!sampled[s * kSplineChannels + std::size_t(channel)]) return;

@@ -5,7 +5,6 @@
 struct SplineGrid {
     int first, runs, arcs;  // texels: of the cells, of the runs, of the arcs
     ivec3 cells;
-    int farCells;
     vec3 centre, half_;
     float radius;  // of the ball where its share is 1; 0: none
     bool tapered, closed;
@@ -39,8 +38,10 @@ SplineCell splineCell(SplineGrid grid, vec3 p) {
         level = clamp(level, 1, SPLINE_LEVELS - 1);
         half_ = vec3(most * exp2(float(level)));
         shrunk = max(half_, vec3(most * far));
-        cells = ivec3(grid.farCells);
-        before = grid.cells.x * grid.cells.y * grid.cells.z + (level - 1) * grid.farCells * grid.farCells * grid.farCells;
+        const int near = SPLINE_NEAR_CELLS * SPLINE_NEAR_CELLS * SPLINE_NEAR_CELLS, far_ = SPLINE_FAR_CELLS * SPLINE_FAR_CELLS * SPLINE_FAR_CELLS;
+        cells = ivec3(level <= SPLINE_NEAR_LEVELS ? SPLINE_NEAR_CELLS : SPLINE_FAR_CELLS);
+        before = grid.cells.x * grid.cells.y * grid.cells.z + min(level - 1, SPLINE_NEAR_LEVELS) * near +
+                 max(level - 1 - SPLINE_NEAR_LEVELS, 0) * far_;
     }
     ivec3 at = ivec3(clamp((away / shrunk + 1.0) * 0.5 * vec3(cells), vec3(0.0), vec3(cells) - 0.5));
     vec3 size = 2.0 * half_ / vec3(cells), lo = grid.centre - half_ + vec3(at) * size;
@@ -50,12 +51,10 @@ SplineCell splineCell(SplineGrid grid, vec3 p) {
 // By how far the ball that changes along an arc is from a place, and where it is then.
 vec2 splineTapered(vec3 q, float k, vec2 end, vec4 ball, float c, float h, float off2) {
     float slope = ball.w, half_ = ball.x;
-    vec2 best = vec2(0.0, 1e38);
-    for (float side = -1.0; side < 2.0; side += 2.0) {
-        vec3 off = vec3(q.x - side * end.x, q.y - end.y, q.z);
-        float far = length(off) - ball.z - slope * side * half_;
-        best = far < best.y ? vec2(side * half_, far) : best;
-    }
+    float aside = q.y - end.y, flat2 = aside * aside + q.z * q.z;
+    vec2 ahead = vec2(half_, sqrt((q.x - end.x) * (q.x - end.x) + flat2) - ball.z - slope * half_),
+         behind = vec2(-half_, sqrt((q.x + end.x) * (q.x + end.x) + flat2) - ball.z + slope * half_);
+    vec2 best = behind.y < ahead.y ? behind : ahead;
     float b = h * (h - slope * slope), root = b * b - k * k * h * h * slope * slope * off2;
     if (b > 0.0 && root >= 0.0) {
         float at = k * half_ < 1e-4 ? q.x / h : atan(k * q.x, c) / k;
@@ -67,8 +66,9 @@ vec2 splineTapered(vec3 q, float k, vec2 end, vec4 ball, float c, float h, float
     return best;
 }
 
-// One arc, if it is nearer than what was found; of what does not change the distance's square.
-void splineTake(SplineGrid grid, int number, vec3 p, inout SplineFoot best) {
+// One arc, if it is nearer than what was found, of what does not change by the distance's square; and on which side of its
+// middle its nearest place is.
+float splineTake(SplineGrid grid, int number, vec3 p, inout SplineFoot best) {
     int arc = grid.arcs + SPLINE_ARC_TEXELS * number;
     vec4 middle = uintBitsToFloat(imageLoad(fieldVolumes, arc)), along = uintBitsToFloat(imageLoad(fieldVolumes, arc + 1)),
          towards = uintBitsToFloat(imageLoad(fieldVolumes, arc + 2));
@@ -90,31 +90,29 @@ void splineTake(SplineGrid grid, int number, vec3 p, inout SplineFoot best) {
         far = beyond ? dot(toEnd, toEnd) : off2;
     }
     if (far < best.distance_) best = SplineFoot(arc, beyond, side, q, s, far);
+    return s;
 }
 
 SplineFoot splineNearest(SplineGrid grid, uvec4 cell, vec3 p) {
     SplineFoot best = SplineFoot(grid.arcs, false, 1.0, vec3(0.0), 0.0, 1e38);
     int number = int(cell.x), end = number + int(cell.y & 0x7FFFFFFFu);
-    for (; number < end; ++number) {
+    do {  // each cell has a run; software devices go once more through the body of a `for` than it counts
         uvec4 four = imageLoad(fieldVolumes, grid.runs + number / 4);
         uvec2 two = (number & 2) != 0 ? four.zw : four.xy;
         uint run = (number & 1) != 0 ? two.y : two.x;
         int first = int(run & 0xFFFFu), last = first + int(run >> 16) - 1, lo = first, hi = last;
-        while (lo < hi) {  // by halves
+        do {  // by halves
             int mid = (lo + hi + 1) / 2, arc = grid.arcs + SPLINE_ARC_TEXELS * mid;
             vec4 begin = uintBitsToFloat(imageLoad(fieldVolumes, arc + 5));
             vec3 leads = uintBitsToFloat(imageLoad(fieldVolumes, arc + 6)).xyz, off = p - begin.xyz;
             bool beyond = dot(off, leads) + (grid.tapered ? grid.radius * begin.w * length(off) : 0.0) >= 0.0;
             lo = beyond ? mid : lo;
-            hi = beyond ? hi : mid - 1;
-        }
-        if (grid.tapered) {
-            last = min(lo + 1, last);
-            for (int arc = max(lo - 1, first); arc <= last; ++arc) splineTake(grid, arc, p, best);
-        } else {
-            splineTake(grid, lo, p, best);
-        }
-    }
+            hi = beyond ? hi : max(mid - 1, lo);
+        } while (lo < hi);
+        float s = splineTake(grid, lo, p, best);
+        if (grid.tapered) splineTake(grid, clamp(lo + (s < 0.0 ? -1 : 1), first, last), p, best);
+        ++number;
+    } while (number < end);
     if (!grid.tapered) best.distance_ = sqrt(best.distance_) - grid.radius * grid.share.x;
     return best;
 }

@@ -55,6 +55,23 @@ SplinePtr through(const std::vector<Knot>& knots, SplineKind kind, bool closed =
     return spline ? *spline : nullptr;
 }
 
+TEST(Spline, BallsOfOneSizeAreToTheLastBit) {
+    std::mt19937 random(8);
+    for (int i = 0; i < 20; ++i) {
+        std::vector<Knot> knots = randomKnots(random, 6, false);
+        for (Knot& knot : knots) knot.radius = 0.1 + i;
+        for (const SplineKind kind : {SplineKind::smooth, SplineKind::straight}) {
+            const SplinePtr spline = through(knots, kind, i % 2 == 0, 0.1);
+            ASSERT_TRUE(spline);
+            for (const SpaceArc& arc : spline->arcs) {
+                ASSERT_EQ(arc.radius, 0.1 + i);
+                ASSERT_EQ(arc.radiusSlope, 0);
+            }
+            EXPECT_FALSE(SplineTable(spline, 0.1).tapered);
+        }
+    }
+}
+
 TEST(SpaceArc, NearestPlacesAreThoseOfManyPlaces) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -201,7 +218,7 @@ TEST(SplineTable, SamplesAreThoseOfAllArcs) {
         const SplineKind kind = run % 4 == 3 ? SplineKind::straight : SplineKind::smooth;
         const SplinePtr spline =
             through(randomKnots(random, 3 + run, run % 2 == 1), kind, closed, run % 8 == 3 ? 0.1 : 0);
-        const double radius = run % 4 == 1 ? 0.2 : 0;
+        const double radius = run % 4 == 1 || run % 4 == 2 ? 0.2 : 0;
         const SplineTablePtr table = splineTable(spline, radius);
         for (const SplineTexel& texel : table->texels) plain += texel[1] >> 31 & 1;
         for (int i = 0; i < 400; ++i) {
