@@ -66,6 +66,7 @@ constexpr std::pair<std::string_view, std::string_view> kNames[] = {
     {"offset", "round dilate erode peak shrink fatten minkowski rounding"},
     {"true_distance", "redistance reinitialize eikonal fast_sweeping sdf"},
     {"round_edges", "fillet bevel round opening closing minkowski"},
+    {"chamfer_edges", "bevel chamfer edges cut flat"},
     {"shell", "solidify thickness wall oponion"},
     {"displace", "bump mountain relief displacement"},
     {"position", "coordinates point p texture_coordinate"},

@@ -174,6 +174,7 @@ Lowered lowerParticlesToField(GraphLowering& lowering, const NodeAt& at);
 // walls.cpp:
 Lowered lowerTrueDistance(GraphLowering& lowering, const NodeAt& at);
 Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at);
+Lowered lowerChamferEdges(GraphLowering& lowering, const NodeAt& at);
 /// The body of `offset` and `shell`, with a warning about distances that are not true.
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at);
 // splines.cpp:

@@ -41,7 +41,7 @@ class Measuring {
         for (int axis = 0; axis < 3; ++axis) blocks[axis] = (grid.size[axis] + kBlock - 1) / kBlock;
     }
 
-    FieldVolumePtr measure() {
+    FieldVolumePtr measure(double chamfer) {
         forEachBlock(&Measuring::sample);
         forEachBlock(&Measuring::seed);
         sweep(grid, nearest);
@@ -60,6 +60,7 @@ class Measuring {
                     distances[index] = float(grid.cell * double(nearest.distance[index]));
                 }
         });
+        if (chamfer > 0.0) chamferEdges(grid, chamfer, nearest.point, distances, gradients);
         return std::make_shared<FieldVolume>(grid, distances, gradients);
     }
 
@@ -250,8 +251,8 @@ class Measuring {
 Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish) {
     static std::mutex mutex;
     static std::map<uint64_t, std::weak_ptr<const FieldVolume>> known;
-    const uint64_t key = mixed(mixed(ir.hash(std::span(&wish.distance, 1)), uint64_t(wish.resolution)),
-                               std::bit_cast<uint64_t>(wish.margin));
+    uint64_t key = mixed(ir.hash(std::span(&wish.distance, 1)), uint64_t(wish.resolution));
+    for (const double length : {wish.margin, wish.chamfer}) key = mixed(key, std::bit_cast<uint64_t>(length));
     {
         const std::lock_guard lock(mutex);
         if (const auto found = known.find(key); found != known.end())
@@ -270,7 +271,7 @@ Result<FieldVolumePtr> measuredField(const Ir& ir, const MeasuredField& wish) {
     if (!hasUsableCells(grid))
         return Error{.message = "the solid is too small or too large for distances to be measured: scale it"};
     const Tape tape = makeTape(ir, wish.distance, {});
-    const FieldVolumePtr volume = Measuring(tape, grid).measure();
+    const FieldVolumePtr volume = Measuring(tape, grid).measure(wish.chamfer);
     if (wish.finest >= wish.resolution) {
         const std::lock_guard lock(mutex);
         known[key] = volume;

@@ -15,6 +15,7 @@
 // what rounds off the field; elsewhere they are too large by parts of a cell at most.
 #pragma once
 
+#include "graph/assets/chamfer.h"
 #include "graph/assets/volume.h"
 #include "graph/base/result.h"
 #include "graph/ir/ir.h"
@@ -26,6 +27,7 @@ struct MeasuredField {
     double lipschitz = 1.0;   ///< of it, infinite where it is not known
     int resolution = 96;      ///< samples along the grid's longest side, at least kLeastFieldResolution
     double margin = 0.0;      ///< metres of grid around the solid, beyond the two cells that there are anyway
+    double chamfer = 0.0;     ///< radius by which its edges are cut, metres
     int finest = resolution;  ///< samples at most, where no such field is held in memory: then a stand-in
 };
 

@@ -33,7 +33,7 @@ struct Measured {
     bool failed = false;
 };
 Measured measured(GraphLowering& lowering, const NodeAt& at, IrId distance, double lipschitz, int resolution,
-                  double margin) {
+                  double margin, double chamfer = 0.0) {
     const auto fails = [&](const std::string& input, Error error) {
         lowering.report(at, input, std::move(error));
         return Measured{{}, true};
@@ -44,6 +44,7 @@ Measured measured(GraphLowering& lowering, const NodeAt& at, IrId distance, doub
                                                                       .lipschitz = lipschitz,
                                                                       .resolution = resolution,
                                                                       .margin = margin,
+                                                                      .chamfer = chamfer,
                                                                       .finest = lowering.options.finest});
     if (!volume) return fails("surface", volume.error());
     if (!*volume) return {};
@@ -126,6 +127,20 @@ Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at) {
     }
     if (now.distance && edges != "outer")
         now = opened(lowering, at, *now.distance, -1.0, *radius, int(*resolution), 0.0);
+    if (now.failed) return lowering.failure(at.type.outputs);
+    return now.distance ? surfaceOf(at, from, *now.distance) : unchanged(at, from);
+}
+
+Lowered lowerChamferEdges(GraphLowering& lowering, const NodeAt& at) {
+    const auto inputs = lowering.inputs(at);
+    if (!inputs) return lowering.failure(at.type.outputs);
+    const NodeInput& from = inputs->front();
+    const auto resolution = lowering.knownNumber(at, *inputs, "resolution");
+    const auto size = lowering.knownNumber(at, *inputs, "size");
+    if (!resolution || !size) return lowering.failure(at.type.outputs);
+    if (!from.from || *size == 0.0) return unchanged(at, from);
+    const Measured now = measured(lowering, at, from.value.ids[distanceComponent], from.exactness.lipschitz,
+                                  int(*resolution), 0.0, *size);
     if (now.failed) return lowering.failure(at.type.outputs);
     return now.distance ? surfaceOf(at, from, *now.distance) : unchanged(at, from);
 }

@@ -463,6 +463,23 @@ std::vector<NodeType> offsets() {
          .outputs = kSurface,
          .lower = lowerRoundEdges,
          .aliases = {"fillet", "bevel"}},
+        {.id = "chamfer_edges",
+         .label = "Chamfer edges",
+         .category = Category::domain,
+         .doc = "Cuts all edges of a solid that stand out flat, between where a ball that is rolled along "
+                "them inside touches the two faces; those sharper than 45 degrees stay. Distances are "
+                "measured on a "
+                "grid, once.",
+         .inputs = {subject("The solid whose edges are cut."),
+                    length(
+                        "size", 0.05,
+                        "Radius of the ball, some cells of the grid at least: at right angles how far from "
+                        "the edge each face ends."),
+                    integer("resolution", 128, kLeastFieldResolution, kMostFieldResolution,
+                            "Samples along the grid's longest side.")},
+         .outputs = kSurface,
+         .lower = lowerChamferEdges,
+         .aliases = {"bevel", "chamfer"}},
         {.id = "displace",
          .label = "Displace",
          .category = Category::domain,

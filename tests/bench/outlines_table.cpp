@@ -7,18 +7,14 @@
 #include <fstream>
 #include <sstream>
 
-#include "graph/document/json.h"
-#include "graph/evaluate/evaluate.h"
-#include "runtime/mesher/mesher.h"
-#include "runtime/play/session.h"
-#include "tests/bench/tables.h"
+#include "tests/bench/solid_figures.h"
 
 namespace fw::bench {
 namespace {
 
 constexpr double kMostOutline = 3, kMostLineOfText = 4,
                  kMostOutlineCompile = 100;  // times the rectangle's; ms
-constexpr int kOutlineCells = 256, kOutlinePoints = 100'000;
+constexpr int kOutlineCells = 256;
 
 /// A wavy ring of so many cubic curves, in a folder of its own.
 std::string wavySvg(int segments, double difference) {
@@ -58,47 +54,24 @@ void outlinesTable(Bench& bench) {
     std::filesystem::create_directories(folder);
     const std::string file = folder + "/bench.field.json";
     int round = 0;
-    /// `make` gives the graph's text, another one at each call, so that no cache knows it.
     const auto row = [&](const char* name, const std::function<std::string(double)>& make,
                          double beside) -> double {
-        std::optional<Program> program;
-        const Figure compiling = measure(bench.options.repeats, [&] {
-            const Result<Graph> graph = parseGraph(make(1e-4 * ++round), file, nullptr);
-            if (!graph) throw SystemError(format(graph.error()));
-            const auto start = Clock::now();
-            Result<Program> made = compile(*graph);
-            if (!made) throw SystemError(format(made.error()));
-            const double took = millisecondsSince(start);
-            program = std::move(*made);
-            return took;
-        });
-        std::vector<Point> points(kOutlinePoints);
-        for (int i = 0; i < kOutlinePoints; ++i)
-            points[std::size_t(i)] = {0.7 * std::sin(i * 1.7), 0.4 * std::sin(i * 2.3),
-                                      0.05 * std::sin(i * 3.1)};
-        std::vector<double> values(points.size());
-        const Figure sampling = measure(bench.options.repeats, [&] {
-            const auto start = Clock::now();
-            evaluate(program->ir, program->distance(), {}, points, values);
-            return 1e6 * millisecondsSince(start) / kOutlinePoints;
-        });
+        const SolidFigures figures = measureSolid(
+            bench,
+            {.text = make,
+             .file = file,
+             .point =
+                 [](int i) {
+                     return Point{0.7 * std::sin(i * 1.7), 0.4 * std::sin(i * 2.3), 0.05 * std::sin(i * 3.1)};
+                 },
+             .cells = kOutlineCells});
         std::size_t arcs = 0;
-        for (const OutlinePtr& outline : program->ir.outlines()) arcs += outline->arcs.size();
-        Result<Device> device = createDevice({.pick = bench.options.device});
-        if (!device) return bench.fail(format(device.error())), 0;
-        Session session(std::move(*device), FieldBy::kernels);
-        session.setProgram(std::move(*program));
-        uint64_t triangles = 0;
-        const Figure meshing = measure(bench.options.repeats, [&] {
-            const auto start = Clock::now();
-            const Result<MesherResult> mesh = session.polygonise({.region = {}, .resolution = kOutlineCells});
-            if (!mesh) throw SystemError(format(mesh.error()));
-            triangles = mesh->triangles;
-            return millisecondsSince(start);
-        });
-        table.rows.push_back({name, count(arcs), text(compiling), text(sampling), count(triangles),
-                              text(meshing), beside > 0 ? number(meshing.median() / beside) : "1"});
-        return meshing.median();
+        for (const OutlinePtr& outline : figures.program.ir.outlines()) arcs += outline->arcs.size();
+        const double meshing = figures.meshing.median();
+        table.rows.push_back({name, count(arcs), text(figures.compiling), text(figures.sampling),
+                              count(figures.triangles), text(figures.meshing),
+                              beside > 0 ? number(meshing / beside) : "1"});
+        return meshing;
     };
     const auto rectangle = [](double x, double y) {
         return [x, y](double difference) {

@@ -39,6 +39,7 @@ void processTable(Bench& bench);      ///< the command itself, from graph file t
 void tapesTable(Bench& bench);        ///< fields on the host
 void implicit3mfTable(Bench& bench);  ///< 3MF files of functions: import, compile, mesh
 void latticesTable(Bench& bench);     ///< struts in a part beside a gyroid of the same surface
+void splinesTable(Bench& bench);      ///< tubes along splines beside a torus
 void outlinesTable(Bench& bench);     ///< drawings and letters beside a rectangle
 void largeTable(Bench& bench);        ///< fields that a driver compiles for long
 void liveTable(Bench& bench);         ///< a live parameter changes

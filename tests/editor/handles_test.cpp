@@ -46,6 +46,7 @@ const std::map<std::string, std::string> kWithout = {
     {"shell.thickness", "it is everywhere on the surface"},
     {"true_distance.margin", "it is everywhere around the solid"},
     {"round_edges.radius", "it is along all edges"},
+    {"chamfer_edges.size", "it is along all edges"},
     {"lattice.thickness", "of struts or walls that are everywhere"},
     {"tube.radius", "its ball is all along the spline"},
     {"voronoi_foam.cell", "its walls are where chance has them"},

@@ -249,6 +249,7 @@ TEST(NodeTable, EveryNodeHasAMeaning) {
                                                         "particles_to_field",
                                                         "true_distance",
                                                         "round_edges",
+                                                        "chamfer_edges",
                                                         "drop_crumbs"};
     for (const NodeType& type : nodeTypes()) {
         EXPECT_EQ(type.body.empty(), treatedByTheCompiler.contains(type.id)) << type.id;

@@ -264,4 +264,62 @@ TEST(RoundEdges, ThatLeaveNothingSaySo) {
         << format(made.error());
 }
 
+TEST(ChamferEdges, CutThemFlat) {
+    // A box turned askew, so that its edges run between the grid's samples.
+    Field cut(R"({"id": "box", "type": "box", "inputs": {"half_extents": [0.5, 0.4, 0.3]}},
+        {"id": "turned", "type": "rotate", "inputs": {"surface": {"from": "box"}, "angles": [0, 0, 20]}},
+        {"id": "c", "type": "chamfer_edges", "inputs": {"surface": {"from": "turned"}, "size": 0.1, "resolution": 96}})",
+              "c");
+    const double cell = cut.cell(), turn = 20 * std::numbers::pi / 180;
+    const auto at = [&](double x, double y, double z) {
+        return cut({std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y, z});
+    };
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> part(0.2, 0.8), along(-0.15, 0.15);
+    for (int i = 0; i < 500; ++i) {
+        const double t = part(random), s = along(random), sx = i & 1 ? 1 : -1, sy = i & 2 ? 1 : -1;
+        EXPECT_NEAR(at(sx * (0.5 - 0.1 * t), sy * (0.4 - 0.1 * (1 - t)), s), 0.0, 0.15 * cell) << i;
+        EXPECT_NEAR(at(sx * (0.5 - 0.1 * t), s, sy * (0.3 - 0.1 * (1 - t))), 0.0, 0.15 * cell) << i;
+        EXPECT_NEAR(at(s, sx * (0.4 - 0.1 * t), sy * (0.3 - 0.1 * (1 - t))), 0.0, 0.15 * cell) << i;
+        EXPECT_NEAR(at(sx * 0.5, s, s), 0.0, 0.1 * cell) << "faces stay";
+    }
+    EXPECT_NEAR(at(0.5, 0.4, 0.0), 0.1 / std::numbers::sqrt2, 1.0 * cell);
+}
+
+TEST(ChamferEdges, LeaveThoseThatRunInwards) {
+    Field cut(R"(
+        {"id": "a", "type": "box", "inputs": {"half_extents": [0.5, 0.1, 0.3]}},
+        {"id": "b", "type": "box", "inputs": {"half_extents": [0.1, 0.5, 0.3]}},
+        {"id": "m", "type": "translate", "inputs": {"surface": {"from": "b"}, "offset": [0, 0.4, 0]}},
+        {"id": "u", "type": "union", "inputs": {"a": {"from": "a"}, "b": {"from": "m"}}},
+        {"id": "c", "type": "chamfer_edges", "inputs": {"surface": {"from": "u"}, "size": 0.06, "resolution": 80}})",
+              "c");
+    const double cell = cut.cell();
+    for (double t = 0.1; t < 0.95; t += 0.1) {
+        EXPECT_NEAR(cut({0.5 - 0.06 * t, 0.1 - 0.06 * (1 - t), 0.05}), 0.0, 0.15 * cell) << t;
+        EXPECT_NEAR(cut({0.1, 0.1 + 0.03 * t, 0.05}), 0.0, 0.15 * cell) << t;
+        EXPECT_LT(cut({0.09 - 0.1 * t, 0.09 - 0.1 * t, 0.05}), -0.3 * cell) << "nothing behind it is cut";
+    }
+}
+
+/// The rim of a bored cylinder, whose faces are bent: the cut is a cone.
+TEST(ChamferEdges, OfRoundFacesAreCones) {
+    Field cut(R"({"id": "rod", "type": "cylinder", "inputs": {"radius": 0.5, "half_height": 0.3}},
+        {"id": "bore", "type": "infinite_cylinder", "inputs": {"radius": 0.25}},
+        {"id": "s", "type": "subtract", "inputs": {"a": {"from": "rod"}, "b": {"from": "bore"}}},
+        {"id": "c", "type": "chamfer_edges", "inputs": {"surface": {"from": "s"}, "size": 0.08, "resolution": 96}})",
+              "c");
+    const double cell = cut.cell();
+    for (double angle = 0; angle < 6.2; angle += 0.3)
+        for (double t = 0.15; t < 0.9; t += 0.1) {
+            const auto at = [&](double r, double y) {
+                return cut({r * std::cos(angle), y, r * std::sin(angle)});
+            };
+            EXPECT_NEAR(at(0.5 - 0.08 * t, 0.3 - 0.08 * (1 - t)), 0.0, 0.25 * cell) << angle << ' ' << t;
+            EXPECT_NEAR(at(0.25 + 0.08 * t, 0.3 - 0.08 * (1 - t)), 0.0, 0.4 * cell) << angle << ' ' << t;
+            EXPECT_NEAR(at(0.5, 0.2 * (t - 0.5)), 0.0, 0.1 * cell) << "a round face stays";
+            EXPECT_NEAR(at(0.25, 0.2 * (t - 0.5)), 0.0, 0.1 * cell) << "a bore stays";
+        }
+}
+
 }  // namespace fw::walls_test
