@@ -11,12 +11,14 @@
 #include <utility>
 
 #include "graph/base/hash.h"
+#include "graph/base/parallel.h"
 
 namespace fw {
 
 namespace {
 
 constexpr double kGridSlack = 1e-3;  // of a cell: places that rounding puts into a neighbour are served too
+constexpr int kSplittings = 2;       // of a level, before its parts are shared out
 constexpr double kLeastSag = 0.3;
 constexpr double kMostSwelling = 2;
 constexpr uint32_t kPlainCell = 1u << 31;
@@ -95,7 +97,7 @@ class TableMaker {
         for (int level = 0; level < kSplineLevels; ++level) {
             const glm::ivec3 cells = cellsAt(table, level);
             beyond.assign(all.size(), false);
-            cube(level, {0, 0, 0}, int(std::bit_ceil(unsigned(std::max({cells.x, cells.y, cells.z})))), arcs);
+            cellsOfLevel(level, int(std::bit_ceil(unsigned(std::max({cells.x, cells.y, cells.z})))), arcs);
             arcs.clear();
             for (uint32_t i = 0; i < all.size(); ++i)
                 if (beyond[i]) arcs.push_back(i);
@@ -192,24 +194,66 @@ class TableMaker {
         arcs = std::move(left);
     }
 
-    /// The cells of a cube of `side` cells, of which `arcs` are all that can be near.
-    void cube(int level, const glm::ivec3& at, int side, const std::vector<uint32_t>& arcs) {
-        const glm::ivec3 cells = cellsAt(table, level);
-        if (at.x >= cells.x || at.y >= cells.y || at.z >= cells.z) return;
+    /// Cells from one on, as many along each axis, of which `arcs` are all that can be near.
+    struct Part {
+        glm::ivec3 at;
+        int side;
+        std::vector<uint32_t> arcs;
+    };
+    struct Leaf {
+        glm::ivec3 at;
+        std::vector<uint32_t> near;
+    };
+    /// All cells of a level, by all processors, in an order that does not depend on them.
+    void cellsOfLevel(int level, int side, const std::vector<uint32_t>& arcs) {
+        std::vector<Part> parts = {{{0, 0, 0}, side, arcs}};
+        for (int round = 0; round < kSplittings && side > 1; ++round, side /= 2) {
+            std::vector<Part> eighths;
+            for (const Part& part : parts)
+                split(level, part, [&](Part eighth) { eighths.push_back(std::move(eighth)); });
+            parts = std::move(eighths);
+        }
+        std::vector<std::vector<Leaf>> leaves(parts.size());
+        forBlocks(parts.size(), 1,
+                  [&](std::size_t i, std::size_t, std::size_t) { grow(level, parts[i], leaves[i]); });
+        for (const std::vector<Leaf>& some : leaves)
+            for (const Leaf& leaf : some) add(level, leaf.at, leaf.near);
+    }
+    template <class Take>
+    void split(int level, const Part& part, const Take& take) const {
+        const std::vector<uint32_t> near = nearIn(level, part);
+        const int half = part.side / 2;
+        if (near.empty()) return;
+        for (int k = 0; k < 8; ++k)
+            take(Part{part.at + half * glm::ivec3(k & 1, k >> 1 & 1, k >> 2), half, near});
+    }
+    void grow(int level, const Part& part, std::vector<Leaf>& leaves) const {
+        if (part.side > 1)
+            return split(level, part, [&](const Part& eighth) { grow(level, eighth, leaves); });
+        if (std::vector<uint32_t> near = nearIn(level, part); !near.empty())
+            leaves.push_back({part.at, std::move(near)});
+    }
+    Cube cubeOf(int level, const glm::ivec3& at, int side) const {
         const glm::dvec3 size = sizeAt(table, level);
-        const Cube own{table.centre - halfAt(table, level) + glm::dvec3(at) * size, double(side) * size};
+        return {table.centre - halfAt(table, level) + glm::dvec3(at) * size, double(side) * size};
+    }
+    /// The arcs that may be the nearest somewhere in a part; none if it needs none.
+    std::vector<uint32_t> nearIn(int level, const Part& part) const {
+        const glm::ivec3 cells = cellsAt(table, level);
+        if (part.at.x >= cells.x || part.at.y >= cells.y || part.at.z >= cells.z) return {};
+        const Cube own = cubeOf(level, part.at, part.side);
         // What a lower level serves needs no lists here.
         if (level > 0) {
-            const glm::dvec3 lower = halfAt(table, level - 1) - size, lo = table.centre - lower,
-                             hi = table.centre + lower, end = own.low + own.size;
-            if (glm::all(glm::greaterThan(own.low, lo)) && glm::all(glm::lessThan(end, hi))) return;
+            const glm::dvec3 lower = halfAt(table, level - 1) - sizeAt(table, level),
+                             lo = table.centre - lower, hi = table.centre + lower, end = own.low + own.size;
+            if (glm::all(glm::greaterThan(own.low, lo)) && glm::all(glm::lessThan(end, hi))) return {};
         }
-        const std::vector<uint32_t> near = nearestOf(arcs, own);
-        if (side > 1) {
-            for (int k = 0; k < 8; ++k)
-                cube(level, at + side / 2 * glm::ivec3(k & 1, k >> 1 & 1, k >> 2), side / 2, near);
-            return;
-        }
+        return nearestOf(part.arcs, own);
+    }
+
+    void add(int level, const glm::ivec3& at, const std::vector<uint32_t>& near) {
+        const glm::ivec3 cells = cellsAt(table, level);
+        const Cube own = cubeOf(level, at, 1);
         // The way from a place beyond this level to its nearest one leaves the level by an outermost cell.
         if (glm::any(glm::equal(at, glm::ivec3(0))) || glm::any(glm::equal(at, cells - 1)))
             for (const uint32_t i : near) beyond[i] = true;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "graph/base/hash.h"
+#include "graph/base/parallel.h"
 
 namespace fw {
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t kKeptOutlines = 8;
 constexpr std::size_t kFew = 4;  // arcs of a cell that are no more work than to leave some away
+constexpr int kSplittings = 3;   // of a level, before its parts are shared out
 constexpr double kSlack = 1e-3;  // of a cell: places that rounding puts into a neighbour are served too
 
 uint32_t wordOf(double x) { return std::bit_cast<uint32_t>(float(x)); }
@@ -64,7 +66,7 @@ class Maker {
         outline.texels.resize(firstOf(outline, kOutlineLevels));
         for (int level = 0; level < kOutlineLevels; ++level) {
             const auto most = unsigned(std::max(cellsOf(outline, level), rowsOf(outline, level)));
-            square(level, 0, 0, int(std::bit_ceil(most)), arcs);
+            cellsOfLevel(level, int(std::bit_ceil(most)), arcs);
             arcs = nearestBeyond(level);
         }
         for (const uint32_t i : outline.lists) {
@@ -147,35 +149,74 @@ class Maker {
         });
     }
 
-    /// The cells of a square of `side` cells, of which `arcs` are all that can be near.
-    void square(int level, int x, int y, int side, const std::vector<uint32_t>& arcs) {
-        if (x >= cellsOf(outline, level) || y >= rowsOf(outline, level)) return;
-        const glm::dvec2 cell = widthOf(level);
-        const Square own{lowest(level) + glm::dvec2(x, y) * cell, double(side) * cell};
-        if (side == 1) return leaf(level, x, y, own, arcs);
+    /// Cells from one on, as many along x as along y, of which `arcs` are all that can be near.
+    struct Part {
+        int x, y, side;
+        std::vector<uint32_t> arcs;
+    };
+    /// What a cell lists, those that meet it first, and its place.
+    struct Leaf {
+        int x, y;
+        std::vector<uint32_t> near;
+        std::size_t met;
+        glm::dvec2 place;
+    };
+
+    /// All cells of a level, by all processors, in an order that does not depend on them.
+    void cellsOfLevel(int level, int side, const std::vector<uint32_t>& arcs) {
+        std::vector<Part> parts = {{0, 0, side, arcs}};
+        for (int round = 0; round < kSplittings && side > 1; ++round, side /= 2) {
+            std::vector<Part> quarters;
+            for (const Part& part : parts)
+                split(level, part, [&](Part quarter) { quarters.push_back(std::move(quarter)); });
+            parts = std::move(quarters);
+        }
+        std::vector<std::vector<Leaf>> leaves(parts.size());
+        forBlocks(parts.size(), 1,
+                  [&](std::size_t i, std::size_t, std::size_t) { grow(level, parts[i], leaves[i]); });
+        for (const std::vector<Leaf>& some : leaves)
+            for (const Leaf& leaf : some) add(level, leaf);
+    }
+    template <class Take>
+    void split(int level, const Part& part, const Take& take) const {
+        if (part.x >= cellsOf(outline, level) || part.y >= rowsOf(outline, level)) return;
+        const Square own = squareOf(level, part);
         // What a lower level serves needs no lists here.
-        const glm::dvec2 lower = halfOf(outline, level - 1) - cell;
+        const glm::dvec2 lower = halfOf(outline, level - 1) - widthOf(level);
         if (level > 0 && own.low.x > outline.centre.x - lower.x && own.low.y > outline.centre.y - lower.y &&
             own.low.x + own.size.x < outline.centre.x + lower.x &&
             own.low.y + own.size.y < outline.centre.y + lower.y)
             return;
-        const std::vector<uint32_t> near = nearestOf(arcs, own);
-        for (const int dy : {0, side / 2})
-            for (const int dx : {0, side / 2}) square(level, x + dx, y + dy, side / 2, near);
+        const std::vector<uint32_t> near = nearestOf(part.arcs, own);
+        const int half = part.side / 2;
+        for (const int dy : {0, half})
+            for (const int dx : {0, half}) take(Part{part.x + dx, part.y + dy, half, near});
     }
-
-    void leaf(int level, int x, int y, const Square& own, const std::vector<uint32_t>& arcs) {
-        std::vector<uint32_t> near = nearestOf(arcs, own);
-        if (near.size() > kFew) near = nearestOfQuarters(near, own);
+    void grow(int level, const Part& part, std::vector<Leaf>& leaves) const {
+        if (part.side > 1)
+            return split(level, part, [&](const Part& quarter) { grow(level, quarter, leaves); });
+        if (part.x >= cellsOf(outline, level) || part.y >= rowsOf(outline, level)) return;
+        const Square own = squareOf(level, part);
+        Leaf leaf{part.x, part.y, nearestOf(part.arcs, own), 0, {}};
+        if (leaf.near.size() > kFew) leaf.near = nearestOfQuarters(leaf.near, own);
         const auto meets = [&](uint32_t i) { return distanceTo(all[i], own.centre()) <= own.reach(); };
-        const auto met = std::size_t(std::stable_partition(near.begin(), near.end(), meets) - near.begin());
-        const glm::dvec2 place = placeIn(own, std::span(near).first(met));
+        leaf.met =
+            std::size_t(std::stable_partition(leaf.near.begin(), leaf.near.end(), meets) - leaf.near.begin());
+        leaf.place = placeIn(own, std::span(leaf.near).first(leaf.met));
+        leaves.push_back(std::move(leaf));
+    }
+    Square squareOf(int level, const Part& part) const {
+        const glm::dvec2 cell = widthOf(level);
+        return {lowest(level) + glm::dvec2(part.x, part.y) * cell, double(part.side) * cell};
+    }
+    void add(int level, const Leaf& leaf) {
         const std::size_t list = outline.lists.size() * (outline.straight ? 1 : 2);
-        outline.texels[firstOf(outline, level) + std::size_t(y * cellsOf(outline, level) + x)] = {
+        outline.texels[firstOf(outline, level) + std::size_t(leaf.y * cellsOf(outline, level) + leaf.x)] = {
             uint32_t(firstOf(outline, kOutlineLevels) + list),
-            uint32_t(near.size()) | uint32_t(met) << 16 | uint32_t(isIn(level, y, place)) << 31,
-            wordOf(place.x), wordOf(place.y)};
-        outline.lists.insert(outline.lists.end(), near.begin(), near.end());
+            uint32_t(leaf.near.size()) | uint32_t(leaf.met) << 16 |
+                uint32_t(isIn(level, leaf.y, leaf.place)) << 31,
+            wordOf(leaf.place.x), wordOf(leaf.place.y)};
+        outline.lists.insert(outline.lists.end(), leaf.near.begin(), leaf.near.end());
     }
 
     /// The same for each quarter of a square: fewer than for all of it at once.
@@ -273,7 +314,7 @@ Outline::Outline(std::vector<Arc> arcs_, const std::function<bool(glm::dvec2)>& 
     const double most = std::max(size.x, size.y);
     half = most < 2e-6 ? glm::dvec2(1) : glm::dvec2(glm::vec2(0.5 * size + 0.05 * most));
     const auto n = double(arcs.size());
-    const double wanted = std::max({4096.0, std::min(16 * n, 16384.0), std::min(4 * n, 65536.0)});
+    const double wanted = std::max({4096.0, std::min(16 * n, 49152.0), std::min(4 * n, 65536.0)});
     const double cell = 2 * std::sqrt(half.x * half.y / wanted);
     cells = std::max(1, int(std::lround(2 * half.x / cell)));
     rows = std::max(1, int(std::lround(2 * half.y / cell)));
