@@ -479,7 +479,7 @@ std::vector<NodeType> offsets() {
                             "Samples along the grid's longest side.")},
          .outputs = kSurface,
          .lower = lowerChamferEdges,
-         .aliases = {"bevel", "chamfer"}},
+         .aliases = {"chamfer"}},
         {.id = "displace",
          .label = "Displace",
          .category = Category::domain,
