@@ -9,9 +9,11 @@
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
 #include "editor/shell/loss.h"
+#include "runtime/cli/pages.h"
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/drivers.h"
 #include "runtime/system/output_file.h"
+#include "runtime/system/version.h"
 
 namespace fw::editor {
 
@@ -103,7 +105,8 @@ int run(const Options& options) {
 
 int main(int count, char** arguments) {
     CLI::App app("The node-graph editor of Fieldwright.", "fieldwright-editor");
-    app.set_version_flag("--version", "fieldwright-editor " FIELDWRIGHT_VERSION);
+    app.set_version_flag("--version", std::string("fieldwright-editor ") + kVersionAndBuild);
+    cli::addPages(app);
     Options options;
     app.add_option("GRAPH", options.graph, "the file to open: *.field.json");
     app.add_option("--device", options.shell.device, "index or part of the name of the Vulkan device");

@@ -7,6 +7,7 @@
 #include "editor/controls/tile.h"
 #include "editor/files/browser.h"
 #include "graph/assets/image.h"
+#include "graph/base/own_files.h"
 
 namespace fw::editor {
 
@@ -15,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTitle = "Samples";
-constexpr int kMostLevels = 4;        // from the program up to the folder that holds the samples
 constexpr float kTileWidth = 190.0f;  // pixels at scale 1; pictures are 16:9
 
 /// "brick_block" as "Brick block".
@@ -48,15 +48,7 @@ Picture halved(const FieldImage& image) {
 
 }  // namespace
 
-std::string samplesFolder() {
-    std::error_code error;
-    fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-    for (int level = 0; level < kMostLevels && !folder.empty(); ++level, folder = folder.parent_path())
-        for (const fs::path& candidate : {folder / "samples", folder / "share/fieldwright/samples"})
-            if (fs::exists(candidate / ("tower" + std::string(kGraphEnding)), error))
-                return candidate.string();
-    return {};
-}
+std::string samplesFolder() { return ownFolder("samples", "tower.field.json").string(); }
 
 bool isSample(const std::string& path) {
     const std::string folder = samplesFolder();

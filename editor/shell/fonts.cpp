@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "editor/shell/letters.h"
+#include "graph/base/own_files.h"
 
 namespace fw::editor {
 
@@ -98,6 +99,8 @@ const char* otherFont() {
 /// The file's path; empty where it is not installed.
 std::string installed(const std::string& name) {
     std::error_code none;
+    if (const std::filesystem::path own = ownFolder("fonts", name.c_str()); !own.empty())
+        return (own / name).string();
     for (const char* folder : kFolders) {
         const std::filesystem::path path = std::filesystem::path(folder) / name;
         if (std::filesystem::is_regular_file(path, none)) return path.string();

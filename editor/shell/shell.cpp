@@ -42,6 +42,8 @@ using WindowHandle = std::unique_ptr<GLFWwindow, CloseWindow>;
 
 WindowHandle openWindow(int width, int height) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    for (const int desktopEntry : {GLFW_X11_CLASS_NAME, GLFW_X11_INSTANCE_NAME})
+        glfwWindowHintString(desktopEntry, "fieldwright-editor");
     WindowHandle window(glfwCreateWindow(width, height, "Fieldwright", nullptr, nullptr));
     if (!window) throw SystemError("cannot open a window: " + windowSystemComplaint());
     return window;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <deque>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "graph/base/asset_file.h"
+#include "graph/base/own_files.h"
 #include "graph/base/words.h"
 
 namespace fw {
@@ -74,10 +76,18 @@ bool isGeneric(std::string_view family) {
            family == "mono";
 }
 
+/// Fonts that came with the program join the system's.
+void addOwnFonts() {
+    if (const std::filesystem::path own = ownFolder("fonts", "DejaVuSans.ttf"); !own.empty())
+        FcConfigAppFontAddDir(nullptr, reinterpret_cast<const FcChar8*>(own.c_str()));
+}
+
 /// The font that fontconfig knows by a name.
 Result<FontPtr> fontOfFamily(const std::string& family) {
     static std::mutex mutex;
+    static std::once_flag own;
     static std::deque<std::pair<std::string, FontPtr>> known;
+    std::call_once(own, addOwnFonts);
     const std::lock_guard lock(mutex);
     for (const auto& [name, font] : known)
         if (name == family) return font;

@@ -21,6 +21,7 @@
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/shader.h"
 #include "runtime/play/mesh_program.h"
+#include "runtime/system/version.h"
 
 namespace fw::cli {
 
@@ -254,7 +255,7 @@ void printAbilities(const DeviceInfo& device) {
 }  // namespace
 
 int runInfo(bool devicesOnly) {
-    if (!devicesOnly) std::printf("fieldwright %s, file format %d\n", FIELDWRIGHT_VERSION, kFormatVersion);
+    if (!devicesOnly) std::printf("fieldwright %s, file format %d\n", kVersionAndBuild, kFormatVersion);
     const std::vector<DeviceInfo> devices = listDevices();
     if (devices.empty()) std::printf("no Vulkan device: install mesa-vulkan-drivers for a software one\n");
     for (std::size_t i = 0; i < devices.size(); ++i) {

@@ -18,6 +18,7 @@
 #include "graph/library/node_type.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/option_words.h"
+#include "runtime/cli/pages.h"
 #include "runtime/cli/progress_lines.h"
 #include "runtime/cli/sequence.h"
 #include "runtime/export/export.h"
@@ -25,6 +26,7 @@
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/drivers.h"
 #include "runtime/system/interruption.h"
+#include "runtime/system/version.h"
 #include "runtime/window/viewer.h"
 
 namespace fw::cli {
@@ -174,7 +176,8 @@ int becomeBench(char** arguments) {
 /// `job`: of a command that is not run but shared out.
 int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     CLI::App app{"Fieldwright: procedural solids from graphs of signed distance fields", "fieldwright"};
-    app.set_version_flag("--version", "fieldwright " FIELDWRIGHT_VERSION);
+    app.set_version_flag("--version", std::string("fieldwright ") + kVersionAndBuild);
+    addPages(app);
     app.require_subcommand(1);
     app.failure_message(usageMessage);
     app.footer(
@@ -597,7 +600,7 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     const bool isOption = !words.empty() && words[0].starts_with('-');
-    if (isOption) names = {"--help", "-h", "--version"};
+    if (isOption) names = {"--help", "-h", "--version", "--manual", "--completion"};
     if (!words.empty() && std::find(names.begin(), names.end(), words[0]) == names.end()) {
         const std::string near = nearestName(words[0], names);
         std::fprintf(stderr, "fieldwright: there is no %s %s%s\nTry: fieldwright --help\n",

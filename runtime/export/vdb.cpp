@@ -2,15 +2,16 @@
 // voxels of it, negative inside, in metres, +Y up.
 //
 // OpenVDB finds the voxels, and which are inside; their distances are those to the nearest of the merged
-// mesh's triangles. It lives in a module (vdb/level_set.h),
-// found beside the program, where libraries are installed, or where the system looks. The file's tag, random
-// in other programs' files, is made from its content.
+// mesh's triangles. It lives in a module (vdb/level_set.h), found beside the program, where it is installed,
+// or where the system's package has it. The file's tag, random in other programs' files, is made from its
+// content.
 #include <dlfcn.h>
 
 #include <cassert>
 #include <filesystem>
 
 #include "graph/assets/triangle_tree.h"
+#include "graph/base/own_files.h"
 #include "runtime/export/fingerprint.h"
 #include "runtime/export/formats.h"
 #include "runtime/export/vdb/level_set.h"
@@ -21,11 +22,9 @@ namespace {
 constexpr char kModule[] = "libfieldwright-vdb.so";
 
 MakeLevelSet* levelSetMaker() {
-    namespace fs = std::filesystem;
-    std::error_code failure;
-    const fs::path program = fs::read_symlink("/proc/self/exe", failure).parent_path();
-    for (const fs::path& place :
-         {program / kModule, program / ".." / FIELDWRIGHT_LIBRARIES / kModule, fs::path(kModule)})
+    const std::filesystem::path program = programFolder(), installed = FIELDWRIGHT_MODULES;
+    for (const std::filesystem::path& place :
+         {program / kModule, program / ".." / installed / kModule, "/usr" / installed / kModule})
         if (void* module = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL))
             return reinterpret_cast<MakeLevelSet*>(::dlsym(module, "fieldwrightLevelSet"));
     return nullptr;

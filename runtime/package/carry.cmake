@@ -1,0 +1,32 @@
+# Installs what the archive carries: the libraries that `programs` and `module` need and plain systems lack, and letters to write
+# with, each with the terms that it is under. The C and C++ runtimes stay the system's, and so does what else Vulkan drivers load,
+# for two of those in one process would be one too many.
+set(CMAKE_GET_RUNTIME_DEPENDENCIES_PLATFORM linux+elf)
+file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} MODULES ${module} RESOLVED_DEPENDENCIES_VAR needed UNRESOLVED_DEPENDENCIES_VAR lacking
+     PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|stdc\\+\\+|gcc_s|z|zstd|lzma)\\.so")
+if(lacking)
+    message(FATAL_ERROR "These libraries are not here to be carried: ${lacking}")
+endif()
+file(GLOB letters /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf /usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf
+     /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf /usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf
+     /usr/share/fonts/truetype/dejavu/DejaVuSerif-Bold.ttf)
+if(NOT letters)
+    message(FATAL_ERROR "The fonts DejaVu are not here to be carried: install fonts-dejavu-core")
+endif()
+file(INSTALL ${letters} DESTINATION ${CMAKE_INSTALL_PREFIX}/share/fieldwright/fonts)
+file(INSTALL ${needed} DESTINATION ${CMAKE_INSTALL_PREFIX}/${modules_folder} FOLLOW_SYMLINK_CHAIN)
+set(owners glslang-dev spirv-tools libimgui-dev nlohmann-json3-dev libcli11-dev libglm-dev)  # of what the programs hold
+foreach(file ${needed} ${letters})
+    get_filename_component(real ${file} REALPATH)
+    execute_process(COMMAND dpkg-query -S ${real} OUTPUT_VARIABLE owner ERROR_QUIET RESULT_VARIABLE unknown)
+    if(unknown)  # as /lib of a merged /usr
+        string(REGEX REPLACE "^/usr/" "/" real ${real})
+        execute_process(COMMAND dpkg-query -S ${real} OUTPUT_VARIABLE owner)
+    endif()
+    string(REGEX REPLACE "[:,].*" "" owner "${owner}")
+    list(APPEND owners ${owner})
+endforeach()
+list(REMOVE_DUPLICATES owners)
+foreach(owner ${owners})
+    file(INSTALL /usr/share/doc/${owner}/copyright DESTINATION ${CMAKE_INSTALL_PREFIX}/share/doc/fieldwright/libraries RENAME ${owner})
+endforeach()
