@@ -8,6 +8,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "graph/base/fence.h"
+
 namespace fw {
 
 namespace fs = std::filesystem;
@@ -63,6 +65,7 @@ Result<Asset> openAsset(const std::string& owner, const std::string& path, const
     const auto problem = [&](const std::string& what) { return fileProblem(path, kind, what); };
     Result<std::string> file = locate(owner, path, kind);
     if (!file) return file.error();
+    if (const Done inside = checkMayRead(*file); !inside) return problem(inside.error().message);
     // Not waiting for whoever writes to a pipe.
     const int descriptor = ::open(file->c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     const int failure = errno;
@@ -72,6 +75,7 @@ Result<Asset> openAsset(const std::string& owner, const std::string& path, const
         return problem(failure == ENOENT || failure == ENOTDIR ? "does not exist: check the path"
                        : failure == EACCES                     ? "may not be read: change its permissions"
                                            : "cannot be opened: " + std::string(std::strerror(failure)));
+    if (const Done inside = checkFenced(descriptor, path); !inside) return problem(inside.error().message);
     const std::string noun(kind.noun);
     if (S_ISDIR(status.st_mode)) return problem("is a folder: name a " + noun + " in it");
     if (!S_ISREG(status.st_mode)) return problem("is no ordinary file: name a " + noun);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "graph/base/fence.h"
 #include "graph/document/json_tokens.h"
 #include "graph/document/unit.h"
 #include "graph/library/node_type.h"
@@ -475,6 +476,7 @@ PartialGraph parseWhatCanBeRead(std::string_view text, std::string path) {
 }
 
 Result<std::string> readGraphText(const std::string& path) {
+    if (const Done inside = checkMayRead(path); !inside) return inside.error();
     // A pipe that nobody writes to ends at once; from others what comes is waited for.
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0)
@@ -482,6 +484,10 @@ Result<std::string> readGraphText(const std::string& path) {
                                : errno == EACCES
                                    ? "no permission to read the file: change its permissions"
                                    : "cannot open the file: " + std::string(std::strerror(errno)));
+    if (const Done inside = checkFenced(file, path); !inside) {
+        close(file);
+        return inside.error();
+    }
     // One byte beyond the limit is enough to know; the size that the system reports is not to be trusted for
     // pipes.
     constexpr std::size_t kPiece = 64u << 10;

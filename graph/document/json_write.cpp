@@ -16,6 +16,7 @@
 #include <utility>
 #include <variant>
 
+#include "graph/base/fence.h"
 #include "graph/document/json.h"
 
 namespace fw {
@@ -360,6 +361,7 @@ Done saveGraph(const Graph& graph, const std::string& path) {
     // Renaming over a symbolic link would replace the link, so the file it leads to is the one written.
     std::string target = path;
     if (char* real = realpath(path.c_str(), nullptr)) target = real, std::free(real);
+    if (const Done inside = checkMayWrite(target); !inside) return inside.error();
     struct stat former;
     const bool exists = stat(target.c_str(), &former) == 0;
     if (exists && S_ISDIR(former.st_mode)) return saveError(path, EISDIR);

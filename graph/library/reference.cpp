@@ -22,6 +22,8 @@ std::string cell(std::string text) {
     return text;
 }
 
+}  // namespace
+
 std::string nodeMarkdown(const NodeType& type) {
     std::string text = "### " + type.label + "\n\n`" + type.id + "`";
     for (const std::string& alias : type.aliases)
@@ -45,8 +47,6 @@ std::string nodeMarkdown(const NodeType& type) {
     }
     return text + "\n";
 }
-
-}  // namespace
 
 std::string typeText(const InputSpec& input) {
     if (!input.options.empty()) return "choice";

@@ -17,6 +17,9 @@ std::string nodesMarkdown();
 /// other programs. Absent keys mean: no range on that side, no unit, no file, nothing by default.
 std::string nodesJson();
 
+/// The page's entry of one node type.
+std::string nodeMarkdown(const NodeType& type);
+
 /// "exact", "exact outside", "exact inside", "a bound", "distorted by up to 1.41" or "distorted".
 std::string exactnessText(const Exactness& exactness);
 /// What the page says of an input: "float", "choice"; "0, 1, 0 m", "position"; " From 0 to 1.", " Choices:

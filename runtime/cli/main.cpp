@@ -25,6 +25,7 @@
 #include "runtime/export/points.h"
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/drivers.h"
+#include "runtime/serve/server.h"
 #include "runtime/system/interruption.h"
 #include "runtime/system/version.h"
 #include "runtime/window/viewer.h"
@@ -584,6 +585,37 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
             "--markdown", [&] { nodesFormat = NodesFormat::markdown; }, "The reference page")
         ->excludes(json);
 
+    serve::ServeOptions serveOptions;
+    CLI::App* serveCommand = app.add_subcommand(
+        "serve", "Answer other programs: open graphs, set parameters, mesh, make pictures, measure, export");
+    serveCommand->footer(
+        "Messages are JSON-RPC 2.0, one a line, on standard input and output, with blobs of bytes behind "
+        "them: "
+        "docs/server.md.\n" +
+        serve::limitsInWords() + "\nTry:  fieldwright serve --root samples");
+    serveCommand
+        ->add_option("--root", serveOptions.roots,
+                     "A folder that may be read and written in; of several the first is where paths begin. "
+                     "Nothing outside is opened (default: the current folder)")
+        ->type_name("FOLDER")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->check(something());
+    serveCommand
+        ->add_option(
+            "--socket", serveOptions.socket,
+            "Listen at this local socket, for several clients, in place of standard input and output")
+        ->type_name("PATH")
+        ->check(something());
+    serveCommand
+        ->add_flag(
+            "--mcp", serveOptions.assistant,
+            "Speak the Model Context Protocol: an assistant lists nodes, writes graphs, looks at them, "
+            "measures and exports")
+        ->excludes("--socket");
+    serveCommand->add_option("--device", serveOptions.device,
+                             "Index or part of the name of the device (see fieldwright info)");
+
     app.add_subcommand("bench", "Measure this machine: the tables of docs/benchmarks.md (fieldwright-bench)");
 
     CLI::App* infoCommand = app.add_subcommand("info", "Show the version, devices, caches and limits");
@@ -648,6 +680,10 @@ int run(std::vector<std::string> words, const JobOptions* job = nullptr) {
         if (parametersCommand->parsed()) return runParameters(parametersPath, parametersAsJson);
         if (nodesCommand->parsed()) return runNodes(nodesFormat);
         if (infoCommand->parsed()) return runInfo(devicesOnly);
+        if (serveCommand->parsed()) {
+            const Done served = serve::serve(serveOptions);
+            return served ? kDone : (print(served.error()), kBadUsage);
+        }
         return kBadUsage;
     };
     if (job) {

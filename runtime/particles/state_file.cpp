@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "graph/base/fence.h"
 #include "graph/base/hash.h"
 #include "runtime/system/output_file.h"
 
@@ -42,7 +43,7 @@ uint64_t checksumOf(const std::vector<char>& bytes) {
 bool openState(const CachedStates& of, int step, std::ifstream& file, StateHeader& header) {
     const std::string path = statePath(of, step);
     std::error_code failure;
-    if (!fs::is_regular_file(path, failure)) return false;
+    if (!checkMayRead(path) || !fs::is_regular_file(path, failure)) return false;
     file.open(path, std::ios::binary);
     if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return false;
     return header.magic == StateHeader{}.magic && header.key == of.key && int64_t(header.step) == step &&

@@ -23,7 +23,10 @@ struct Picture {
 /// An Error where no picture of this size can be made.
 Done checkPictureSize(int width, int height);
 
-/// Writes the picture as PNG, with alpha only if it has some; `kept` as in OutputFile::commit(). Errors: as
+/// The bytes of a PNG file of it, with alpha only if it has some.
+std::string pngOf(const Picture& picture);
+
+/// Writes the picture as PNG; `kept` as in OutputFile::commit(). Errors: as
 /// OutputFile.
 Done savePicture(const Picture& picture, const std::string& path, const std::function<void()>& kept = {});
 

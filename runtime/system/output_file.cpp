@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "graph/base/fence.h"
 #include "runtime/system/interruption.h"
 
 namespace fw {
@@ -87,6 +88,8 @@ Result<OutputFile> OutputFile::open(const std::string& path, const std::atomic<b
         if (code) return failed(path, "cannot write: it is a link to nowhere (" + code.message() + ")");
         file.target = resolved.string();
     }
+
+    if (const Done inside = checkMayWrite(file.target); !inside) return failed(path, inside.error().message);
 
     mode_t mode = 0;
     struct stat existing {};

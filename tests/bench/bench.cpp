@@ -37,6 +37,7 @@ const NamedTable kTables[] = {{"process", processTable},
                               {"editor", editorTable},
                               {"interface", interfaceTable},
                               {"light", lightTable},
+                              {"serve", serveTable},
                               {"peaks", peaksTable}};
 
 /// The value behind the first "key : value" of a file of such lines; empty if there is none.

@@ -20,7 +20,7 @@ struct BenchOptions {
 };
 
 /// The tables there are, in the order of the page: "process", "mesher", "prune", "decimate", "mesh-to-field",
-/// "particles", "textures", "talk", "live", "compile", "editor", "interface", "light", "peaks".
+/// "particles", "textures", "talk", "live", "compile", "editor", "interface", "light", "serve", "peaks".
 std::span<const std::string> benchNames();
 
 /// Prints the named tables, all of them for "all" or no name. Returns an exit status: 0; 1 if a mesh was

@@ -47,6 +47,7 @@ void compileTable(Bench& bench);      ///< a graph's structure changes
 void editorTable(Bench& bench);       ///< the editor's preview: a hand moves, a structure changes
 void interfaceTable(Bench& bench);    ///< the editor in a window: frames, opening, undo, rest
 void lightTable(Bench& bench);        ///< ambient occlusion, beside the slide
+void serveTable(Bench& bench);        ///< a parameter through `fieldwright serve`
 void peaksTable(Bench& bench);        ///< what the device can do at most
 
 /// A graph of about `nodes` nodes: boxes, each moved to its place, joined and cut from one another in turn.

@@ -47,7 +47,9 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/pictures", "graph system render export play"},
     {"runtime/window", "graph gpu render"},
     {"runtime/jobs", "graph system"},
-    {"runtime/cli", "graph system gpu measure bake textures render export files play pictures window jobs"},
+    {"runtime/serve", "graph system gpu mesh measure bake textures render export files play pictures"},
+    {"runtime/cli",
+     "graph system gpu measure bake textures render export files play pictures window jobs serve"},
 
     {"editor", "graph runtime"},
 };

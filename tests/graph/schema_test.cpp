@@ -5,18 +5,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
-#include <set>
 
 #include "graph/document/json.h"
 #include "graph/library/node_type.h"
+#include "tests/support/graph/json_schema.h"
 
 namespace fw::schema_test {
+
+using test::JsonSchema;
 
 constexpr const char* kSchemaPath = FIELDWRIGHT_SOURCE_DIR "/graph/field.schema.json";
 
@@ -25,78 +25,9 @@ std::string contents(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// As much of JSON Schema as the schema uses. A keyword that is not known here throws, so that none goes
-/// untested.
-class Validator {
-  public:
-    explicit Validator(const Json& schema) : root(schema) {}
-
-    bool fits(const Json& schema, const Json& value) const {
-        for (const auto& [keyword, rule] : schema.items())
-            if (!obeys(keyword, rule, schema, value)) return false;
-        return true;
-    }
-
-  private:
-    bool obeys(const std::string& keyword, const Json& rule, const Json& schema, const Json& value) const {
-        static const std::set<std::string> remarks = {"$schema", "$defs",      "title", "description",
-                                                      "default", "deprecated", "then"};
-        if (remarks.contains(keyword)) return true;
-        const auto fitsOne = [&](const Json& one) { return fits(one, value); };
-        if (keyword == "$ref")
-            return fits(root.at(Json::json_pointer(rule.get<std::string>().substr(1))), value);
-        if (keyword == "type") return isOfType(rule, value);
-        if (keyword == "const") return value == rule;
-        if (keyword == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();
-        if (keyword == "anyOf") return std::any_of(rule.begin(), rule.end(), fitsOne);
-        if (keyword == "oneOf") return std::count_if(rule.begin(), rule.end(), fitsOne) == 1;
-        if (keyword == "allOf") return std::all_of(rule.begin(), rule.end(), fitsOne);
-        if (keyword == "if") return !fits(rule, value) || fits(schema.at("then"), value);
-        if (keyword == "minimum") return !value.is_number() || value.get<double>() >= rule.get<double>();
-        if (keyword == "maximum") return !value.is_number() || value.get<double>() <= rule.get<double>();
-        if (keyword == "exclusiveMinimum")
-            return !value.is_number() || value.get<double>() > rule.get<double>();
-        if (keyword == "minItems") return !value.is_array() || value.size() >= rule.get<std::size_t>();
-        if (keyword == "maxItems") return !value.is_array() || value.size() <= rule.get<std::size_t>();
-        if (keyword == "pattern")
-            return !value.is_string() ||
-                   std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>()));
-        if (keyword == "items")
-            return !value.is_array() || std::all_of(value.begin(), value.end(),
-                                                    [&](const Json& item) { return fits(rule, item); });
-        if (keyword == "required")
-            return !value.is_object() || std::all_of(rule.begin(), rule.end(), [&](const Json& key) {
-                return value.contains(key.get<std::string>());
-            });
-        if (keyword == "properties") {
-            for (const auto& [key, property] : rule.items())
-                if (value.is_object() && value.contains(key) && !fits(property, value[key])) return false;
-            return true;
-        }
-        if (keyword == "additionalProperties") {
-            if (!value.is_object()) return true;
-            for (const auto& [key, member] : value.items())
-                if (!(schema.contains("properties") && schema["properties"].contains(key)) &&
-                    (rule.is_boolean() ? !rule.get<bool>() : !fits(rule, member)))
-                    return false;
-            return true;
-        }
-        throw std::logic_error("the schema uses the keyword " + keyword);
-    }
-
-    static bool isOfType(const Json& type, const Json& value) {
-        if (type == "integer")
-            return value.is_number() && value.get<double>() == std::floor(value.get<double>());
-        if (type == "number") return value.is_number();
-        return value.type_name() == type.get<std::string>();
-    }
-
-    const Json& root;
-};
-
 bool valid(const std::string& text) {
     static const Json schema = Json::parse(fileSchema());
-    return Validator(schema).fits(schema, Json::parse(text));
+    return JsonSchema(schema).fits(schema, Json::parse(text));
 }
 
 std::string withNode(const std::string& node) { return "{\"fieldwright\": 1, \"nodes\": [" + node + "]}"; }
@@ -121,7 +52,7 @@ TEST(Schema, AcceptsTheSamples) {
 
 TEST(Schema, AcceptsEveryDefault) {
     const Json schema = Json::parse(fileSchema());
-    const Validator validator(schema);
+    const JsonSchema validator(schema);
     for (const NodeType& type : nodeTypes()) {
         const Json& inputs = schema["$defs"]["inputs-" + type.id];
         EXPECT_TRUE(type.open || inputs["properties"].size() == type.inputs.size());

@@ -1,0 +1,122 @@
+// A document's field at points, as `fieldwright eval` has it.
+#include <cmath>
+#include <cstring>
+
+#include "graph/base/parallel.h"
+#include "runtime/serve/document.h"
+
+namespace fw::serve {
+
+namespace {
+
+constexpr std::size_t kEvalPoints = 4096;     // at once, on one thread
+constexpr std::size_t kMostListed = 100'000;  // points in an array rather than a blob
+
+/// Points of an array of arrays; false if it is none.
+bool readPoints(const Json* list, std::vector<Point>& points) {
+    if (!list || !list->is_array() || list->size() > kMostListed) return false;
+    for (const Json& entry : *list) {
+        if (!entry.is_array() || entry.size() != 3) return false;
+        Point& point = points.emplace_back();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!entry[axis].is_number()) return false;
+            point[axis] = entry[axis].get<double>();
+        }
+    }
+    return true;
+}
+
+template <class Number>
+bool takePoints(const std::string& bytes, std::vector<Point>& points) {
+    if (bytes.size() % (3 * sizeof(Number)) != 0) return false;
+    points.resize(bytes.size() / (3 * sizeof(Number)));
+    const char* at = bytes.data();
+    for (Point& point : points)
+        for (double& coordinate : point) {
+            Number number = 0;
+            std::memcpy(&number, at, sizeof number);
+            at += sizeof number;
+            coordinate = double(number);
+        }
+    return true;
+}
+
+/// Those of the request's one blob.
+bool readPoints(const Request& request, std::vector<Point>& points) {
+    if (request.blobs.size() != 1 || request.coming[0].name != "points") return false;
+    const std::string& type = request.coming[0].type;
+    return type == "f32" ? takePoints<float>(request.blobs[0], points)
+                         : type == "f64" && takePoints<double>(request.blobs[0], points);
+}
+
+/// Distances, and gradients unless those are null, of up to `count` points.
+void evaluateInto(const Tape& tape, const Point* points, std::size_t count, double* distances,
+                  double* gradients) {
+    TapeMachine<double> machine;
+    const std::size_t batch = gradients ? machine.kGradientPoints : machine.kPoints;
+    for (std::size_t first = 0; first < count; first += batch) {
+        const std::size_t some = std::min(batch, count - first);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t k = 0; k < some; ++k) machine.position(int(axis))[k] = points[first + k][axis];
+        if (!gradients) {
+            std::copy_n(machine.value(tape, some), some, distances + first);
+            continue;
+        }
+        const auto [values, slopes] = machine.gradient(tape, some);
+        for (std::size_t k = 0; k < some; ++k) {
+            distances[first + k] = values[k];
+            for (std::size_t axis = 0; axis < 3; ++axis) gradients[3 * (first + k) + axis] = slopes[axis][k];
+        }
+    }
+}
+
+/// JSON has no infinity.
+Json finiteJson(double number) { return std::isfinite(number) ? Json(number + 0.0) : Json(nullptr); }
+
+}  // namespace
+
+Answer Document::eval(Params& params, Task& task) {
+    const bool gradient = params.flag("gradient", false);
+    std::vector<Point> points;
+    const bool blob = !task.request.blobs.empty();
+    if (blob ? !readPoints(task.request, points) : !readPoints(params.any("points"), points))
+        params.refuse("points", "is an array of [x, y, z], or a blob of that name of f32 or f64");
+    if (std::optional<Fault> fault = params.fault()) return *fault;
+    now = &task;
+    if (!tape) {
+        const Result<Program> program = folded(task);
+        if (task.cancelled) return cancelledFault();
+        if (!program) return Fault(program.error());
+        tape = makeTape(program->ir, program->distance(), program->parameters());
+    }
+    struct Values {
+        std::vector<double> distances, gradients;
+    };
+    const auto values = std::make_shared<Values>();
+    values->distances.resize(points.size());
+    if (gradient) values->gradients.resize(3 * points.size());
+    forBlocks(points.size(), kEvalPoints, [&](std::size_t, std::size_t first, std::size_t last) {
+        if (!task.cancelled)
+            evaluateInto(*tape, points.data() + first, last - first, values->distances.data() + first,
+                         gradient ? values->gradients.data() + 3 * first : nullptr);
+    });
+    if (task.cancelled) return cancelledFault();
+    Reply reply;
+    if (!blob) {
+        Json& distances = reply.result["distance"] = Json::array();
+        for (const double distance : values->distances) distances.push_back(finiteJson(distance));
+        if (!gradient) return reply;
+        Json& list = reply.result["gradient"] = Json::array();
+        for (std::size_t i = 0; i < values->gradients.size(); i += 3)
+            list.push_back(
+                Json::array({finiteJson(values->gradients[i]), finiteJson(values->gradients[i + 1]),
+                             finiteJson(values->gradients[i + 2])}));
+        return reply;
+    }
+    reply.blobs.push_back({"distance", "f64", {points.size()}, bytesOf(values->distances)});
+    if (gradient) reply.blobs.push_back({"gradient", "f64", {points.size(), 3}, bytesOf(values->gradients)});
+    reply.keeps = values;
+    return reply;
+}
+
+}  // namespace fw::serve

@@ -1,0 +1,43 @@
+// The parameters of a request, read by name: what is missing, of another kind, out of range or unknown
+// becomes one Fault that says so. Each read gives something to go on with, so that a method reads all and
+// looks once.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/serve/message.h"
+
+namespace fw::serve {
+
+class Params {
+  public:
+    /// `object` and what `method` refers to must outlive it.
+    Params(const Json& object_, std::string method_) : object(object_), method(std::move(method_)) {}
+
+    double number(const char* name, double otherwise, double least, double greatest);
+    int whole(const char* name, int otherwise, int least, int greatest);
+    bool flag(const char* name, bool otherwise);
+    std::string text(const char* name, std::string otherwise);
+    std::string oneOf(const char* name, std::span<const std::string> words, std::string otherwise);
+    /// Of any kind; nullptr if it is not there.
+    const Json* any(const char* name);
+    bool has(const char* name) const { return object.contains(name); }
+    /// Makes it a fault that this one is not there.
+    void need(const char* name);
+    /// A fault of this parameter.
+    void refuse(const char* name, const std::string& why);
+
+    /// The first thing that was wrong; that a parameter is there that was not read, too.
+    std::optional<Fault> fault();
+
+  private:
+    const Json& object;
+    std::string method;
+    std::vector<std::string> known = {"blobs", "_meta"};
+    std::optional<Fault> first;
+};
+
+}  // namespace fw::serve
