@@ -93,10 +93,7 @@ void Client::answer(const Request& request, const Answer& answer) {
 }
 
 void Client::take(Request request) {
-    static const std::vector<std::pair<std::string, Method>> methods = {
-        {"set", &Document::set},         {"time", &Document::time},        {"check", &Document::check},
-        {"mesh", &Document::mesh},       {"picture", &Document::picture},  {"eval", &Document::eval},
-        {"measure", &Document::measure}, {"export", &Document::exportMesh}};
+    const auto& methods = Document::methods();
     forgetEnded();
     const std::string& name = request.method;
     if (name == "cancel") return cancel(request);
@@ -118,7 +115,7 @@ void Client::take(Request request) {
             queue(*served, std::move(request), &Document::check, std::nullopt, false);
         return;
     }
-    const auto method = std::ranges::find(methods, name, &std::pair<std::string, Method>::first);
+    const auto method = std::ranges::find(methods, name, &std::pair<std::string, Document::Method>::first);
     if (method == methods.end() && name != "parameters") {
         std::vector<std::string> names = {"open",   "close",   "parameters", "nodes",
                                           "cancel", "version", "shutdown"};
@@ -164,7 +161,8 @@ Client::Served* Client::add(const Request& request) {
     return documents.emplace(++lastNumber, std::make_unique<Served>(openDevice)).first->second.get();
 }
 
-void Client::queue(Served& served, Request request, Method method, std::optional<int> opens, bool lasts) {
+void Client::queue(Served& served, Request request, Document::Method method, std::optional<int> opens,
+                   bool lasts) {
     const auto task = std::make_shared<Task>();
     task->request = std::move(request);
     if (task->request.answered)
@@ -197,7 +195,7 @@ void Client::queue(Served& served, Request request, Method method, std::optional
     });
 }
 
-Answer Client::work(Served& served, Method method, Task& task) {
+Answer Client::work(Served& served, Document::Method method, Task& task) {
     return guarded(*served.document, [&]() -> Answer {
         if (task.cancelled) return cancelledFault();
         Params params(task.request.params, task.request.method);

@@ -28,7 +28,6 @@ class Client {
     void serve();
 
   private:
-    using Method = Answer (Document::*)(Params&, Task&);
     struct Served {
         explicit Served(const OpenDevice& openDevice) : document(std::in_place, openDevice) {}
         std::optional<Document> document;
@@ -39,8 +38,9 @@ class Client {
     void take(Request request);
     void answer(const Request& request, const Answer& answer);
     /// Has the document's thread do it. `lasts`: the document stays open if there is no fault.
-    void queue(Served& served, Request request, Method method, std::optional<int> opens, bool lasts);
-    Answer work(Served& served, Method method, Task& task);
+    void queue(Served& served, Request request, Document::Method method, std::optional<int> opens,
+               bool lasts);
+    Answer work(Served& served, Document::Method method, Task& task);
     void close(Request request);
     void cancel(const Request& request);
     /// The document that the request names; answers it if there is none.

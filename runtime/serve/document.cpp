@@ -46,6 +46,14 @@ std::optional<std::vector<double>> numbersOf(const Json& value) {
 
 }  // namespace
 
+const std::vector<std::pair<std::string, Document::Method>>& Document::methods() {
+    static const std::vector<std::pair<std::string, Method>> all = {
+        {"set", &Document::set},         {"time", &Document::time},        {"check", &Document::check},
+        {"mesh", &Document::mesh},       {"picture", &Document::picture},  {"eval", &Document::eval},
+        {"measure", &Document::measure}, {"export", &Document::exportMesh}};
+    return all;
+}
+
 std::variant<Graph, Fault> Document::read(Params& params, std::vector<Error>& findings) const {
     const std::string path = params.text("path", "");
     const Json* text = params.any("graph");

@@ -8,6 +8,7 @@
 // Lifetime: it owns its device. One thread at a time, but for parameters().
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -44,6 +45,13 @@ class Document {
     Answer measure(Params& params, Task& task);
     Answer exportMesh(Params& params, Task& task);
 
+    using Method = Answer (Document::*)(Params&, Task&);
+    /// These but open(), by the names that requests have for them.
+    static const std::vector<std::pair<std::string, Method>>& methods();
+
+    /// The field as it is now, for evaluateAll(); until the next call of anything.
+    std::variant<const Tape*, Fault> field(Task& task);
+
     /// Of a device that failed: the next request opens another.
     void dropDevice();
 
@@ -79,6 +87,11 @@ class Document {
     mutable std::mutex showing;
     Json shown = Json::array();
 };
+
+/// Distances at points of three coordinates each, and, unless these are null, gradients, on all processors;
+/// nothing more once it is cancelled.
+void evaluateAll(const Tape& tape, const double* points, std::size_t count, double* distances,
+                 double* gradients, const std::atomic<bool>& cancelled);
 
 /// Does work on the document; what the device or the system fails by becomes a Fault. A device that was lost
 /// is replaced by another, once.

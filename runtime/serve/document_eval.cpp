@@ -49,15 +49,20 @@ bool readPoints(const Request& request, std::vector<Point>& points) {
                          : type == "f64" && takePoints<double>(request.blobs[0], points);
 }
 
+/// JSON has no infinity.
+Json finiteJson(double number) { return std::isfinite(number) ? Json(number + 0.0) : Json(nullptr); }
+
 /// Distances, and gradients unless those are null, of up to `count` points.
-void evaluateInto(const Tape& tape, const Point* points, std::size_t count, double* distances,
+void evaluateSome(const Tape& tape, const double* points, std::size_t count, double* distances,
                   double* gradients) {
     TapeMachine<double> machine;
     const std::size_t batch = gradients ? machine.kGradientPoints : machine.kPoints;
     for (std::size_t first = 0; first < count; first += batch) {
         const std::size_t some = std::min(batch, count - first);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t k = 0; k < some; ++k) machine.position(int(axis))[k] = points[first + k][axis];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            double* const position = machine.position(int(axis));
+            for (std::size_t k = 0; k < some; ++k) position[k] = points[3 * (first + k) + axis];
+        }
         if (!gradients) {
             std::copy_n(machine.value(tape, some), some, distances + first);
             continue;
@@ -70,10 +75,27 @@ void evaluateInto(const Tape& tape, const Point* points, std::size_t count, doub
     }
 }
 
-/// JSON has no infinity.
-Json finiteJson(double number) { return std::isfinite(number) ? Json(number + 0.0) : Json(nullptr); }
-
 }  // namespace
+
+void evaluateAll(const Tape& tape, const double* points, std::size_t count, double* distances,
+                 double* gradients, const std::atomic<bool>& cancelled) {
+    forBlocks(count, kEvalPoints, [&](std::size_t, std::size_t first, std::size_t last) {
+        if (!cancelled)
+            evaluateSome(tape, points + 3 * first, last - first, distances + first,
+                         gradients ? gradients + 3 * first : nullptr);
+    });
+}
+
+std::variant<const Tape*, Fault> Document::field(Task& task) {
+    now = &task;
+    if (!tape) {
+        const Result<Program> program = folded(task);
+        if (task.cancelled) return cancelledFault();
+        if (!program) return Fault(program.error());
+        tape = makeTape(program->ir, program->distance(), program->parameters());
+    }
+    return &*tape;
+}
 
 Answer Document::eval(Params& params, Task& task) {
     const bool gradient = params.flag("gradient", false);
@@ -82,24 +104,16 @@ Answer Document::eval(Params& params, Task& task) {
     if (blob ? !readPoints(task.request, points) : !readPoints(params.any("points"), points))
         params.refuse("points", "is an array of [x, y, z], or a blob of that name of f32 or f64");
     if (std::optional<Fault> fault = params.fault()) return *fault;
-    now = &task;
-    if (!tape) {
-        const Result<Program> program = folded(task);
-        if (task.cancelled) return cancelledFault();
-        if (!program) return Fault(program.error());
-        tape = makeTape(program->ir, program->distance(), program->parameters());
-    }
+    const std::variant<const Tape*, Fault> found = field(task);
+    if (const Fault* fault = std::get_if<Fault>(&found)) return *fault;
     struct Values {
         std::vector<double> distances, gradients;
     };
     const auto values = std::make_shared<Values>();
     values->distances.resize(points.size());
     if (gradient) values->gradients.resize(3 * points.size());
-    forBlocks(points.size(), kEvalPoints, [&](std::size_t, std::size_t first, std::size_t last) {
-        if (!task.cancelled)
-            evaluateInto(*tape, points.data() + first, last - first, values->distances.data() + first,
-                         gradient ? values->gradients.data() + 3 * first : nullptr);
-    });
+    evaluateAll(*std::get<const Tape*>(found), points.empty() ? nullptr : points[0].data(), points.size(),
+                values->distances.data(), gradient ? values->gradients.data() : nullptr, task.cancelled);
     if (task.cancelled) return cancelledFault();
     Reply reply;
     if (!blob) {

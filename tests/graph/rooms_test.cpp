@@ -48,6 +48,7 @@ const std::vector<std::pair<std::string, std::string>> kRooms = {
     {"runtime/window", "graph gpu render"},
     {"runtime/jobs", "graph system"},
     {"runtime/serve", "graph system gpu mesh measure bake textures render export files play pictures"},
+    {"runtime/python", "graph render serve"},
     {"runtime/cli",
      "graph system gpu measure bake textures render export files play pictures window jobs serve"},
 
