@@ -20,7 +20,7 @@ bool readComing(const Json& params, std::vector<ComingBlob>& coming, std::size_t
             return found != blob.end() && found->is_string() ? found->get<std::string>() : std::string();
         };
         const auto size = blob.is_object() ? blob.find("bytes") : blob.end();
-        const bool known = size != blob.end() && size->is_number_unsigned();
+        const bool known = size != blob.end() && size->is_number_integer() && *size >= 0;
         // Of a message that cannot be right as many bytes follow as it says, if it says so.
         const std::size_t count = known ? size->get<std::size_t>() : 0;
         sound = sound && known && !word("name").empty();
@@ -54,6 +54,7 @@ std::variant<Request, NoRequest> readRequest(std::string_view line) {
         request.id = *id, request.answered = true;
     }
     std::size_t coming = 0;
+    if (const auto none = json.find("params"); none != json.end() && none->is_null()) json.erase(none);
     const auto params = json.find("params");
     const bool known = params == json.end() || params->is_object();
     const bool blobs = params == json.end() || !known || readComing(*params, request.coming, coming);

@@ -74,7 +74,7 @@ TEST_F(Assistant, AgreesOnARevision) {
 
 TEST_F(Assistant, Models) {
     greet("2025-06-18");
-    EXPECT_NE(said("list_nodes", {{"category", "Shapes"}}).find("sphere (radius"), std::string::npos);
+    EXPECT_NE(said("list_nodes", {{"category", "Shapes"}}).find("\nsphere ("), std::string::npos);
     const std::string help = said("node_help", {{"types", {"sphere", "spere"}}});
     EXPECT_NE(help.find("| `radius` |"), std::string::npos) << help;
     EXPECT_NE(help.find("did you mean 'sphere'"), std::string::npos) << help;

@@ -168,7 +168,7 @@ TEST_F(Serve, MeasuresAndExportsAsTheCommandDoes) {
     ASSERT_FALSE(measured.failed()) << measured.json.dump();
     EXPECT_NEAR(measured.result().at("volume").get<double>(), ballVolume(1), 0.1);
     EXPECT_EQ(measured.result().at("unit"), "mm");
-    EXPECT_TRUE(measured.result().contains("widths"));
+    EXPECT_TRUE(measured.result().contains("leastWall"));
 
     client.ask("set", {{"document", ball}, {"values", {{"radius", 2}}}});
     const std::vector<std::string> endings = {".stl", ".glb", ".obj"};
@@ -308,10 +308,10 @@ TEST_F(Serve, TheClientOfThePageRuns) {
     test::writeText(folder.path("client.py"), page.substr(begin, page.find("```", begin) - begin));
     const test::ProgramResult result = test::runProgram(
         "python3 '" + folder.path("client.py") +
-        "' " FIELDWRIGHT_BINARY_DIR "/fieldwright " FIELDWRIGHT_SOURCE_DIR "/samples 2> /dev/null");
+        "' " FIELDWRIGHT_BINARY_DIR "/fieldwright " FIELDWRIGHT_SOURCE_DIR "/samples);
     EXPECT_EQ(result.status, 0) << result.output;
-    EXPECT_EQ(std::ranges::count(result.output, '\n'), 3) << result.output;
-    EXPECT_TRUE(result.output.starts_with("0.1 ")) << result.output;
+    for (const char* line : {"\n0.1 ", "\n0.15 ", "\n0.2 "})
+        EXPECT_NE(("\n" + result.output).find(line), std::string::npos) << result.output;
 }
 
 TEST_F(Serve, NothingOutsideItsRootsIsOpened) {
@@ -346,14 +346,21 @@ TEST_F(Serve, NothingOutsideItsRootsIsOpened) {
                R"(, {"id": "out", "type": "output", "inputs": {"surface": {"from": "it"}}}])" + scene + "}";
     };
     const auto painted = [&](const std::string& file) {
-        return graphWith(
-            R"({"id": "it", "type": "triplanar", "inputs": {"surface": {"from": "ball"}, "image": ")" + file +
-            "\"}}");
+        return graphWith(R"({"id": "paint", "type": "triplanar", "inputs": {"image": ")" + file +
+                         R"("}}, {"id": "it", "type": "material", "inputs": {"surface": {"from": "ball"}, )"
+                         R"("base_color": {"from": "paint"}}})");
     };
     const auto letters = [&](const std::string& file) {
         return graphWith(R"({"id": "flat", "type": "text", "inputs": {"font_file": ")" + file +
-                         R"("}}, {"id": "it", "type": "extrude", "inputs": {"shape": {"from": "flat"}}})");
+                         R"("}}, {"id": "it", "type": "extrude", "inputs": {"surface": {"from": "flat"}}})");
     };
+    const auto fromMesh = [&](const std::string& file) {
+        return graphWith(
+            R"({"id": "mesh", "type": "mesh_file", "inputs": {"path": ")" + file +
+            R"("}}, {"id": "it", "type": "mesh_to_field", "inputs": {"mesh": {"from": "mesh"}}})");
+    };
+    refused(client.ask("open", {{"graph", fromMesh("/usr/share/thing.obj")}}));
+    refused(client.ask("open", {{"graph", fromMesh("elsewhere/ball.obj")}}));
     refused(client.ask("open", {{"graph", painted("wall.png")}}));
     refused(client.ask("open", {{"graph", painted(outside.path("wall.png"))}}));
     refused(client.ask("open", {{"graph", painted(up + "/wall.png")}}));
@@ -392,7 +399,7 @@ TEST_F(Serve, SeveralRoots) {
 /// A picture that takes long, but looks whether it is still wanted.
 int askForLong(ServerClient& client, int document) {
     return client.send("picture",
-                       {{"document", document}, {"width", 512}, {"height", 512}, {"samples", 4096}});
+                       {{"document", document}, {"width", 1024}, {"height", 1024}, {"samples", 100}});
 }
 
 TEST_F(Serve, CancelsWhatRunsAndWhatWaits) {

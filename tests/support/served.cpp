@@ -21,7 +21,7 @@ namespace fw::test {
 
 namespace {
 
-constexpr int kMostSeconds = 120;
+constexpr int kMostWaitSeconds = 120;
 
 std::pair<int, int> makePipe() {
     int ends[2] = {-1, -1};
@@ -73,6 +73,7 @@ void ServerClient::sendLine(const std::string& text) { sendBytes(text + "\n"); }
 
 int ServerClient::send(const std::string& method, ServedJson params,
                        const std::map<std::string, std::pair<std::string, std::string>>& blobs) {
+    if (params.is_null()) params = ServedJson::object();
     for (const auto& [name, blob] : blobs)
         params["blobs"].push_back({{"name", name}, {"type", blob.first}, {"bytes", blob.second.size()}});
     sendLine(ServedJson{{"jsonrpc", "2.0"}, {"id", ++last}, {"method", method}, {"params", params}}.dump());
@@ -82,7 +83,7 @@ int ServerClient::send(const std::string& method, ServedJson params,
 
 bool ServerClient::fill() {
     pollfd ready{in, POLLIN, 0};
-    const int there = ::poll(&ready, 1, kMostSeconds * 1000);
+    const int there = ::poll(&ready, 1, kMostWaitSeconds * 1000);
     if (there == 0) ADD_FAILURE() << "the server says nothing";
     std::string piece(1 << 20, '\0');
     const ssize_t got = there > 0 ? ::read(in, piece.data(), piece.size()) : 0;
@@ -165,6 +166,7 @@ ServerProcess::ServerProcess(std::vector<std::string> arguments, const std::stri
     static const TempDir caches;
     static int number = 0;
     errorFile = caches.path("errors" + std::to_string(++number));
+    writeText(errorFile, "");
     const auto [serverIn, toServer] = makePipe();
     const auto [fromServer, serverOut] = makePipe();
     std::vector<std::string> words = {FIELDWRIGHT_BINARY_DIR "/fieldwright", "serve"};
@@ -198,7 +200,7 @@ ServerClient ServerProcess::connect(const std::string& path) {
     address.sun_family = AF_UNIX;
     std::copy_n(path.begin(), std::min(path.size(), sizeof address.sun_path - 1), address.sun_path);
     const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    for (int i = 0; i < kMostSeconds * 100; ++i) {
+    for (int i = 0; i < kMostWaitSeconds * 100; ++i) {
         if (::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0)
             return ServerClient(socket, socket);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));  // until it listens
@@ -209,7 +211,16 @@ ServerClient ServerProcess::connect(const std::string& path) {
 
 int ServerProcess::wait() {
     int status = 0;
-    if (pid > 0) ::waitpid(std::exchange(pid, -1), &status, 0);
+    bool ended = pid <= 0;
+    for (int i = 0; !ended && i < kMostWaitSeconds * 100; ++i) {
+        ended = ::waitpid(pid, &status, WNOHANG) != 0;
+        if (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (!ended) {
+        ADD_FAILURE() << "the server does not end";
+        ::kill(pid, SIGKILL), ::waitpid(pid, &status, 0);
+    }
+    pid = -1;
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 

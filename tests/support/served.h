@@ -77,7 +77,7 @@ class ServerProcess {
     ServerClient client;
     /// Another one, of its socket, once it listens.
     static ServerClient connect(const std::string& path);
-    /// Its exit status, once it has ended; 128 + signal if it was killed.
+    /// Its exit status, once it has ended; 128 + signal if it was killed, as it is if it does not end.
     int wait();
     /// Resident memory, megabytes.
     double megabytes() const;
