@@ -54,7 +54,8 @@ Done fenceFiles(const std::vector<std::string>& roots, const std::string& own) {
 Done checkMayRead(const std::string& path) {
     if (fencedRoots.empty()) return done();
     std::error_code failure;
-    const fs::path full = fs::weakly_canonical(fs::absolute(path), failure);
+    const fs::path whole = fs::absolute(path, failure);
+    const fs::path full = failure ? fs::path() : fs::weakly_canonical(whole, failure);
     if (failure || !isInside(full.string())) return outside(path);
     return done();
 }
@@ -73,7 +74,8 @@ Done checkFenced(int descriptor, const std::string& path) {
 Done checkMayWrite(const std::string& path) {
     if (fencedRoots.empty()) return done();
     std::error_code failure;
-    const fs::path full = fs::weakly_canonical(fs::absolute(path), failure);
+    const fs::path whole = fs::absolute(path, failure);
+    const fs::path full = failure ? fs::path() : fs::weakly_canonical(whole, failure);
     const std::string folder = full.parent_path().string();
     if (failure) return Error{.message = "cannot be looked up: " + failure.message(), .file = path};
     if (!isInside(folder) && !(fencedCaches.size() > 1 && isBelow(folder, fencedCaches)))

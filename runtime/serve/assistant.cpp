@@ -255,27 +255,28 @@ Answer Assistant::writeGraph(Params& params) {
     return reply;
 }
 
-std::variant<Document*, Fault> Assistant::opened(const std::string& path, Task& task) {
-    const Result<std::string> text = readGraphText(path);
-    if (!text) return Fault(text.error());
-    auto found = std::ranges::find(kept, path, &Kept::path);
-    if (found == kept.end()) {
+Document& Assistant::documentOf(const std::string& path) {
+    const auto found = std::ranges::find(kept, path, &Kept::path);
+    if (found != kept.end()) {
+        kept.splice(kept.begin(), kept, found);
+    } else {
         if (kept.size() == kKeptGraphs) kept.pop_back();
         kept.push_front({path, "", std::make_unique<Document>(openDevice)});
-    } else {
-        kept.splice(kept.begin(), kept, found);
     }
-    Kept& front = kept.front();
-    if (front.text == *text) return front.document.get();
+    return *kept.front().document;
+}
+
+std::optional<Fault> Assistant::readAnew(const std::string& path, Task& task) {
+    Kept& file = kept.front();
+    const Result<std::string> text = readGraphText(path);
+    if (!text) return Fault(text.error());
+    if (file.text == *text) return std::nullopt;
+    file.text.clear();  // what it was before is of no use if this fails
     const Answer answer =
-        asked(*front.document, &Document::open, {{"graph", *text}, {"path", path}}, "open", task);
-    if (const Fault* fault = std::get_if<Fault>(&answer)) {
-        const Fault why = *fault;
-        kept.pop_front();  // what it was before is of no use
-        return why;
-    }
-    front.text = *text;
-    return front.document.get();
+        asked(*file.document, &Document::open, {{"graph", *text}, {"path", path}}, "open", task);
+    if (const Fault* fault = std::get_if<Fault>(&answer)) return *fault;
+    file.text = *text;
+    return std::nullopt;
 }
 
 Answer Assistant::with(Params& params, Task& task, const std::function<Answer(Document&)>& work) {
@@ -285,10 +286,9 @@ Answer Assistant::with(Params& params, Task& task, const std::function<Answer(Do
     if (given && !given->is_object()) params.refuse("values", "is an object: {\"name\": number}");
     const double seconds = params.number("time", 0.0, -1e9, 1e9);
     if (std::optional<Fault> fault = params.fault()) return *fault;
-    const std::variant<Document*, Fault> open = opened(path, task);
-    if (const Fault* fault = std::get_if<Fault>(&open)) return *fault;
-    Document& document = *std::get<Document*>(open);
+    Document& document = documentOf(path);
     return guarded(document, [&]() -> Answer {
+        if (std::optional<Fault> fault = readAnew(path, task)) return *fault;
         Json values = Json::object();
         for (const Json& parameter : document.parameters())
             if (!parameter.at("animated").get<bool>() && parameter.contains("default"))
@@ -313,10 +313,12 @@ Answer Assistant::checkGraph(Params& params, Task& task) {
     if (!graph) return Fault(graph.error());
     for (Error& finding : check(*graph, true)) findings.push_back(std::move(finding));
     std::string text = findings.empty() ? "Nothing is wrong with it.\n" : words(findings);
-    if (std::variant<Document*, Fault> open = opened(path, task);
-        Document** document = std::get_if<Document*>(&open))
-        for (const Json& parameter : (*document)->parameters())
-            text += "parameter " + inLine(parameter) + "\n";
+    Document& document = documentOf(path);
+    guarded(document, [&]() -> Answer {  // of one that cannot be opened, what is wrong is told already
+        if (std::optional<Fault> fault = readAnew(path, task)) return *fault;
+        for (const Json& parameter : document.parameters()) text += "parameter " + inLine(parameter) + "\n";
+        return Reply{};
+    });
     return said(std::move(text));
 }
 

@@ -50,8 +50,10 @@ class Assistant {
     Answer look(Params& params, Task& task);
     Answer measure(Params& params, Task& task);
     Answer exportMesh(Params& params, Task& task);
-    /// The file's document as it is now.
-    std::variant<Document*, Fault> opened(const std::string& path, Task& task);
+    /// The file's document, kept or new; the first of those that are kept then.
+    Document& documentOf(const std::string& path);
+    /// Has the first of them be what its file is now.
+    std::optional<Fault> readAnew(const std::string& path, Task& task);
     /// Does `work` with the document that the arguments name, at their time, with their values, and all
     /// others as in the file.
     Answer with(Params& params, Task& task, const std::function<Answer(Document&)>& work);

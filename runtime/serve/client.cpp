@@ -139,7 +139,7 @@ void Client::take(Request request) {
 
 std::map<int, std::unique_ptr<Client::Served>>::iterator Client::named(Request& request) {
     const auto handle = request.params.find("document");
-    const bool number = handle != request.params.end() && handle->is_number_integer();
+    const bool number = handle != request.params.end() && handle->is_number_integer() && *handle > 0;
     const auto found = number && *handle <= lastNumber ? documents.find(handle->get<int>()) : documents.end();
     if (found == documents.end())
         answer(request,
@@ -198,6 +198,7 @@ void Client::queue(Served& served, Request request, Document::Method method, std
 Answer Client::work(Served& served, Document::Method method, Task& task) {
     return guarded(*served.document, [&]() -> Answer {
         if (task.cancelled) return cancelledFault();
+        if (served.over) return Fault(kWrongParameters, "the document could not be opened");
         Params params(task.request.params, task.request.method);
         return (*served.document.*method)(params, task);
     });

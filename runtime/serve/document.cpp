@@ -275,7 +275,7 @@ Answer guarded(Document& document, const std::function<Answer()>& work) {
     } catch (const std::bad_alloc&) {
         document.dropDevice();
         return Fault(kSystemFault, "out of memory: lower the resolution, or close documents");
-    } catch (const SystemError& error) {
+    } catch (const std::exception& error) {  // SystemError, and what libraries throw
         document.dropDevice();
         return Fault(kSystemFault, error.what());
     }

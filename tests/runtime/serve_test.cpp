@@ -472,6 +472,22 @@ TEST_F(Serve, TakesTheSocketOfOneThatWasKilled) {
     EXPECT_FALSE(ServerProcess::connect(path).ask("version").failed());
 }
 
+TEST_F(Serve, AsksNothingOfADocumentThatDidNotOpen) {
+    ServerProcess server({}, folder.folder.string());
+    ServerClient& client = server.client;
+    const int open = client.send("open", {{"path", "nothing.field.json"}});
+    std::vector<int> guessed;
+    for (const char* method : {"mesh", "check", "parameters", "set", "time", "measure"})
+        guessed.push_back(
+            client.send(method, {{"document", 1}, {"values", ServedJson::object()}, {"seconds", 1}}));
+    EXPECT_EQ(client.answer(open).code(), -32000);
+    for (const int id : guessed) {
+        const ServerMessage message = client.answer(id);
+        EXPECT_TRUE(message.failed() || message.result().at("parameters").empty()) << message.json.dump();
+    }
+    EXPECT_GT(client.open("ball.field.json"), 1);
+}
+
 TEST_F(Serve, HoldsNoMoreDocumentsThanItSays) {
     ServerProcess server({}, folder.folder.string());
     const auto most = server.client.ask("version").result().at("limits").at("documents").get<int>();
