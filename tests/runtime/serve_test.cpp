@@ -306,9 +306,9 @@ TEST_F(Serve, TheClientOfThePageRuns) {
     const std::string page = test::readText(FIELDWRIGHT_SOURCE_DIR "/docs/server.md");
     const std::size_t begin = page.find("```python\n") + 10;
     test::writeText(folder.path("client.py"), page.substr(begin, page.find("```", begin) - begin));
-    const test::ProgramResult result = test::runProgram(
-        "python3 '" + folder.path("client.py") +
-        "' " FIELDWRIGHT_BINARY_DIR "/fieldwright " FIELDWRIGHT_SOURCE_DIR "/samples);
+    const test::ProgramResult result =
+        test::runProgram("python3 '" + folder.path("client.py") +
+                         "' " FIELDWRIGHT_BINARY_DIR "/fieldwright " FIELDWRIGHT_SOURCE_DIR "/samples");
     EXPECT_EQ(result.status, 0) << result.output;
     for (const char* line : {"\n0.1 ", "\n0.15 ", "\n0.2 "})
         EXPECT_NE(("\n" + result.output).find(line), std::string::npos) << result.output;
