@@ -60,13 +60,20 @@ void ServerClient::hangUp() {
 }
 
 void ServerClient::sendBytes(const std::string& bytes) {
-    std::signal(SIGPIPE, SIG_IGN);
+    // Blocked here alone: what is ignored would be ignored by programs that are started later, too.
+    sigset_t pipe, before;
+    sigemptyset(&pipe);
+    sigaddset(&pipe, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe, &before);
     for (std::size_t at = 0; at < bytes.size();) {
         const ssize_t put = ::write(out, bytes.data() + at, bytes.size() - at);
         if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) return;
+        if (put <= 0) break;
         at += std::size_t(put);
     }
+    const timespec none{};
+    while (sigtimedwait(&pipe, nullptr, &none) > 0) continue;
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 void ServerClient::sendLine(const std::string& text) { sendBytes(text + "\n"); }
