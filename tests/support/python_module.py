@@ -213,7 +213,8 @@ class Threads(unittest.TestCase):
 
     def test_control_c_ends_what_runs(self):
         # A picture of paths of light that would take minutes.
-        code = (f"import fieldwright as fw\ngraph = fw.open({TOWER!r})\ngraph.mesh()\nprint('runs', flush=True)\n"
+        code = ("import signal, fieldwright as fw\nsignal.signal(signal.SIGINT, signal.default_int_handler)  # whoever starts the tests\n"
+                f"graph = fw.open({TOWER!r})\ngraph.mesh()\nprint('runs', flush=True)\n"
                 "graph.render(1920, 1080, samples=4096)\n")
         child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         child.stdout.readline()
