@@ -58,6 +58,7 @@ Answer Document::picture(Params& params, Task& task) {
     if (std::optional<Fault> fault = playAs(params, task)) return *fault;
     if (task.cancelled) return cancelledFault();
     RenderOptions render = renderOptions(wish, *player);
+    if (quality == "live") render.primary = Primary::measured;
     render.scene.camera = seen->camera;
     if (!from.empty() && !camera) {
         const auto points = player->outline();

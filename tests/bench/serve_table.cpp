@@ -160,7 +160,10 @@ void serveTable(Bench& bench) {
         return elapsed;
     };
     const auto pictureInProcess = [&](bool live) {
-        const RenderOptions render{.width = kServedWidth, .height = kServedHeight, .samples = 1};
+        const RenderOptions render{.width = kServedWidth,
+                                   .height = kServedHeight,
+                                   .samples = 1,
+                                   .primary = live ? Primary::measured : Primary::traced};
         Picture shown;
         const auto start = Clock::now();
         if (const Done set = player->set(kServedParameter, nextWidth()); !set)

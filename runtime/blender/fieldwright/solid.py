@@ -34,11 +34,12 @@ def fill(mesh, made):
         mesh.polygons.foreach_set("loop_start", numpy.arange(0, 3 * faces, 3, dtype=numpy.int32))
         if bpy.app.version < (4, 1):
             mesh.polygons.foreach_set("loop_total", numpy.full(faces, 3, numpy.int32))
+        mesh.polygons.foreach_set("use_smooth", numpy.ones(faces, bool))
     mesh.vertices.foreach_set("co", places.ravel())
     mesh.loops.foreach_set("vertex_index", triangles.view(numpy.int32))
     counts = [material["triangles"] for material in made["materials"]]
-    mesh.polygons.foreach_set("material_index", numpy.repeat(numpy.arange(len(counts), dtype=numpy.int32), counts))
-    mesh.polygons.foreach_set("use_smooth", numpy.ones(faces, bool))
+    if len(counts) > 1 or len(mesh.materials) > 1:  # else all are 0, and to say so takes long
+        mesh.polygons.foreach_set("material_index", numpy.repeat(numpy.arange(len(counts), dtype=numpy.int32), counts))
     paint(mesh, made)
     mesh.update(calc_edges=True)
 
