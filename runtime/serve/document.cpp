@@ -159,7 +159,7 @@ Answer Document::time(Params& params, Task& task) {
 
 Answer Document::check(Params& params, Task&) {
     std::vector<Error> findings;
-    if (params.has("path") || params.has("graph")) {
+    if (params.has("path") || params.has("graph") || !isOpen()) {
         std::variant<Graph, Fault> read = this->read(params, findings);
         if (Fault* fault = std::get_if<Fault>(&read)) {
             if (fault->findings.empty()) return std::move(*fault);

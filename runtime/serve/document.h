@@ -59,6 +59,7 @@ class Document {
     Json parameters() const;
 
   private:
+    bool isOpen() const { return document || player; }
     const Graph& graph() const { return player ? player->graph() : *document; }
     /// The graph that the request names or has in it; the findings of reading it are added.
     std::variant<Graph, Fault> read(Params& params, std::vector<Error>& findings) const;

@@ -242,6 +242,7 @@ TEST_F(Serve, WhatIsNoRequestIsAnsweredAndPassedOver) {
     refused(R"({"jsonrpc": "2.0", "id": 1, "method": "mesh", "params": {"document": "x"}})", -32602,
             "number");
     refused(R"({"jsonrpc": "2.0", "id": 1, "method": "open", "params": {"pth": "x"}})", -32602, "path");
+    refused(R"({"jsonrpc": "2.0", "id": 1, "method": "check"})", -32602, "path");
     refused(std::string(100, '[') + std::string(100, ']'), -32700, "nest");
     refused("\"" + std::string(33 << 20, 'x') + "\"", -32002, "MiB");
     // Bytes that were announced are passed over, wrong or too many.
