@@ -19,6 +19,8 @@ set(data ${CMAKE_INSTALL_DATADIR}/fieldwright)
 install(DIRECTORY samples docs DESTINATION ${data} PATTERN pictures/make EXCLUDE)
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${data})
 
+install(FILES ${blender_zip} DESTINATION ${data} OPTIONAL)
+
 # What a desktop shows.
 install(FILES ${here}/fieldwright-editor.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES ${here}/fieldwright.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
