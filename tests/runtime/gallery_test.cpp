@@ -62,11 +62,12 @@ std::vector<fs::path> someSamples() {
 /// But for those that take the longest, of which other tests make pictures; all with FIELDWRIGHT_LONG.
 std::vector<fs::path> mostSamples() {
     std::vector<fs::path> most = samples();
-    const std::set<std::string> slow = {"breaker",       "tap",           "glass_of_water", "wet_city",
-                                        "tidal_wave",    "drop_in_bowl",  "mesh_morph",     "eroded_duck",
-                                        "camera_flight", "blobs",         "cornell_box",    "leaf_relief",
-                                        "light_part",    "goblet",        "mushroom",       "menger",
-                                        "gear_pair",     "engraved_sign", "watering_can"};
+    const std::set<std::string> slow = {
+        "breaker",      "tap",         "glass_of_water",   "wet_city", "tidal_wave",  "drop_in_bowl",
+        "mesh_morph",   "eroded_duck", "camera_flight",    "blobs",    "cornell_box", "leaf_relief",
+        "light_part",   "goblet",      "mushroom",         "menger",   "gear_pair",   "engraved_sign",
+        "watering_can", "pool",        "talk_8_repeat_xy", "cut_duck", "fountain",    "threaded_jar",
+        "landscape",    "brick_block"};
     if (!std::getenv("FIELDWRIGHT_LONG"))
         std::erase_if(most, [&](const fs::path& sample) { return slow.contains(nameOf(sample)); });
     return most;

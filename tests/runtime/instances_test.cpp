@@ -1,5 +1,6 @@
 // Copies that share a mesh in the file (export --instances).
 #include <gtest/gtest.h>
+#include <cstdlib>
 
 #include <cmath>
 #include <filesystem>
@@ -171,6 +172,7 @@ TEST_F(Instances, OfScatteredSolidsOfManySizes) {
 }
 
 TEST_F(Instances, OfCopiesOfCopies) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     write(
         R"({"id": "off", "type": "translate", "inputs": {"surface": {"from": "peg"}, "offset": [1.5, 0, 0]}},
              {"id": "ring", "type": "polar_repeat", "inputs": {"surface": {"from": "off"}, "count": 5}},
@@ -187,6 +189,7 @@ TEST_F(Instances, OfAGroupAndOfCode) {
 }
 
 TEST_F(Instances, StandOnGroundThatIsNoCopy) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     const std::string pegs =
         R"({"id": "pegs", "type": "repeat",
             "inputs": {"surface": {"from": "peg"}, "period": [1.5, 0, 0], "count": [4, 1, 1]}},

@@ -1,6 +1,7 @@
 // `fieldwright job`: what is shared out and how, what is refused at once, and jobs that GNU parallel really
 // runs.
 #include <gtest/gtest.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <filesystem>
@@ -264,6 +265,7 @@ TEST_F(Jobs, OfTilesAreMergedToTheMeshThatOneMachineMakes) {
 }
 
 TEST_F(Jobs, OfWhatIsSimulatedReadOneSimulation) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     test::writeText(graph, R"({"fieldwright": 1, "nodes": [
       {"id": "cloud", "type": "emitter", "inputs": {"rate": 300, "burst": 30, "lifetime": 0.6}},
       {"id": "rain", "type": "particle_dynamics", "inputs": {"particles": {"from": "cloud"}}},

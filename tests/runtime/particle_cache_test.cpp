@@ -158,6 +158,7 @@ TEST_F(ParticleCaches, AreReadWhereTheyAreNamedAndTold) {
 }
 
 TEST_F(ParticleCaches, GiveTheSamePicture) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     write(waterWith("0.08"));
     ASSERT_EQ(simulated({"--to", "0.4"}).status, 0);
     const auto picture = [&](const std::string& file, const std::vector<std::string>& more) {
@@ -203,6 +204,7 @@ TEST_F(ParticleCaches, KilledAtAnyTimeGoOnToTheSameBytes) {
 }
 
 TEST_F(ParticleCaches, MeshesOfKilledRunsAreThoseOfOneWithoutACache) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     const bool all = std::getenv("FIELDWRIGHT_LONG");
     if (all)
         fs::copy_file(std::string(FIELDWRIGHT_SOURCE_DIR) + "/samples/dam_break.field.json", graph);

@@ -298,6 +298,7 @@ TEST_F(Paths, APrismTurnsWhatIsBehindIt) {
 }
 
 TEST_F(Paths, AWhiteRoomGathersWhatItSends) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     // All that its walls send out comes back to them: with each bounce as much again (an integrating sphere).
     for (const int bounces : {1, 4}) {
         const Traced room = trace(

@@ -187,6 +187,7 @@ void expectNoHarm(const LiveProgram& live) {
 }
 
 TEST(Simulation, ValuesThatAreNoNumbersDoNoHarm) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     const std::string one = "3", three = "[0.1, 0.2, 0.3]";
     using Inputs = std::map<std::string, std::string>;
     for (const auto& [input, value] : Inputs{{"position", three},
@@ -442,6 +443,7 @@ TEST(Simulation, APistonPushesWaterUpByWhatItDisplaces) {
 }
 
 TEST(Simulation, WhatAPistonPushesGetsItsSpeed) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     // Whatever the parts of a step; without weight. One particle has it exactly; a block springs off a
     // little, for what is squeezed moves what is before it.
     for (const char* parts : {"0", "1", "5"})
@@ -488,6 +490,7 @@ TEST(Simulation, AnObstacleThatJumpsHasNothingInItThen) {
 }
 
 TEST(Simulation, NorDoTheyToWater) {
+    if (!std::getenv("FIELDWRIGHT_LONG")) GTEST_SKIP() << "some ten seconds: with FIELDWRIGHT_LONG";
     for (const char* input : {"viscosity", "tension", "spacing"})
         if (input == std::string("spacing") || std::getenv("FIELDWRIGHT_LONG"))
             expectNoHarm(water("", "column", trackOf("fluid", input, "1")));
