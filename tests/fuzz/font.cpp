@@ -26,6 +26,9 @@ struct Folder {
 
 }  // namespace
 
+// Names that fontconfig has seen stay with it.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
     // Letters, letters that are kerned and in lines, and those of scripts that are shaped.
     constexpr const char* kTexts[] = {"ABC", "AB\nBA CC", "\u0628\u0628 A", "\u0915\u094D\u0937\u093F A"};
