@@ -56,6 +56,7 @@ void makePictures(Editor& editor, const std::vector<const LibraryPart*>& seen) {
             tile.texture = editor.shell.show(tile.texture, picture);
         else if (tile.texture)
             editor.shell.forget(std::exchange(tile.texture, nullptr));
+        Shell::wake();  // the tiles of this frame are drawn: nothing else may happen that draws them again
     }
     for (const LibraryPart* part : seen) {
         const int64_t stamp = stampOf(part->path);
