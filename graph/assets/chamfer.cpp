@@ -34,12 +34,14 @@ struct Plane {
     double at(const glm::dvec3& p) const { return glm::dot(normal, p) - offset; }
 };
 
+/// The planes that cut samples off.
 class Cut {
   public:
     Cut(const VolumeGrid& grid_, double radius_, std::span<const glm::vec3> nearest_,
         std::span<const float> distances_)
         : grid(grid_),
-          radius(radius_ / grid_.cell),
+          radius(std::min(radius_ / grid_.cell,
+                          double(glm::max(glm::max(grid_.size.x, grid_.size.y), grid_.size.z)))),
           nearest(nearest_),
           distances(distances_),
           onFace(nearest.size(), 0) {
@@ -67,8 +69,7 @@ class Cut {
         for (std::size_t i = 1; i < faces.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) {
                 const Plane &a = faces[i], &b = faces[k];
-                if (!makeEdge(a, b)) continue;
-                if (!meetNear(a, b, p)) continue;
+                if (!makeEdge(a, b) || !meetNear(a, b, p)) continue;
                 const Plane cut = between(a, b);
                 if (const double value = cut.at(p); value > most) most = value, found = cut;
             }

@@ -70,6 +70,7 @@ class Document {
         const auto& methods = serve::Document::methods();
         const auto found =
             std::ranges::find(methods, method, &std::pair<std::string, serve::Document::Method>::first);
+        if (found == methods.end() && method != "open") throw py::value_error("no method " + method);
         const serve::Document::Method asked = found != methods.end() ? found->second : &serve::Document::open;
         const Json given = Json::parse(params);
         serve::Task task;

@@ -302,6 +302,17 @@ TEST(ChamferEdges, LeaveThoseThatRunInwards) {
     }
 }
 
+TEST(ChamferEdges, OfAnySizeLeaveDistances) {
+    for (const char* size : {"1e-9", "3", "1e12"}) {
+        Field cut(R"({"id": "box", "type": "box", "inputs": {"half_extents": [0.5, 0.4, 0.3]}},
+            {"id": "c", "type": "chamfer_edges", "inputs": {"surface": {"from": "box"}, "resolution": 24, "size": )" +
+                      std::string(size) + "}}",
+                  "c");
+        EXPECT_GT(cut({1, 1, 1}), 0.5) << size;
+        EXPECT_TRUE(std::isfinite(cut({0, 0, 0}))) << size;
+    }
+}
+
 /// The rim of a bored cylinder, whose faces are bent: the cut is a cone.
 TEST(ChamferEdges, OfRoundFacesAreCones) {
     Field cut(R"({"id": "rod", "type": "cylinder", "inputs": {"radius": 0.5, "half_height": 0.3}},

@@ -166,6 +166,10 @@ class Faults(unittest.TestCase):
         for wishes in ({"resolution": 0}, {"resolution": 10**6}, {"method": "none"}):
             with self.assertRaises(fw.Error):
                 graph.mesh(**wishes)
+        with self.assertRaises(ValueError):
+            graph.set(radius=float("nan"))
+        with self.assertRaises(fw.Error):
+            graph.set(radius=[1, 2, 3, 4])
         with self.assertRaises(fw.Error):
             graph.render(1, 1)
         with self.assertRaises(fw.Error):

@@ -95,7 +95,7 @@ class Graph:
 
     def _ask(self, asked: str, /, **params: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         given = {name: value for name, value in params.items() if value is not None}
-        result, blobs = self._document.ask(asked, json.dumps(given))
+        result, blobs = self._document.ask(asked, json.dumps(given, allow_nan=False))
         return json.loads(result), blobs
 
     @property
