@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 namespace fw {
@@ -34,6 +32,12 @@ bool isInside(const std::string& path) {
     return std::ranges::any_of(fencedRoots, [&](const std::string& root) { return isBelow(path, root); });
 }
 
+/// The place that a path leads to, without links as far as there is something.
+fs::path resolved(const std::string& path, std::error_code& failure) {
+    const fs::path whole = fs::absolute(path, failure);
+    return failure ? fs::path() : fs::weakly_canonical(whole, failure);
+}
+
 }  // namespace
 
 Done fenceFiles(const std::vector<std::string>& roots, const std::string& own) {
@@ -54,8 +58,7 @@ Done fenceFiles(const std::vector<std::string>& roots, const std::string& own) {
 Done checkMayRead(const std::string& path) {
     if (fencedRoots.empty()) return done();
     std::error_code failure;
-    const fs::path whole = fs::absolute(path, failure);
-    const fs::path full = failure ? fs::path() : fs::weakly_canonical(whole, failure);
+    const fs::path full = resolved(path, failure);
     if (failure || !isInside(full.string())) return outside(path);
     return done();
 }
@@ -74,8 +77,7 @@ Done checkFenced(int descriptor, const std::string& path) {
 Done checkMayWrite(const std::string& path) {
     if (fencedRoots.empty()) return done();
     std::error_code failure;
-    const fs::path whole = fs::absolute(path, failure);
-    const fs::path full = failure ? fs::path() : fs::weakly_canonical(whole, failure);
+    const fs::path full = resolved(path, failure);
     const std::string folder = full.parent_path().string();
     if (failure) return Error{.message = "cannot be looked up: " + failure.message(), .file = path};
     if (!isInside(folder) && !(fencedCaches.size() > 1 && isBelow(folder, fencedCaches)))

@@ -71,6 +71,27 @@ Lowered unchanged(const NodeAt& at, const NodeInput& from) {
     return result;
 }
 
+Lowered loweredAs(GraphLowering& lowering, const NodeAt& at, const NodeInput& from,
+                  const Measured& measured) {
+    if (measured.failed) return lowering.failure(at.type.outputs);
+    return measured.distance ? surfaceOf(at, from, *measured.distance) : unchanged(at, from);
+}
+
+/// The inputs of a node that measures its first one: samples along the grid's longest side, and a length.
+struct Asked {
+    std::vector<NodeInput> inputs;
+    int resolution;
+    double length;
+};
+std::optional<Asked> askedOf(GraphLowering& lowering, const NodeAt& at, const std::string& length) {
+    auto inputs = lowering.inputs(at);
+    if (!inputs) return std::nullopt;
+    const auto resolution = lowering.knownNumber(at, *inputs, "resolution");
+    const auto known = lowering.knownNumber(at, *inputs, length);
+    if (!resolution || !known) return std::nullopt;
+    return Asked{std::move(*inputs), int(*resolution), *known};
+}
+
 /// Of the solid `distance`, whose distances are true, what a ball of this radius can reach within it: an
 /// opening; with `sign` -1 of what is not the solid. What it gives is true for so many metres around the
 /// shrunk solid.
@@ -87,38 +108,33 @@ Measured opened(GraphLowering& lowering, const NodeAt& at, IrId distance, double
 }  // namespace
 
 Lowered lowerTrueDistance(GraphLowering& lowering, const NodeAt& at) {
-    const auto inputs = lowering.inputs(at);
-    if (!inputs) return lowering.failure(at.type.outputs);
-    const NodeInput& from = inputs->front();
-    const auto resolution = lowering.knownNumber(at, *inputs, "resolution");
-    const auto margin = lowering.knownNumber(at, *inputs, "margin");
-    if (!resolution || !margin) return lowering.failure(at.type.outputs);
+    const std::optional<Asked> asked = askedOf(lowering, at, "margin");
+    if (!asked) return lowering.failure(at.type.outputs);
+    const auto& [inputs, resolution, margin] = *asked;
+    const NodeInput& from = inputs.front();
     if (!from.from || from.exactness.exact()) return unchanged(at, from);
     const Measured found = measured(lowering, at, from.value.ids[distanceComponent], from.exactness.lipschitz,
-                                    int(*resolution), *margin);
-    if (found.failed) return lowering.failure(at.type.outputs);
-    return found.distance ? surfaceOf(at, from, *found.distance) : unchanged(at, from);
+                                    resolution, margin);
+    return loweredAs(lowering, at, from, found);
 }
 
 Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at) {
-    const auto inputs = lowering.inputs(at);
-    if (!inputs) return lowering.failure(at.type.outputs);
-    const NodeInput& from = inputs->front();
-    const auto resolution = lowering.knownNumber(at, *inputs, "resolution");
-    const auto radius = lowering.knownNumber(at, *inputs, "radius");
-    if (!resolution || !radius) return lowering.failure(at.type.outputs);
-    if (!from.from || *radius == 0.0) return unchanged(at, from);
-    const std::string& edges = inputOf(*inputs, "edges").text;
+    const std::optional<Asked> asked = askedOf(lowering, at, "radius");
+    if (!asked) return lowering.failure(at.type.outputs);
+    const auto& [inputs, resolution, radius] = *asked;
+    const NodeInput& from = inputs.front();
+    if (!from.from || radius == 0.0) return unchanged(at, from);
+    const std::string& edges = inputOf(inputs, "edges").text;
     Measured now{from.value.ids[distanceComponent]};
     const bool fine =
         edges == "outer" ? from.exactness.inside && from.exactness.bound() : from.exactness.exact();
     if (!fine && !lowering.gridded.contains(from.from->spoiledBy))
-        now = measured(lowering, at, *now.distance, from.exactness.lipschitz, int(*resolution),
-                       edges == "outer" ? 0.0 : 1.5 * *radius);
+        now = measured(lowering, at, *now.distance, from.exactness.lipschitz, resolution,
+                       edges == "outer" ? 0.0 : 1.5 * radius);
     if (now.distance && edges != "inner") {
-        now = opened(lowering, at, *now.distance, 1.0, *radius, int(*resolution),
-                     (edges == "all" ? 2.5 : 1.25) * *radius);
-        if (!now.failed && !now.distance && lowering.options.finest >= *resolution) {
+        now = opened(lowering, at, *now.distance, 1.0, radius, resolution,
+                     (edges == "all" ? 2.5 : 1.25) * radius);
+        if (!now.failed && !now.distance && lowering.options.finest >= resolution) {
             lowering.report(at, "radius",
                             {.message = "leaves nothing of the solid, which is nowhere as thick as twice the "
                                         "radius: take a smaller one"});
@@ -126,23 +142,19 @@ Lowered lowerRoundEdges(GraphLowering& lowering, const NodeAt& at) {
         }
     }
     if (now.distance && edges != "outer")
-        now = opened(lowering, at, *now.distance, -1.0, *radius, int(*resolution), 0.0);
-    if (now.failed) return lowering.failure(at.type.outputs);
-    return now.distance ? surfaceOf(at, from, *now.distance) : unchanged(at, from);
+        now = opened(lowering, at, *now.distance, -1.0, radius, resolution, 0.0);
+    return loweredAs(lowering, at, from, now);
 }
 
 Lowered lowerChamferEdges(GraphLowering& lowering, const NodeAt& at) {
-    const auto inputs = lowering.inputs(at);
-    if (!inputs) return lowering.failure(at.type.outputs);
-    const NodeInput& from = inputs->front();
-    const auto resolution = lowering.knownNumber(at, *inputs, "resolution");
-    const auto size = lowering.knownNumber(at, *inputs, "size");
-    if (!resolution || !size) return lowering.failure(at.type.outputs);
-    if (!from.from || *size == 0.0) return unchanged(at, from);
+    const std::optional<Asked> asked = askedOf(lowering, at, "size");
+    if (!asked) return lowering.failure(at.type.outputs);
+    const auto& [inputs, resolution, size] = *asked;
+    const NodeInput& from = inputs.front();
+    if (!from.from || size == 0.0) return unchanged(at, from);
     const Measured now = measured(lowering, at, from.value.ids[distanceComponent], from.exactness.lipschitz,
-                                  int(*resolution), 0.0, *size);
-    if (now.failed) return lowering.failure(at.type.outputs);
-    return now.distance ? surfaceOf(at, from, *now.distance) : unchanged(at, from);
+                                  resolution, 0.0, size);
+    return loweredAs(lowering, at, from, now);
 }
 
 Lowered lowerOffset(GraphLowering& lowering, const NodeAt& at) {

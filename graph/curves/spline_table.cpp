@@ -10,8 +10,8 @@
 #include <span>
 #include <utility>
 
+#include "graph/base/grown_cells.h"
 #include "graph/base/hash.h"
-#include "graph/base/parallel.h"
 
 namespace fw {
 
@@ -204,34 +204,20 @@ class TableMaker {
         glm::ivec3 at;
         std::vector<uint32_t> near;
     };
-    /// All cells of a level, by all processors, in an order that does not depend on them.
     void cellsOfLevel(int level, int side, const std::vector<uint32_t>& arcs) {
-        std::vector<Part> parts = {{{0, 0, 0}, side, arcs}};
-        for (int round = 0; round < kSplittings && side > 1; ++round, side /= 2) {
-            std::vector<Part> eighths;
-            for (const Part& part : parts)
-                split(level, part, [&](Part eighth) { eighths.push_back(std::move(eighth)); });
-            parts = std::move(eighths);
-        }
-        std::vector<std::vector<Leaf>> leaves(parts.size());
-        forBlocks(parts.size(), 1,
-                  [&](std::size_t i, std::size_t, std::size_t) { grow(level, parts[i], leaves[i]); });
-        for (const std::vector<Leaf>& some : leaves)
-            for (const Leaf& leaf : some) add(level, leaf.at, leaf.near);
-    }
-    template <class Take>
-    void split(int level, const Part& part, const Take& take) const {
-        const std::vector<uint32_t> near = nearIn(level, part);
-        const int half = part.side / 2;
-        if (near.empty()) return;
-        for (int k = 0; k < 8; ++k)
-            take(Part{part.at + half * glm::ivec3(k & 1, k >> 1 & 1, k >> 2), half, near});
-    }
-    void grow(int level, const Part& part, std::vector<Leaf>& leaves) const {
-        if (part.side > 1)
-            return split(level, part, [&](const Part& eighth) { grow(level, eighth, leaves); });
-        if (std::vector<uint32_t> near = nearIn(level, part); !near.empty())
-            leaves.push_back({part.at, std::move(near)});
+        const auto split = [&](const Part& part, const auto& take) {
+            const std::vector<uint32_t> near = nearIn(level, part);
+            const int half = part.side / 2;
+            if (near.empty()) return;
+            for (int k = 0; k < 8; ++k)
+                take(Part{part.at + half * glm::ivec3(k & 1, k >> 1 & 1, k >> 2), half, near});
+        };
+        const auto grow = [&](const Part& part, std::vector<Leaf>& leaves) {
+            if (std::vector<uint32_t> near = nearIn(level, part); !near.empty())
+                leaves.push_back({part.at, std::move(near)});
+        };
+        for (const Leaf& leaf : grownCells<Leaf>(Part{{0, 0, 0}, side, arcs}, kSplittings, split, grow))
+            add(level, leaf.at, leaf.near);
     }
     Cube cubeOf(int level, const glm::ivec3& at, int side) const {
         const glm::dvec3 size = sizeAt(table, level);

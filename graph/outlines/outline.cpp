@@ -11,8 +11,8 @@
 #include <numeric>
 #include <utility>
 
+#include "graph/base/grown_cells.h"
 #include "graph/base/hash.h"
-#include "graph/base/parallel.h"
 
 namespace fw {
 
@@ -162,20 +162,11 @@ class Maker {
         glm::dvec2 place;
     };
 
-    /// All cells of a level, by all processors, in an order that does not depend on them.
     void cellsOfLevel(int level, int side, const std::vector<uint32_t>& arcs) {
-        std::vector<Part> parts = {{0, 0, side, arcs}};
-        for (int round = 0; round < kSplittings && side > 1; ++round, side /= 2) {
-            std::vector<Part> quarters;
-            for (const Part& part : parts)
-                split(level, part, [&](Part quarter) { quarters.push_back(std::move(quarter)); });
-            parts = std::move(quarters);
-        }
-        std::vector<std::vector<Leaf>> leaves(parts.size());
-        forBlocks(parts.size(), 1,
-                  [&](std::size_t i, std::size_t, std::size_t) { grow(level, parts[i], leaves[i]); });
-        for (const std::vector<Leaf>& some : leaves)
-            for (const Leaf& leaf : some) add(level, leaf);
+        const auto splits = [&](const Part& part, const auto& take) { split(level, part, take); };
+        const auto grows = [&](const Part& part, std::vector<Leaf>& leaves) { grow(level, part, leaves); };
+        for (const Leaf& leaf : grownCells<Leaf>(Part{0, 0, side, arcs}, kSplittings, splits, grows))
+            add(level, leaf);
     }
     template <class Take>
     void split(int level, const Part& part, const Take& take) const {
@@ -193,8 +184,6 @@ class Maker {
             for (const int dx : {0, half}) take(Part{part.x + dx, part.y + dy, half, near});
     }
     void grow(int level, const Part& part, std::vector<Leaf>& leaves) const {
-        if (part.side > 1)
-            return split(level, part, [&](const Part& quarter) { grow(level, quarter, leaves); });
         if (part.x >= cellsOf(outline, level) || part.y >= rowsOf(outline, level)) return;
         const Square own = squareOf(level, part);
         Leaf leaf{part.x, part.y, nearestOf(part.arcs, own), 0, {}};

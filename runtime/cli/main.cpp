@@ -13,6 +13,7 @@
 #include <map>
 #include <new>
 
+#include "graph/base/own_files.h"
 #include "graph/base/words.h"
 #include "graph/document/timeline.h"
 #include "graph/library/node_type.h"
@@ -163,8 +164,7 @@ void addQuality(CLI::App* command, FieldBy& quality) {
 
 /// The benchmarks are a program of their own, beside this one. Returns only if it cannot be started.
 int becomeBench(char** arguments) {
-    const std::string program =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fieldwright-bench";
+    const std::string program = programFolder() / "fieldwright-bench";
     arguments[0] = const_cast<char*>(program.c_str());
     execv(program.c_str(), arguments);
     std::fprintf(stderr,

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "graph/base/own_files.h"
 #include "runtime/play/player.h"
 #include "tests/bench/command.h"
 #include "tests/bench/tables.h"
@@ -37,9 +38,7 @@ class Child {
         int in[2], out[2];
         if (pipe2(in, O_CLOEXEC) != 0 || pipe2(out, O_CLOEXEC) != 0)
             throw SystemError("making a pipe failed");
-        std::vector<std::string> words = {
-            std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fieldwright", "serve", "--root",
-            root};
+        std::vector<std::string> words = {programFolder() / "fieldwright", "serve", "--root", root};
         if (!device.empty()) words.insert(words.end(), {"--device", device});
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
