@@ -152,12 +152,13 @@ std::map<int, std::unique_ptr<Client::Served>>::iterator Client::named(Request& 
 }
 
 Client::Served* Client::add(const Request& request) {
-    if (documents.size() + closing.size() >= kMostDocuments) {
+    if (open >= kMostDocuments) {
         answer(request,
                Fault(kTooMuch, "at most " + std::to_string(kMostDocuments) +
                                    " documents are open at once: close one, and wait for its answer"));
         return nullptr;
     }
+    ++open;
     return documents.emplace(++lastNumber, std::make_unique<Served>(openDevice)).first->second.get();
 }
 
@@ -177,7 +178,7 @@ void Client::queue(Served& served, Request request, Document::Method method, std
     served.queue.add([this, &served, task, method, opens, lasts] {
         Answer made = work(served, method, *task);
         const bool failed = std::holds_alternative<Fault>(made);
-        if ((opens && failed) || !lasts) served.over = true;
+        if ((opens && failed) || !lasts) leave(served);
         if (Reply* reply = std::get_if<Reply>(&made)) {
             std::size_t bytes = 0;
             for (const Blob& blob : reply->blobs) bytes += blob.bytes.size();
@@ -211,9 +212,14 @@ void Client::close(Request request) {
     documents.erase(found);
     served.queue.add([this, &served, request = std::move(request)] {
         served.document.reset();  // before the answer: whoever has it knows that the memory is free
+        leave(served);
         answer(request, Reply{});
     });
     served.queue.finish();
+}
+
+void Client::leave(Served& served) {
+    if (!served.over.exchange(true)) --open;
 }
 
 void Client::cancel(const Request& request) {

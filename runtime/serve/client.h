@@ -31,7 +31,7 @@ class Client {
     struct Served {
         explicit Served(const OpenDevice& openDevice) : document(std::in_place, openDevice) {}
         std::optional<Document> document;
-        std::atomic<bool> over = false;  ///< it could not be opened, or was for one request alone
+        std::atomic<bool> over = false;  ///< closed, could not be opened, or was for one request alone
         Queue queue;                     // last: its work refers to the others
     };
 
@@ -47,6 +47,9 @@ class Client {
     std::map<int, std::unique_ptr<Served>>::iterator named(Request& request);
     /// A new one; null, and the request is answered, if there are too many.
     Served* add(const Request& request);
+    /// It counts no longer among those that are open. For the document's thread, before the answer that says
+    /// so.
+    void leave(Served& served);
     void forgetEnded();
 
     Wire& wire;
@@ -55,7 +58,8 @@ class Client {
     bool ends = false;
     int lastNumber = 0;
     std::map<int, std::unique_ptr<Served>> documents;  ///< by handle
-    std::vector<std::unique_ptr<Served>> closing;
+    std::vector<std::unique_ptr<Served>> closing;      ///< with work left, or a thread that ends
+    std::atomic<std::size_t> open = 0;                 ///< of both, those that did not leave()
     std::mutex mutex;
     std::vector<TaskPtr> tasks;    ///< without an answer
     std::size_t waitingBytes = 0;  ///< of their blobs

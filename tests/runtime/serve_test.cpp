@@ -495,8 +495,13 @@ TEST_F(Serve, HoldsNoMoreDocumentsThanItSays) {
     std::vector<int> open;
     for (int i = 0; i < most; ++i) open.push_back(server.client.open("ball.field.json"));
     EXPECT_EQ(server.client.ask("open", {{"path", "ball.field.json"}}).code(), -32002);
-    EXPECT_FALSE(server.client.ask("close", {{"document", open[3]}}).failed());
-    EXPECT_GT(server.client.open("ball.field.json"), 0);
+    // Whoever has the answer has the room, however the threads of the two take turns.
+    for (int i = 0; i < 200; ++i) {
+        EXPECT_FALSE(server.client.ask("close", {{"document", open[i % most]}}).failed());
+        EXPECT_EQ(server.client.ask("open", {{"path", "none.field.json"}}).code(), -32000);
+        open[i % most] = server.client.open("ball.field.json");
+        ASSERT_GT(open[i % most], 0);
+    }
 }
 
 TEST_F(Serve, ManyDocumentsLeaveNothingBehind) {
