@@ -9,7 +9,7 @@
 #include "editor/editor.h"
 #include "editor/files/arrangement.h"
 #include "editor/shell/loss.h"
-#include "runtime/cli/pages.h"
+#include "runtime/cli/options/pages.h"
 #include "runtime/gpu/driver_cache.h"
 #include "runtime/gpu/drivers.h"
 #include "runtime/system/output_file.h"

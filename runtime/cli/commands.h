@@ -1,4 +1,4 @@
-// The commands of `fieldwright`: one struct of options and one function each. main.cpp reads the options.
+// The commands of `fieldwright`: one struct of options and one function each. options/ has their words.
 //
 // Exit status: 0 done, 1 the input is at fault, 2 usage, 3 the device or system failed, 130 ended by
 // Ctrl-C and 143 by SIGTERM (runtime/system/interruption.h). Standard output carries results only; messages
@@ -141,8 +141,11 @@ struct ImportOptions {
 };
 int runImport(const ImportOptions& options);
 
-/// `json`: as a list of objects, in place of a line each.
-int runParameters(const std::string& path, bool json);
+struct ParametersOptions {
+    std::string path;
+    bool json = false;  ///< a list of objects, in place of a line each
+};
+int runParameters(const ParametersOptions& options);
 
 int runCheck(const std::vector<std::string>& paths);
 

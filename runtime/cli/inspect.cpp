@@ -102,10 +102,10 @@ nlohmann::ordered_json parametersJson(const Graph& graph) {
 
 }  // namespace
 
-int runParameters(const std::string& path, bool json) {
-    const std::optional<Graph> graph = openGraph({path, {}, 0.0});
+int runParameters(const ParametersOptions& options) {
+    const std::optional<Graph> graph = openGraph({options.path, {}, 0.0});
     if (!graph) return kBadInput;
-    if (json) return std::puts(parametersJson(*graph).dump(2).c_str()), kDone;
+    if (options.json) return std::puts(parametersJson(*graph).dump(2).c_str()), kDone;
     for (const NamedParameter& parameter : namedParameters(*graph)) {
         std::string value, range;
         if (const Node* node = graph->node(parameter.node))

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 
+#include "graph/base/own_files.h"
 #include "runtime/cli/commands.h"
 #include "runtime/jobs/openjd.h"
 #include "runtime/jobs/parallel.h"
@@ -32,7 +33,7 @@ std::vector<std::string> jobEngines() {
 int runJob(const JobOptions& options, const TypedCommand& command, const JobWork& work) {
     Result<Job> job = planJob(command, work, options.sharing, options.folder);
     if (!job) return std::fprintf(stderr, "fieldwright job: %s\n", job.error().message.c_str()), kBadUsage;
-    job->program = options.program.empty() ? fs::read_symlink("/proc/self/exe").string() : options.program;
+    job->program = options.program.empty() ? (programFolder() / "fieldwright").string() : options.program;
     std::error_code failure;
     const bool fresh = !fs::exists(options.folder, failure);
     fs::create_directories(options.folder + (!work.one && work.parts > 1 ? "/parts" : ""), failure);

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 
+#include "graph/base/own_files.h"
 #include "graph/base/result.h"
 #include "runtime/gpu/device.h"
 #include "runtime/system/clock.h"
@@ -17,8 +18,7 @@ extern char** environ;
 namespace fw::bench {
 
 Outcome runCommand(std::vector<std::string> arguments, const std::string& cache) {
-    arguments.insert(arguments.begin(),
-                     std::filesystem::read_symlink("/proc/self/exe").parent_path() / "fieldwright");
+    arguments.insert(arguments.begin(), programFolder() / "fieldwright");
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);

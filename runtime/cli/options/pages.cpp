@@ -1,4 +1,4 @@
-#include "runtime/cli/pages.h"
+#include "runtime/cli/options/pages.h"
 
 #include <cstdio>
 #include <string>

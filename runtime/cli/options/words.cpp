@@ -1,4 +1,4 @@
-#include "runtime/cli/option_words.h"
+#include "runtime/cli/options/words.h"
 
 #include <cmath>
 
