@@ -254,10 +254,8 @@ Mesh downloadMesh(const Device& device, const MesherBuffers& buffers, const Mesh
     resizeInLargePages(mesh.normals, result.vertices);
     constexpr std::size_t kBlock = 16384;
     forBlocks(result.vertices, kBlock, [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            mesh.positions[i] = packed[i].position;
-            mesh.normals[i] = unpackOctahedral(packed[i].normal);
-        }
+        for (std::size_t i = first; i < last; ++i) mesh.positions[i] = packed[i].position;
+        unpackNormals(packed.subspan(first, last - first), std::span(mesh.normals).subspan(first));
     });
     beside.get();
     return mesh;

@@ -551,4 +551,16 @@ void main() {
     }
 }
 
+TEST(Octahedral, ManyAreWhatOneIs) {
+    std::mt19937 random(6);
+    std::vector<gpu::MeshVertex> vertices(1001);
+    for (gpu::MeshVertex& vertex : vertices) vertex.normal = uint32_t(random());
+    const uint32_t corners[] = {0, 0x8000, 0x80008000, 0x7fff7fff, 0x80017fff, 0x80000000, 0xffff};
+    for (std::size_t i = 0; i < std::size(corners); ++i) vertices[i].normal = corners[i];
+    std::vector<glm::vec3> normals(vertices.size());
+    unpackNormals(vertices, normals);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        EXPECT_EQ(normals[i], unpackOctahedral(vertices[i].normal));
+}
+
 }  // namespace fw::mesher_test
