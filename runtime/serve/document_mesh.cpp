@@ -6,6 +6,7 @@
 #include "runtime/export/outputs.h"
 #include "runtime/files/mesh_wish.h"
 #include "runtime/measure/field_measure.h"
+#include "runtime/mesh/edges.h"
 #include "runtime/play/mesh_program.h"
 #include "runtime/serve/document.h"
 
@@ -49,6 +50,12 @@ std::optional<int> texturesOf(Params& params) {
     return size == 0 ? std::nullopt : std::optional(size);
 }
 
+/// What the blobs of an answer refer to.
+struct Made {
+    Mesh mesh;
+    Edges edges;
+};
+
 /// The mesh's arrays as blobs, and of its pictures, if it has some.
 void addBlobs(Reply& reply, const Mesh& mesh, bool normals, bool colors) {
     const std::size_t n = mesh.positions.size();
@@ -74,7 +81,7 @@ void addBlobs(Reply& reply, const Mesh& mesh, bool normals, bool colors) {
 
 Answer Document::mesh(Params& params, Task& task) {
     const bool normals = params.flag("normals", true), colors = params.flag("colors", true);
-    const bool materials = params.flag("materials", false);
+    const bool materials = params.flag("materials", false), edges = params.flag("edges", false);
     const MeshWish wish = {.textures = texturesOf(params)};
     if (std::optional<Fault> fault = playAs(params, task)) return *fault;
     if (task.cancelled) return cancelledFault();
@@ -89,9 +96,11 @@ Answer Document::mesh(Params& params, Task& task) {
         if (task.cancelled) return cancelledFault();
         if (!made) return Fault(made.error());
     }
-    const auto mesh = std::make_shared<const Mesh>(std::move(*made));
+    const auto kept = std::make_shared<Made>(Made{std::move(*made), {}});
+    const Mesh* const mesh = &kept->mesh;
+    if (edges) kept->edges = edgesOf(mesh->indices, mesh->positions.size());
     Reply reply;
-    reply.keeps = mesh;
+    reply.keeps = kept;
     reply.result = {{"vertices", mesh->positions.size()},
                     {"triangles", mesh->triangleCount()},
                     {"resolution", player->resolution()},
@@ -104,6 +113,11 @@ Answer Document::mesh(Params& params, Task& task) {
     if (const std::optional<Error> coarser = player->coarser()) notes.push_back(*coarser);
     if (!notes.empty()) reply.result["notes"] = findingsJson(notes);
     addBlobs(reply, *mesh, normals, colors);
+    if (edges) {
+        reply.blobs.push_back({"edges", "u32", {kept->edges.ends.size(), 2}, bytesOf(kept->edges.ends)});
+        reply.blobs.push_back(
+            {"triangle_edges", "u32", {mesh->triangleCount(), 3}, bytesOf(kept->edges.ofCorner)});
+    }
     return reply;
 }
 

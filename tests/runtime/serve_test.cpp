@@ -77,6 +77,29 @@ TEST_F(Serve, MeshesWhatIsSet) {
     EXPECT_TRUE(client.progress[0].json.at("params").at("part").is_string());
 }
 
+TEST_F(Serve, GivesEdgesEachOnce) {
+    ServerProcess server({}, folder.folder.string());
+    const int ball = server.client.open("ball.field.json");
+    const ServerMessage mesh = server.client.ask("mesh", {{"document", ball}, {"edges", true}});
+    ASSERT_FALSE(mesh.failed()) << mesh.json.dump();
+    const auto indices = valuesOf<uint32_t>(mesh.blobs.at("indices"));
+    const auto edges = valuesOf<uint32_t>(mesh.blobs.at("edges"));
+    const auto sides = valuesOf<uint32_t>(mesh.blobs.at("triangle_edges"));
+    ASSERT_EQ(sides.size(), indices.size());
+    EXPECT_EQ(edges.size(), indices.size()) << "of a closed solid two triangles share each";
+    std::set<std::pair<uint32_t, uint32_t>> once;
+    for (std::size_t i = 0; i < edges.size(); i += 2) {
+        EXPECT_LT(edges[i], edges[i + 1]);
+        EXPECT_TRUE(once.emplace(edges[i], edges[i + 1]).second);
+    }
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const auto [lower, upper] = std::minmax(indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]);
+        ASSERT_LT(sides[i], edges.size() / 2);
+        EXPECT_EQ(edges[2 * sides[i]], lower);
+        EXPECT_EQ(edges[2 * sides[i] + 1], upper);
+    }
+}
+
 TEST_F(Serve, TellsParametersAndChecks) {
     ServerProcess server({}, folder.folder.string());
     ServerClient& client = server.client;
@@ -280,7 +303,7 @@ TEST_F(Serve, SaysWhatItsSchemaSays) {
     ask("time", {{"document", ball}, {"seconds", 2}});
     ask("check", {{"document", ball}});
     ask("check", {{"graph", R"({"fieldwright": 1, "nodes": [{"id": "a", "type": "spere"}]})"}});
-    ask("mesh", {{"document", ball}, {"materials", true}});
+    ask("mesh", {{"document", ball}, {"materials", true}, {"edges", true}});
     const ServerMessage textured = ask("mesh", {{"document", ball}, {"textures", 64}});
     EXPECT_EQ(textured.blobs.at("normal").size(), 64u * 64 * 3);
     ask("picture", {{"document", ball}, {"width", 32}, {"height", 32}});

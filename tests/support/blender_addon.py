@@ -1,77 +1,17 @@
-# Drives the add-on in a Blender without its window, as a person would, and prints "all is well" if all is.
-#     blender --background --factory-startup --python-exit-code 1 --python blender_addon.py -- ZIP PROGRAM FOLDER
+# Drives the add-on in a Blender without its window, as a person would, and prints "all is well" if all is (blender_scene.py).
 import os
-import signal
 import sys
 import time
 
-import bmesh
 import bpy
 
-zipped, program, folder = sys.argv[sys.argv.index("--") + 1:]
-
-BALL = """{"fieldwright": 1, "unit": "cm", "nodes": [
-  {"id": "ball", "type": "sphere", "inputs": {"radius": 10}},
-  {"id": "red", "type": "material", "label": "Red", "inputs": {"surface": {"from": "ball"}, "base_color": [0.8, 0.1, 0.05], "roughness": 0.3}},
-  {"id": "box", "type": "box", "inputs": {"half_extents": [3, 8, 4]}},
-  {"id": "right", "type": "translate", "inputs": {"surface": {"from": "box"}, "offset": [40, 0, 0]}},
-  {"id": "metal", "type": "material", "inputs": {"surface": {"from": "right"}, "metallic": 1}},
-  {"id": "both", "type": "union", "inputs": {"a": {"from": "red"}, "b": {"from": "metal"}}},
-  {"id": "out", "type": "output", "inputs": {"surface": {"from": "both"}, "resolution": 48}}],
- "parameters": [{"name": "radius", "node": "ball", "input": "radius", "min": 5, "max": 15},
-                {"name": "size", "node": "box", "input": "half_extents"}]}"""
-MOVING = """{"fieldwright": 1, "nodes": [
-  {"id": "ball", "type": "sphere", "inputs": {"radius": 0.5}},
-  {"id": "up", "type": "translate", "inputs": {"surface": {"from": "ball"}}},
-  {"id": "out", "type": "output", "inputs": {"surface": {"from": "up"}, "resolution": 24}}],
- "timeline": {"length": 2, "fps": 24, "tracks": [
-  {"node": "up", "input": "offset", "keys": [{"time": 0, "value": [0, 0, 0]}, {"time": 2, "value": [0, 4, 0]}]}]}}"""
-
-
-def path(name):
-    return os.path.join(folder, name)
-
-
-def write(name, text):
-    with open(path(name), "w", encoding="utf-8") as file:
-        file.write(text)
-
-
-def volume(thing):
-    mesh = bmesh.new()
-    mesh.from_mesh(thing.data)
-    size = mesh.calc_volume(signed=True)
-    mesh.free()
-    return size
-
-
-def near(value, wanted, part=0.03):
-    assert abs(value - wanted) <= part * abs(wanted) + 1e-9, (value, wanted)
-
-
-def ball(radius):
-    return 4 / 3 * 3.14159265 * radius**3
-
-
-def add(name):
-    bpy.ops.import_mesh.fieldwright(filepath=path(name))
-    return bpy.context.object
-
-
-bpy.ops.preferences.addon_install(filepath=zipped, overwrite=True)
-bpy.ops.preferences.addon_enable(module="fieldwright")
-import fieldwright
-
-preferences = bpy.context.preferences.addons["fieldwright"].preferences
-preferences.program = program
-write("ball.field.json", BALL)
-write("moving.field.json", MOVING)
+sys.path.insert(0, os.path.dirname(__file__))
+from blender_scene import BALL, BOX, add, addon, ball, height, kill_server, near, path, preferences, program, volume, write
 
 # Import: the solid, in metres and with Blender's up; its colours and materials.
 thing = add("ball.field.json")
 own = thing.fieldwright
 assert not own.error, own.error
-BOX = 8 * 0.03 * 0.08 * 0.04
 near(volume(thing), ball(0.1) + BOX)
 near(thing.dimensions.z, 0.2)
 assert [slot.name for slot in thing.data.materials][0].startswith("Red"), list(thing.data.materials)
@@ -88,10 +28,16 @@ assert not own.error, own.error
 near(volume(thing), ball(0.12) + BOX)
 own.parameters["radius"].number = 99
 near(volume(thing), ball(0.15) + BOX)
+assert own.parameters["radius"].number == 15
 own.parameters["size"].triple = (6, 8, 4)
 near(volume(thing), ball(0.15) + 2 * BOX)
+before = len(thing.data.polygons)
 own.resolution = 64
 near(volume(thing), ball(0.15) + 2 * BOX)
+assert len(thing.data.polygons) > 1.5 * before
+own.resolution = 0
+assert len(thing.data.polygons) == before
+own.resolution = 64
 
 # How long a change takes, for whoever reads the log.
 times = []
@@ -102,9 +48,7 @@ for step in range(10):
 print(f"a parameter to the object: {sorted(times)[5]:.1f} ms, {len(thing.data.polygons)} triangles")
 
 # The server is killed: the next change starts another, with the values that were set.
-server = fieldwright.graphs[own.key].server
-os.kill(server.child.pid, signal.SIGKILL)
-server.child.wait()
+kill_server(thing)
 own.parameters["radius"].number = 10
 assert not own.error, own.error
 near(volume(thing), ball(0.1) + 2 * BOX)
@@ -117,11 +61,11 @@ near(volume(thing), ball(0.1) + 2 * BOX)
 write("ball.field.json", BALL)
 bpy.ops.object.fieldwright_reload()
 assert not own.error and own.parameters["radius"].number == 10, own.error
-preferences.program = "/nothing/fieldwright"
+preferences().program = "/nothing/fieldwright"
 lost = add("ball.field.json")
 assert "there is no program" in lost.fieldwright.error, lost.fieldwright.error
 bpy.data.objects.remove(lost)
-preferences.program = program
+preferences().program = program
 
 # The timeline follows the frame, from the cache the second time.
 moving = add("moving.field.json")
@@ -132,7 +76,7 @@ for again in range(2):
     for frame in (1, 13, 25):
         scene.frame_set(frame)
         assert not moving.fieldwright.error, moving.fieldwright.error
-        heights[frame, again] = sum(vertex.co.z for vertex in moving.data.vertices) / len(moving.data.vertices)
+        heights[frame, again] = height(moving)
 assert abs(heights[1, 0]) < 0.02 and abs(heights[13, 0] - 1) < 0.05 and abs(heights[25, 0] - 2) < 0.05, heights
 assert all(heights[frame, 0] == heights[frame, 1] for frame in (1, 13, 25))
 bpy.context.view_layer.objects.active = moving
@@ -171,9 +115,9 @@ assert not thing.fieldwright.error, thing.fieldwright.error
 near(volume(thing), ball(0.08) + 2 * BOX, 0.05)
 
 # Removed: no child is left, and Blender knows nothing of it.
-children = [each.child.pid for each in fieldwright.server.Graph.servers.values() if each.child]
+children = [each.child.pid for each in addon.driven.server.Graph.servers.values() if each.child]
 assert children
-bpy.ops.preferences.addon_disable(module="fieldwright")
+bpy.ops.preferences.addon_disable(module=addon.__name__)
 assert not hasattr(bpy.types.Object, "fieldwright")
 for pid in children:
     assert not os.path.exists(f"/proc/{pid}"), "a child is left"

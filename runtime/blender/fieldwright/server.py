@@ -3,11 +3,14 @@
 Messages are those of docs/server.md. A child that has died is started again at the next request, with the documents that
 were open; what fails twice is a ServerError, which a person can read.
 """
+import ctypes
 import json
 import os
 import shutil
+import socket
 import subprocess
 import tempfile
+from collections import OrderedDict
 
 
 class ServerError(Exception):
@@ -35,42 +38,54 @@ def find_program(wished=""):
 
 
 class Server:
-    """A child that serves one folder."""
+    """A child that serves one folder. It has only so many documents open: the one that was not asked for longest makes room."""
 
     def __init__(self, program, root):
         self.program, self.root = program, root
-        self.child = self.errors = None
+        self.child = self.requests = self.errors = None
         self.last = 0
+        self.buffer = bytearray()  # of blobs, used again and again: fresh memory would cost more than what is read into it
+        self.most = 1
+        self.opened = OrderedDict()  # Graphs that have a document here, the one asked last at the end
 
     def start(self):
         self.stop()
         self.errors = tempfile.TemporaryFile()
+        # No pipe: one whose reader is gone would end Blender, which does not always ignore SIGPIPE.
+        self.requests, theirs = socket.socketpair()
         try:
-            self.child = subprocess.Popen([self.program, "serve", "--root", self.root], stdin=subprocess.PIPE,
-                                          stdout=subprocess.PIPE, stderr=self.errors, cwd=self.root)
+            with theirs:
+                self.child = subprocess.Popen([self.program, "serve", "--root", self.root], stdin=theirs,
+                                              stdout=subprocess.PIPE, stderr=self.errors, cwd=self.root)
         except OSError as error:
-            raise ServerError(f"'{self.program}' cannot be started: {error.strerror}") from None
+            self.stop()
+            raise ServerError(f"'{self.program}' cannot be started in '{self.root}': {error.strerror}") from None
+        try:
+            self.most = self.ask("version")[0]["limits"]["documents"]
+        except (KeyError, TypeError):
+            self.stop()
+            raise ServerError(f"'{self.program}' is not the command fieldwright: give its path in the add-on's "
+                              "preferences") from None
 
     def stop(self):
+        self.opened.clear()
         if self.child:
-            self.child.stdin.close()
-            self.child.stdout.close()
             self.child.kill()
             self.child.wait()
-        if self.errors:
-            self.errors.close()
-        self.child = self.errors = None
+            self.child.stdout.close()
+        for each in filter(None, (self.requests, self.errors)):
+            each.close()
+        self.child = self.requests = self.errors = None
 
     def alive(self):
         return self.child is not None and self.child.poll() is None
 
     def ask(self, method, **params):
-        """The result of a request, and its blobs by name."""
+        """The result of a request, and its blobs by name, until the next request."""
         self.last += 1
         message = {"jsonrpc": "2.0", "id": self.last, "method": method, "params": params}
         try:
-            self.child.stdin.write(json.dumps(message).encode() + b"\n")
-            self.child.stdin.flush()
+            self.requests.sendall(json.dumps(message).encode() + b"\n", socket.MSG_NOSIGNAL)
             while True:
                 line = self.child.stdout.readline()
                 if not line:
@@ -78,34 +93,64 @@ class Server:
                 answer = json.loads(line)
                 if answer.get("id") == self.last:
                     break
-            blobs = {blob["name"]: self.child.stdout.read(blob["bytes"])
-                     for blob in answer.get("result", {}).get("blobs", ())}
-        except (OSError, ValueError):
+            blobs = self.read(answer.get("result", {}).get("blobs", ()))
+        except (OSError, ValueError, AttributeError):  # gone, or it does not speak as it should
             raise ServerError(self.why_gone()) from None
         if "error" in answer:
             raise ServerError(answer["error"]["message"], answer["error"].get("data"))
-        return answer["result"], blobs
+        return answer.get("result"), blobs
+
+    def read(self, announced):
+        size = sum(blob["bytes"] for blob in announced)
+        if size > len(self.buffer):
+            self.buffer = bytearray(size + size // 2)
+        whole, blobs, start = memoryview(self.buffer)[:size], {}, 0
+        if self.child.stdout.readinto(whole) < size:
+            raise BrokenPipeError
+        for blob in announced:
+            blobs[blob["name"]] = whole[start:start + blob["bytes"]]
+            start += blob["bytes"]
+        return blobs
 
     def why_gone(self):
-        said = ""
-        if self.errors:
-            self.child.wait(5)
-            self.errors.seek(0)
-            said = self.errors.read()[-300:].decode(errors="replace").strip()
+        """Ends what is left of the child; its last words, if it had some."""
+        self.child.kill()
+        self.child.wait()
+        self.errors.seek(0)
+        said = self.errors.read()[-300:].decode(errors="replace").strip()
         self.stop()
-        return "fieldwright ended" + (f": {said}" if said else ": it is started again at the next change")
+        return f"'{self.program}' ended" + (f": {said}" if said else ": it is started again at the next change")
+
+
+def single(value):
+    """A number, or several, as single precision has it: properties of Blender do."""
+    return [single(each) for each in value] if isinstance(value, list) else ctypes.c_float(value).value
+
+
+def fitting(values, parameters):
+    """Of these values those that the parameters can have, within their limits."""
+    fits = {}
+    for about in parameters:
+        value, now = values.get(about["name"]), about["value"]
+        if about["animated"] or value is None or isinstance(value, list) != isinstance(now, list):
+            continue
+        least, most = about.get("min", float("-inf")), about.get("max", float("inf"))
+        if not isinstance(value, list):
+            fits[about["name"]] = min(max(value, least), most)
+        elif len(value) == len(now):
+            fits[about["name"]] = [min(max(each, least), most) for each in value]
+    return fits
 
 
 class Graph:
-    """A graph file that is open on a server, with its values and its time; open again after the server has died."""
+    """A graph file that is open on a server; opened again after the server has died, or when others needed its place there."""
 
     servers = {}
 
     def __init__(self, path, program):
-        self.path, self.program = os.path.abspath(path), program
-        self.document = self.child = None
-        self.values, self.seconds = {}, 0.0
-        self.about = {}
+        self.path, self.program = path, program
+        self.about = {}  # the answer to `open`; document, values and time are as that left them, or as they were set since
+        self.values, self.seconds, self.resolution = {}, 0.0, 0
 
     @property
     def server(self):
@@ -121,45 +166,48 @@ class Graph:
             server.stop()
         Graph.servers.clear()
 
+    def is_open(self):
+        return self.server.alive() and self in self.server.opened
+
     def open(self):
         server = self.server
         if not server.alive():
             server.start()
         self.close()
+        while len(server.opened) >= server.most:
+            next(iter(server.opened)).close()
         self.about, _ = server.ask("open", path=os.path.basename(self.path))
-        self.document, self.child = self.about["document"], server.child
-        if self.values:
-            known = {each["name"] for each in self.about["parameters"] if not each["animated"]}
-            values = {name: value for name, value in self.values.items() if name in known}
-            if values:
-                server.ask("set", document=self.document, values=values)
-        if self.seconds:
-            server.ask("time", document=self.document, seconds=self.seconds)
+        server.opened[self] = None
+        self.values = {each["name"]: single(each["value"]) for each in self.about["parameters"]}
+        self.seconds, self.resolution = 0.0, 0
 
     def close(self):
-        if self.document and self.server.alive() and self.child is self.server.child:
-            self.server.ask("close", document=self.document)
-        self.document = None
+        if self.is_open():
+            del self.server.opened[self]
+            self.server.ask("close", document=self.about["document"])
 
-    def ask(self, method, **params):
-        if not self.document or not self.server.alive() or self.child is not self.server.child:
-            self.open()
-        try:
-            return self.server.ask(method, document=self.document, **params)
-        except ServerError:
-            if self.server.alive():
-                raise
-        self.open()
-        return self.server.ask(method, document=self.document, **params)
+    def mesh(self, values, seconds, resolution):
+        """The mesh of these values (those that no parameter can have are left out) at this time, in seconds; `resolution`
+        0: as the graph says. A server that ends over it is started once more."""
+        for again in (False, True):
+            try:
+                if not self.is_open() or (self.resolution and not resolution):  # a server goes on with the last one
+                    self.open()
+                self.server.opened.move_to_end(self)
+                return self.mesh_now(values, seconds, resolution)
+            except ServerError:
+                if again or self.server.alive():
+                    raise
 
-    def set(self, values):
-        self.values.update(values)
-        return self.ask("set", values=values)[0]
-
-    def time(self, seconds):
-        self.seconds = seconds
-        self.ask("time", seconds=seconds)
-
-    def mesh(self, resolution=0):
-        params = {"resolution": resolution} if resolution else {}
-        return self.ask("mesh", materials=True, **params)
+    def mesh_now(self, values, seconds, resolution):
+        server, document = self.server, self.about["document"]
+        new = {name: value for name, value in fitting(values, self.about["parameters"]).items() if self.values[name] != value}
+        if new:
+            server.ask("set", document=document, values=new)
+            self.values.update(new)
+        if seconds != self.seconds:
+            server.ask("time", document=document, seconds=seconds)
+            self.seconds = seconds
+        self.resolution = resolution
+        cells = {"resolution": resolution} if resolution else {}
+        return server.ask("mesh", document=document, materials=True, edges=True, normals=False, **cells)
