@@ -11,18 +11,21 @@ namespace fw::blender_addon_test {
 
 TEST(BlenderAddon, IsOneZipThatBlenderInstalls) {
     const test::TempDir folder;
-    const test::ProgramResult listed = test::runProgram(
-        "cd '" + folder.folder.string() +
-        "' && unzip -q " FIELDWRIGHT_BINARY_DIR
-        "/fieldwright-blender.zip && python3 -m py_compile fieldwright/*.py && python3 -c \"import tomllib; "
-        "print(tomllib.load(open('fieldwright/blender_manifest.toml', 'rb'))['version'].replace('.', ', "
-        "'))\"");
+    const test::ProgramResult listed =
+        test::runProgram("cd '" + folder.folder.string() +
+                         "' && unzip -q " FIELDWRIGHT_BINARY_DIR
+                         "/fieldwright-blender.zip && python3 -m py_compile fieldwright/*.py");
     ASSERT_EQ(listed.status, 0) << listed.output;
     EXPECT_EQ(folder.names(), std::vector<std::string>{"fieldwright"});
-    const std::string code = test::readText(folder.path("fieldwright/__init__.py"));
-    const std::string version = listed.output.substr(0, listed.output.find('\n'));
-    EXPECT_NE(code.find("\"version\": (" + version + ")"), std::string::npos)
-        << "bl_info and blender_manifest.toml tell different versions";
+    // Old versions of Blender and new ones read it in different places.
+    std::string numbers = FIELDWRIGHT_VERSION;
+    for (std::size_t dot = 0; (dot = numbers.find('.', dot)) != std::string::npos;)
+        numbers.replace(dot, 1, ", ");
+    EXPECT_NE(test::readText(folder.path("fieldwright/__init__.py")).find("\"version\": (" + numbers + ")"),
+              std::string::npos);
+    EXPECT_NE(test::readText(folder.path("fieldwright/blender_manifest.toml"))
+                  .find("\nversion = \"" FIELDWRIGHT_VERSION "\""),
+              std::string::npos);
 }
 
 void runsWell(const char* script) {
