@@ -167,7 +167,8 @@ assert not thing.data.validate(), "the mesh needed mending"
 
 # Saved, then saved elsewhere: a path that begins at the scene's file is found again.
 bpy.ops.wm.save_as_mainfile(filepath=path("one.blend"))
-thing = add("ball.field.json")
+write("wrong.field.json", BALL.replace("sphere", "spere"))
+wrong, thing = add("wrong.field.json").name, add("ball.field.json")
 assert thing.fieldwright.path == "//ball.field.json", thing.fieldwright.path
 os.makedirs(path("else/where"))
 bpy.ops.wm.save_as_mainfile(filepath=path("else/where/two.blend"))
@@ -176,6 +177,10 @@ name = thing.name
 bpy.ops.wm.open_mainfile(filepath=path("else/where/two.blend"))
 thing = bpy.data.objects[name]
 assert not radius(thing, 9), thing.fieldwright.error
+write("wrong.field.json", BALL)  # mended meanwhile
+select(bpy.data.objects[wrong])
+bpy.ops.object.fieldwright_reload()
+near(volume(bpy.data.objects[wrong]), ball(0.1) + BOX)
 
 # Linked from another file it stays as it was saved, whatever is tried; made local, it is driven.
 bpy.ops.wm.read_homefile(use_empty=True)
@@ -217,12 +222,19 @@ scene.cycles.samples, scene.cycles.use_denoising, scene.render.film_transparent 
 scene.render.resolution_x = scene.render.resolution_y = 32
 scene.render.image_settings.file_format, scene.render.filepath = "PNG", path("frame")
 frames(1, 25, 12)
+keyed = add("ball.field.json")
+keyed.location, keyed.scale = (-3, 0, 0), (10, 10, 10)
+for frame, value in (1, 6), (25, 14):
+    radius(keyed, value)
+    keyed.fieldwright.parameters["radius"].keyframe_insert("number", frame=frame)
 bpy.ops.wm.save_as_mainfile(filepath=path("farm.blend"))
 bpy.ops.wm.open_mainfile(filepath=path("farm.blend"))
 bpy.ops.render.render(animation=True)
-rows = []
+rows, sizes = [], []
 for frame in frames(1, 25, 12):
-    pixels = numpy.array(bpy.data.images.load(path(f"frame{frame:04}.png")).pixels).reshape(32, 32, 4)
-    rows.append(numpy.nonzero(pixels[:, :, 3].sum(axis=1) > 0.5)[0].mean())
+    pixels = numpy.array(bpy.data.images.load(path(f"frame{frame:04}.png")).pixels).reshape(32, 32, 4)[:, :, 3]
+    rows.append(numpy.nonzero(pixels[:, 13:19].sum(axis=1) > 0.5)[0].mean())
+    sizes.append(pixels[:, :13].sum())
 assert rows[0] + 3 < rows[1] < rows[2] - 3, rows
+assert sizes[0] * 1.4 < sizes[1] < sizes[2] / 1.4, sizes
 print("all is well")

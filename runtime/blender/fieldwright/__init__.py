@@ -22,7 +22,7 @@ bl_info = {
 
 @persistent
 def frame_changed(scene, depsgraph=None):
-    driven.followed(scene)
+    driven.followed(scene, depsgraph)
 
 
 @persistent

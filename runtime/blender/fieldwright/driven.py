@@ -79,19 +79,19 @@ def seconds_of(scene):
     return (scene.frame_current_final - scene.frame_start) * scene.render.fps_base / scene.render.fps
 
 
-def wish_of(thing, scene):
-    own = thing.fieldwright
-    values = [[each.name, each.value()] for each in own.parameters]
+def wish_of(thing, scene, evaluated=None):
+    """What the object is to show: file, resolution, time and values, as a text."""
+    own = (thing.evaluated_get(evaluated) if evaluated else thing).fieldwright  # in a render only that has what is keyed
+    values = {each.name: each.value() for each in own.parameters}
     return json.dumps([file_of(thing), own.resolution, seconds_of(scene) if own.moves else 0, values])
 
 
-def own_mesh(thing, scene):
-    """The object's mesh, or another one in its place, if that is not this object's to change: another program's, or one that others
-    show, who wish for something else."""
+def own_mesh(thing, wish, scene, evaluated):
+    """The object's mesh, or another one in its place, if that is not this object's to change: one that the add-on did not make,
+    or that others show who wish for something else."""
     mesh = thing.data
     others = [each for each in bpy.data.objects if each.data == mesh and each != thing] if mesh.users > 1 else []
-    wish = wish_of(thing, scene)
-    if solid.MARK in mesh and all(each.fieldwright.path and wish_of(each, scene) == wish for each in others):
+    if solid.MARK in mesh and all(each.fieldwright.path and wish_of(each, scene, evaluated) == wish for each in others):
         return mesh
     thing.data = bpy.data.meshes.new(thing.name)
     thing.data[solid.MARK] = ""
@@ -129,22 +129,21 @@ def guarded(work):
 
 
 @guarded
-def refresh(thing, scene):
-    """The object as its parameters and the frame say."""
-    own = thing.fieldwright
-    wish = wish_of(thing, scene)
+def refresh(thing, scene, evaluated=None):
+    """The object as its parameters and the frame say: as the evaluated dependency graph has them, if that is given."""
+    wish = wish_of(thing, scene, evaluated)
     if thing.data.get(solid.MARK) == wish:
         return
     check_free(thing)
     made = frames.get(wish)
     if made is None:
-        values = {each.name: each.value() for each in own.parameters}
-        made = solid.arrays(*graph_of(thing).mesh(values, seconds_of(scene) if own.moves else 0, own.resolution))
-        if own.moves or thing.animation_data:
+        _, resolution, seconds, values = json.loads(wish)
+        made = solid.arrays(*graph_of(thing).mesh(values, seconds, resolution))
+        if thing.fieldwright.moves or thing.animation_data:
             remember(wish, solid.kept(made))
     else:
         frames.move_to_end(wish)
-    mesh = own_mesh(thing, scene)
+    mesh = own_mesh(thing, wish, scene, evaluated)
     solid.fill(mesh, made)
     solid.dress(mesh, made)
     mesh[solid.MARK] = wish
@@ -156,10 +155,12 @@ def reopen(thing, scene):
     global quiet
     own = thing.fieldwright
     check_free(thing)
+    if solid.MARK in thing.data:
+        thing.data[solid.MARK] = ""
     forget_file(file_of(thing))
     graph = graph_of(thing)
-    graph.open()
     own["found"] = graph.path
+    graph.open()
     own.moves = graph.about["moves"]
     old = server.fitting({each.name: each.value() for each in own.parameters}, graph.about["parameters"])
     quiet = True
@@ -170,8 +171,6 @@ def reopen(thing, scene):
                 own.parameters.add().take({**each, "value": old.get(each["name"], each["value"])})
     finally:
         quiet = False
-    if solid.MARK in thing.data:
-        thing.data[solid.MARK] = ""
     if not refresh(thing, scene):
         raise server.ServerError(own.error)
 
@@ -268,9 +267,10 @@ def add(context, path):
     return thing
 
 
-def followed(scene):
-    """Called at each frame. Parameters that are keyed or driven tell nobody."""
+def followed(scene, evaluated):
+    """Called at each frame, with what Blender made of it. Parameters that are keyed or driven tell nobody."""
     for thing in scene.objects:
-        if thing.type == "MESH" and thing.fieldwright.path and not thing.library:
-            if thing.fieldwright.moves or thing.animation_data:
-                refresh(thing, scene)
+        own = thing.fieldwright
+        shown = not (thing.hide_viewport and thing.hide_render)
+        if thing.type == "MESH" and own.path and shown and not thing.library and (own.moves or thing.animation_data):
+            refresh(thing, scene, evaluated)

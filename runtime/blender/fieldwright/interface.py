@@ -123,8 +123,7 @@ class Bake(OfGraph, bpy.types.Operator):
         if error:
             self.report({"WARNING"}, error)
             return {"FINISHED"}
-        thing.hide_render = True
-        thing.hide_set(True)
+        thing.hide_render = thing.hide_viewport = True
         return {"FINISHED"}
 
 
