@@ -1,6 +1,7 @@
 """What a person sees: menus, operators, the panel, the preferences."""
 import json
 import os
+import textwrap
 
 import bpy
 from bpy_extras.io_utils import ImportHelper
@@ -138,10 +139,9 @@ class Panel(OfGraph, bpy.types.Panel):
         if own.error:
             box = layout.box()
             box.alert = True
-            words = own.error
-            while words:  # a label has one line
-                box.label(text=words[:60], icon="ERROR" if words is own.error else "BLANK1")
-                words = words[60:]
+            letters = int(context.region.width / (7 * context.preferences.system.ui_scale)) - 6  # a label has one line
+            for index, line in enumerate(textwrap.wrap(own.error, max(letters, 16))):
+                box.label(text=line, icon="BLANK1" if index else "ERROR")
         layout.prop(own, "path")
         layout.prop(own, "resolution")
         for parameter in own.parameters:
