@@ -237,4 +237,14 @@ for frame in frames(1, 25, 12):
     sizes.append(pixels[:, :13].sum())
 assert rows[0] + 3 < rows[1] < rows[2] - 3, rows
 assert sizes[0] * 1.4 < sizes[1] < sizes[2] / 1.4, sizes
+
+# A Blender without numpy, as Debian's may be: the add-on is switched on, says so in its preferences, and does nothing else.
+name = addon.__name__
+bpy.ops.preferences.addon_disable(module=name)
+for each in [each for each in sys.modules if each == name or each.startswith(name + ".")]:
+    del sys.modules[each]
+sys.modules["numpy"] = None
+bpy.ops.preferences.addon_enable(module=name)
+assert name in bpy.context.preferences.addons and not hasattr(bpy.types.Object, "fieldwright")
+bpy.ops.preferences.addon_disable(module=name)
 print("all is well")

@@ -3,10 +3,14 @@
 A graph file becomes an object. Its exposed parameters are properties of that object, which drive it at once; a graph that
 moves follows the frame. What is wrong is told at the object, in the panel: Properties, Object, Fieldwright.
 """
+import importlib.util
+
 import bpy
 from bpy.app.handlers import persistent
 
-from . import driven, interface
+has_numpy = importlib.util.find_spec("numpy") is not None  # Debian's Blender comes without
+if has_numpy:
+    from . import driven, interface
 
 # What Blender before 4.2 reads; newer ones read blender_manifest.toml.
 bl_info = {
@@ -31,12 +35,34 @@ def loaded(*_):
     driven.forget_all()
 
 
-classes = (driven.Parameter, driven.OfObject, *interface.classes)
+class WithoutNumpy(bpy.types.AddonPreferences):
+    """Instead of all else, where numpy is not there."""
+
+    bl_idname = __package__
+
+    def draw(self, context):
+        self.layout.label(text="Blender's Python has no numpy: install it (Debian: python3-numpy), and start Blender again",
+                          icon="ERROR")
+
+
+classes = (driven.Parameter, driven.OfObject, *interface.classes) if has_numpy else (WithoutNumpy,)
 
 
 def register():
     for each in classes:
         bpy.utils.register_class(each)
+    if has_numpy:
+        appear()
+
+
+def unregister():
+    if has_numpy:
+        disappear()
+    for each in reversed(classes):
+        bpy.utils.unregister_class(each)
+
+
+def appear():
     bpy.types.Object.fieldwright = bpy.props.PointerProperty(type=driven.OfObject)
     bpy.types.TOPBAR_MT_file_import.append(interface.import_menu)
     bpy.types.VIEW3D_MT_object_convert.append(interface.object_menu)
@@ -44,12 +70,10 @@ def register():
     bpy.app.handlers.load_post.append(loaded)
 
 
-def unregister():
+def disappear():
     loaded()
     bpy.app.handlers.load_post.remove(loaded)
     bpy.app.handlers.frame_change_post.remove(frame_changed)
     bpy.types.VIEW3D_MT_object_convert.remove(interface.object_menu)
     bpy.types.TOPBAR_MT_file_import.remove(interface.import_menu)
     del bpy.types.Object.fieldwright
-    for each in reversed(classes):
-        bpy.utils.unregister_class(each)
