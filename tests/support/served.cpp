@@ -169,7 +169,9 @@ int ServerClient::openText(const std::string& text) {
     return message.failed() ? 0 : message.result().at("document").get<int>();
 }
 
-ServerProcess::ServerProcess(std::vector<std::string> arguments, const std::string& folder) : client(-1, -1) {
+ServerProcess::ServerProcess(std::vector<std::string> arguments, const std::string& folder,
+                             std::vector<std::string> environment)
+    : client(-1, -1) {
     static const TempDir caches;
     static int number = 0;
     errorFile = caches.path("errors" + std::to_string(++number));
@@ -189,6 +191,7 @@ ServerProcess::ServerProcess(std::vector<std::string> arguments, const std::stri
             ::dup2(err, 2) < 0)
             ::_exit(125);
         ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+        for (std::string& entry : environment) ::putenv(entry.data());
         ::execv(argv[0], argv.data());
         ::_exit(126);
     }

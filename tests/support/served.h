@@ -68,8 +68,10 @@ class ServerClient {
 
 class ServerProcess {
   public:
-    /// `fieldwright serve` with these arguments, in this folder.
-    explicit ServerProcess(std::vector<std::string> arguments, const std::string& folder = ".");
+    /// `fieldwright serve` with these arguments, in this folder, and NAME=VALUE beside what is in the
+    /// environment.
+    explicit ServerProcess(std::vector<std::string> arguments, const std::string& folder = ".",
+                           std::vector<std::string> environment = {});
     ServerProcess(const ServerProcess&) = delete;
     ~ServerProcess();
 
