@@ -1,11 +1,12 @@
-# What is installed and where, in two components: `application` (programs, what they read, what a desktop shows of them) and
-# `development` (what programs that embed the runtime are built with). CPack makes of them the Debian packages fieldwright and
-# fieldwright-dev, and of the first an archive that runs from any folder, with the libraries that plain systems lack:
-#     cmake --build build/release --target package
+# What is installed and where, in three components: `application` (programs, what they read, what a desktop shows of them),
+# `development` (what programs that embed the runtime are built with) and, if it is built, `python` (the module). CPack makes of
+# them the Debian packages fieldwright, fieldwright-dev and python3-fieldwright, and of the first an archive that runs from any
+# folder, with the libraries that plain systems lack:
+#     cmake --build build/ci --target package
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME application)
 set(here ${CMAKE_SOURCE_DIR}/runtime/package)
 
-# In the archive libraries lie in ../lib/fieldwright, for the programs and for what those load: as DT_RPATH, which unlike
+# In the archive libraries lie in the modules' folder, for the programs and for what those load: as DT_RPATH, which unlike
 # DT_RUNPATH holds for libraries of libraries too. Packages go without (without_rpath.cmake).
 foreach(program fieldwright fieldwright-editor)
     set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/../${modules_folder}")
@@ -60,7 +61,8 @@ target_compile_features(fw_graph PUBLIC cxx_std_20)
 target_include_directories(fw_graph INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR};${CMAKE_INSTALL_INCLUDEDIR}/fieldwright>")
 install(TARGETS fw_graph fw_runtime EXPORT fieldwright)
 install(DIRECTORY graph runtime shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fieldwright
-        FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN window EXCLUDE PATTERN package EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN serve EXCLUDE PATTERN window EXCLUDE
+        PATTERN blender EXCLUDE PATTERN python EXCLUDE PATTERN package EXCLUDE)
 install(EXPORT fieldwright NAMESPACE fieldwright:: FILE fieldwright-targets.cmake DESTINATION ${package_folder})
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/package/fieldwright-config.cmake @ONLY CONTENT [[
 include(CMakeFindDependencyMacro)
@@ -90,5 +92,13 @@ Cflags: -std=c++20 -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@ -I${prefix}/@CMAKE_INS
 Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lfw_runtime -lfw_graph -lglslang -lMachineIndependent -lGenericCodeGen -lOGLCompiler -lOSDependent -lSPIRV -lglslang-default-resource-limits -lSPIRV-Tools-opt -lSPIRV-Tools -ltinygltf -lstb -lmeshoptimizer -l3MF -lpthread -ldl
 ]])
 install(FILES ${CMAKE_BINARY_DIR}/pages/fieldwright.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# The module where Debian's Python looks, which is what the wheel holds but for its list of files: that is of pip, which would
+# remove by it what apt has installed.
+if(TARGET fw_python)
+    install(CODE "set(packages \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages\")
+file(ARCHIVE_EXTRACT INPUT \"${python_wheel}\" DESTINATION \"\${packages}\" TOUCH)
+file(REMOVE \"\${packages}/fieldwright-${PROJECT_VERSION}.dist-info/RECORD\")" COMPONENT python EXCLUDE_FROM_ALL)
+endif()
 
 include(runtime/package/package.cmake)

@@ -1,8 +1,9 @@
-# What CPack makes of the components: fieldwright_VERSION_amd64.deb, fieldwright-dev_VERSION_amd64.deb, and
-# fieldwright-VERSION-linux-x86_64.tar.gz with the application alone.
+# What CPack makes of the components: fieldwright_VERSION_amd64.deb, fieldwright-dev_VERSION_amd64.deb,
+# python3-fieldwright_VERSION_amd64.deb, and fieldwright-VERSION-linux-x86_64.tar.gz with the application alone.
 set(CPACK_GENERATOR DEB TGZ)
 set(CPACK_PACKAGE_VENDOR "The Fieldwright authors")
-set(CPACK_PACKAGE_CONTACT "The Fieldwright authors <authors@fieldwright.org>" CACHE STRING "Who packages it, with an address")
+# Debian wants an address of who answers for a package: whoever hands packages out gives theirs. This one reaches nobody (RFC 2606).
+set(CPACK_PACKAGE_CONTACT "The Fieldwright authors <authors@fieldwright.invalid>" CACHE STRING "Who packages it, with an address")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "procedural solids from graphs of signed distance fields")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
@@ -49,13 +50,28 @@ Headers and static libraries for programs that embed the runtime, and what
 CMake and pkg-config find them by: open a graph, set its parameters, step
 through its time, and have its mesh or picture.")
 
-# What Debian has in each package's own folder, written once here.
-foreach(package fieldwright fieldwright-dev)
-    if(package STREQUAL fieldwright-dev)
-        set(component development)
-    else()
-        set(component application)
-    endif()
+set(components application development)
+if(TARGET fw_python)
+    list(APPEND components python)
+    math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-fieldwright)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+    string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "fieldwright (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})"
+        "python3 (>= 3.${Python3_VERSION_MINOR}~)" "python3 (<< 3.${next_python})" python3-numpy)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${here}/python3-fieldwright/postinst ${here}/python3-fieldwright/prerm)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+    set(CPACK_COMPONENT_PYTHON_DESCRIPTION "\
+The module fieldwright of Python: open or build graphs of nodes, and have
+their distances, meshes and pictures as arrays of numpy.")
+endif()
+set(CPACK_FIELDWRIGHT_COMPONENTS ${components})  # read by per_format.cmake
+
+# What Debian has in each package's own folder, written once here, and what lintian need not say.
+foreach(component ${components})
+    string(TOUPPER ${component} name)
+    set(package ${CPACK_DEBIAN_${name}_PACKAGE_NAME})
     set(folder ${CMAKE_BINARY_DIR}/pages/${package})
     file(MAKE_DIRECTORY ${folder})
     string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -67,5 +83,6 @@ foreach(package fieldwright fieldwright-dev)
 ")
     execute_process(COMMAND gzip -9nf ${folder}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
     install(FILES ${folder}/changelog.Debian.gz ${here}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
+    install(FILES ${here}/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME ${package} COMPONENT ${component})
 endforeach()
 include(CPack)

@@ -1,7 +1,7 @@
-"""Packs the Python module as a wheel: make_wheel.py PACKAGE NATIVE VERSION FOLDER
+"""Packs the Python module as a wheel: make_wheel.py PACKAGE NATIVE WHEEL
 
 A wheel is an archive of the files with a list of them (packaging.python.org, "Binary distribution format"). PACKAGE is the
-folder of Python files, NATIVE the compiled module, FOLDER where the wheel goes. Prints its path.
+folder of Python files, NATIVE the compiled module. WHEEL's name says which version it is, and for what Python and system.
 """
 
 import base64
@@ -9,12 +9,10 @@ import hashlib
 import pathlib
 import subprocess
 import sys
-import sysconfig
 import zipfile
 
-package, native, version, folder = (pathlib.Path(word) if i != 2 else word for i, word in enumerate(sys.argv[1:]))
-interpreter = f"cp{sys.version_info.major}{sys.version_info.minor}"
-tag = f"{interpreter}-{interpreter}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+package, native, wheel = map(pathlib.Path, sys.argv[1:])
+version, tag = wheel.stem.split("-", 2)[1:]
 files = {f"fieldwright/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.suffix in (".py", ".typed")}
 files[f"fieldwright/{native.name}"] = native.read_bytes()
 make_stubs = f"import sys; sys.path.insert(0, {str(native.parent.parent)!r}); from fieldwright import nodes; print(nodes._stubs())"
@@ -35,9 +33,8 @@ for name, data in files.items():
     lines.append(f"{name},sha256={digest},{len(data)}\n")
 files[f"{about}/RECORD"] = "".join([*lines, f"{about}/RECORD,,\n"]).encode()
 
-folder.mkdir(parents=True, exist_ok=True)
-wheel = folder / f"fieldwright-{version}-{tag}.whl"
-with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
+with zipfile.ZipFile(wheel, "w") as archive:
     for name, data in files.items():
-        archive.writestr(zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED)
-print(wheel)
+        entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+        entry.external_attr = 0o644 << 16
+        archive.writestr(entry, data, zipfile.ZIP_DEFLATED)
