@@ -76,8 +76,18 @@ bool isGeneric(std::string_view family) {
            family == "mono";
 }
 
-/// Fonts that came with the program join the system's.
-void addOwnFonts() {
+/// Fonts that came with the program join the system's. Where fontconfig has no file that says where those
+/// lie, as in a system without a desktop, they lie where they mostly do.
+void findFonts() {
+    constexpr char kMostly[] =
+        "<fontconfig><dir>/usr/share/fonts</dir><dir>/usr/local/share/fonts</dir>"
+        "<dir prefix='xdg'>fonts</dir><cachedir prefix='xdg'>fontconfig</cachedir></fontconfig>";
+    FcConfig* const plain = FcConfigCreate();
+    FcChar8* const file = FcConfigGetFilename(plain, nullptr);  // asked of another it would be a message
+    if (!file && FcConfigParseAndLoadFromMemory(plain, reinterpret_cast<const FcChar8*>(kMostly), FcTrue))
+        FcConfigSetCurrent(plain);  // and holds on to it
+    FcStrFree(file);
+    FcConfigDestroy(plain);
     if (const std::filesystem::path own = ownFolder("fonts", "DejaVuSans.ttf"); !own.empty())
         FcConfigAppFontAddDir(nullptr, reinterpret_cast<const FcChar8*>(own.c_str()));
 }
@@ -85,9 +95,9 @@ void addOwnFonts() {
 /// The font that fontconfig knows by a name.
 Result<FontPtr> fontOfFamily(const std::string& family) {
     static std::mutex mutex;
-    static std::once_flag own;
+    static std::once_flag looked;
     static std::deque<std::pair<std::string, FontPtr>> known;
-    std::call_once(own, addOwnFonts);
+    std::call_once(looked, findFonts);
     const std::lock_guard lock(mutex);
     for (const auto& [name, font] : known)
         if (name == family) return font;
