@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -232,7 +233,7 @@ TEST(Ungroup, ConvertsAsTheGroupsEndsDid) {
 TEST(Group, TheFieldStaysAsItWas) {
     std::mt19937 random(11);
     int grouped = 0, ungrouped = 0, compiled = 0;
-    for (const Graph& start : editor::test::graphsToEdit(80)) {
+    for (const Graph& start : editor::test::graphsToEdit(std::getenv("FIELDWRIGHT_LONG") ? 80 : 40)) {
         Graph graph = start;
         const std::vector<double> values = valuesOf(graph);
         compiled += !values.empty();
@@ -275,7 +276,7 @@ TEST(Group, TheFieldStaysAsItWas) {
         ASSERT_TRUE(alike(valuesOf(graph), values)) << writeGraph(graph);
         EXPECT_EQ(graph.parameters.size(), start.parameters.size());
     }
-    EXPECT_GT(compiled, 90);
+    EXPECT_GT(compiled, 50);
     EXPECT_GT(grouped, 100);
     EXPECT_GT(ungrouped, 10);
 }
