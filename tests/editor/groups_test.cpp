@@ -233,7 +233,10 @@ TEST(Ungroup, ConvertsAsTheGroupsEndsDid) {
 TEST(Group, TheFieldStaysAsItWas) {
     std::mt19937 random(11);
     int grouped = 0, ungrouped = 0, compiled = 0;
-    for (const Graph& start : editor::test::graphsToEdit(std::getenv("FIELDWRIGHT_LONG") ? 80 : 40)) {
+    const bool all = std::getenv("FIELDWRIGHT_LONG");  // else every third
+    int number = 0;
+    for (const Graph& start : editor::test::graphsToEdit(80)) {
+        if (!all && number++ % 3 != 0) continue;
         Graph graph = start;
         const std::vector<double> values = valuesOf(graph);
         compiled += !values.empty();
@@ -276,9 +279,9 @@ TEST(Group, TheFieldStaysAsItWas) {
         ASSERT_TRUE(alike(valuesOf(graph), values)) << writeGraph(graph);
         EXPECT_EQ(graph.parameters.size(), start.parameters.size());
     }
-    EXPECT_GT(compiled, 50);
-    EXPECT_GT(grouped, 100);
-    EXPECT_GT(ungrouped, 10);
+    EXPECT_GT(compiled, 30);
+    EXPECT_GT(grouped, 60);
+    EXPECT_GT(ungrouped, 5);
 }
 
 }  // namespace fw::editor::groups_test
