@@ -1,42 +1,26 @@
 # What Blender pays: FIELDWRIGHT=build/ci/fieldwright blender --background --factory-startup --python tests/bench/blender_bench.py
 #
-# Medians (least - greatest) of 15 runs after three, in ms, of the tower at 128 cells: from a parameter that is set to the object as
-# Blender shows it, evaluated and with its normals; where the time goes; and the same arrays given to Blender the plain way, as
-# signed integers and with the edges left to it.
+# Of the tower at 128 cells: from a parameter that is set to the object as Blender shows it, evaluated and with its normals; where
+# the time goes; and the same arrays given to Blender the plain way, as signed integers and with the edges left to it.
 import pathlib
 import sys
-import time
 
 import bpy
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "runtime" / "blender"))
+sys.path[:0] = [str(ROOT / "runtime" / "blender"), str(ROOT / "tests" / "bench")]
 import fieldwright
 from fieldwright import driven, solid
+from figures import measured, row
 
-RUNS, WARM, CELLS = 15, 3, 128
+CELLS = 128
 fieldwright.register()
 thing = driven.add(bpy.context, str(ROOT / "samples" / "tower.field.json"))
 own = thing.fieldwright
 own.resolution = CELLS
 assert not own.error, own.error
 calls = 0
-
-
-def measured(work, before=lambda: None):
-    times = []
-    for _ in range(WARM + RUNS):
-        before()
-        start = time.perf_counter()
-        work()
-        times.append(1000 * (time.perf_counter() - start))
-    times = sorted(times[WARM:])
-    return times[RUNS // 2], times[0], times[-1]
-
-
-def row(name, figure, ratio=None):
-    print(f"{name:58} {figure[0]:8.2f} ({figure[1]:.2f} - {figure[2]:.2f})" + ("" if ratio is None else f"   {ratio:.1f}"))
 
 
 def width():

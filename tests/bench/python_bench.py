@@ -1,32 +1,19 @@
 """What Python pays: PYTHONPATH=build/ci/python python3 tests/bench/python_bench.py
 
-Medians (least - greatest) of 7 runs after two, in ms: the tower's distances at a million points beside the same field written
-in numpy, and its mesh at 128 cells beside what the mesher and the download take by themselves, which is a mesh asked for
-through the same document without its arrays' being looked at.
+The tower's distances at a million points beside the same field written in numpy, and its mesh at 128 cells beside what the
+mesher and the download take by themselves, which is a mesh asked for through the same document without its arrays' being
+looked at.
 """
 
 import pathlib
-import time
 
 import fieldwright as fw
 import numpy as np
 
+from figures import measured, row
+
 SAMPLES = pathlib.Path(__file__).parents[2] / "samples"
-COUNT, RUNS, WARM = 1_000_000, 7, 2
-
-
-def measured(work):
-    times = []
-    for i in range(WARM + RUNS):
-        start = time.perf_counter()
-        work()
-        times.append(1000 * (time.perf_counter() - start))
-    times = sorted(times[WARM:])
-    return times[RUNS // 2], times[0], times[-1]
-
-
-def row(name, figure, ratio=None):
-    print(f"{name:46} {figure[0]:9.2f} ({figure[1]:.2f} - {figure[2]:.2f})" + ("" if ratio is None else f"   {ratio:.1f}"))
+COUNT = 1_000_000
 
 
 def box(p, b):
