@@ -47,8 +47,7 @@ class Client {
     std::map<int, std::unique_ptr<Served>>::iterator named(Request& request);
     /// A new one; null, and the request is answered, if there are too many.
     Served* add(const Request& request);
-    /// It counts no longer among those that are open. For the document's thread, before the answer that says
-    /// so.
+    /// It no longer counts as open. For the document's thread, before the answer that says so.
     void leave(Served& served);
     void forgetEnded();
 

@@ -17,7 +17,7 @@ void addMesh(CLI::App* command, MeshOptions& mesh);
 void addSequence(CLI::App* command, SequenceOptions& sequence);
 /// What of it one of several machines makes.
 void addPart(CLI::App* command, SequenceOptions& sequence);
-/// Refuses --time where the command makes a file for every frame. To be called when all is parsed.
+/// Refuses --time beside --fps, when all is parsed: one moment, or a file for every frame.
 void oneMomentOrMany(const CLI::App* command);
 /// A report on the mesh, and what it must be.
 void addMeasures(CLI::App* command, MeshOutput& output);
