@@ -351,6 +351,7 @@ Device::~Device() {
         record->sibling.reset(), record->siblingBehind.reset();
     if (handle) {
         vkDeviceWaitIdle(handle);
+        record->written.reset(), record->read.reset();
         if (pipelineCache) {
             savePipelineCache(*this);
             vkDestroyPipelineCache(handle, pipelineCache, nullptr);

@@ -65,15 +65,19 @@ struct SentCommands {
     std::vector<VkDescriptorPool> pools;
 };
 
+struct Buffer;
+
 /// What the validation layer said, the bytes of device memory that are and were in use, the number of
 /// pipelines that were built, of recordings that were submitted and of those that were waited for, the
-/// descriptor pools that no recording uses, what runs, and the siblings.
+/// descriptor pools that no recording uses, what runs, the buffers through which the host writes and reads
+/// those that it does not see (resources.h), and the siblings.
 struct DeviceRecord {
     std::mutex mutex;
     std::vector<std::string> messages;
     std::vector<VkDescriptorPool> freePools;
     std::vector<SentCommands> sent;
     std::atomic<uint64_t> allocated = 0, peak = 0, pipelines = 0, submissions = 0, waits = 0;
+    std::shared_ptr<Buffer> written, read;
     std::unique_ptr<Device> sibling, siblingBehind;
 };
 

@@ -1,7 +1,9 @@
 #include "runtime/gpu/resources.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
+#include <vector>
 
 #include "runtime/gpu/commands.h"
 #include "runtime/system/large_pages.h"
@@ -58,6 +60,40 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
     uint64_t peak = device.record->peak;
     while (peak < used && !device.record->peak.compare_exchange_weak(peak, used)) {}
     return memory;
+}
+
+/// A part of a piece, at a place in the staging buffer.
+template <class Piece>
+struct Staged {
+    const Piece* piece;
+    std::size_t from, size;
+    VkDeviceSize at;
+};
+
+/// Calls move(staging, load) with what of the pieces fits into the staging buffer, as often as it takes. Of
+/// buffers that are mapped, nothing goes through it.
+template <class Piece, class Move>
+void throughStaging(const Device& device, std::span<const Piece> pieces, std::shared_ptr<Buffer>& staging,
+                    Memory memory, const Move& move) {
+    constexpr VkDeviceSize kLeast = 1 << 16, kMost = 1 << 24;
+    VkDeviceSize all = 0;
+    for (const Piece& piece : pieces) {
+        assert(piece.offset + piece.size <= piece.buffer.size);
+        if (!piece.buffer.mapped) all += piece.size;
+    }
+    if (!all) return;
+    if (!staging) staging = std::make_shared<Buffer>();
+    reserve(device, *staging, std::clamp(std::bit_ceil(all), kLeast, kMost), memory);
+    std::vector<Staged<Piece>> load;
+    VkDeviceSize at = 0;
+    for (const Piece& piece : pieces)
+        for (std::size_t from = 0, size; !piece.buffer.mapped && from < piece.size;
+             from += size, at += size) {
+            if (at == staging->size) move(*staging, std::exchange(load, {})), at = 0;
+            size = std::min<std::size_t>(piece.size - from, staging->size - at);
+            load.push_back({&piece, from, size, at});
+        }
+    move(*staging, load);
 }
 
 }  // namespace
@@ -157,36 +193,44 @@ bool reserve(const Device& device, Buffer& buffer, VkDeviceSize size, Memory mem
     return true;
 }
 
-void uploadBytes(const Device& device, const Buffer& buffer, const void* data, std::size_t size,
-                 VkDeviceSize offset) {
-    assert(offset + size <= buffer.size);
-    if (!size) return;
+void uploadPieces(const Device& device, std::span<const ConstPiece> pieces) {
     finish(device);
-    if (buffer.mapped) {
-        std::memcpy(static_cast<char*>(buffer.mapped) + offset, data, size);
-        return;
-    }
-    Buffer staging = createBuffer(device, size, Memory::upload);
-    std::memcpy(staging.mapped, data, size);
-    Commands commands(device);
-    copy(commands, staging, 0, buffer, offset, size);
-    submit(commands);
+    throughStaging(device, pieces, device.record->written, Memory::upload,
+                   [&](const Buffer& staging, const std::vector<Staged<ConstPiece>>& load) {
+                       for (const auto& [piece, from, size, at] : load)
+                           std::memcpy(static_cast<char*>(staging.mapped) + at,
+                                       static_cast<const char*>(piece->data) + from, size);
+                       Commands commands(device);
+                       barrier(commands);
+                       for (const auto& [piece, from, size, at] : load) {
+                           const VkBufferCopy region{at, piece->offset + from, size};
+                           vkCmdCopyBuffer(commands.handle, staging.handle, piece->buffer.handle, 1, &region);
+                       }
+                       submit(commands);
+                   });
+    for (const ConstPiece& piece : pieces)
+        if (piece.buffer.mapped && piece.size)
+            std::memcpy(static_cast<char*>(piece.buffer.mapped) + piece.offset, piece.data, piece.size);
 }
 
-void downloadBytes(const Device& device, const Buffer& buffer, void* data, std::size_t size,
-                   VkDeviceSize offset) {
-    assert(offset + size <= buffer.size);
-    if (!size) return;
+void downloadPieces(const Device& device, std::span<const Piece> pieces) {
     finish(device);
-    if (buffer.mapped) {
-        std::memcpy(data, static_cast<const char*>(buffer.mapped) + offset, size);
-        return;
-    }
-    Buffer staging = createBuffer(device, size, Memory::readback);
-    Commands commands(device);
-    copy(commands, buffer, offset, staging, 0, size);
-    submit(commands);
-    std::memcpy(data, staging.mapped, size);
+    throughStaging(device, pieces, device.record->read, Memory::readback,
+                   [&](const Buffer& staging, const std::vector<Staged<Piece>>& load) {
+                       Commands commands(device);
+                       barrier(commands);
+                       for (const auto& [piece, from, size, at] : load) {
+                           const VkBufferCopy region{piece->offset + from, at, size};
+                           vkCmdCopyBuffer(commands.handle, piece->buffer.handle, staging.handle, 1, &region);
+                       }
+                       submit(commands);
+                       for (const auto& [piece, from, size, at] : load)
+                           std::memcpy(static_cast<char*>(piece->data) + from,
+                                       static_cast<const char*>(staging.mapped) + at, size);
+                   });
+    for (const Piece& piece : pieces)
+        if (piece.buffer.mapped && piece.size)
+            std::memcpy(piece.data, static_cast<const char*>(piece.buffer.mapped) + piece.offset, piece.size);
 }
 
 Image::Image(Image&& other) noexcept : ImageState(std::exchange(static_cast<ImageState&>(other), {})) {}

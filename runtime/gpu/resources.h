@@ -2,8 +2,9 @@
 //
 // Few and large is the habit here (a stage holds a handful of buffers for as long as the resolution stays),
 // so there is no suballocator. On a device with unified memory, software devices among them, every buffer is
-// mapped and copies through a staging buffer are avoided. A resource must die before its device and after the
-// work that uses it.
+// mapped. Others are written and read through two staging buffers that a device keeps: a driver takes near a
+// millisecond to allocate one, and a tenth of that to copy what is small. A resource must die before its
+// device and after the work that uses it.
 #pragma once
 
 #include <cstring>
@@ -62,13 +63,36 @@ Buffer createBuffer(const Device& device, VkDeviceSize size, Memory memory = Mem
 /// lost. Returns whether it was replaced. The device must not be using it.
 bool reserve(const Device& device, Buffer& buffer, VkDeviceSize size, Memory memory = Memory::device);
 
-/// Copies bytes into a buffer (through a staging buffer and a wait, where it is not mapped).
-void uploadBytes(const Device& device, const Buffer& buffer, const void* data, std::size_t size,
-                 VkDeviceSize offset = 0);
+/// `size` bytes of a buffer from `offset`, and the host's.
+struct Piece {
+    const Buffer& buffer;
+    void* data;
+    std::size_t size;
+    VkDeviceSize offset = 0;
+};
+struct ConstPiece {
+    const Buffer& buffer;
+    const void* data;
+    std::size_t size;
+    VkDeviceSize offset = 0;
+};
 
-/// Copies bytes out of a buffer; the work that writes them must have been awaited.
-void downloadBytes(const Device& device, const Buffer& buffer, void* data, std::size_t size,
-                   VkDeviceSize offset = 0);
+/// Copies bytes into buffers, in no order. Many pieces take one wait, where one by one each took its own.
+void uploadPieces(const Device& device, std::span<const ConstPiece> pieces);
+
+/// Copies bytes out of buffers, likewise. Whoever writes them must have been submitted.
+void downloadPieces(const Device& device, std::span<const Piece> pieces);
+
+inline void uploadBytes(const Device& device, const Buffer& buffer, const void* data, std::size_t size,
+                        VkDeviceSize offset = 0) {
+    const ConstPiece piece{buffer, data, size, offset};
+    uploadPieces(device, {&piece, 1});
+}
+inline void downloadBytes(const Device& device, const Buffer& buffer, void* data, std::size_t size,
+                          VkDeviceSize offset = 0) {
+    const Piece piece{buffer, data, size, offset};
+    downloadPieces(device, {&piece, 1});
+}
 
 template <class T>
 void upload(const Device& device, const Buffer& buffer, const std::vector<T>& data) {

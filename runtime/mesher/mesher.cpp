@@ -207,11 +207,13 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         record(commands, pipelines, buffers, config, push);
         // Where the host has made the triangles it knows the counts, and nobody waits for the vertices yet.
         const bool counted = connectsOnHost(device, config) && !dual && !config.host;
+        const Buffer& seen = buffers.counts.mapped ? buffers.counts : buffers.seen;
         MesherCounts counts{};
-        if (counted) counts = buffers.counts.as<MesherCounts>()[0];
+        if (counted) counts = seen.as<MesherCounts>()[0];
+        if (&seen == &buffers.seen) copy(commands, buffers.counts, 0, seen, 0, sizeof counts);
         counted ? send(commands) : submit(commands);
         result.stages = commands.stages;
-        if (!counted) counts = download<MesherCounts>(device, buffers.counts, 1)[0];
+        if (!counted) counts = seen.as<MesherCounts>()[0];
         if (std::optional<Error> refused = tooLarge(counts, most, config)) return std::move(*refused);
         if (!madeRoom(buffers, counts, most)) continue;
         if (counts.leaks) {

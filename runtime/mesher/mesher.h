@@ -108,6 +108,7 @@ struct MesherBuffers {
     Buffer colors;     ///< vec3 each, if asked for
     Buffer triangles;  ///< three uint32 indices each
     Buffer counts;     ///< gpu::MesherCounts; `draw` in it are the arguments for vkCmdDrawIndexedIndirect
+    Buffer seen;       ///< the same for the host, where that does not see `counts`
     Buffer points;     ///< of dual contouring: gpu::MeshVertex on each active edge
     FieldLists field;  ///< of its families
     Buffer table, patchTable, patchList, uses, corners, pinched, blockList, blockAlive, blockSums, rows,

@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <map>
+#include <utility>
 
 #include "runtime/mesher/grid_edge.h"
 
@@ -21,37 +22,48 @@ struct Segment {
     auto operator<=>(const Segment&) const = default;
 };
 
-/// What the device wrote for an active edge, and where it stands.
-struct Edge {
-    uint32_t index;
+using Triangle = std::array<uint32_t, 3>;
+
+/// What the device wrote for an active edge: where it stands, and the quad around it.
+struct Quad {
     std::array<uint32_t, 4> ring;  ///< vertices of the cells around it, in the order of the device
     std::array<bool, 4> twice;     ///< whether the patches of ring[i] and ring[i + 1] meet twice
     std::array<uint32_t, 3> inside;
     MeshVertex point;
+    std::array<Triangle, 2> triangles;
 };
 
-template <class T>
-T at(const Device& device, const Buffer& buffer, std::size_t index) {
-    T value;
-    downloadBytes(device, buffer, &value, sizeof value, index * sizeof value);
-    return value;
-}
-
-Edge readEdge(const Device& device, const MesherBuffers& buffers, uint32_t index) {
-    Edge edge{.index = index, .ring = {}, .twice = {}, .inside = {}, .point = {}};
-    const auto word = at<uint32_t>(device, buffers.vertexList, index);
-    const auto corners = at<std::array<uint32_t, 4>>(device, buffers.corners, index);
-    const std::array<uint32_t, 4> around = {corners[3], corners[2], corners[0], corners[1]};
-    for (std::size_t i = 0; i < 4; ++i) {
-        edge.ring[i] = around[i] & 0x3fffffffu;
-        edge.twice[i] = (around[i] & around[(i + 1) % 4] & (i % 2 == 0 ? 1u << 30 : 1u << 31)) != 0;
+/// Of each quad on the list its edge, and its two triangles.
+std::vector<Quad> readQuads(const Device& device, const MesherBuffers& buffers,
+                            const std::vector<uint32_t>& list) {
+    std::vector<Quad> quads(list.size());
+    std::vector<uint32_t> words(list.size()), bricks(list.size());
+    std::vector<std::array<uint32_t, 4>> corners(list.size());
+    std::vector<Piece> pieces;
+    const auto read = [&]<class T>(const Buffer& buffer, T& value, std::size_t index) {
+        pieces.push_back({buffer, &value, sizeof value, index * sizeof value});
+    };
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        read(buffers.vertexList, words[i], list[i]);
+        read(buffers.corners, corners[i], list[i]);
+        read(buffers.points, quads[i].point, list[i]);
+        read(buffers.triangles, quads[i].triangles, list[i]);
     }
-    const GridEdge grid =
-        unpackEdge(word, unpackBrick(at<uint32_t>(device, buffers.brickList, slotOfEdge(word))));
-    edge.inside = {grid.start.x, grid.start.y, grid.start.z};
-    if (!grid.insideAtStart) ++edge.inside[grid.axis];
-    edge.point = at<MeshVertex>(device, buffers.points, index);
-    return edge;
+    downloadPieces(device, std::exchange(pieces, {}));
+    for (std::size_t i = 0; i < list.size(); ++i) read(buffers.brickList, bricks[i], slotOfEdge(words[i]));
+    downloadPieces(device, pieces);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        Quad& quad = quads[i];
+        const std::array<uint32_t, 4> around = {corners[i][3], corners[i][2], corners[i][0], corners[i][1]};
+        for (std::size_t k = 0; k < 4; ++k) {
+            quad.ring[k] = around[k] & 0x3fffffffu;
+            quad.twice[k] = (around[k] & around[(k + 1) % 4] & (k % 2 == 0 ? 1u << 30 : 1u << 31)) != 0;
+        }
+        const GridEdge grid = unpackEdge(words[i], unpackBrick(bricks[i]));
+        quad.inside = {grid.start.x, grid.start.y, grid.start.z};
+        if (!grid.insideAtStart) ++quad.inside[grid.axis];
+    }
+    return quads;
 }
 
 }  // namespace
@@ -61,50 +73,63 @@ Addition mostOfPinches(uint32_t quads) { return {2 * quads, 4 * quads}; }
 Parting partPinches(const Device& device, MesherBuffers& buffers, const gpu::MesherCounts& counts) {
     std::vector<uint32_t> list = download<uint32_t>(device, buffers.pinched, counts.pinched);
     std::ranges::sort(list);
-    using Triangle = std::array<uint32_t, 3>;
+    std::vector<Quad> quads = readQuads(device, buffers, list);
+    /// Of a segment whose two ends are known; one end's vertex until then.
     struct Middle {
         uint32_t vertex;
-        MeshVertex first;
+        MeshVertex at;
+        uint32_t colored;  ///< the vertex whose colour it takes
+        bool whole = false;
     };
     std::map<Segment, Middle> middles;
     std::vector<Triangle> more;
     Parting parting;
-    for (const uint32_t index : list) {
-        const Edge edge = readEdge(device, buffers, index);
-        std::vector<Triangle> triangles = {at<Triangle>(device, buffers.triangles, 2 * index),
-                                           at<Triangle>(device, buffers.triangles, 2 * index + 1)};
+    for (std::size_t q = 0; q < list.size(); ++q) {
+        Quad& quad = quads[q];
+        std::vector<Triangle> triangles(quad.triangles.begin(), quad.triangles.end());
         for (std::size_t i = 0; i < 4; ++i) {
-            if (!edge.twice[i]) continue;
-            const uint32_t a = edge.ring[i], b = edge.ring[(i + 1) % 4];
+            if (!quad.twice[i]) continue;
+            const uint32_t a = quad.ring[i], b = quad.ring[(i + 1) % 4];
             const auto [found, isNew] =
-                middles.try_emplace({std::min(a, b), std::max(a, b), edge.inside},
-                                    Middle{counts.vertices + uint32_t(middles.size()), edge.point});
-            const uint32_t middle = found->second.vertex;
+                middles.try_emplace({std::min(a, b), std::max(a, b), quad.inside},
+                                    Middle{counts.vertices + uint32_t(middles.size()), quad.point, a});
+            Middle& middle = found->second;
             if (!isNew) {  // the other edge that the segment ends on
-                MeshVertex vertex = found->second.first;
-                vertex.position = 0.5f * (vertex.position + edge.point.position);
-                uploadBytes(device, buffers.vertices, &vertex, sizeof vertex, middle * sizeof vertex);
-                if (buffers.colors) {
-                    const auto color = at<glm::vec3>(device, buffers.colors, a);
-                    uploadBytes(device, buffers.colors, &color, sizeof color, middle * sizeof color);
-                }
+                middle.at.position = 0.5f * (middle.at.position + quad.point.position);
+                middle.colored = a;
+                middle.whole = true;
             }
             // The triangle with that side becomes two.
             for (std::size_t t = 0, was = triangles.size(); t < was; ++t)
                 for (std::size_t k = 0; k < 3; ++k) {
                     const uint32_t from = triangles[t][k], to = triangles[t][(k + 1) % 3];
                     if ((from != a || to != b) && (from != b || to != a)) continue;
-                    triangles.push_back({middle, to, triangles[t][(k + 2) % 3]});
-                    triangles[t][(k + 1) % 3] = middle;
+                    triangles.push_back({middle.vertex, to, triangles[t][(k + 2) % 3]});
+                    triangles[t][(k + 1) % 3] = middle.vertex;
                 }
         }
-        uploadBytes(device, buffers.triangles, triangles.data(), 2 * sizeof(Triangle),
-                    2 * index * sizeof(Triangle));
+        std::copy_n(triangles.begin(), 2, quad.triangles.begin());
         more.insert(more.end(), triangles.begin() + 2, triangles.end());
-        parting.quads.resize(more.size(), index);
+        parting.quads.resize(more.size(), list[q]);
     }
-    uploadBytes(device, buffers.triangles, more.data(), more.size() * sizeof(Triangle),
-                counts.triangles * sizeof(Triangle));
+    std::vector<glm::vec3> colors(buffers.colors ? middles.size() : 0);
+    std::vector<Piece> read;
+    std::vector<ConstPiece> written;
+    for (const auto& [segment, middle] : middles) {
+        if (!middle.whole) continue;
+        written.push_back({buffers.vertices, &middle.at, sizeof middle.at, middle.vertex * sizeof middle.at});
+        if (!buffers.colors) continue;
+        glm::vec3& color = colors[middle.vertex - counts.vertices];
+        read.push_back({buffers.colors, &color, sizeof color, middle.colored * sizeof color});
+        written.push_back({buffers.colors, &color, sizeof color, middle.vertex * sizeof color});
+    }
+    downloadPieces(device, read);
+    for (std::size_t q = 0; q < list.size(); ++q)
+        written.push_back({buffers.triangles, &quads[q].triangles, sizeof quads[q].triangles,
+                           list[q] * sizeof quads[q].triangles});
+    written.push_back({buffers.triangles, more.data(), more.size() * sizeof(Triangle),
+                       counts.triangles * sizeof(Triangle)});
+    uploadPieces(device, written);
     parting.vertices = uint32_t(middles.size());
     return parting;
 }

@@ -30,6 +30,7 @@ void reserveAll(const Device& device, MesherBuffers& buffers, glm::uvec3 blockCo
     if (dual && reserve(device, buffers.patchTable, sizeof(packedCellPatches())))
         uploadBytes(device, buffers.patchTable, packedCellPatches().data(), sizeof(packedCellPatches()));
     reserve(device, buffers.counts, sizeof(MesherCounts), Memory::device);
+    if (!buffers.counts.mapped) reserve(device, buffers.seen, sizeof(MesherCounts), Memory::readback);
     reserve(device, buffers.blockList, all * 4);
     reserve(device, buffers.blockAlive, all * 4);
     reserve(device, buffers.blockSums, all * 16);

@@ -72,10 +72,12 @@ TEST(Device, TwoWritesWithoutABarrierAreAHazardThatIsTold) {
 
 TEST(Resources, BytesSurviveTheRoundTripAndMemoryIsCounted) {
     Device& device = test::device();
+    std::vector<uint32_t> data(100'001);
+    std::iota(data.begin(), data.end(), 7u);
+    download<uint32_t>(device, createBuffer(device, data.size() * 4), data.size());  // staging is kept
+    upload(device, createBuffer(device, data.size() * 4), data);
     uint64_t before = device.record->allocated;
     {
-        std::vector<uint32_t> data(100'001);
-        std::iota(data.begin(), data.end(), 7u);
         for (Memory memory : {Memory::device, Memory::upload, Memory::readback}) {
             Buffer buffer = createBuffer(device, data.size() * 4, memory);
             upload(device, buffer, data);
@@ -90,6 +92,37 @@ TEST(Resources, BytesSurviveTheRoundTripAndMemoryIsCounted) {
     }
     EXPECT_EQ(device.record->allocated, before);
     EXPECT_GT(device.record->peak, before);
+}
+
+TEST(Resources, PiecesOfBuffersThatTheHostDoesNotSeeAreCopiedTogether) {
+    const Device& device = test::device();
+    const test::HiddenMemory here;
+    constexpr std::size_t kWords = 5 << 20;  // more than are copied at once
+    std::vector<uint32_t> large(kWords), small = {1, 2, 3, 4, 5, 6, 7};
+    std::iota(large.begin(), large.end(), 7u);
+    const Buffer hidden = createBuffer(device, kWords * 4), other = createBuffer(device, 64),
+                 seen = createBuffer(device, 64, Memory::readback);
+    ASSERT_FALSE(hidden.mapped || other.mapped);
+    ASSERT_TRUE(seen.mapped);
+    const ConstPiece written[] = {{other, &small[0], 4},       {other, &small[1], 5, 7},
+                                  {other, nullptr, 0},         {hidden, large.data(), kWords * 4},
+                                  {seen, small.data(), 28, 4}, {other, &small[6], 4, 60}};
+    uploadPieces(device, written);
+    const uint64_t waits = device.record->waits, allocated = device.record->allocated;
+    uploadPieces(device, written);
+    EXPECT_EQ(device.record->waits - waits, 2u);  // 20 MiB
+    EXPECT_EQ(device.record->allocated, allocated);
+
+    std::vector<uint32_t> all(kWords), seven(7);
+    uint32_t first = 0, last = 0, second = 0;
+    uint8_t fifth = 0;
+    const Piece read[] = {{other, &first, 4},     {hidden, all.data(), kWords * 4},
+                          {other, &last, 4, 60},  {seen, seven.data(), 28, 4},
+                          {other, &second, 4, 7}, {other, &fifth, 1, 11}};
+    downloadPieces(device, read);
+    EXPECT_EQ(all, large);
+    EXPECT_EQ(seven, small);
+    EXPECT_EQ((std::vector<uint32_t>{first, second, fifth, last}), (std::vector<uint32_t>{1, 2, 3, 7}));
 }
 
 TEST(Resources, AnImpossibleBufferIsASystemErrorThatSaysSo) {

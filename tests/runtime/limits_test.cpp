@@ -68,6 +68,9 @@ void least(Device& device) {
 }
 void fewGroups(Device& device) { device.limits.groups = 64; }
 
+/// A graphics card: the host sees nothing of its memory, and stands in for no kernel.
+void card(Device& device) { device.unifiedMemory = device.software = false; }
+
 struct Case {
     const char* sample;
     double seconds;
@@ -91,6 +94,11 @@ TEST_P(Limits, TheLeastIsEnough) {
 TEST_P(Limits, FewGroupsAreSpreadAndSliced) {
     const auto [sample, seconds] = GetParam();
     expectSame(make(sample, none, seconds), make(sample, fewGroups, seconds));
+}
+
+TEST_P(Limits, MemoryThatTheHostDoesNotSeeHoldsTheSame) {
+    const auto [sample, seconds] = GetParam();
+    expectSame(make(sample, none, seconds), make(sample, card, seconds));
 }
 
 TEST(Limits, AMeshThatIsLargerThanKernelsSeeIsDrawnWhole) {

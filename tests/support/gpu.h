@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/gpu/commands.h"
@@ -14,6 +15,17 @@ Device& device();
 
 /// What the validation layer said so far in this test was meant.
 void forgetValidationMessages();
+
+/// As long as it lives, buffers that are made on the device are ones that the host does not see, as on a
+/// graphics card.
+struct HiddenMemory {
+    HiddenMemory() : was(std::exchange(device().unifiedMemory, false)) {}
+    ~HiddenMemory() { device().unifiedMemory = was; }
+    HiddenMemory(const HiddenMemory&) = delete;
+
+  private:
+    bool was;
+};
 
 /// A compute pipeline from GLSL text (without #version); `name` only labels it.
 Pipeline computePipeline(const std::string& text, const std::vector<uint32_t>& constants = {},
