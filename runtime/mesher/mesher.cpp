@@ -234,6 +234,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         result.triangles = counts.triangles;
         result.bricks = counts.bricks;
         result.capped = counts.caps != 0;
+        result.rim = *nudge * longestCell(config);
         result.method = config.method;
         result.colors = wantColors;
         result.creases = dual;

@@ -123,6 +123,7 @@ struct MesherResult {
     std::vector<uint32_t> addedTo = {};  ///< of each triangle behind these: the quad that it is a part of
     uint32_t bricks = 0;                 ///< that were sampled
     bool capped = false;                 ///< the surface was closed at the region's boundary
+    float rim = 0;                       ///< metres: vertices that close it keep off other sides by so much
     MeshMethod method = MeshMethod::marchingCubes;
     bool colors = false;       ///< there is one at each vertex
     bool creases = false;      ///< vertices on creases are to be doubled (creases.h)

@@ -61,7 +61,9 @@ struct Run {
         push.hi = config.hi;
         push.still = still;
         const glm::vec3 reach = glm::max(glm::abs(config.lo), glm::abs(config.hi));
-        push.unit = 2.0f * powerAbove(std::max({reach.x, reach.y, reach.z}));
+        const float farthest = std::max({reach.x, reach.y, reach.z});
+        push.rim = 1.5f * result.rim + 4e-7f * farthest;  // and the last bits of means
+        push.unit = 2.0f * powerAbove(farthest);
         return push;
     }
 };

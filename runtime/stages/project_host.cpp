@@ -26,10 +26,9 @@ struct Moving {
 
 Moving start(const gpu::MeshPush& push, const gpu::MeshVertex& vertex) {
     Moving moving{.middle = vertex.position, .p = vertex.position, .side = {}, .free = {}, .most = 0};
-    const glm::vec3 ulps = 4e-7f * glm::max(glm::abs(push.lo), glm::abs(push.hi));
     for (int axis = 0; axis < 3; ++axis) {
         const float at = moving.middle[axis];
-        moving.side[axis] = float(at >= push.hi[axis] - ulps[axis]) - float(at <= push.lo[axis] + ulps[axis]);
+        moving.side[axis] = float(at >= push.hi[axis] - push.rim) - float(at <= push.lo[axis] + push.rim);
         moving.free[axis] = 1 - std::abs(moving.side[axis]);
     }
     const bool onSide = moving.side != glm::vec3(0);
@@ -38,18 +37,27 @@ Moving start(const gpu::MeshPush& push, const gpu::MeshVertex& vertex) {
     return moving;
 }
 
-void step(const gpu::MeshPush& push, Moving& moving, glm::vec3 gradient, float value) {
+/// Where Newton's step leads to, from the middle, and how far that is: 1e30 where the field tells no way.
+struct Step {
+    glm::vec3 moved;
+    float far;
+};
+Step newton(const Moving& moving, glm::vec3 gradient, float value) {
     const glm::vec3 along = gradient * moving.free;
     const float slope = glm::dot(along, along);
-    glm::vec3 moved = moving.p - along * (slope > 0 ? value / slope : 0) - moving.middle;
-    const float far = glm::length(moved);
+    const glm::vec3 moved = moving.p - along * (slope > 0 ? value / slope : 0) - moving.middle;
+    return {moved, slope > 0 ? glm::length(moved) : 1e30f};
+}
+
+void step(const gpu::MeshPush& push, Moving& moving, glm::vec3 gradient, float value) {
+    auto [moved, far] = newton(moving, gradient, value);
     if (far > moving.most) moved *= moving.most / far;
     if (far < 1e30f) moving.p = glm::clamp(moving.middle + moved, push.lo, push.hi);
 }
 
 gpu::MeshVertex end(const Moving& moving, glm::vec3 gradient, float value) {
     const bool onSide = moving.side != glm::vec3(0);
-    const bool capped = onSide && value < 0 && glm::distance(moving.p, moving.middle) > 0.99f * moving.most;
+    const bool capped = onSide && value < 0 && newton(moving, gradient, value).far > moving.most;
     const float size = glm::length(gradient);
     const bool known = size > 0 && size < 1e30f && !capped;
     const glm::vec3 normal = known     ? gradient / size

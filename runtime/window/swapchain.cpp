@@ -19,6 +19,12 @@ Swapchain::Swapchain(const Device& device_, GLFWwindow* window_) : device(device
     VkBool32 presents = VK_FALSE;
     check(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical, device.queueFamily, surface, &presents),
           "asking whether the device presents");
+    const auto refuse = [&](const char* of) {
+        vkDestroySurfaceKHR(device.instance, surface, nullptr);
+        throw SystemError("device '" + device.name() + "' cannot show pictures" + of +
+                          " in a window: pick another with --device");
+    };
+    if (!presents) refuse("");  // and is not asked for formats then
     uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical, surface, &count, nullptr), "listing formats");
     std::vector<VkSurfaceFormatKHR> formats(count);
@@ -27,12 +33,7 @@ Swapchain::Swapchain(const Device& device_, GLFWwindow* window_) : device(device
     const auto plain = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& format) {
         return format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM;
     });
-    if (!presents || plain == formats.end()) {
-        vkDestroySurfaceKHR(device.instance, surface, nullptr);
-        throw SystemError("device '" + device.name() + "' cannot show pictures" +
-                          (presents ? " of 8 bits a colour" : "") +
-                          " in a window: pick another with --device");
-    }
+    if (plain == formats.end()) refuse(" of 8 bits a colour");
     chosen = *plain;
     const auto info = zeroed<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
     check(vkCreateFence(device.handle, &info, nullptr, &acquired), "making a fence");

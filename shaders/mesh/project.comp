@@ -17,24 +17,24 @@ void main() {
     uint v = min(item(), push.vertices - 1);
     vec4 own = uintBitsToFloat(split[push.first + v]);
     vec3 middle = own.xyz, p = middle;
-    // A side is where the vertices of both ends lie, to the last bits of their mean.
-    vec3 ulps = 4e-7 * max(abs(push.lo), abs(push.hi));
-    bvec3 atLow = lessThanEqual(middle, push.lo + ulps), atHigh = greaterThanEqual(middle, push.hi - ulps);
+    // A side is where the vertices of both ends lie; where two sides meet, those of one are off the other by the rim.
+    bvec3 atLow = lessThanEqual(middle, push.lo + push.rim), atHigh = greaterThanEqual(middle, push.hi - push.rim);
     vec3 side = vec3(atHigh) - vec3(atLow), free = 1.0 - abs(side);
     float most = (side == vec3(0) ? MESH_MOST_MOVED : MESH_MOST_MOVED_ON_SIDE) * own.w;
     vec4 f;
+    float far;
     uint step = 0;
     do {  // one field, called in a loop: it is compiled once
         f = fieldGradient(p);
         vec3 along = f.xyz * free;
         float slope = dot(along, along);
         vec3 moved = p - along * (slope > 0.0 ? f.w / slope : 0.0) - middle;
-        float far = length(moved);
+        far = slope > 0.0 ? length(moved) : 1e30;
         moved = far > most ? moved * (most / far) : moved;
         // Not a number: where it was. A solid that leaves the region is closed there.
         p = step < kSteps && far < 1e30 ? clamp(middle + moved, push.lo, push.hi) : p;
     } while (++step <= kSteps);
-    bool capped = side != vec3(0) && f.w < 0.0 && distance(p, middle) > 0.99 * most;
+    bool capped = side != vec3(0) && f.w < 0.0 && far > most;  // it would go on
     p = capped ? middle : p;
     float size = length(f.xyz);
     bool known = size > 0.0 && size < 1e30 && !capped;

@@ -14,7 +14,8 @@ struct MeshPush {
     uint first;     // and the first of them, of project.comp
     uint triangles;
     float unit;    // of what is summed (exact_sum.glsl): a power of two; metres, of normals square metres
-    vec3 lo, hi;   // the region, at whose sides the solid is closed
+    vec3 lo, hi;   // the region, at whose sides the solid is closed,
+    float rim;     // and how near to a side, metres, the vertices are that close it
     float still;   // metres: smoothing leaves a vertex that has all its neighbours within them,
     float spare;   // and one where the mesh is as round as a ball of this radius; 0: none;
     float within;  // none gets farther from where it was

@@ -433,6 +433,30 @@ TEST(MeshStages, ACappedSolidStaysWithinItsRegion) {
     }
 }
 
+TEST(MeshStages, WhereSidesOfTheRegionMeetNormalsAreTheirs) {
+    // Within a ball nothing but the region's sides is left, and no vertex takes the ball's normal.
+    const Box region{{-0.31, -0.3, -0.2}, {0.22, 0.123, 0.37}};
+    for (const FieldBy by : {FieldBy::kernels, FieldBy::tapes}) {
+        Checked checked{by};
+        const Mesh mesh =
+            checked.mesh(programOf(graphOf(kBall)), {subdivide(2)}, {.region = region, .resolution = 17});
+        EXPECT_GT(mesh.positions.size(), 1000u);
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            const glm::dvec3 p(mesh.positions[v]);
+            glm::dvec3 sides(0);
+            for (int axis = 0; axis < 3; ++axis)
+                sides[axis] = (region.hi[std::size_t(axis)] - p[axis] < 1e-5) -
+                              (p[axis] - region.lo[std::size_t(axis)] < 1e-5);
+            ASSERT_NE(glm::length(sides), 0.0) << v << " lies on no side";
+            ASSERT_GT(glm::dot(glm::dvec3(mesh.normals[v]), glm::normalize(sides)), 0.55) << v;
+            for (int axis = 0; axis < 3; ++axis)
+                ASSERT_TRUE(sides[axis] != 0 || std::abs(mesh.normals[v][axis]) < 1e-4f)
+                    << v << " at " << p.x << ' ' << p.y << ' ' << p.z << ": " << mesh.normals[v].x << ' '
+                    << mesh.normals[v].y << ' ' << mesh.normals[v].z;
+        }
+    }
+}
+
 TEST(MeshStages, SmoothedCreasesAreShadedAsTheyAre) {
     Checked checked;
     const Program box =
