@@ -75,8 +75,7 @@ struct Staged {
 template <class Piece, class Move>
 void throughStaging(const Device& device, std::span<const Piece> pieces, std::shared_ptr<Buffer>& staging,
                     Memory memory, const Move& move) {
-    // A hardware driver takes more than a millisecond to allocate a MiB, and a twentieth of one to copy what
-    // is small: more at once would save less than it costs.
+    // To submit and await a copy takes a twentieth of a millisecond: little beside what so much takes.
     constexpr VkDeviceSize kLeast = 1 << 16, kMost = 1 << 21;
     VkDeviceSize all = 0;
     for (const Piece& piece : pieces) {

@@ -210,7 +210,7 @@ Result<MesherResult> runMesher(const Device& device, MesherPipelines& pipelines,
         const Buffer& seen = buffers.counts.mapped ? buffers.counts : buffers.seen;
         MesherCounts counts{};
         if (counted) counts = seen.as<MesherCounts>()[0];
-        if (&seen == &buffers.seen) copy(commands, buffers.counts, 0, seen, 0, sizeof counts);
+        if (!buffers.counts.mapped) copy(commands, buffers.counts, 0, seen, 0, sizeof counts);
         counted ? send(commands) : submit(commands);
         result.stages = commands.stages;
         if (!counted) counts = seen.as<MesherCounts>()[0];
