@@ -86,6 +86,29 @@ Result<EnvironmentMap> decodeExr(const std::string& bytes, const std::string& pa
     }
 }
 
+/// Whether the runs of a picture in Radiance's format are all there: some versions of its reader never come
+/// back from a run that is cut off. What is of no runs, or is refused anyway, passes.
+bool hasAllRuns(const std::string& bytes, int width, int height) {
+    if (width < 8 || width >= 32768) return true;
+    const std::size_t size = bytes.size(), header = std::min(bytes.find("\n\n"), size - 2);
+    std::size_t at = std::min(bytes.find('\n', header + 2), size - 1) + 1;
+    for (int y = 0; y < height; ++y) {
+        if (size - at < 4) return false;
+        const auto byte = [&](std::size_t place) { return int(uint8_t(bytes[place])); };
+        if (byte(at) != 2 || byte(at + 1) != 2 || (byte(at + 2) << 8 | byte(at + 3)) != width) return true;
+        at += 4;
+        for (int channel = 0; channel < 4; ++channel)
+            for (int left = width; left > 0;) {
+                if (at >= size) return false;
+                const int code = byte(at++), count = code > 128 ? code - 128 : code;
+                const std::size_t values = code > 128 ? 1 : std::size_t(count);
+                if (count == 0 || count > left || size - at < values) return false;
+                at += values, left -= count;
+            }
+    }
+    return true;
+}
+
 /// Radiance's format, and pictures of 8 bits.
 Result<EnvironmentMap> decodeOther(const std::string& bytes, const std::string& path, int mostSide) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -100,6 +123,7 @@ Result<EnvironmentMap> decodeOther(const std::string& bytes, const std::string& 
             map.texels[i / 3][i % 3] = radiance(pixels[i]);
     };
     if (stbi_is_hdr_from_memory(data, length)) {
+        if (!hasAllRuns(bytes, width, height)) return damaged(path);
         const std::unique_ptr<float, void (*)(void*)> pixels(
             stbi_loadf_from_memory(data, length, &width, &height, &channels, 3), stbi_image_free);
         if (!pixels) return damaged(path);

@@ -20,7 +20,7 @@ bool startsWith(const std::string& bytes, std::string_view magic) { return bytes
 bool isKnownFormat(const std::string& bytes, const std::string& path) {
     return startsWith(bytes, "\x89PNG\r\n\x1A\n") || startsWith(bytes, "\xFF\xD8\xFF") ||
            startsWith(bytes, "BM") ||
-           endingOf(path) == ".tga";  // whose files begin with nothing of their own
+           (endingOf(path) == ".tga" && !startsWith(bytes, "#?"));  // which begin with nothing of their own
 }
 
 Result<FieldImagePtr> decode(const std::string& bytes, const std::string& path, const std::string& file) {

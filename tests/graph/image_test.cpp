@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "graph/assets/environment.h"
 #include "graph/check/check.h"
 #include "graph/compile/compile.h"
 #include "graph/document/json.h"
@@ -198,6 +199,40 @@ TEST(ImageRefused, NamesTheInputAndTheReason) {
     }
     writeText(folder.path("noise.tga"), std::string(100, '\x7F'));
     EXPECT_TRUE(refusal(folder, "noise.tga").starts_with(who + "'noise.tga' is damaged"));
+}
+
+/// A sky of 16 by 4 texels in Radiance's format, each row a run a channel.
+std::string skyOfRuns() {
+    std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 16\n";
+    for (int row = 0; row < 4; ++row) {
+        bytes += {2, 2, 0, 16};
+        for (int channel = 0; channel < 4; ++channel) bytes += {char(128 + 16), char(128)};
+    }
+    return bytes;
+}
+
+TEST(ImageRefused, ASkyWhoseRunsAreCutOff) {
+    // Its decoder would wait for the rest for ever.
+    const std::string whole = skyOfRuns();
+    const Result<EnvironmentMap> sky = parseEnvironment(whole, "sky.hdr", 64);
+    ASSERT_TRUE(sky) << format(sky.error());
+    for (const Radiance& texel : sky->texels) EXPECT_EQ(texel, (Radiance{0.5f, 0.5f, 0.5f}));
+    for (std::size_t size = whole.size() - 4 * 12; size < whole.size(); ++size) {
+        const Result<EnvironmentMap> cut = parseEnvironment(whole.substr(0, size), "sky.hdr", 64);
+        ASSERT_FALSE(cut) << size;
+        EXPECT_NE(cut.error().message.find("'sky.hdr' is damaged or cut off"), std::string::npos)
+            << format(cut.error());
+    }
+    for (const int code : {0, 17, 128 + 17}) {  // of nothing, and of more than the row has
+        std::string other = whole;
+        other[whole.size() - 2] = char(code);
+        EXPECT_FALSE(parseEnvironment(other, "sky.hdr", 64)) << code;
+    }
+    const TempDir folder;
+    writeText(folder.path("sky.tga"), whole.substr(0, whole.size() - 1));
+    const Result<FieldImagePtr> picture = readImage(folder.path("graph.field.json"), "sky.tga");
+    ASSERT_FALSE(picture);
+    EXPECT_NE(picture.error().message.find("is none"), std::string::npos) << format(picture.error());
 }
 
 TEST(ImageRefused, OutsideTheFolder) {
