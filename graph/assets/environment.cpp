@@ -90,8 +90,14 @@ Result<EnvironmentMap> decodeExr(const std::string& bytes, const std::string& pa
 /// back from a run that is cut off. What is of no runs, or is refused anyway, passes.
 bool hasAllRuns(const std::string& bytes, int width, int height) {
     if (width < 8 || width >= 32768) return true;
-    const std::size_t size = bytes.size(), header = std::min(bytes.find("\n\n"), size - 2);
-    std::size_t at = std::min(bytes.find('\n', header + 2), size - 1) + 1;
+    const std::size_t size = bytes.size();
+    std::size_t at = 0;
+    // The header ends with a line that is empty, or is for who reads it as text; one with the size follows.
+    for (bool last = false, ended = false; !last && at < size;) {
+        last = ended;
+        ended = ended || bytes[at] == '\n' || bytes[at] == '\0';
+        at = std::min(bytes.find('\n', at), size - 1) + 1;
+    }
     for (int y = 0; y < height; ++y) {
         if (size - at < 4) return false;
         const auto byte = [&](std::size_t place) { return int(uint8_t(bytes[place])); };

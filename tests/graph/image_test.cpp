@@ -228,6 +228,11 @@ TEST(ImageRefused, ASkyWhoseRunsAreCutOff) {
         other[whole.size() - 2] = char(code);
         EXPECT_FALSE(parseEnvironment(other, "sky.hdr", 64)) << code;
     }
+    // A line that begins with nothing ends the header, too; what looks like its end behind that does not.
+    std::string hidden = whole.substr(0, whole.size() - 1) + "\n\n-Y 4 +X 16\n" + std::string(99, '\1');
+    hidden.replace(hidden.find("\n\n"), 2, std::string("\n\0\n", 3));
+    hidden.replace(hidden.find("\n\n") - 4, 4, 4, '\0');  // a run of nothing
+    EXPECT_FALSE(parseEnvironment(hidden, "sky.hdr", 64));
     const TempDir folder;
     writeText(folder.path("sky.tga"), whole.substr(0, whole.size() - 1));
     const Result<FieldImagePtr> picture = readImage(folder.path("graph.field.json"), "sky.tga");
